@@ -1,0 +1,1 @@
+"""The stored library: every contact state of a pair over a grid of poses, published whole."""
