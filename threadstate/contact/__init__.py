@@ -1,0 +1,1 @@
+"""Contacts: where and when the two solids touch along a motion."""

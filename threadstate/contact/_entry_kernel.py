@@ -1,0 +1,133 @@
+"""When one walker first enters a solid: closed form for the plane, safe steps and Newton for the thread.
+
+Every step towards the thread is one of two kinds. A *safe* step is no longer than the clearance divided by the
+largest speed at which ``phi`` can grow (its Lipschitz constant), so that it cannot jump over material. A *Newton*
+step is taken only where Kantorovich's condition ``2 |phi| K < phi'^2`` holds (K bounds the second derivative):
+then the root is the only one within reach, and the first.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact._geometry_kernel import field, phi, position, velocity
+
+Array = NDArray[np.float64]
+
+NEVER = math.inf
+
+NONE = 0
+"""No entry up to the limit."""
+PLANE = 1
+"""Entry through the flat face."""
+THREAD = 2
+"""Entry through the thread."""
+INSIDE = 3
+"""Inside from the start."""
+
+
+@njit(cache=True)
+def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, float]:
+    """First interval of ``tau >= 0`` on which g = g0 + gc cos(tau) + gs sin(tau) (or g0 + gs tau) is >= 0.
+
+    For a turn only ``tau < pi`` is meant. Empty: (NEVER, NEVER).
+    """
+    if not is_turn:
+        if g0 >= 0.0:
+            return 0.0, (NEVER if gs >= 0.0 else -g0 / gs)
+        return (-g0 / gs, NEVER) if gs > 0.0 else (NEVER, NEVER)
+    # With t = tan(tau / 2) the sign of g is that of a t^2 + 2 b t + c.
+    a = g0 - gc
+    b = gs
+    c = g0 + gc
+    disc = b * b - a * c
+    if disc < 0.0:
+        return (0.0, NEVER) if c >= 0.0 else (NEVER, NEVER)
+    q = -(b + math.copysign(math.sqrt(disc), b))
+    t1 = c / q if q != 0.0 else NEVER
+    t2 = q / a if a != 0.0 else NEVER
+    if t1 <= 0.0:
+        t1 = NEVER
+    if t2 <= 0.0:
+        t2 = NEVER
+    lo = min(t1, t2)
+    hi = max(t1, t2)
+    first = 2.0 * math.atan(lo)
+    second = 2.0 * math.atan(hi) if hi < NEVER else NEVER
+    if c >= 0.0:
+        return 0.0, (first if lo < NEVER else NEVER)
+    return (first, second) if lo < NEVER else (NEVER, NEVER)
+
+
+@njit(cache=True)
+def entry(
+    path: Array, is_turn: bool, row: Array, sigma: float, limit: float, lipschitz: float, bend: float
+) -> tuple[float, int]:
+    """First ``tau`` in [0, limit] at which the walker is in the solid, and how it entered.
+
+    ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative.
+    """
+    start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
+    if start > limit:
+        return NEVER, NONE
+    end = min(stop, limit)
+    speed = path[9]
+    second = bend * speed * speed + (lipschitz * speed if is_turn else 0.0)
+    tau = start
+    for step in range(200):
+        x, y, z = position(path, tau, is_turn)
+        value, gx, gy, gz = field(x, y, z, row, sigma)
+        if value >= 0.0:
+            if step > 0:
+                return tau, THREAD
+            return (tau, PLANE) if start > 0.0 else (0.0, INSIDE)
+        vx, vy, vz = velocity(path, tau, is_turn)
+        rate = gx * vx + gy * vy + gz * vz
+        if rate > 0.0 and -2.0 * value * second < rate * rate:
+            move = -value / rate
+            if move <= 3e-16 * (1.0 + tau):
+                return tau, THREAD
+        else:
+            move = -value / (lipschitz * speed) if speed > 0.0 else NEVER
+        tau += move
+        if tau > end:
+            return NEVER, NONE
+    return tau, THREAD
+
+
+@njit(cache=True)
+def clear_until(
+    path: Array,
+    is_turn: bool,
+    row: Array,
+    sigma: float,
+    limit: float,
+    lipschitz: float,
+    pad_plane: float,
+    pad_thread: float,
+    pad_speed: float,
+) -> bool:
+    """Whether no point near the walker enters the solid before ``limit``, by safe steps alone.
+
+    Near means: along the curve by at most the distance over which the plane's function changes by ``pad_plane``,
+    ``phi`` by ``pad_thread`` and the speed by ``pad_speed``. False means: not proved.
+    """
+    start, stop = half_space(-sigma * path[2] + pad_plane, -sigma * path[5], -sigma * path[8], is_turn)
+    if start >= limit:
+        return True
+    end = min(stop, limit)
+    fastest = lipschitz * (path[9] + pad_speed)
+    tau = start
+    for _ in range(24):
+        x, y, z = position(path, tau, is_turn)
+        room = -phi(x, y, z, row, sigma) - pad_thread
+        if room <= 0.0:
+            return False
+        tau += room / fastest
+        if tau >= end:
+            return True
+    return False

@@ -1,0 +1,39 @@
+"""The errors of the domain: each names the bad value and the valid range."""
+
+from __future__ import annotations
+
+
+class ThreadstateError(Exception):
+    """Base of every error that a user of threadstate may want to catch."""
+
+
+class InvalidValueError(ThreadstateError, ValueError):
+    """A value outside its valid range.
+
+    Attributes:
+        name: what the value is, in the field's terms.
+        value: the value as given.
+        valid: the valid range, in words.
+    """
+
+    def __init__(self, name: str, value: object, valid: str) -> None:
+        super().__init__(f"{name} is {value!r}; valid: {valid}")
+        self.name = name
+        self.value = value
+        self.valid = valid
+
+
+class ImpossibleThreadError(InvalidValueError):
+    """Dimensions that no thread can have (fillets that do not fit, a bolt larger than its nut, ...)."""
+
+
+class UnknownNameError(InvalidValueError):
+    """A designation, region, class or flag that does not exist; ``valid`` lists those that do."""
+
+
+class NotFoundError(ThreadstateError, LookupError):
+    """Something that was asked for by name is not stored."""
+
+
+class SchemaError(ThreadstateError):
+    """The database's schema is not the one this code expects; the message names the mending command."""

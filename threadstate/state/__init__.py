@@ -1,0 +1,1 @@
+"""States: the three stages of a pose, its contacts, its class."""

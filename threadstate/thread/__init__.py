@@ -1,0 +1,1 @@
+"""Threads: profile, form, fit and pair."""

@@ -1,0 +1,68 @@
+"""The pairs that are known by their designation; the only place that holds dimensions of a thread."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from threadstate.errors import UnknownNameError
+from threadstate.thread.fit import Fit
+from threadstate.thread.form import Form
+from threadstate.thread.pair import Pair
+from threadstate.units import LengthUnit
+
+
+class RootForm(StrEnum):
+    """Which minor diameter of the bolt: 1.19078 p below the major, or as newer editions print it."""
+
+    CLASSIC = "classic"
+    NEWER = "newer"
+
+
+DEFAULT_DESIGNATION = "1/4-20 UNC"
+
+_BOLT_MINOR_DIAMETER = {RootForm.CLASSIC: 0.1894, RootForm.NEWER: 0.1876}
+_DESIGNATION = {RootForm.CLASSIC: DEFAULT_DESIGNATION, RootForm.NEWER: f"{DEFAULT_DESIGNATION} newer root"}
+
+
+def quarter_twenty_unc(root_form: RootForm = RootForm.CLASSIC) -> Pair:
+    """1/4-20 UNC: bolt 2A at maximum material, nut 2B at minimum material, in inches (method, section 1)."""
+    return Pair(
+        designation=_DESIGNATION[root_form],
+        unit=LengthUnit.INCH,
+        nominal_diameter=0.25,
+        thread_pitch=0.05,
+        form=Form(
+            name="UN",
+            flank_half_angle_deg=30.0,
+            bolt_root_fillet=0.108,
+            bolt_crest_fillet=0.054,
+            nut_root_fillet=0.054,
+            nut_crest_fillet=0.108,
+        ),
+        fit=Fit(
+            name="2A/2B",
+            bolt_major_diameter=0.2489,
+            bolt_pitch_diameter=0.2164,
+            bolt_minor_diameter=_BOLT_MINOR_DIAMETER[root_form],
+            nut_major_diameter=0.2500,
+            nut_pitch_diameter=0.2175,
+            nut_minor_diameter=0.1960,
+        ),
+    )
+
+
+def designations() -> tuple[str, ...]:
+    """Every designation that :func:`pair_by_designation` knows."""
+    return tuple(_DESIGNATION[root_form] for root_form in RootForm)
+
+
+def pair_by_designation(designation: str) -> Pair:
+    """The pair of that designation.
+
+    Raises:
+        UnknownNameError: no such designation.
+    """
+    for root_form, name in _DESIGNATION.items():
+        if name == designation:
+            return quarter_twenty_unc(root_form)
+    raise UnknownNameError("designation", designation, ", ".join(designations()))

@@ -1,0 +1,62 @@
+"""A pair: one bolt and one nut of the same form, fit and thread pitch."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from threadstate.errors import ImpossibleThreadError
+from threadstate.thread.fit import Fit
+from threadstate.thread.form import Form
+from threadstate.thread.profile import Profile
+from threadstate.units import LengthUnit
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A bolt and a nut, each one thread pitch long (method, section 1); lengths in ``unit``.
+
+    Raises:
+        ImpossibleThreadError: the dimensions contradict each other.
+    """
+
+    designation: str
+    unit: LengthUnit
+    nominal_diameter: float
+    thread_pitch: float
+    form: Form
+    fit: Fit
+
+    def __post_init__(self) -> None:
+        for name in ("nominal_diameter", "thread_pitch"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise ImpossibleThreadError(name, value, "a finite length > 0")
+        _ = self.bolt, self.nut
+
+    @cached_property
+    def bolt(self) -> Profile:
+        """The bolt's profile."""
+        return Profile(
+            thread_pitch=self.thread_pitch,
+            minor_diameter=self.fit.bolt_minor_diameter,
+            pitch_diameter=self.fit.bolt_pitch_diameter,
+            major_diameter=self.fit.bolt_major_diameter,
+            flank_half_angle_deg=self.form.flank_half_angle_deg,
+            minor_fillet_radius=self.form.bolt_root_fillet * self.thread_pitch,
+            major_fillet_radius=self.form.bolt_crest_fillet * self.thread_pitch,
+        )
+
+    @cached_property
+    def nut(self) -> Profile:
+        """The nut's profile; its small-radius fillet is the nut's crest fillet."""
+        return Profile(
+            thread_pitch=self.thread_pitch,
+            minor_diameter=self.fit.nut_minor_diameter,
+            pitch_diameter=self.fit.nut_pitch_diameter,
+            major_diameter=self.fit.nut_major_diameter,
+            flank_half_angle_deg=self.form.flank_half_angle_deg,
+            minor_fillet_radius=self.form.nut_crest_fillet * self.thread_pitch,
+            major_fillet_radius=self.form.nut_root_fillet * self.thread_pitch,
+        )

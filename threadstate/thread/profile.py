@@ -1,0 +1,151 @@
+"""The profile ``f`` of one thread: radius against axial position, in closed form (method, section 1)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.errors import ImpossibleThreadError, InvalidValueError
+from threadstate.thread import _profile_kernel as kernel
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A thread's profile: flat, tangent fillet, straight flank, tangent fillet, flat, per half period.
+
+    All lengths are in the pair's unit. ``s`` is the axial position of the profile; ``f`` has period
+    ``thread_pitch``, is largest at s = p/4 and smallest at s = 3p/4, and meets the pitch radius at s = 0
+    with the radius growing.
+
+    Raises:
+        ImpossibleThreadError: a dimension is not finite or not positive, the diameters are not
+            ordered, or the fillets do not fit.
+    """
+
+    thread_pitch: float
+    minor_diameter: float
+    pitch_diameter: float
+    major_diameter: float
+    flank_half_angle_deg: float
+    minor_fillet_radius: float
+    major_fillet_radius: float
+
+    def __post_init__(self) -> None:
+        for name in ("thread_pitch", "minor_diameter", "pitch_diameter", "major_diameter"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise ImpossibleThreadError(name, value, "a finite length > 0")
+        for name in ("minor_fillet_radius", "major_fillet_radius"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise ImpossibleThreadError(name, value, "a finite length >= 0")
+        if not 0.0 < self.flank_half_angle_deg < 90.0:
+            raise ImpossibleThreadError("flank_half_angle_deg", self.flank_half_angle_deg, "0 < angle < 90 deg")
+        if not self.minor_diameter < self.pitch_diameter < self.major_diameter:
+            raise ImpossibleThreadError(
+                "pitch_diameter",
+                self.pitch_diameter,
+                f"between minor diameter {self.minor_diameter!r} and major diameter {self.major_diameter!r}",
+            )
+        flat, flank, crest, top = self.boundaries
+        quarter = self.thread_pitch / 4.0
+        slack = 1e-12 * self.thread_pitch
+        if flat < -quarter - slack:
+            raise ImpossibleThreadError(
+                "minor_fillet_radius", self.minor_fillet_radius, f"at most {self._largest_fillet(-1)!r} (it must fit beside the axis of the groove)"
+            )
+        if top > quarter + slack:
+            raise ImpossibleThreadError(
+                "major_fillet_radius", self.major_fillet_radius, f"at most {self._largest_fillet(+1)!r} (it must fit beside the axis of the ridge)"
+            )
+        if flank > crest + slack:
+            raise ImpossibleThreadError(
+                "minor_fillet_radius", self.minor_fillet_radius, "small enough for the two fillets to leave a flank between them"
+            )
+
+    def _largest_fillet(self, side: int) -> float:
+        half_angle = math.radians(self.flank_half_angle_deg)
+        apex = self._corners[0 if side < 0 else 1]
+        room = self.thread_pitch / 4.0 - abs(apex)
+        return room / math.tan((math.pi / 2.0 - half_angle) / 2.0)
+
+    @property
+    def _corners(self) -> tuple[float, float]:
+        """Where the straight flank would meet the two flats."""
+        tangent = math.tan(math.radians(self.flank_half_angle_deg))
+        low = (self.minor_diameter - self.pitch_diameter) / 2.0 * tangent
+        high = (self.major_diameter - self.pitch_diameter) / 2.0 * tangent
+        return low, high
+
+    @property
+    def boundaries(self) -> tuple[float, float, float, float]:
+        """The ``s`` of flat | fillet | flank | fillet | flat on the rising half, -p/4 .. p/4."""
+        turn = math.pi / 2.0 - math.radians(self.flank_half_angle_deg)
+        low, high = self._corners
+        t_low = self.minor_fillet_radius * math.tan(turn / 2.0)
+        t_high = self.major_fillet_radius * math.tan(turn / 2.0)
+        return low - t_low, low + t_low * math.cos(turn), high - t_high * math.cos(turn), high + t_high
+
+    @cached_property
+    def row(self) -> NDArray[np.float64]:
+        """The packed parameters that the kernels take; read-only, shape (11,)."""
+        flat, flank, crest, top = self.boundaries
+        cot = 1.0 / math.tan(math.radians(self.flank_half_angle_deg))
+        row = np.array(
+            [
+                self.thread_pitch,
+                self.minor_diameter / 2.0,
+                flat,
+                flank,
+                self.pitch_diameter / 2.0,
+                cot,
+                crest,
+                top,
+                self.major_diameter / 2.0,
+                self.minor_fillet_radius,
+                self.major_fillet_radius,
+            ]
+        )
+        row.setflags(write=False)
+        return row
+
+    def radius(self, s: float) -> float:
+        """``f(s)``: the radius at axial position ``s`` (any finite number), in the pair's unit."""
+        return float(kernel.radius(_finite(s), self.row))
+
+    def derivatives(self, s: float) -> tuple[float, float, float]:
+        """``f, f', f''`` at ``s``; at a boundary of regions f'' is that of the flat or flank side."""
+        r, d1, d2 = kernel.jet(_finite(s), self.row)
+        return float(r), float(d1), float(d2)
+
+    def inverse(self, r: float) -> float:
+        """The ``s`` in [-p/4, p/4] of the rising half at which the radius is ``r``.
+
+        At the two extreme radii, where a whole flat has them, it is the end of the flat beside the fillet.
+        The falling half has the same radius at p/2 - s.
+
+        Raises:
+            InvalidValueError: ``r`` is outside the profile's radii.
+        """
+        low, high = self.minor_diameter / 2.0, self.major_diameter / 2.0
+        if not low <= r <= high:
+            raise InvalidValueError("radius", r, f"{low!r} to {high!r}")
+        return float(kernel.inverse_rising(r, self.row))
+
+    def region_index(self, s: float) -> tuple[int, float]:
+        """Index 0..7 of the region at ``s`` (0 the small-radius flat, growing with ``s``), and its margin.
+
+        The margin is the arc length along the profile to the nearest boundary of the region.
+        """
+        index, margin = kernel.region_index(_finite(s), self.row)
+        return int(index), float(margin)
+
+
+def _finite(s: float) -> float:
+    if not math.isfinite(s):
+        raise InvalidValueError("s", s, "a finite length")
+    return float(s)
