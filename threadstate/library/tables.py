@@ -2,9 +2,9 @@
 
 ``ordinal`` numbers the states of a library by their place in its grid,
 ``(i_roll * n_pitch + i_pitch) * n_phase + i_phase`` with every axis ascending, so that it is the same on every
-machine and its order is the order of (roll, pitch, phase). ``orientation`` numbers the chunks, ``i_roll * n_pitch + i_pitch``.
-Lengths are in the unit of the library's row, angles in degrees. All numbers are IEEE doubles; neither NaN nor -0.0 is
-ever stored (SQLite keeps neither).
+machine and its order is the order of (roll, pitch, phase). ``orientation`` numbers the chunks,
+``i_roll * n_pitch + i_pitch``. Lengths are in the unit of the library's row, angles in degrees. All numbers are IEEE
+doubles; neither NaN nor -0.0 is ever stored (SQLite keeps neither).
 """
 
 from __future__ import annotations

@@ -1,0 +1,69 @@
+"""The content hash: SHA-256 over the canonical binary of every value of every state, in order."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import struct
+from collections.abc import Iterable, Sequence
+
+from threadstate.errors import InvalidValueError
+from threadstate.state.model import ContactState
+
+_ABSENT = math.nan
+"""Stands for None: no stored number is NaN, and ``struct`` writes this one always alike."""
+
+
+def state_bytes(state: ContactState) -> bytes:
+    """One state as bytes: a line of its names, a line of counts, then its numbers as little-endian doubles.
+
+    -0.0 counts as 0.0, because not every database can tell them apart.
+
+    Raises:
+        InvalidValueError: a number of the state is not finite.
+    """
+    numbers: list[float] = [state.roll_deg, state.pitch_deg, state.phase_deg]
+    lengths = (
+        state.lambda_deg,
+        state.mu_deg,
+        state.drop,
+        state.embedment,
+        state.pivot_offset,
+        state.drop_margin,
+        state.embedment_margin,
+        state.pivot_margin,
+    )
+    names = [state.state_class, *state.flags]
+    for pose in state.poses:
+        for row in pose.rotation:
+            numbers += row
+        numbers += pose.translation
+    for contact in state.contacts:
+        numbers += contact.point
+        numbers += contact.point_bolt
+        numbers += contact.normal
+        numbers.append(contact.bolt_margin)
+        numbers.append(contact.nut_margin)
+        names += (str(contact.stage), contact.bolt_region, contact.nut_region, contact.features)
+    present = [length for length in lengths if length is not None]
+    if not math.isfinite(math.fsum(map(abs, numbers)) + math.fsum(map(abs, present))):
+        raise InvalidValueError("state", state, "finite numbers only")
+    values = [_ABSENT if length is None else length + 0.0 for length in lengths]
+    values += [number + 0.0 for number in numbers]
+    head = f"{' '.join(names)}\n{len(state.flags)} {len(state.poses)} {len(state.contacts)}\n"
+    return head.encode() + struct.pack(f"<{len(values)}d", *values)
+
+
+def states_sha256(states: Iterable[ContactState]) -> str:
+    """SHA-256, in hexadecimal, of states in the order given: the content hash of a chunk."""
+    digest = hashlib.sha256()
+    for state in states:
+        content = state_bytes(state)
+        digest.update(f"{len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def library_sha256(chunk_hashes: Sequence[str]) -> str:
+    """SHA-256, in hexadecimal, of the chunks' hashes in the order of their orientations: a library's content hash."""
+    return hashlib.sha256("\n".join(chunk_hashes).encode()).hexdigest()

@@ -1,0 +1,113 @@
+"""The grid of a library: which poses it holds, in which order."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import cached_property
+
+from threadstate.errors import InvalidValueError
+
+TILT_LIMIT_DEG = 10.0
+SMALLEST_STEP_DEG = 0.01
+LARGEST_STATE_COUNT = 50_000_000
+
+
+@dataclass(frozen=True)
+class Orientation:
+    """Roll and pitch of a chunk, in degrees, and its number ``i_roll * n_pitch + i_pitch``."""
+
+    index: int
+    roll_deg: float
+    pitch_deg: float
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Roll and pitch from -``tilt_max_deg`` to +``tilt_max_deg``, phase from 0 up to but without 360, in degrees.
+
+    Each angle is the decimal number that a reader would write (three steps of 0.1 deg are 0.3, not
+    0.30000000000000004), so that a pose written in decimals finds its state.
+
+    Raises:
+        InvalidValueError: the tilt is outside 0 to 10 deg, a step is not positive, is finer than 0.01 deg or does not
+            divide its range evenly, or the grid would have more than 50 million states.
+    """
+
+    tilt_max_deg: float = 4.0
+    tilt_step_deg: float = 1.0
+    phase_step_deg: float = 1.0
+
+    def __post_init__(self) -> None:
+        _require(self.tilt_max_deg, "tilt_max", 0.0, TILT_LIMIT_DEG)
+        _require(self.tilt_step_deg, "tilt_step", SMALLEST_STEP_DEG, TILT_LIMIT_DEG)
+        _require(self.phase_step_deg, "phase_step", SMALLEST_STEP_DEG, 360.0)
+        for name in ("tilt_max_deg", "tilt_step_deg", "phase_step_deg"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+        if _decimal(self.tilt_max_deg) % _decimal(self.tilt_step_deg):
+            raise InvalidValueError(
+                "tilt_step", self.tilt_step_deg, f"a step that divides {self.tilt_max_deg} deg evenly"
+            )
+        if _decimal(360.0) % _decimal(self.phase_step_deg):
+            raise InvalidValueError("phase_step", self.phase_step_deg, "a step that divides 360 deg evenly")
+        if self.state_count > LARGEST_STATE_COUNT:
+            raise InvalidValueError("state count of the grid", self.state_count, f"at most {LARGEST_STATE_COUNT}")
+
+    @cached_property
+    def tilts_deg(self) -> tuple[float, ...]:
+        """The values of roll, and of pitch, ascending."""
+        steps = int(_decimal(self.tilt_max_deg) / _decimal(self.tilt_step_deg))
+        return tuple(_multiple(i, self.tilt_step_deg) for i in range(-steps, steps + 1))
+
+    @cached_property
+    def phases_deg(self) -> tuple[float, ...]:
+        """The values of phase, ascending."""
+        return tuple(_multiple(i, self.phase_step_deg) for i in range(self.phase_count))
+
+    @property
+    def tilt_count(self) -> int:
+        """How many values roll takes, and pitch."""
+        return 2 * int(_decimal(self.tilt_max_deg) / _decimal(self.tilt_step_deg)) + 1
+
+    @property
+    def phase_count(self) -> int:
+        """How many values phase takes: the states of one orientation."""
+        return int(_decimal(360.0) / _decimal(self.phase_step_deg))
+
+    @property
+    def orientation_count(self) -> int:
+        """How many pairs of roll and pitch there are."""
+        return self.tilt_count**2
+
+    @property
+    def state_count(self) -> int:
+        """How many poses there are."""
+        return self.orientation_count * self.phase_count
+
+    def orientation(self, index: int) -> Orientation:
+        """The orientation of that number, 0 <= index < ``orientation_count``."""
+        i_roll, i_pitch = divmod(index, self.tilt_count)
+        return Orientation(index, self.tilts_deg[i_roll], self.tilts_deg[i_pitch])
+
+    def poses(self, index: int) -> tuple[tuple[float, float, float], ...]:
+        """(roll, pitch, phase) in degrees of every state of an orientation, in the order of their ordinals."""
+        orientation = self.orientation(index)
+        return tuple((orientation.roll_deg, orientation.pitch_deg, phase) for phase in self.phases_deg)
+
+    def first_ordinal(self, index: int) -> int:
+        """The ordinal of an orientation's first state."""
+        return index * self.phase_count
+
+
+def _require(value: float, name: str, low: float, high: float) -> None:
+    if not (math.isfinite(value) and low <= value <= high):
+        raise InvalidValueError(name, value, f"{low:g} to {high:g} deg")
+
+
+def _decimal(value: float) -> Decimal:
+    return Decimal(repr(value))
+
+
+def _multiple(count: int, step: float) -> float:
+    return float(count * _decimal(step)) + 0.0

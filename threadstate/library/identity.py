@@ -1,0 +1,87 @@
+"""What makes a library this very library: the SHA-256 of everything that its content depends on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cache, cached_property
+from pathlib import Path
+
+import threadstate
+from threadstate.errors import InvalidValueError
+from threadstate.library.grid import Grid
+from threadstate.state.solve import SolveOptions
+from threadstate.thread.pair import Pair
+
+METHOD = "exact"
+"""The method by which states are found: closed-form kernels, no mesh."""
+
+PHYSICS_PACKAGES = ("thread", "contact", "state")
+
+
+@dataclass(frozen=True)
+class LibraryInputs:
+    """All that a library's content depends on."""
+
+    pair: Pair
+    grid: Grid
+    options: SolveOptions
+
+    @cached_property
+    def pair_json(self) -> str:
+        """The pair as canonical JSON."""
+        return canonical_json(self.pair)
+
+    @cached_property
+    def options_json(self) -> str:
+        """The options as canonical JSON."""
+        return canonical_json(self.options)
+
+    @cached_property
+    def sha256(self) -> str:
+        """SHA-256, in hexadecimal, of pair, grid, method, options and code version."""
+        parts = (self.pair_json, canonical_json(self.grid), METHOD, self.options_json, code_version())
+        return hashlib.sha256(json.dumps(parts, separators=(",", ":")).encode()).hexdigest()
+
+
+def canonical_json(value: object) -> str:
+    """A frozen dataclass of numbers, names and such dataclasses as JSON that equal values share byte for byte.
+
+    Keys are sorted; every number is written as the shortest decimal that gives the double back.
+
+    Raises:
+        InvalidValueError: a number is not finite or a value has no JSON form.
+    """
+    return json.dumps(_plain(value, type(value).__name__), sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _plain(value: object, name: str) -> object:
+    if is_dataclass(value) and not isinstance(value, type):
+        return {field.name: _plain(getattr(value, field.name), field.name) for field in fields(value)}
+    if isinstance(value, bool | None):
+        return value
+    if isinstance(value, int | float):
+        number = float(value) + 0.0
+        if number - number != 0.0:
+            raise InvalidValueError(name, value, "a finite number")
+        return number
+    if isinstance(value, str):
+        return str(value)
+    raise InvalidValueError(name, value, "a number, a name or a dataclass of them")
+
+
+@cache
+def code_version() -> str:
+    """The project's version and the first 12 digits of the SHA-256 of the physics' sources.
+
+    Any change of the physics makes new libraries beside the old ones without anyone having to remember a number.
+    """
+    root = Path(threadstate.__file__).parent
+    digest = hashlib.sha256()
+    for package in PHYSICS_PACKAGES:
+        for path in sorted((root / package).glob("*.py")):
+            source = path.read_bytes()
+            digest.update(f"{package}/{path.name} {len(source)}\n".encode())
+            digest.update(source)
+    return f"{threadstate.__version__}+{digest.hexdigest()[:12]}"

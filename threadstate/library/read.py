@@ -1,0 +1,189 @@
+"""Reading published libraries; what is still being computed is never seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+
+from sqlalchemy import ColumnElement, Connection, RowMapping, Table, func, select
+
+from threadstate.errors import NotFoundError
+from threadstate.library.grid import Grid
+from threadstate.library.rows import Row, states_from_rows
+from threadstate.library.tables import contact, library, stage_pose, state, state_flag
+from threadstate.state.model import ContactState, Flag, StateClass
+from threadstate.units import LengthUnit
+
+
+@dataclass(frozen=True)
+class LibraryRecord:
+    """A published library: what it was computed from, and what it holds. ``pair`` and ``options`` are JSON."""
+
+    id: int
+    designation: str
+    length_unit: LengthUnit
+    input_sha256: str
+    content_sha256: str
+    pair: str
+    method: str
+    options: str
+    code_version: str
+    grid: Grid
+    state_count: int
+    created_at: datetime
+    published_at: datetime
+
+
+@dataclass(frozen=True)
+class Counts:
+    """How many states of a library have each class, and each flag; every class and flag is listed."""
+
+    of_class: tuple[tuple[StateClass, int], ...]
+    of_flag: tuple[tuple[Flag, int], ...]
+
+
+def published_libraries(connection: Connection) -> list[LibraryRecord]:
+    """All published libraries, the latest first."""
+    query = (
+        select(library)
+        .where(library.c.published_at.is_not(None))
+        .order_by(library.c.published_at.desc(), library.c.id.desc())
+    )
+    return [_record(row) for row in connection.execute(query).mappings()]
+
+
+def library_by_id(connection: Connection, library_id: int) -> LibraryRecord:
+    """The published library of that id.
+
+    Raises:
+        NotFoundError: there is none.
+    """
+    row = _published(connection, library.c.id == library_id)
+    if row is None:
+        raise NotFoundError(f"library {library_id} is not published here")
+    return _record(row)
+
+
+def library_by_input(connection: Connection, input_sha256: str) -> LibraryRecord | None:
+    """The published library of these inputs, if there is one."""
+    row = _published(connection, library.c.input_sha256 == input_sha256)
+    return None if row is None else _record(row)
+
+
+def latest_library(connection: Connection, designation: str | None = None) -> LibraryRecord:
+    """The library published last, of all or of one designation.
+
+    Raises:
+        NotFoundError: none is published.
+    """
+    which = [] if designation is None else [library.c.designation == designation]
+    row = _published(connection, *which)
+    if row is None:
+        of = "" if designation is None else f" of {designation!r}"
+        raise NotFoundError(f"no library{of} is published yet; run `threadstate rebuild`")
+    return _record(row)
+
+
+def states_at(connection: Connection, library_id: int, ordinals: Sequence[int]) -> list[ContactState]:
+    """The states with these ordinals, in this order; at most some hundreds.
+
+    Raises:
+        NotFoundError: one of them is not there.
+    """
+    states = _states(connection, library_id, lambda table: table.c.ordinal.in_(ordinals))
+    if missing := [ordinal for ordinal in ordinals if ordinal not in states]:
+        raise NotFoundError(f"library {library_id} has no state {missing[0]}")
+    return [states[ordinal] for ordinal in ordinals]
+
+
+def states_between(connection: Connection, library_id: int, first: int, last: int) -> list[ContactState]:
+    """The states with ordinals ``first`` to ``last``, both included, in order; an orientation is such a range."""
+    states = _states(connection, library_id, lambda table: table.c.ordinal.between(first, last))
+    return list(states.values())
+
+
+def state_of_pose(
+    connection: Connection, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float
+) -> ContactState:
+    """The state of a pose of the grid.
+
+    Raises:
+        NotFoundError: the pose is not one of the grid's.
+    """
+    ordinal = connection.execute(
+        select(state.c.ordinal).where(
+            state.c.library_id == library_id,
+            state.c.roll_deg == roll_deg,
+            state.c.pitch_deg == pitch_deg,
+            state.c.phase_deg == phase_deg,
+        )
+    ).scalar()
+    if ordinal is None:
+        raise NotFoundError(
+            f"library {library_id} has no state at roll {roll_deg:g}, pitch {pitch_deg:g}, phase {phase_deg:g} deg"
+        )
+    return states_at(connection, library_id, [ordinal])[0]
+
+
+def counts(connection: Connection, library_id: int) -> Counts:
+    """How many states have each class and each flag."""
+    classes = {row[0]: row[1] for row in _grouped(connection, state, "state_class", library_id)}
+    flags = {row[0]: row[1] for row in _grouped(connection, state_flag, "flag", library_id)}
+    return Counts(
+        of_class=tuple((name, classes.get(name.value, 0)) for name in StateClass),
+        of_flag=tuple((name, flags.get(name.value, 0)) for name in Flag),
+    )
+
+
+def _grouped(connection: Connection, table: Table, column: str, library_id: int) -> list[Row]:
+    query = select(table.c[column], func.count()).where(table.c.library_id == library_id).group_by(table.c[column])
+    return [tuple(row) for row in connection.execute(query)]
+
+
+def _published(connection: Connection, *which: ColumnElement[bool]) -> RowMapping | None:
+    query = (
+        select(library)
+        .where(library.c.published_at.is_not(None), *which)
+        .order_by(library.c.published_at.desc(), library.c.id.desc())
+        .limit(1)
+    )
+    return connection.execute(query).mappings().first()
+
+
+def _states(
+    connection: Connection, library_id: int, which: Callable[[Table], ColumnElement[bool]]
+) -> dict[int, ContactState]:
+    states, poses, contacts, flags = (
+        _rows(connection, table, library_id, which(table)) for table in (state, stage_pose, contact, state_flag)
+    )
+    ordinals = [row[0] for row in states]
+    return dict(zip(ordinals, states_from_rows(states, poses, contacts, flags), strict=True))
+
+
+def _rows(connection: Connection, table: Table, library_id: int, which: ColumnElement[bool]) -> list[Row]:
+    columns = [column for column in table.c if column.name != "library_id"]
+    query = (
+        select(*columns)
+        .where(table.c.library_id == library_id, which)
+        .order_by(*(column for column in table.primary_key.columns if column.name != "library_id"))
+    )
+    return [tuple(row) for row in connection.execute(query)]
+
+
+def _record(row: RowMapping) -> LibraryRecord:
+    return LibraryRecord(
+        id=row["id"],
+        designation=row["designation"],
+        length_unit=LengthUnit(row["length_unit"]),
+        input_sha256=row["input_sha256"],
+        content_sha256=row["content_sha256"],
+        pair=row["pair"],
+        method=row["method"],
+        options=row["options"],
+        code_version=row["code_version"],
+        grid=Grid(row["tilt_max_deg"], row["tilt_step_deg"], row["phase_step_deg"]),
+        state_count=row["state_count"],
+        created_at=row["created_at"],
+        published_at=row["published_at"],
+    )

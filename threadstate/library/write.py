@@ -1,0 +1,134 @@
+"""Writing a library: opened once, filled chunk by chunk, published whole."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import UTC, datetime
+
+from sqlalchemy import Connection, Engine, Table, func, insert, select, update
+
+from threadstate.errors import ThreadstateError
+from threadstate.library.fingerprint import library_sha256
+from threadstate.library.grid import Grid
+from threadstate.library.identity import METHOD, LibraryInputs, code_version
+from threadstate.library.rows import ChunkRows, Row
+from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag
+
+
+class IncompleteLibraryError(ThreadstateError):
+    """A library was to be published before all its chunks were there."""
+
+
+def open_library(engine: Engine, inputs: LibraryInputs) -> int:
+    """The id of the library of these inputs, whose row is made if there is none."""
+    grid = inputs.grid
+    with engine.begin() as connection:
+        known = connection.execute(select(library.c.id).where(library.c.input_sha256 == inputs.sha256)).scalar()
+        if known is not None:
+            return known
+        made = connection.execute(
+            insert(library).values(
+                designation=inputs.pair.designation,
+                length_unit=inputs.pair.unit.value,
+                input_sha256=inputs.sha256,
+                pair=inputs.pair_json,
+                method=METHOD,
+                options=inputs.options_json,
+                code_version=code_version(),
+                tilt_max_deg=grid.tilt_max_deg,
+                tilt_step_deg=grid.tilt_step_deg,
+                phase_step_deg=grid.phase_step_deg,
+                tilt_count=grid.tilt_count,
+                phase_count=grid.phase_count,
+                state_count=grid.state_count,
+                created_at=datetime.now(UTC),
+            )
+        )
+        (library_id,) = made.inserted_primary_key
+        return int(library_id)
+
+
+def committed_orientations(engine: Engine, library_id: int) -> frozenset[int]:
+    """The numbers of the chunks that are in the database."""
+    with engine.connect() as connection:
+        return frozenset(connection.scalars(select(chunk.c.orientation).where(chunk.c.library_id == library_id)))
+
+
+def write_chunk(engine: Engine, library_id: int, rows: ChunkRows) -> bool:
+    """Write a chunk in one transaction; a chunk that is there already is left as it is.
+
+    Returns:
+        Whether it was written.
+    """
+    orientation = rows.orientation
+    with engine.begin() as connection:
+        # The row's lock makes two writers of one library take turns, on databases that lock rows.
+        connection.execute(select(library.c.id).where(library.c.id == library_id).with_for_update())
+        there = select(chunk.c.orientation).where(
+            chunk.c.library_id == library_id, chunk.c.orientation == orientation.index
+        )
+        if connection.execute(there).first() is not None:
+            return False
+        _insert(connection, state, library_id, rows.states)
+        _insert(connection, stage_pose, library_id, rows.stage_poses)
+        _insert(connection, contact, library_id, rows.contacts)
+        _insert(connection, state_flag, library_id, rows.flags)
+        _insert(
+            connection,
+            chunk,
+            library_id,
+            [
+                (
+                    orientation.index,
+                    orientation.roll_deg,
+                    orientation.pitch_deg,
+                    len(rows.states),
+                    rows.content_sha256,
+                )
+            ],
+        )
+    return True
+
+
+def publish(engine: Engine, library_id: int, grid: Grid) -> str:
+    """Make a whole library visible, in one transaction; a published one is left as it is.
+
+    Returns:
+        Its content hash.
+
+    Raises:
+        IncompleteLibraryError: chunks are missing.
+    """
+    with engine.begin() as connection:
+        row = connection.execute(
+            select(library.c.content_sha256).where(library.c.id == library_id).with_for_update()
+        ).one()
+        if row.content_sha256 is not None:
+            return str(row.content_sha256)
+        chunks = connection.execute(
+            select(chunk.c.orientation, chunk.c.state_count, chunk.c.content_sha256)
+            .where(chunk.c.library_id == library_id)
+            .order_by(chunk.c.orientation)
+        ).all()
+        states = connection.execute(
+            select(func.count()).select_from(state).where(state.c.library_id == library_id)
+        ).scalar_one()
+        if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or states != grid.state_count:
+            raise IncompleteLibraryError(
+                f"library {library_id} has {len(chunks)} of {grid.orientation_count} orientations and "
+                f"{states} of {grid.state_count} states"
+            )
+        content_sha256 = library_sha256([row.content_sha256 for row in chunks])
+        connection.execute(
+            update(library)
+            .where(library.c.id == library_id)
+            .values(content_sha256=content_sha256, published_at=datetime.now(UTC))
+        )
+    return content_sha256
+
+
+def _insert(connection: Connection, table: Table, library_id: int, rows: Sequence[Row]) -> None:
+    """Insert positional rows; per row nothing but the driver's own work is done."""
+    if rows:
+        statement = str(insert(table).compile(dialect=connection.dialect))
+        connection.exec_driver_sql(statement, [(library_id, *row) for row in rows])

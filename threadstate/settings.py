@@ -1,0 +1,89 @@
+"""Settings from the environment; ``docs/settings.md`` lists them all.
+
+``THREADSTATE_NUMBA_CACHE_DIR`` is read where it has to act before anything else is imported
+(``threadstate._numba_cache``).
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from threadstate._numba_cache import SETTING as NUMBA_CACHE_DIR
+from threadstate.errors import InvalidValueError
+
+PREFIX = "THREADSTATE_"
+
+DATA_DIR = "THREADSTATE_DATA_DIR"
+DATABASE = "THREADSTATE_DATABASE"
+WORKERS = "THREADSTATE_WORKERS"
+HOST = "THREADSTATE_HOST"
+PORT = "THREADSTATE_PORT"
+
+NAMES = (DATA_DIR, DATABASE, WORKERS, HOST, PORT, NUMBA_CACHE_DIR)
+"""Every setting there is."""
+
+DATABASE_FILE = "threadstate.sqlite3"
+LARGEST_WORKER_COUNT = 256
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The settings of a process.
+
+    Attributes:
+        data_dir: folder of everything that is stored.
+        database: URL of the database.
+        workers: how many processes compute.
+        host: address that the service listens on.
+        port: port that it listens on.
+    """
+
+    data_dir: Path
+    database: str
+    workers: int
+    host: str
+    port: int
+
+
+def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
+    """The settings in an environment; an empty value is as good as none.
+
+    Raises:
+        InvalidValueError: a setting's value is not valid; its name is the environment's.
+    """
+    data_dir = _data_dir(environment)
+    return Settings(
+        data_dir=data_dir,
+        database=environment.get(DATABASE) or f"sqlite:///{data_dir / DATABASE_FILE}",
+        workers=_integer(environment, WORKERS, _processors(), LARGEST_WORKER_COUNT),
+        host=environment.get(HOST) or "127.0.0.1",
+        port=_integer(environment, PORT, 8000, 65535),
+    )
+
+
+def _data_dir(environment: Mapping[str, str]) -> Path:
+    if chosen := environment.get(DATA_DIR):
+        return Path(chosen).expanduser().absolute()
+    # The XDG specification: a relative XDG_DATA_HOME is to be ignored.
+    if (base := environment.get("XDG_DATA_HOME")) and Path(base).is_absolute():
+        return Path(base) / "threadstate"
+    if home := environment.get("HOME"):
+        return Path(home).absolute() / ".local" / "share" / "threadstate"
+    return Path("data").absolute()
+
+
+def _integer(environment: Mapping[str, str], name: str, default: int, largest: int) -> int:
+    text = environment.get(name)
+    if not text:
+        return default
+    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= largest):
+        raise InvalidValueError(name, text, f"an integer, 1 to {largest}")
+    return int(text)
+
+
+def _processors() -> int:
+    """How many processors this process may use."""
+    return max(1, min(len(os.sched_getaffinity(0)), LARGEST_WORKER_COUNT))
