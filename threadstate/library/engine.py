@@ -17,6 +17,7 @@ from sqlalchemy.exc import ArgumentError
 from threadstate.errors import InvalidValueError
 
 BUSY_TIMEOUT_S = 30.0
+WRITER_CACHE_KIB = 65536
 
 
 def database_url(database: str) -> URL:
@@ -60,6 +61,8 @@ def writer_engine(database: str) -> Engine:
         connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = NORMAL")
         connection.execute("PRAGMA foreign_keys = ON")
+        # Orientations fall in order into the tables and all over the indexes: those are to stay in memory.
+        connection.execute(f"PRAGMA cache_size = -{WRITER_CACHE_KIB}")
 
     @event.listens_for(engine, "begin")
     def begin(connection: Connection) -> None:

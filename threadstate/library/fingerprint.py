@@ -33,7 +33,7 @@ def state_bytes(state: ContactState) -> bytes:
         state.embedment_margin,
         state.pivot_margin,
     )
-    names = [state.state_class, *state.flags]
+    names: list[str] = [state.state_class, *state.flags]
     for pose in state.poses:
         for row in pose.rotation:
             numbers += row

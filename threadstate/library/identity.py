@@ -17,7 +17,8 @@ from threadstate.thread.pair import Pair
 METHOD = "exact"
 """The method by which states are found: closed-form kernels, no mesh."""
 
-PHYSICS_PACKAGES = ("thread", "contact", "state")
+PHYSICS = ("thread/*.py", "contact/*.py", "state/*.py")
+NOT_PHYSICS = ("state/document.py",)
 
 
 @dataclass(frozen=True)
@@ -79,9 +80,10 @@ def code_version() -> str:
     """
     root = Path(threadstate.__file__).parent
     digest = hashlib.sha256()
-    for package in PHYSICS_PACKAGES:
-        for path in sorted((root / package).glob("*.py")):
+    for path in sorted(path for pattern in PHYSICS for path in root.glob(pattern)):
+        name = path.relative_to(root).as_posix()
+        if name not in NOT_PHYSICS:
             source = path.read_bytes()
-            digest.update(f"{package}/{path.name} {len(source)}\n".encode())
+            digest.update(f"{name} {len(source)}\n".encode())
             digest.update(source)
     return f"{threadstate.__version__}+{digest.hexdigest()[:12]}"

@@ -15,6 +15,7 @@ from threadstate.state.model import (
     Flag,
     StagePose,
     StateClass,
+    Vector,
 )
 from threadstate.thread.regions import Region
 
@@ -95,16 +96,16 @@ def states_from_rows(
     """
     poses_of: dict[int, list[StagePose]] = {}
     for ordinal, _, *values in stage_poses:
-        rotation = (tuple(values[0:3]), tuple(values[3:6]), tuple(values[6:9]))
-        poses_of.setdefault(ordinal, []).append(StagePose(rotation, tuple(values[9:12])))  # type: ignore[arg-type]
+        rotation = (_vector(values[0:3]), _vector(values[3:6]), _vector(values[6:9]))
+        poses_of.setdefault(ordinal, []).append(StagePose(rotation, _vector(values[9:12])))
     contacts_of: dict[int, list[Contact]] = {}
     for ordinal, _, stage, *values in contacts:
         contacts_of.setdefault(ordinal, []).append(
             Contact(
                 stage=stage,
-                point=tuple(values[0:3]),  # type: ignore[arg-type]
-                point_bolt=tuple(values[3:6]),  # type: ignore[arg-type]
-                normal=tuple(values[6:9]),  # type: ignore[arg-type]
+                point=_vector(values[0:3]),
+                point_bolt=_vector(values[3:6]),
+                normal=_vector(values[6:9]),
                 bolt_region=Region(values[9]),
                 nut_region=Region(values[10]),
                 features=FeaturePair(values[11]),
@@ -117,17 +118,29 @@ def states_from_rows(
         flags_of.setdefault(ordinal, []).append(Flag(flag))
     return [
         ContactState(
-            roll_deg,
-            pitch_deg,
-            phase_deg,
-            StateClass(state_class),
-            tuple(flags_of.get(ordinal, ())),
-            tuple(poses_of.get(ordinal, ())),
-            *lengths,
-            tuple(contacts_of.get(ordinal, ())),
+            roll_deg=values[0],
+            pitch_deg=values[1],
+            phase_deg=values[2],
+            state_class=StateClass(values[3]),
+            flags=tuple(flags_of.get(ordinal, ())),
+            poses=tuple(poses_of.get(ordinal, ())),
+            lambda_deg=values[4],
+            mu_deg=values[5],
+            drop=values[6],
+            embedment=values[7],
+            pivot_offset=values[8],
+            drop_margin=values[9],
+            embedment_margin=values[10],
+            pivot_margin=values[11],
+            contacts=tuple(contacts_of.get(ordinal, ())),
         )
-        for ordinal, roll_deg, pitch_deg, phase_deg, state_class, *lengths in states
+        for ordinal, *values in states
     ]
+
+
+def _vector(values: Sequence[float]) -> Vector:
+    x, y, z = values
+    return x, y, z
 
 
 def _plain(value: float | None) -> float | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urllib.parse import unquote
+
 from sqlalchemy import Engine, text
 from sqlalchemy.exc import OperationalError
 
@@ -22,7 +24,7 @@ def stored_revision(engine: Engine) -> str | None:
         reason = str(error.orig)
         if "no such table" in reason or "unable to open database file" in reason:
             return None
-        raise SchemaError(f"database {engine.url.database} cannot be read: {reason}") from None
+        raise SchemaError(f"database {_file(engine)} cannot be read: {reason}") from None
 
 
 def check_schema(engine: Engine) -> None:
@@ -35,5 +37,11 @@ def check_schema(engine: Engine) -> None:
     if revision != SCHEMA_REVISION:
         found = "has no schema yet" if revision is None else f"is at schema revision {revision}"
         raise SchemaError(
-            f"database {engine.url.database} {found}, this code needs {SCHEMA_REVISION}; run `{MENDING_COMMAND}`"
+            f"database {_file(engine)} {found}, this code needs {SCHEMA_REVISION}; run `{MENDING_COMMAND}`"
         )
+
+
+def _file(engine: Engine) -> str:
+    """The database's file; a reader's engine has it as a URI."""
+    name = str(engine.url.database)
+    return unquote(name.removeprefix("file:")) if name.startswith("file:") else name

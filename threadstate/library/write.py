@@ -23,11 +23,12 @@ def open_library(engine: Engine, inputs: LibraryInputs) -> int:
     """The id of the library of these inputs, whose row is made if there is none."""
     grid = inputs.grid
     with engine.begin() as connection:
-        known = connection.execute(select(library.c.id).where(library.c.input_sha256 == inputs.sha256)).scalar()
+        known = connection.scalar(select(library.c.id).where(library.c.input_sha256 == inputs.sha256))
         if known is not None:
-            return known
+            return int(known)
         made = connection.execute(
-            insert(library).values(
+            insert(library)
+            .values(
                 designation=inputs.pair.designation,
                 length_unit=inputs.pair.unit.value,
                 input_sha256=inputs.sha256,
@@ -43,9 +44,9 @@ def open_library(engine: Engine, inputs: LibraryInputs) -> int:
                 state_count=grid.state_count,
                 created_at=datetime.now(UTC),
             )
+            .returning(library.c.id)
         )
-        (library_id,) = made.inserted_primary_key
-        return int(library_id)
+        return int(made.scalar_one())
 
 
 def committed_orientations(engine: Engine, library_id: int) -> frozenset[int]:

@@ -1,0 +1,1 @@
+"""Jobs: migrating the database, computing libraries, solving on demand; the command line ``threadstate``."""

@@ -1,0 +1,69 @@
+"""The command line ``threadstate``: its commands, and how their errors end."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+from typer.exceptions import TyperException
+
+from threadstate.errors import ThreadstateError
+from worker.commands.migrate import migrate
+from worker.commands.rebuild import rebuild
+from worker.commands.run import run
+from worker.commands.serve import serve
+from worker.commands.solve import solve
+from worker.commands.summary import summary
+from worker.exit_codes import ExitCode, exit_code_of
+
+PROGRAM = "threadstate"
+
+app = typer.Typer(
+    name=PROGRAM,
+    help="Contact states of a bolt that meets a nut askew: solved one by one, or as a whole library.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+for command in (solve, rebuild, summary, migrate, serve, run):
+    app.command()(command)
+
+
+def main() -> None:
+    """Run the command line and end the process with its exit code."""
+    sys.exit(run_command_line(sys.argv[1:]))
+
+
+def run_command_line(arguments: list[str]) -> int:
+    """Run a command; an error is one line on stderr.
+
+    Returns:
+        The exit code.
+    """
+    try:
+        code = app(arguments or ["--help"], prog_name=PROGRAM, standalone_mode=False)
+        sys.stdout.flush()
+        return code if isinstance(code, int) else ExitCode.OK
+    except TyperException as error:
+        context = getattr(error, "ctx", None)
+        where = context.command_path if context else PROGRAM
+        return _complain(f"{error.format_message()} (try `{where} --help`)", error.exit_code)
+    except ThreadstateError as error:
+        return _complain(str(error), exit_code_of(error))
+    except KeyboardInterrupt:
+        return _complain("interrupted", ExitCode.INTERRUPTED)
+    except BrokenPipeError:
+        # The reader of our output has had enough; at exit Python would flush into the same broken pipe.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return ExitCode.FAILURE
+    except Exception as error:  # a traceback helps no user
+        return _complain(f"{type(error).__name__}: {error}", ExitCode.FAILURE)
+
+
+def _complain(message: str, code: int) -> int:
+    one_line = " ".join(message.split())
+    sys.stderr.write(f"{PROGRAM}: {one_line}\n")
+    return code

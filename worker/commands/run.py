@@ -1,0 +1,30 @@
+"""``threadstate run``."""
+
+from __future__ import annotations
+
+from worker.commands.migrate import migrate
+from worker.commands.rebuild import rebuild
+from worker.commands.serve import serve
+from worker.options import Database, Designation, Host, PhaseStep, Port, TiltMax, TiltStep, Workers
+
+
+def run(
+    database: Database = None,
+    pair: Designation = None,
+    phase_step: PhaseStep = 1.0,
+    tilt_max: TiltMax = 4.0,
+    tilt_step: TiltStep = 1.0,
+    workers: Workers = None,
+    host: Host = None,
+    port: Port = None,
+) -> None:
+    r"""Migrate the database, compute the library unless it is published already, and serve it.
+
+    \b
+    Examples:
+      threadstate run
+      threadstate run --phase-step 5 --port 8080
+    """
+    migrate(database)
+    rebuild(database, pair, phase_step, tilt_max, tilt_step, workers)
+    serve(database, host, port)

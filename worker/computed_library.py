@@ -1,0 +1,42 @@
+"""A library by name and grid, computed in a database with a progress bar; what ``rebuild`` and ``run`` share."""
+
+from __future__ import annotations
+
+from threadstate.library.engine import writer_engine
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.schema import check_schema, stored_revision
+from threadstate.state.solve import SolveOptions
+from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+from worker.migrate import migrate
+from worker.progress import progress_bar
+from worker.rebuild import Rebuild, rebuild
+
+
+def computed_library(
+    database: str,
+    *,
+    designation: str | None,
+    phase_step_deg: float,
+    tilt_max_deg: float,
+    tilt_step_deg: float,
+    workers: int,
+) -> Rebuild:
+    """The published library of that pair and grid, computed if need be; an empty database is migrated first.
+
+    Raises:
+        InvalidValueError: a value is not valid.
+        SchemaError: the database is at another revision.
+        ComputeError: a computing process failed.
+    """
+    pair = pair_by_designation(DEFAULT_DESIGNATION if designation is None else designation)
+    inputs = LibraryInputs(pair, Grid(tilt_max_deg, tilt_step_deg, phase_step_deg), SolveOptions())
+    engine = writer_engine(database)
+    try:
+        if stored_revision(engine) is None:
+            migrate(engine)
+        check_schema(engine)
+        with progress_bar() as progress:
+            return rebuild(engine, inputs, workers, progress)
+    finally:
+        engine.dispose()

@@ -1,0 +1,31 @@
+"""The exit codes of ``threadstate``; ``docs/cli.md`` lists them."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from threadstate.errors import InvalidValueError, NotFoundError, SchemaError
+
+
+class ExitCode(IntEnum):
+    """What a command's end means."""
+
+    OK = 0
+    FAILURE = 1
+    USAGE = 2
+    SCHEMA = 3
+    NOT_FOUND = 4
+    INTERRUPTED = 130
+
+
+def exit_code_of(error: Exception) -> ExitCode:
+    """The exit code of a command that ended with this error."""
+    match error:
+        case InvalidValueError():
+            return ExitCode.USAGE
+        case SchemaError():
+            return ExitCode.SCHEMA
+        case NotFoundError():
+            return ExitCode.NOT_FOUND
+        case _:
+            return ExitCode.FAILURE

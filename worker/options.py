@@ -1,0 +1,55 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from threadstate import settings
+
+Database = Annotated[
+    str | None,
+    typer.Option(
+        "--database",
+        metavar="URL",
+        help="A SQLite file, such as sqlite:////absolute/path/threadstate.sqlite3.",
+        show_default=f"{settings.DATABASE}, else a file in the data directory",
+    ),
+]
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.", show_default=False)]
+
+Designation = Annotated[
+    str | None,
+    typer.Option("--pair", metavar="NAME", help="Designation of the pair.", show_default="the catalogue's first"),
+]
+
+PhaseStep = Annotated[float, typer.Option("--phase-step", metavar="DEG", help="Step of phase; divides 360.")]
+TiltMax = Annotated[float, typer.Option("--tilt-max", metavar="DEG", help="Largest roll and pitch; at most 10.")]
+TiltStep = Annotated[
+    float, typer.Option("--tilt-step", metavar="DEG", help="Step of roll and pitch; divides the largest.")
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        "--workers",
+        metavar="N",
+        min=1,
+        max=settings.LARGEST_WORKER_COUNT,
+        help="Processes that compute.",
+        show_default=f"{settings.WORKERS}, else one a processor",
+    ),
+]
+Host = Annotated[
+    str | None,
+    typer.Option(
+        "--host", metavar="ADDRESS", help="Address to listen on.", show_default=f"{settings.HOST}, else 127.0.0.1"
+    ),
+]
+Port = Annotated[
+    int | None,
+    typer.Option(
+        "--port", metavar="N", min=1, max=65535, help="Port to listen on.", show_default=f"{settings.PORT}, else 8000"
+    ),
+]

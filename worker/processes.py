@@ -1,0 +1,114 @@
+"""Chunks from several computing processes, as they finish.
+
+Each process has a pipe of its own and nobody else holds its ends, so that the death of either side, by SIGKILL too, is
+seen by the other as the end of the pipe: no process is left behind.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+
+from threadstate.errors import ThreadstateError
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.rows import ChunkRows
+
+ASKED_AHEAD = 2
+"""How many chunks a process is asked for at a time: it computes on while one waits to be written."""
+
+_JOIN_TIMEOUT_S = 5.0
+
+
+class ComputeError(ThreadstateError):
+    """A computing process failed."""
+
+
+@dataclass(frozen=True)
+class _Computer:
+    process: BaseProcess
+    connection: Connection
+
+    def receive(self) -> object:
+        try:
+            return self.connection.recv()
+        except (EOFError, ConnectionError):
+            self.process.join(_JOIN_TIMEOUT_S)
+            raise ComputeError(f"a computing process died (exit code {self.process.exitcode})") from None
+
+
+class ComputingProcesses:
+    """Processes that compute chunks of one library; made by :func:`computing_processes`."""
+
+    def __init__(self, inputs: LibraryInputs, count: int) -> None:
+        # forkserver: the processes start from a clean one that has the kernels' module loaded once for all.
+        self._context = multiprocessing.get_context("forkserver")
+        self._context.set_forkserver_preload(["__main__", "worker.compute"])
+        self._inputs = inputs
+        self._computers = [self._start() for _ in range(count)]
+
+    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[ChunkRows]:
+        """The chunks of these orientations, in the order in which they are finished.
+
+        Args:
+            orientations: their numbers.
+            on_ready: called once, when the first process has its kernels.
+
+        Raises:
+            ComputeError: a process failed or died.
+        """
+        from worker.compute import Failure, Ready
+
+        waiting = iter(orientations)
+        asked = dict.fromkeys((computer.connection for computer in self._computers), 0)
+        by_connection = {computer.connection: computer for computer in self._computers}
+        starting = set(by_connection)
+        announced = False
+        while starting or any(asked.values()):
+            for connection in wait(list(by_connection)):
+                assert isinstance(connection, Connection)
+                message = by_connection[connection].receive()
+                if isinstance(message, Failure):
+                    raise ComputeError(f"a computing process failed: {message.reason}")
+                if isinstance(message, Ready):
+                    starting.remove(connection)
+                    if not announced:
+                        announced = True
+                        on_ready()
+                else:
+                    asked[connection] -= 1
+                while asked[connection] < ASKED_AHEAD and (index := next(waiting, None)) is not None:
+                    connection.send(index)
+                    asked[connection] += 1
+                if isinstance(message, ChunkRows):
+                    yield message
+
+    def close(self) -> None:
+        """End the processes; what they are computing is lost."""
+        for computer in self._computers:
+            computer.connection.close()
+        for computer in self._computers:
+            computer.process.terminate()
+            computer.process.join(_JOIN_TIMEOUT_S)
+
+    def _start(self) -> _Computer:
+        from worker.compute import serve_chunks
+
+        ours, theirs = self._context.Pipe()
+        process = self._context.Process(target=serve_chunks, args=(theirs, self._inputs), daemon=True)
+        process.start()
+        theirs.close()
+        return _Computer(process, ours)
+
+
+@contextmanager
+def computing_processes(inputs: LibraryInputs, count: int) -> Iterator[ComputingProcesses]:
+    """``count`` computing processes, ended on leaving."""
+    processes = ComputingProcesses(inputs, count)
+    try:
+        yield processes
+    finally:
+        processes.close()

@@ -1,0 +1,77 @@
+"""Computing a library: what is committed stays, what is missing is computed, the whole is published."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from sqlalchemy import Engine
+
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.read import library_by_input
+from threadstate.library.write import committed_orientations, open_library, publish, write_chunk
+from worker.processes import computing_processes
+
+
+@dataclass(frozen=True)
+class Rebuild:
+    """What a rebuild came to.
+
+    Attributes:
+        library_id: the library's id.
+        input_sha256: hash of its inputs.
+        content_sha256: hash of its content.
+        state_count: how many states it has.
+        computed: how many of them this run computed.
+        was_published: whether it was published already, so that nothing was to be done.
+    """
+
+    library_id: int
+    input_sha256: str
+    content_sha256: str
+    state_count: int
+    computed: int
+    was_published: bool
+
+
+class Progress(Protocol):
+    """Somebody who watches a rebuild; counts are of states."""
+
+    def begin(self, committed: int, total: int) -> None:
+        """The library is open; ``committed`` of ``total`` states are there from an earlier run."""
+
+    def ready(self) -> None:
+        """The kernels are loaded, states are being computed."""
+
+    def advance(self, states: int) -> None:
+        """That many more states are committed."""
+
+
+def rebuild(engine: Engine, inputs: LibraryInputs, workers: int, progress: Progress) -> Rebuild:
+    """Compute and publish the library of these inputs, going on from the chunks that are committed.
+
+    May be killed at any moment: a chunk is committed whole or not at all, and the library is published only when all
+    are. The content depends on the inputs alone, not on ``workers`` or on earlier runs.
+
+    Raises:
+        ComputeError: a computing process failed.
+    """
+    with engine.connect() as connection:
+        known = library_by_input(connection, inputs.sha256)
+    if known is not None:
+        return Rebuild(known.id, known.input_sha256, known.content_sha256, known.state_count, 0, was_published=True)
+
+    grid = inputs.grid
+    library_id = open_library(engine, inputs)
+    committed = committed_orientations(engine, library_id)
+    missing = [index for index in range(grid.orientation_count) if index not in committed]
+    progress.begin(len(committed) * grid.phase_count, grid.state_count)
+    computed = 0
+    if missing:
+        with computing_processes(inputs, min(workers, len(missing))) as processes:
+            for rows in processes.chunks(missing, progress.ready):
+                if write_chunk(engine, library_id, rows):
+                    computed += len(rows.states)
+                progress.advance(len(rows.states))
+    content_sha256 = publish(engine, library_id, grid)
+    return Rebuild(library_id, inputs.sha256, content_sha256, grid.state_count, computed, was_published=False)

@@ -1,0 +1,29 @@
+"""Handing this process over to the service."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import NoReturn
+
+from threadstate.settings import DATABASE
+from worker.output import tell
+
+SERVICE = "service.app:create_app"
+"""The service by name: the worker does not import it."""
+
+
+def become_service(database: str, host: str, port: int) -> NoReturn:
+    """Replace this process by the service, which so gets every signal itself.
+
+    What ``serve`` and ``run`` end with.
+    """
+    tell(f"Open {address(host, port)}/docs in a browser, or ask {address(host, port)}/v1/libraries/latest.")
+    arguments = [sys.executable, "-m", "uvicorn", SERVICE, "--factory", "--host", host, "--port", str(port)]
+    os.execve(sys.executable, arguments, {**os.environ, DATABASE: database})
+
+
+def address(host: str, port: int) -> str:
+    """The address to open in a browser on this machine."""
+    reachable = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
+    return f"http://[{reachable}]:{port}" if ":" in reachable else f"http://{reachable}:{port}"
