@@ -1,0 +1,1 @@
+"""The service: the stored library and the exact solver over HTTP."""

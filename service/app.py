@@ -1,0 +1,78 @@
+"""The application: ``uvicorn --factory service.app:create_app``."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+from fastapi import Depends, FastAPI
+
+import service.docs.endpoints
+import service.health.endpoints
+import service.histories.endpoints
+import service.libraries.endpoints
+import service.solve.endpoints
+import service.states.endpoints
+import threadstate
+from service.middleware import EncodedSlashes, HeadAsGet, SecurityHeaders
+from service.parameters import refuse_unknown_parameters
+from service.problems import MEDIA_TYPE, Problem, install_problem_handlers
+from threadstate.library.engine import reader_engine
+from threadstate.settings import Settings, read_settings
+
+LARGEST_BODY_BYTES = 256 * 1024
+"""Room for 1,000 poses with all the digits that a double has."""
+
+DESCRIPTION = """Contact states of a bolt that meets a nut askew: the stored library of a thread, and the exact solver
+for any other pose. Angles are in degrees; lengths in the thread's own unit or in the one asked for by `unit`; points
+in the nut's frame. `pitch` is the pose angle; the thread's is `thread_pitch`."""
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """The service over the database of ``settings`` (None: of the environment).
+
+    The database need not be there yet: ``/readyz`` and the resources say what is missing.
+
+    Raises:
+        InvalidValueError: a setting is not valid.
+    """
+    engine = reader_engine((settings or read_settings()).database)
+
+    @asynccontextmanager
+    async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        yield
+        engine.dispose()
+
+    app = FastAPI(
+        title="threadstate",
+        version=threadstate.__version__,
+        description=DESCRIPTION,
+        docs_url=None,
+        redoc_url=None,
+        openapi_url=None,
+        redirect_slashes=False,
+        lifespan=lifespan,
+        max_body_size=LARGEST_BODY_BYTES,
+        dependencies=[Depends(refuse_unknown_parameters)],
+        responses={
+            "default": {
+                "description": "A problem (RFC 9457)",
+                "model": Problem,
+                "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}},
+            }
+        },
+    )
+    app.state.engine = engine
+    install_problem_handlers(app)
+    for part in (
+        service.libraries,
+        service.states,
+        service.histories,
+        service.solve,
+        service.health,
+        service.docs,
+    ):
+        app.include_router(part.endpoints.router)
+    for middleware in (HeadAsGet, EncodedSlashes, SecurityHeaders):
+        app.add_middleware(middleware)
+    return app

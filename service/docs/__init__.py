@@ -1,0 +1,1 @@
+"""The service describes itself, with nothing from elsewhere."""

@@ -1,0 +1,65 @@
+"""The files of the page at ``/docs``; the third-party ones come from the package that was fetched at set-up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from threadstate.errors import NotFoundError
+
+_HERE = Path(__file__).parent
+_IN_WHEEL = _HERE / "assets"
+_IN_SOURCE_TREE = _HERE.parent.parent / "node_modules" / "swagger-ui-dist"
+
+JAVASCRIPT = "text/javascript; charset=utf-8"
+CSS = "text/css; charset=utf-8"
+
+
+@dataclass(frozen=True)
+class Asset:
+    """A file that the page needs: its name, its media type, and whether it is third-party."""
+
+    name: str
+    media_type: str
+    third_party: bool
+
+    def content(self) -> bytes:
+        """The file's bytes.
+
+        Raises:
+            NotFoundError: the third-party package was not fetched.
+        """
+        if not self.third_party:
+            return (_HERE / self.name).read_bytes()
+        for folder in (_IN_WHEEL, _IN_SOURCE_TREE):
+            if (folder / self.name).is_file():
+                return (folder / self.name).read_bytes()
+        raise NotFoundError(f"{self.name} is not installed; run `make setup`")
+
+
+ASSETS = {
+    asset.name: asset
+    for asset in (
+        Asset("swagger-ui-bundle.js", JAVASCRIPT, third_party=True),
+        Asset("swagger-ui.css", CSS, third_party=True),
+        Asset("start.js", JAVASCRIPT, third_party=False),
+    )
+}
+"""All files of the page by their names."""
+
+PAGE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>threadstate: the interface</title>
+<link rel="icon" href="data:,">
+<link rel="stylesheet" href="/docs/assets/swagger-ui.css">
+</head>
+<body>
+<div id="interface"></div>
+<script src="/docs/assets/swagger-ui-bundle.js"></script>
+<script src="/docs/assets/start.js"></script>
+</body>
+</html>
+"""

@@ -1,0 +1,1 @@
+"""The history of an orientation: its states at all phases, in order."""

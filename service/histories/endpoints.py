@@ -1,0 +1,81 @@
+"""``/v1/libraries/{id}/histories/{roll}/{pitch}``."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Request, Response
+
+from service.angles import PitchPath, RollPath
+from service.database import ReadConnection
+from service.histories.columns import Column, history_columns
+from service.histories.repository import history
+from service.histories.schemas import HistoryColumns, HistoryFormat, HistoryRows
+from service.libraries.identify import IdentifiedLibrary
+from service.representation import CSV, NOT_MODIFIED, json_response, representation
+from service.units import UNIT_HEADER, UnitQuery
+from threadstate.state.document import state_document
+from threadstate.units import conversion_factor
+
+router = APIRouter(prefix="/v1/libraries/{id}/histories", tags=["histories"])
+
+FormatQuery = Annotated[
+    HistoryFormat | None,
+    Query(description="default: `csv` where the `Accept` header prefers text/csv, else `rows`"),
+]
+
+
+@router.get(
+    "/{roll}/{pitch}",
+    summary="The history of an orientation",
+    response_model=HistoryRows | HistoryColumns,
+    responses={
+        200: {"content": {"text/csv": {"schema": {"type": "string"}}}},
+        **NOT_MODIFIED,
+    },
+)
+def get_history(
+    request: Request,
+    connection: ReadConnection,
+    library: IdentifiedLibrary,
+    roll: RollPath,
+    pitch: PitchPath,
+    format: FormatQuery = None,  # noqa: A002 - the parameter's name in the address
+    unit: UnitQuery = None,
+) -> Response:
+    """The states of an orientation at all phases, in order; the three formats say the same."""
+    shown = unit or library.length_unit
+    factor = conversion_factor(library.length_unit, shown)
+    states = [state_document(state, factor) for state in history(connection, library, roll, pitch)]
+    headers = {UNIT_HEADER: shown.value, "Vary": "Accept"}
+    head = {"library": library.id, "unit": shown.value, "roll": roll + 0.0, "pitch": pitch + 0.0}
+    match format or _accepted_format(request.headers.get("accept", "")):
+        case HistoryFormat.CSV:
+            return representation(request, _csv(history_columns(states)), CSV, headers)
+        case HistoryFormat.COLUMNS:
+            columns = {column.name: column.cells for column in history_columns(states)}
+            return json_response(request, {**head, "columns": columns}, headers)
+        case HistoryFormat.ROWS:
+            return json_response(request, {**head, "states": states}, headers)
+
+
+def _accepted_format(accept: str) -> HistoryFormat:
+    """CSV where the header names text/csv before anything that JSON satisfies."""
+    for media_range in accept.split(","):
+        match media_range.partition(";")[0].strip().lower():
+            case "text/csv":
+                return HistoryFormat.CSV
+            case "application/json" | "application/*" | "*/*":
+                return HistoryFormat.ROWS
+    return HistoryFormat.ROWS
+
+
+def _csv(columns: Sequence[Column]) -> bytes:
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow([column.name for column in columns])
+    writer.writerows(zip(*(column.cells for column in columns), strict=True))
+    return text.getvalue().encode()

@@ -1,0 +1,1 @@
+"""The libraries: what is published, and what it was computed from."""

@@ -1,0 +1,147 @@
+"""The shape of a library in an answer."""
+
+from __future__ import annotations
+
+import json
+from datetime import datetime
+
+from pydantic import BaseModel, Field
+
+from service.libraries.identify import slug
+from threadstate.library.read import Counts, LibraryRecord
+from threadstate.state.model import Flag, StateClass
+from threadstate.units import LengthUnit, conversion_factor
+
+
+class FormDocument(BaseModel):
+    """A thread's form; fillet radii as multiples of the thread pitch."""
+
+    name: str
+    flank_half_angle_deg: float
+    bolt_root_fillet: float
+    bolt_crest_fillet: float
+    nut_root_fillet: float
+    nut_crest_fillet: float
+
+
+class FitDocument(BaseModel):
+    """A fit by its diameters, in the answer's unit."""
+
+    name: str
+    bolt_major_diameter: float
+    bolt_pitch_diameter: float
+    bolt_minor_diameter: float
+    nut_major_diameter: float
+    nut_pitch_diameter: float
+    nut_minor_diameter: float
+
+    def scaled(self, factor: float) -> FitDocument:
+        """All diameters multiplied by ``factor``."""
+        lengths = {name: value * factor for name, value in self.model_dump(exclude={"name"}).items()}
+        return self.model_copy(update=lengths)
+
+
+class PairDocument(BaseModel):
+    """A bolt and its nut; lengths in ``unit``."""
+
+    designation: str
+    unit: LengthUnit
+    nominal_diameter: float
+    thread_pitch: float
+    form: FormDocument
+    fit: FitDocument
+
+    def in_unit(self, unit: LengthUnit) -> PairDocument:
+        """The same pair with its lengths in ``unit``."""
+        factor = conversion_factor(self.unit, unit)
+        return self.model_copy(
+            update={
+                "unit": unit,
+                "nominal_diameter": self.nominal_diameter * factor,
+                "thread_pitch": self.thread_pitch * factor,
+                "fit": self.fit.scaled(factor),
+            }
+        )
+
+
+class GridDocument(BaseModel):
+    """The grid of a library's poses, in degrees: roll and pitch +-``tilt_max``, phase 0 up to but without 360."""
+
+    tilt_max: float
+    tilt_step: float
+    phase_step: float
+    orientations: int = Field(description="how many pairs of roll and pitch there are")
+
+
+class LibraryDocument(BaseModel):
+    """A published library."""
+
+    id: int
+    designation: str = Field(examples=["1/4-20 UNC"])
+    slug: str = Field(examples=["1-4-20-unc"])
+    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    stored_unit: LengthUnit = Field(description="unit in which the library was computed and is stored")
+    pair: PairDocument
+    grid: GridDocument
+    method: str
+    options: dict[str, float] = Field(description="limits and tolerances of the method; lengths per thread pitch")
+    state_count: int
+    code_version: str
+    input_sha256: str = Field(description="SHA-256 of everything that the content depends on")
+    content_sha256: str = Field(description="SHA-256 of the content; the same on every machine")
+    created_at: datetime
+    published_at: datetime
+
+
+class CountsDocument(BaseModel):
+    """How many states have each class and each flag."""
+
+    classes: dict[StateClass, int]
+    flags: dict[Flag, int]
+
+
+class LibraryDetail(LibraryDocument):
+    """A published library with the counts of its states."""
+
+    counts: CountsDocument
+
+
+class LibraryList(BaseModel):
+    """All published libraries, the latest first."""
+
+    libraries: list[LibraryDocument]
+
+
+def library_document(record: LibraryRecord, unit: LengthUnit | None) -> LibraryDocument:
+    """The document of a library, with its lengths in ``unit`` (None: its own)."""
+    shown = unit or record.length_unit
+    return LibraryDocument(
+        id=record.id,
+        designation=record.designation,
+        slug=slug(record.designation),
+        unit=shown,
+        stored_unit=record.length_unit,
+        pair=PairDocument.model_validate_json(record.pair).in_unit(shown),
+        grid=GridDocument(
+            tilt_max=record.grid.tilt_max_deg,
+            tilt_step=record.grid.tilt_step_deg,
+            phase_step=record.grid.phase_step_deg,
+            orientations=record.grid.orientation_count,
+        ),
+        method=record.method,
+        options=json.loads(record.options),
+        state_count=record.state_count,
+        code_version=record.code_version,
+        input_sha256=record.input_sha256,
+        content_sha256=record.content_sha256,
+        created_at=record.created_at,
+        published_at=record.published_at,
+    )
+
+
+def library_detail(record: LibraryRecord, counts: Counts, unit: LengthUnit | None) -> LibraryDetail:
+    """The document of a library with its counts."""
+    document = library_document(record, unit)
+    return LibraryDetail(
+        **dict(document), counts=CountsDocument(classes=dict(counts.of_class), flags=dict(counts.of_flag))
+    )

@@ -1,0 +1,29 @@
+"""Query parameters that a resource does not know are refused, and those it knows twice too."""
+
+from __future__ import annotations
+
+from fastapi import Request
+
+from service.problems import INVALID_VALUE, UNKNOWN_PARAMETER, RefusedParameterError
+
+
+def refuse_unknown_parameters(request: Request) -> None:
+    """Check the names of a request's query parameters against those that its resource documents.
+
+    Raises:
+        RefusedParameterError: a name is unknown (the valid ones are listed) or is there more than once.
+    """
+    seen: set[str] = set()
+    valid = _documented_parameters(request)
+    for name, value in request.query_params.multi_items():
+        if name not in valid:
+            raise RefusedParameterError(UNKNOWN_PARAMETER, name, value, ", ".join(valid) or "none here")
+        if name in seen:
+            raise RefusedParameterError(INVALID_VALUE, name, value, "given once")
+        seen.add(name)
+
+
+def _documented_parameters(request: Request) -> tuple[str, ...]:
+    paths = request.app.openapi()["paths"]
+    operation = paths.get(request.scope["route"].path, {}).get(request.method.lower(), {})
+    return tuple(one["name"] for one in operation.get("parameters", ()) if one["in"] == "query")

@@ -1,0 +1,154 @@
+"""Every error as a problem document (RFC 9457); the only place that knows which error is which status."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel, Field
+from sqlalchemy.exc import SQLAlchemyError
+from starlette.exceptions import HTTPException
+
+from threadstate.errors import InvalidValueError, NotFoundError, SchemaError
+
+MEDIA_TYPE = "application/problem+json"
+TYPE_PREFIX = "urn:threadstate:problem:"
+_LONGEST_ECHO = 100
+
+
+class ProblemItem(BaseModel):
+    """One value that was refused."""
+
+    location: str = Field(description="where it was: `query`, `path` or `body`, and its name or place there")
+    value: str = Field(description="the value as received, shortened where long")
+    valid: str = Field(description="what would be valid")
+
+
+class Problem(BaseModel):
+    """A problem document (RFC 9457)."""
+
+    type: str = Field(description="which problem it is; docs/api.md lists them", examples=[f"{TYPE_PREFIX}not-found"])
+    title: str = Field(description="the problem in words that do not change", examples=["Not found"])
+    status: int = Field(description="the HTTP status", ge=400, le=599, examples=[404])
+    detail: str = Field(description="this occurrence of it", examples=["library 7 is not published here"])
+    errors: list[ProblemItem] = Field(default=[], description="the values that were refused, where there are any")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of problem: the end of its type, its status and its title."""
+
+    name: str
+    status: HTTPStatus
+    title: str
+
+
+INVALID_VALUE = Kind("invalid-value", HTTPStatus.BAD_REQUEST, "Invalid value")
+UNKNOWN_PARAMETER = Kind("unknown-parameter", HTTPStatus.BAD_REQUEST, "Unknown parameter")
+NOT_FOUND = Kind("not-found", HTTPStatus.NOT_FOUND, "Not found")
+NOT_MIGRATED = Kind("not-migrated", HTTPStatus.SERVICE_UNAVAILABLE, "Database not migrated")
+NOT_READY = Kind("not-ready", HTTPStatus.SERVICE_UNAVAILABLE, "No library is published")
+DATABASE_UNAVAILABLE = Kind("database-unavailable", HTTPStatus.SERVICE_UNAVAILABLE, "Database unavailable")
+INTERNAL = Kind("internal", HTTPStatus.INTERNAL_SERVER_ERROR, "Internal error")
+
+KINDS = (INVALID_VALUE, UNKNOWN_PARAMETER, NOT_FOUND, NOT_MIGRATED, NOT_READY, DATABASE_UNAVAILABLE, INTERNAL)
+"""All kinds of the service's own; any other HTTP error has the type ``about:blank``."""
+
+
+class RefusedParameterError(Exception):
+    """A query parameter that a resource does not know, or that was given twice."""
+
+    def __init__(self, kind: Kind, name: str, value: str, valid: str) -> None:
+        super().__init__(name)
+        self.kind = kind
+        self.name = name
+        self.value = value
+        self.valid = valid
+
+
+def install_problem_handlers(app: FastAPI) -> None:
+    """Make ``app`` answer every error with a problem document."""
+    for error, handler in (
+        (RefusedParameterError, _refused_parameter),
+        (RequestValidationError, _validation),
+        (InvalidValueError, _invalid_value),
+        (NotFoundError, _not_found),
+        (SchemaError, _schema),
+        (SQLAlchemyError, _database),
+        (HTTPException, _http),
+        (Exception, _internal),
+    ):
+        app.add_exception_handler(error, handler)
+
+
+def problem_response(kind: Kind, detail: str, errors: Sequence[ProblemItem] = ()) -> Response:
+    """The response for a problem of one of the service's kinds."""
+    problem = Problem(
+        type=TYPE_PREFIX + kind.name, title=kind.title, status=kind.status, detail=detail, errors=list(errors)
+    )
+    return _response(problem, {})
+
+
+def _response(problem: Problem, headers: dict[str, str]) -> Response:
+    # Escaped to ASCII: what a client sent may not be encodable otherwise (lone surrogates).
+    return Response(
+        json.dumps(problem.model_dump(exclude_defaults=True)),
+        problem.status,
+        {**headers, "Cache-Control": "no-store"},
+        MEDIA_TYPE,
+    )
+
+
+def _refused_parameter(_request: Request, error: Any) -> Response:
+    item = ProblemItem(location=f"query {_short(error.name)}", value=_short(error.value), valid=error.valid)
+    return problem_response(error.kind, f"query parameter {_short(error.name)!r}; valid: {error.valid}", [item])
+
+
+def _validation(_request: Request, error: Any) -> Response:
+    items = [
+        ProblemItem(
+            location=" ".join(_short(str(part)) for part in one["loc"]),
+            value=_short(str(one.get("input", ""))),
+            valid=_short(one["msg"]),
+        )
+        for one in error.errors()[:10]
+    ]
+    detail = "; ".join(f"{item.location} is {item.value!r}: {item.valid}" for item in items)
+    return problem_response(INVALID_VALUE, detail, items)
+
+
+def _invalid_value(_request: Request, error: Any) -> Response:
+    item = ProblemItem(location=error.name, value=_short(str(error.value)), valid=error.valid)
+    return problem_response(INVALID_VALUE, f"{error.name} is {item.value!r}; valid: {error.valid}", [item])
+
+
+def _not_found(_request: Request, error: Any) -> Response:
+    return problem_response(NOT_FOUND, str(error))
+
+
+def _schema(_request: Request, error: Any) -> Response:
+    return problem_response(NOT_MIGRATED, str(error))
+
+
+def _database(_request: Request, _error: Any) -> Response:
+    detail = "the database cannot be read; `threadstate migrate` makes one, `threadstate rebuild` fills it"
+    return problem_response(DATABASE_UNAVAILABLE, detail)
+
+
+def _http(_request: Request, error: Any) -> Response:
+    title = HTTPStatus(error.status_code).phrase
+    problem = Problem(type="about:blank", title=title, status=error.status_code, detail=str(error.detail))
+    return _response(problem, dict(error.headers or {}))
+
+
+def _internal(_request: Request, _error: Any) -> Response:
+    return problem_response(INTERNAL, "the server failed on this request; its log says why")
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _LONGEST_ECHO else text[:_LONGEST_ECHO] + "..."

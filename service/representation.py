@@ -1,0 +1,38 @@
+"""Representations: bytes with a strong ETag, and 304 where the client has them already."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+
+from fastapi import Request, Response
+
+REVALIDATE = "public, no-cache"
+"""May be stored, must be asked for again: a stored library does not change, but ``latest`` moves on."""
+
+JSON = "application/json"
+NOT_MODIFIED: dict[int | str, dict[str, str]] = {304: {"description": "The client's copy is current (`If-None-Match`)"}}
+CSV = "text/csv; charset=utf-8; header=present"
+
+
+def json_response(request: Request, document: object, headers: dict[str, str] | None = None) -> Response:
+    """``document`` as compact JSON; every double is written so that it reads back the same."""
+    content = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+    return representation(request, content, JSON, headers)
+
+
+def representation(
+    request: Request, content: bytes, media_type: str, headers: dict[str, str] | None = None
+) -> Response:
+    """``content`` with its ETag, or an empty 304 where ``If-None-Match`` names that ETag."""
+    etag = f'"{hashlib.sha256(content).hexdigest()}"'
+    all_headers = {"ETag": etag, "Cache-Control": REVALIDATE, **(headers or {})}
+    if _matches(request.headers.get("if-none-match", ""), etag):
+        return Response(status_code=304, headers=all_headers)
+    return Response(content, 200, all_headers, media_type)
+
+
+def _matches(if_none_match: str, etag: str) -> bool:
+    """Whether the header's list names ``etag``; for this header RFC 9110 has weak tags match as well."""
+    tags = (tag.strip().removeprefix("W/") for tag in if_none_match.split(","))
+    return any(tag in (etag, "*") for tag in tags)

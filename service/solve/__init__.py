@@ -1,0 +1,1 @@
+"""Poses solved on demand."""

@@ -1,0 +1,33 @@
+"""``POST /v1/solve``."""
+
+from __future__ import annotations
+
+import json
+
+from fastapi import APIRouter, Response
+
+from service.representation import JSON
+from service.solve.schemas import SolveAnswer, SolveRequest
+from service.units import UNIT_HEADER, UnitQuery
+from threadstate.state.document import state_document
+from threadstate.state.solve import solve_poses
+from threadstate.thread.catalogue import pair_by_designation
+from threadstate.units import conversion_factor
+
+router = APIRouter(prefix="/v1/solve", tags=["solve"])
+
+
+@router.post("", summary="Solve poses", response_model=SolveAnswer)
+def solve(body: SolveRequest, unit: UnitQuery = None) -> Response:
+    """The states of up to 1,000 poses, on the grid of a library or not, by the exact solver and in their order."""
+    pair = pair_by_designation(body.designation)
+    shown = unit or pair.unit
+    factor = conversion_factor(pair.unit, shown)
+    states = solve_poses(pair, [(pose.roll, pose.pitch, pose.phase) for pose in body.poses])
+    answer = {
+        "designation": pair.designation,
+        "unit": shown.value,
+        "states": [state_document(state, factor) for state in states],
+    }
+    content = json.dumps(answer, separators=(",", ":"), allow_nan=False)
+    return Response(content, headers={UNIT_HEADER: shown.value, "Cache-Control": "no-store"}, media_type=JSON)

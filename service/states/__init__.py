@@ -1,0 +1,1 @@
+"""The states of a library: filtered, sorted, page by page, or one by its pose."""

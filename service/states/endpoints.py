@@ -1,0 +1,86 @@
+"""``/v1/libraries/{id}/states`` and the state of one pose below it."""
+
+from __future__ import annotations
+
+from urllib.parse import urlencode
+
+from fastapi import APIRouter, Request, Response
+
+from service.angles import PhasePath, PitchPath, RollPath
+from service.database import ReadConnection
+from service.libraries.identify import IdentifiedLibrary
+from service.representation import NOT_MODIFIED, json_response
+from service.states.cursor import decode_cursor, encode_cursor
+from service.states.parameters import FIELDS, CursorQuery, FieldsQuery, FilterQuery, LimitQuery, SortQuery
+from service.states.repository import places
+from service.states.schemas import StatePage, StateSchema
+from service.units import UNIT_HEADER, UnitQuery
+from threadstate.library.read import state_of_pose, states_at
+from threadstate.state.document import state_document
+from threadstate.units import conversion_factor
+
+router = APIRouter(prefix="/v1/libraries/{id}/states", tags=["states"])
+
+
+@router.get("", summary="States of a library", response_model=StatePage, responses=NOT_MODIFIED)
+def list_states(
+    request: Request,
+    connection: ReadConnection,
+    library: IdentifiedLibrary,
+    which: FilterQuery,
+    sort: SortQuery,
+    fields: FieldsQuery,
+    limit: LimitQuery = 100,
+    cursor: CursorQuery = None,
+    unit: UnitQuery = None,
+) -> Response:
+    """The states under a filter, in an order, page by page.
+
+    All filters hold at once. The next page is named by `next` and by the `Link` header; walking them gives each state
+    once and in order, and stays with this very library although `latest` may move on.
+    """
+    after = None if cursor is None else decode_cursor(cursor, library.id, which, sort)
+    page = places(connection, library.id, which, sort, after, limit)
+    shown = unit or library.length_unit
+    factor = conversion_factor(library.length_unit, shown)
+    documents = (
+        state_document(state, factor)
+        for state in states_at(connection, library.id, [place.ordinal for place in page.places])
+    )
+    headers = {UNIT_HEADER: shown.value}
+    following = None
+    if page.more:
+        query = {**request.query_params, "cursor": encode_cursor(page.places[-1], library.id, which, sort)}
+        following = f"{request.scope.get('root_path', '')}/v1/libraries/{library.id}/states?{urlencode(query)}"
+        headers["Link"] = f'<{following}>; rel="next"'
+    states = [
+        document if fields == FIELDS else {name: document[name] for name in fields}  # type: ignore[literal-required]
+        for document in documents
+    ]
+    answer = {"library": library.id, "unit": shown.value, "states": states, "next": following}
+    return json_response(request, answer, headers)
+
+
+@router.get(
+    "/{roll}/{pitch}/{phase}", summary="The state of one pose", response_model=StateSchema, responses=NOT_MODIFIED
+)
+def get_state(
+    request: Request,
+    connection: ReadConnection,
+    library: IdentifiedLibrary,
+    roll: RollPath,
+    pitch: PitchPath,
+    phase: PhasePath,
+    unit: UnitQuery = None,
+) -> Response:
+    """The state of a pose of the library's grid; `POST /v1/solve` has those between.
+
+    The header `Length-Unit` says the unit of its lengths, `Content-Location` its address in this very library.
+    """
+    shown = unit or library.length_unit
+    state = state_of_pose(connection, library.id, roll, pitch, phase)
+    headers = {
+        UNIT_HEADER: shown.value,
+        "Content-Location": f"/v1/libraries/{library.id}/states/{roll:g}/{pitch:g}/{phase:g}",
+    }
+    return json_response(request, state_document(state, conversion_factor(library.length_unit, shown)), headers)
