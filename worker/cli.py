@@ -60,7 +60,9 @@ def run_command_line(arguments: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return ExitCode.FAILURE
     except Exception as error:  # a traceback helps no user
-        return _complain(f"{type(error).__name__}: {error}", ExitCode.FAILURE)
+        # A database's error comes with its SQL and rows; what the database itself said is its ``orig``.
+        reason = getattr(error, "orig", None) or error
+        return _complain(f"{type(reason).__name__}: {reason}", ExitCode.FAILURE)
 
 
 def _complain(message: str, code: int) -> int:

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from threadstate.errors import InvalidValueError
+from threadstate.library.grid import TILT_LIMIT_DEG
 
 HEADER = ["roll", "pitch", "phase"]
 
@@ -18,8 +19,8 @@ def read_poses(path: Path) -> PosesDeg:
     """(roll, pitch, phase) in degrees of every line, in the file's order; blank lines are passed over.
 
     Raises:
-        InvalidValueError: the file cannot be read, its header is another one, or a line has something that is not a
-            finite number; the line is named.
+        InvalidValueError: the file cannot be read, its header is another one, or a line has something that is not
+            three numbers, a tilt beyond 10 deg or an infinite phase; the line is named. Nothing is solved then.
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
@@ -39,19 +40,19 @@ def _poses(lines: Iterable[str]) -> PosesDeg:
             continue
         if len(fields) != len(HEADER):
             raise InvalidValueError(f"line {reader.line_num} of the poses", ",".join(fields), "three numbers")
-        roll, pitch, phase = (
-            _number(text, f"{name} in line {reader.line_num} of the poses")
-            for name, text in zip(HEADER, fields, strict=True)
-        )
-        poses.append((roll, pitch, phase))
+        where = f"in line {reader.line_num} of the poses"
+        roll = _angle(fields[0], f"roll {where}", TILT_LIMIT_DEG)
+        pitch = _angle(fields[1], f"pitch {where}", TILT_LIMIT_DEG)
+        poses.append((roll, pitch, _angle(fields[2], f"phase {where}", math.inf)))
     return poses
 
 
-def _number(text: str, name: str) -> float:
+def _angle(text: str, name: str, limit_deg: float) -> float:
     try:
         number = float(text)
     except ValueError:
         number = math.nan
-    if not math.isfinite(number):
-        raise InvalidValueError(name, text, "a finite number of degrees")
+    if not (math.isfinite(number) and abs(number) <= limit_deg):
+        valid = "any finite number of degrees" if math.isinf(limit_deg) else f"{-limit_deg:g} to {limit_deg:g} deg"
+        raise InvalidValueError(name, text, valid)
     return number

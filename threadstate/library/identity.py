@@ -74,16 +74,20 @@ def _plain(value: object, name: str) -> object:
 
 @cache
 def code_version() -> str:
-    """The project's version and the first 12 digits of the SHA-256 of the physics' sources.
+    """The project's version and the first 12 digits of :func:`physics_sha256` of the code that runs.
 
     Any change of the physics makes new libraries beside the old ones without anyone having to remember a number.
     """
-    root = Path(threadstate.__file__).parent
+    return f"{threadstate.__version__}+{physics_sha256(Path(threadstate.__file__).parent)[:12]}"
+
+
+def physics_sha256(package: Path) -> str:
+    """SHA-256, in hexadecimal, of the names and sources of the physics in a folder that holds this package."""
     digest = hashlib.sha256()
-    for path in sorted(path for pattern in PHYSICS for path in root.glob(pattern)):
-        name = path.relative_to(root).as_posix()
+    for path in sorted(path for pattern in PHYSICS for path in package.glob(pattern)):
+        name = path.relative_to(package).as_posix()
         if name not in NOT_PHYSICS:
             source = path.read_bytes()
             digest.update(f"{name} {len(source)}\n".encode())
             digest.update(source)
-    return f"{threadstate.__version__}+{digest.hexdigest()[:12]}"
+    return digest.hexdigest()
