@@ -20,11 +20,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from tests.oracle.compiled import compiled
 from tests.oracle.pose import pose_rotation
-from tests.oracle.profile import P, R_SMALL, bolt_profile, nut_profile, radius, ridge_half_width
+from tests.oracle.profile import R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -56,7 +56,7 @@ class FirstHeight:
     by_feature: tuple[float, float, float, float]
 
 
-@njit(cache=True)
+@compiled
 def nut_top(x: float, y: float, nut: Floats) -> float:
     """Top of the nut's column over (x, y), at most 0; very low where there is none."""
     r = math.sqrt(x * x + y * y)
@@ -72,7 +72,7 @@ def nut_top(x: float, y: float, nut: Floats) -> float:
     return centre - half - s
 
 
-@njit(cache=True)
+@compiled
 def bolt_drop(x: float, y: float, z: float, rot: Floats, bolt: Floats) -> float:
     """The greatest height of the bolt's origin (over x = y = 0) at which the bolt holds the point; very low if none."""
     p = bolt[P]
@@ -90,7 +90,7 @@ def bolt_drop(x: float, y: float, z: float, rot: Floats, bolt: Floats) -> float:
             low, high = h, h + step
             while high - low > 1e-14:
                 middle = 0.5 * (low + high)
-                if middle == low or middle == high:
+                if middle <= low or middle >= high:
                     break
                 if _height_gap(x, y, z - middle, rot, bolt) >= 0.0:
                     low = middle
@@ -100,7 +100,7 @@ def bolt_drop(x: float, y: float, z: float, rot: Floats, bolt: Floats) -> float:
     return _NONE
 
 
-@njit(cache=True)
+@compiled
 def _height_gap(x: float, y: float, z: float, rot: Floats, bolt: Floats) -> float:
     bx = rot[0, 0] * x + rot[1, 0] * y + rot[2, 0] * z
     by = rot[0, 1] * x + rot[1, 1] * y + rot[2, 1] * z
@@ -108,11 +108,11 @@ def _height_gap(x: float, y: float, z: float, rot: Floats, bolt: Floats) -> floa
     return radius(bz - bolt[P] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
 
 
-@njit(cache=True)
+@compiled
 def _height(feature: int, u: float, v: float, rot: Floats, bolt: Floats, nut: Floats) -> float:
     """Height at which the sample (azimuth ``u``, axial position ``v``) of a feature touches."""
     p = bolt[P]
-    if feature == BOLT_EDGE or feature == BOLT_THREAD:
+    if feature in (BOLT_EDGE, BOLT_THREAD):
         v = min(max(v, 0.0), p)
         r = radius(v - p * u / _TWO_PI, bolt)
         bx, by = r * math.cos(u), r * math.sin(u)
@@ -130,7 +130,7 @@ def _height(feature: int, u: float, v: float, rot: Floats, bolt: Floats, nut: Fl
     return h if _height_gap(x, y, v - h, rot, bolt) >= 0.0 else _NONE
 
 
-@njit(cache=True)
+@compiled
 def _zoom_curve(feature: int, u: float, width: float, rot: Floats, bolt: Floats, nut: Floats) -> tuple[float, float]:
     best = _height(feature, u, 0.0, rot, bolt, nut)
     while width > 1e-14:
@@ -144,7 +144,7 @@ def _zoom_curve(feature: int, u: float, width: float, rot: Floats, bolt: Floats,
     return best, u
 
 
-@njit(cache=True)
+@compiled
 def _zoom_surface(
     feature: int, u: float, v: float, du: float, dv: float, rot: Floats, bolt: Floats, nut: Floats
 ) -> tuple[float, float, float]:
@@ -163,7 +163,7 @@ def _zoom_surface(
     return best, u, v
 
 
-@njit(cache=True)
+@compiled
 def _best_on_curve(feature: int, rot: Floats, bolt: Floats, nut: Floats, slack: float) -> tuple[float, float]:
     n = EDGE_SAMPLES
     h = np.empty(n)
@@ -179,7 +179,7 @@ def _best_on_curve(feature: int, rot: Floats, bolt: Floats, nut: Floats, slack: 
     return best, best_u
 
 
-@njit(cache=True)
+@compiled
 def _best_on_surface(feature: int, floor: float, rot: Floats, bolt: Floats, nut: Floats) -> tuple[float, float, float]:
     p = bolt[P]
     sign = 1.0 if feature == BOLT_THREAD else -1.0
@@ -207,7 +207,7 @@ def _best_on_surface(feature: int, floor: float, rot: Floats, bolt: Floats, nut:
     return best, best_u, best_v
 
 
-@njit(cache=True)
+@compiled
 def _search(rot: Floats, bolt: Floats, nut: Floats, slack: float) -> tuple[Floats, Floats, Floats]:
     """Best height, azimuth and axial position for each of the four features."""
     h, u, v = np.empty(4), np.zeros(4), np.zeros(4)
@@ -242,7 +242,7 @@ def first_height(pair: Pair, roll: float, pitch: float, phase: float) -> FirstHe
 
 
 def features_at(pair: Pair, rot: Floats, h: float, point: tuple[float, float, float]) -> str:
-    """Which features meet at a contact: the bolt's first, each by what the point lies on to 1e-8 of the nominal size."""
+    """Which features meet at a contact, the bolt's first: each by what the point lies on to 1e-8 in on 1/4-20."""
     near = 1e-8 * pair.nominal_diameter / 0.25
     bolt, nut, p = bolt_profile(pair), nut_profile(pair), pair.thread_pitch
     x, y, z = point

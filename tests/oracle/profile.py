@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from tests.oracle.compiled import compiled
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -70,7 +70,7 @@ def nut_profile(pair: Pair) -> Floats:
     )
 
 
-@njit(cache=True)
+@compiled
 def radius(s: float, profile: Floats) -> float:
     """``f(s)``."""
     p = profile[P]
@@ -91,7 +91,7 @@ def radius(s: float, profile: Floats) -> float:
     return profile[R_SMALL]
 
 
-@njit(cache=True)
+@compiled
 def ridge_half_width(r: float, profile: Floats) -> float:
     """The least ``q`` with ``f <= r``, for a radius that is at least the smallest."""
     if r >= profile[R_LARGE]:
@@ -108,8 +108,8 @@ def ridge_half_width(r: float, profile: Floats) -> float:
     return q
 
 
-@njit(cache=True)
+@compiled
 def thread_gap(x: float, y: float, z: float, profile: Floats) -> float:
-    """``f(s) - r`` at a point of the thread's own frame: positive inside the bolt's thread, negative inside the nut's."""
+    """``f(s) - r`` at a point of the thread's frame: positive inside a bolt's thread, negative inside a nut's."""
     s = z - profile[P] * math.atan2(y, x) / (2.0 * math.pi)
     return radius(s, profile) - math.sqrt(x * x + y * y)
