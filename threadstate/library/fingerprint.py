@@ -46,7 +46,7 @@ def state_bytes(state: ContactState) -> bytes:
         numbers.append(contact.nut_margin)
         names += (str(contact.stage), contact.bolt_region, contact.nut_region, contact.features)
     present = [length for length in lengths if length is not None]
-    if not math.isfinite(math.fsum(map(abs, numbers)) + math.fsum(map(abs, present))):
+    if not (all(map(math.isfinite, numbers)) and all(map(math.isfinite, present))):
         raise InvalidValueError("state", state, "finite numbers only")
     values = [_ABSENT if length is None else length + 0.0 for length in lengths]
     values += [number + 0.0 for number in numbers]
