@@ -46,6 +46,8 @@ def run_command_line(arguments: list[str]) -> int:
     try:
         code = app(arguments or ["--help"], prog_name=PROGRAM, standalone_mode=False)
         sys.stdout.flush()
+        if code == ExitCode.INTERRUPTED:
+            return _complain("interrupted", ExitCode.INTERRUPTED)
         return code if isinstance(code, int) else ExitCode.OK
     except TyperException as error:
         context = getattr(error, "ctx", None)
@@ -53,8 +55,6 @@ def run_command_line(arguments: list[str]) -> int:
         return _complain(f"{error.format_message()} (try `{where} --help`)", error.exit_code)
     except ThreadstateError as error:
         return _complain(str(error), exit_code_of(error))
-    except KeyboardInterrupt:
-        return _complain("interrupted", ExitCode.INTERRUPTED)
     except BrokenPipeError:
         # The reader of our output has had enough; at exit Python would flush into the same broken pipe.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

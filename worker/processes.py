@@ -86,6 +86,11 @@ class ComputingProcesses:
                 if isinstance(message, ChunkRows):
                     yield message
 
+    @property
+    def process_ids(self) -> tuple[int, ...]:
+        """The system's numbers of the processes."""
+        return tuple(computer.process.pid for computer in self._computers if computer.process.pid is not None)
+
     def close(self) -> None:
         """End the processes; what they are computing is lost."""
         for computer in self._computers:

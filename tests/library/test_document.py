@@ -4,7 +4,6 @@ import json
 import math
 from dataclasses import replace
 
-import pytest
 from hypothesis import given
 
 from tests.library.states import plain_state, states_at
@@ -51,8 +50,18 @@ def test_minus_zero_is_written_as_zero() -> None:
     assert math.copysign(1.0, document["drop"]) == 1.0
 
 
-@pytest.mark.parametrize("name", ["lambda_deg", "mu_deg", "drop", "embedment", "pivot_offset"])
-def test_what_is_absent_is_null(name: str) -> None:
-    document = json.loads(state_json(replace(plain_state(), **{name: None})))
-    place = {"lambda_deg": document["turns"][0], "mu_deg": document["turns"][1]}
-    assert place.get(name, document.get(name)) is None
+def test_what_is_absent_is_null() -> None:
+    state = replace(
+        plain_state(),
+        lambda_deg=None,
+        drop=None,
+        embedment=None,
+        pivot_offset=None,
+        drop_margin=None,
+        embedment_margin=None,
+        pivot_margin=None,
+    )
+    document = state_document(state, 25.4)
+    assert document["turns"] == [None, None]
+    assert document["drop"] is document["embedment"] is document["pivot_offset"] is None
+    assert document["margins"] == {"drop": None, "embedment": None, "pivot_offset": None}

@@ -1,0 +1,75 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+from threadstate.settings import DATABASE
+from worker.cli import run_command_line
+
+COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
+"""The command line as its console script starts it."""
+
+SMALL_GRID = ["--tilt-max", "2", "--tilt-step", "1", "--phase-step", "15"]
+"""25 orientations of 24 phases."""
+
+
+class CommandLine:
+    """Runs commands on a database of the test's own, in this process or in one of their own."""
+
+    def __init__(self, database: str, environment: Mapping[str, str], capsys: pytest.CaptureFixture[str]) -> None:
+        self.database = database
+        self._environment = {**environment, DATABASE: database}
+        self._capsys = capsys
+
+    def here(self, *arguments: str) -> tuple[int, str, str]:
+        """Exit code, stdout and stderr of a command run in this process."""
+        self._capsys.readouterr()
+        code = run_command_line(list(arguments))
+        out, err = self._capsys.readouterr()
+        return code, out, err
+
+    def start(self, *arguments: str) -> subprocess.Popen[str]:
+        """A command in a process, and a process group, of its own."""
+        return subprocess.Popen(
+            [*COMMAND, *arguments],
+            env=self._environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+
+    def out(self, *arguments: str) -> str:
+        """What a command that succeeds, in a process of its own, prints."""
+        with self.start(*arguments) as process:
+            out, err = process.communicate(timeout=300)
+        assert process.returncode == 0, err
+        return out
+
+
+@pytest.fixture
+def environment() -> Mapping[str, str]:
+    """The environment of commands; this source tree goes before anything installed."""
+    import os
+
+    return {**os.environ, "PYTHONPATH": str(Path(__file__).parent.parent.parent)}
+
+
+@pytest.fixture
+def command_line_on(
+    environment: Mapping[str, str], capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> Callable[[str], CommandLine]:
+    """Makes command lines on databases by name."""
+    return lambda name: CommandLine(f"sqlite:///{tmp_path / name}.sqlite3", environment, capsys)
+
+
+@pytest.fixture
+def command_line(command_line_on: Callable[[str], CommandLine], monkeypatch: pytest.MonkeyPatch) -> CommandLine:
+    """A command line on a database that does not exist yet."""
+    command_line = command_line_on("threads")
+    monkeypatch.setenv(DATABASE, command_line.database)
+    return command_line

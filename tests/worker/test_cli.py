@@ -1,0 +1,201 @@
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import pytest
+from typer.core import TyperGroup
+from typer.main import get_command
+
+from tests.worker.conftest import COMMAND, SMALL_GRID, CommandLine
+from threadstate.state.document import state_json
+from threadstate.state.solve import solve_pose
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
+from worker.cli import PROGRAM, app
+from worker.exit_codes import ExitCode
+
+POSE = ["--roll", "4", "--pitch", "0", "--phase", "185"]
+
+
+def _commands() -> TyperGroup:
+    command = get_command(app)
+    assert isinstance(command, TyperGroup)
+    return command
+
+
+COMMANDS = sorted(_commands().commands)
+
+
+def _options(name: str) -> Iterator[str]:
+    for parameter in _commands().commands[name].params:
+        yield from parameter.opts
+
+
+def _sections(text: str) -> dict[str, str]:
+    parts = re.split(r"^### `threadstate ([a-z]+)`$", text, flags=re.M)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_and_option_is_documented(repository_root: Path, name: str) -> None:
+    section = _sections((repository_root / "docs" / "cli.md").read_text())[name].split("## Exit codes")[0]
+    documented = set(re.findall(r"`(--[a-z-]+)(?: [A-Z]+)?`", section))
+    assert documented - {"--json"} == set(_options(name)) - {"--json"}
+    assert ("--json" in documented) == ("--json" in set(_options(name))) or name == "run"
+
+
+def test_no_command_is_documented_that_is_not_there(repository_root: Path) -> None:
+    assert sorted(_sections((repository_root / "docs" / "cli.md").read_text())) == COMMANDS
+
+
+def test_every_exit_code_is_documented(repository_root: Path) -> None:
+    text = (repository_root / "docs" / "cli.md").read_text()
+    documented = {(int(code), name) for code, name in re.findall(r"^\| (\d+) \| `([A-Z_]+)` \|", text, re.M)}
+    assert documented == {(code.value, code.name) for code in ExitCode}
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_has_examples_that_fit_the_command(command_line: CommandLine, name: str) -> None:
+    code, out, _ = command_line.here(name, "--help")
+    examples = re.findall(rf"^ +{PROGRAM} (.*)$", out.split("Examples:")[1].split("Options:")[0], re.M)
+    assert code == 0
+    assert examples
+    for example in examples:
+        command, *arguments = example.split()
+        assert command == name
+        assert {argument for argument in arguments if argument.startswith("--")} <= set(_options(name))
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])
+def test_help_lists_the_commands(command_line: CommandLine, arguments: list[str]) -> None:
+    code, out, _ = command_line.here(*arguments)
+    assert code == 0
+    assert all(re.search(rf"^  {name} ", out, re.M) for name in COMMANDS)
+
+
+def test_help_loads_nothing_heavy(environment: Mapping[str, str]) -> None:
+    script = (
+        "import sys; from worker.cli import run_command_line; run_command_line(['rebuild', '--help'])\n"
+        "print([name for name in ('numba', 'numpy', 'sqlalchemy', 'alembic', 'service') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_pose_is_one_object(command_line: CommandLine) -> None:
+    code, out, err = command_line.here("solve", *POSE, "--json")
+    assert (code, err) == (0, "")
+    assert out == state_json(solve_pose(quarter_twenty_unc(), 4.0, 0.0, 185.0)) + "\n"
+    assert list(json.loads(out))[:4] == ["roll", "pitch", "phase", "class"]
+
+
+def test_poses_of_a_file_are_one_object_a_line_in_its_order(command_line: CommandLine, tmp_path: Path) -> None:
+    path = tmp_path / "poses.csv"
+    poses = [(1.0, -2.0, 10.0 * step) for step in range(20, 0, -1)]
+    path.write_text("roll,pitch,phase\n" + "".join(f"{roll},{pitch},{phase}\n" for roll, pitch, phase in poses))
+    code, out, _ = command_line.here("solve", "--poses", str(path), "--json")
+    assert code == 0
+    assert out.splitlines() == [state_json(solve_pose(quarter_twenty_unc(), *pose)) for pose in poses]
+
+
+def test_a_named_pair_is_solved(command_line: CommandLine) -> None:
+    name = "1/4-20 UNC newer root"
+    _, out, _ = command_line.here("solve", *POSE, "--pair", name, "--json")
+    assert out == state_json(solve_pose(pair_by_designation(name), 4.0, 0.0, 185.0)) + "\n"
+
+
+def test_without_json_a_pose_is_a_table(command_line: CommandLine) -> None:
+    code, out, _ = command_line.here("solve", *POSE)
+    state = solve_pose(quarter_twenty_unc(), 4.0, 0.0, 185.0)
+    assert code == 0
+    assert state.state_class.value in out
+    assert f"{state.contacts[0].point[0]:.9f}" in out
+    assert len(out.splitlines()) == 3 + len(state.contacts)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["no-such-command"], "No such command 'no-such-command'"),
+        (["solve", "--no-such-option"], "No such option"),
+        (["solve", "--roll", "4"], "--pitch"),
+        (["solve", "--roll", "x", "--pitch", "0", "--phase", "0"], "--roll"),
+        (["solve", "--roll", "11", "--pitch", "0", "--phase", "0"], "roll is 11.0; valid: -10"),
+        (["solve", "--roll", "0", "--pitch", "nan", "--phase", "0"], "pitch is nan"),
+        (["solve", "--roll", "0", "--pitch", "0", "--phase", "inf"], "phase is inf"),
+        (["solve", *POSE, "--pair", "M6"], "designation is 'M6'; valid: 1/4-20 UNC"),
+        (["solve", *POSE, "--poses", "poses.csv"], "not both"),
+        (["solve", "--poses", "no-such-file.csv"], "no-such-file.csv"),
+        (["rebuild", "--phase-step", "7"], "phase_step is 7.0; valid: a step that divides 360 deg evenly"),
+        (["rebuild", "--tilt-max", "11"], "tilt_max is 11.0; valid: 0 to 10 deg"),
+        (["rebuild", "--workers", "0"], "--workers"),
+        (["rebuild", "--database", "threads.sqlite3"], "database is 'threads.sqlite3'"),
+        (["serve", "--port", "70000"], "--port"),
+    ],
+)
+def test_a_bad_value_ends_with_2_and_one_line(command_line: CommandLine, arguments: list[str], message: str) -> None:
+    code, out, err = command_line.here(*arguments)
+    assert (code, out) == (ExitCode.USAGE, "")
+    assert message in err
+    assert err.startswith(f"{PROGRAM}: ")
+    assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("name", ["summary", "serve"])
+def test_a_database_that_is_not_migrated_ends_with_3(command_line: CommandLine, name: str) -> None:
+    code, out, err = command_line.here(name)
+    assert (code, out) == (ExitCode.SCHEMA, "")
+    assert "run `threadstate migrate`" in err
+    assert len(err.splitlines()) == 1
+
+
+def test_nothing_published_ends_with_4(command_line: CommandLine) -> None:
+    assert command_line.here("migrate")[0] == 0
+    code, out, err = command_line.here("summary")
+    assert (code, out) == (ExitCode.NOT_FOUND, "")
+    assert "run `threadstate rebuild`" in err
+
+
+def test_migrate_says_what_it_did(command_line: CommandLine) -> None:
+    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": None, "after": "0001"}
+    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": "0001", "after": "0001"}
+    assert "already" in command_line.here("migrate")[1]
+
+
+def test_a_folder_that_cannot_be_made_is_a_bad_value(command_line: CommandLine, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    code, _, err = command_line.here("migrate", "--database", f"sqlite:///{tmp_path / 'file' / 'x.sqlite3'}")
+    assert code == ExitCode.USAGE
+    assert len(err.splitlines()) == 1
+
+
+def test_the_summary_counts_every_state_once(command_line: CommandLine) -> None:
+    command_line.out("rebuild", *SMALL_GRID)
+    summary = json.loads(command_line.here("summary", "--json")[1])
+    assert summary["states"] == 600
+    assert sum(summary["classes"].values()) == 600
+    readable = command_line.here("summary")[1]
+    for name, count in (summary["classes"] | summary["flags"]).items():
+        assert re.search(rf"^{name} +{count}$", readable, re.M)
+
+
+def test_a_reader_that_has_enough_is_no_traceback(environment: Mapping[str, str], tmp_path: Path) -> None:
+    path = tmp_path / "poses.csv"
+    path.write_text("roll,pitch,phase\n" + "1,2,3\n" * 200)
+    with subprocess.Popen(
+        [*COMMAND, "solve", "--poses", str(path), "--json"],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.readline()
+        process.stdout.close()
+        assert process.wait(timeout=300) == ExitCode.FAILURE
+        assert process.stderr.read() == ""
