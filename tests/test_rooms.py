@@ -1,0 +1,76 @@
+"""The rules of the architecture: which part of the project may import which."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOMS = ("threadstate", "worker", "service", "migrations")
+
+FORBIDDEN = [
+    # Four rooms, one direction.
+    ("threadstate", ("worker", "service", "migrations", "fastapi", "starlette", "uvicorn", "typer", "multiprocessing")),
+    ("worker", ("service", "fastapi", "starlette")),
+    ("service", ("worker", "migrations", "alembic", "typer")),
+    ("migrations", ("worker", "service", "threadstate.thread", "threadstate.contact", "threadstate.state")),
+    # The physics knows no database, and data flows thread -> contact -> state -> library.
+    ("threadstate/thread", ("sqlalchemy", "threadstate.contact", "threadstate.state", "threadstate.library")),
+    ("threadstate/contact", ("sqlalchemy", "threadstate.state", "threadstate.library")),
+    ("threadstate/state", ("sqlalchemy", "threadstate.library")),
+    # The tables know no physics: names alone (classes, flags, regions) come from there.
+    (
+        "threadstate/library/tables.py",
+        ("numba", "numpy", "threadstate.contact", "threadstate.state.solve", "threadstate.thread.profile"),
+    ),
+]
+
+
+def _files(root: Path, part: str) -> list[Path]:
+    path = root / part
+    return [path] if path.is_file() else sorted(path.rglob("*.py"))
+
+
+def _imports(path: Path) -> Iterator[str]:
+    """Every module that a file imports, wherever in it, by its full name."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path} imports relatively"
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+@pytest.mark.parametrize(("part", "forbidden"), FORBIDDEN, ids=[part for part, _ in FORBIDDEN])
+def test_a_part_imports_nothing_that_it_may_not(repository_root: Path, part: str, forbidden: tuple[str, ...]) -> None:
+    files = _files(repository_root, part)
+    assert files
+    broken = [
+        f"{path.relative_to(repository_root)} imports {module}"
+        for path in files
+        for module in _imports(path)
+        if any(f"{module}.".startswith(f"{name}.") for name in forbidden)
+    ]
+    assert broken == []
+
+
+def test_no_room_imports_a_mesh_library(repository_root: Path) -> None:
+    importing = [
+        path
+        for room in ROOMS
+        for path in _files(repository_root, room)
+        if any(module.split(".")[0] in ("fcl", "trimesh") for module in _imports(path))
+    ]
+    assert importing == []
+
+
+def test_one_file_alone_imports_fcl(repository_root: Path) -> None:
+    importing = [
+        path
+        for part in (*ROOMS, "benchmarks", "tests")
+        for path in _files(repository_root, part)
+        if any(module.split(".")[0] == "fcl" for module in _imports(path))
+    ]
+    assert len(importing) <= 1
