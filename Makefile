@@ -16,9 +16,7 @@ SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 setup: $(VENV)/.kernels
 
 run: setup
-	$(BIN)/threadstate migrate
-	$(BIN)/threadstate rebuild
-	$(BIN)/threadstate serve
+	$(BIN)/threadstate run
 
 test: setup
 	$(BIN)/ruff format --check .

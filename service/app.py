@@ -14,7 +14,7 @@ import service.libraries.endpoints
 import service.solve.endpoints
 import service.states.endpoints
 import threadstate
-from service.middleware import EncodedSlashes, HeadAsGet, SecurityHeaders
+from service.middleware import BodyLimit, EncodedSlashes, HeadAsGet, SecurityHeaders
 from service.parameters import refuse_unknown_parameters
 from service.problems import MEDIA_TYPE, Problem, install_problem_handlers
 from threadstate.library.engine import reader_engine
@@ -52,7 +52,6 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         openapi_url=None,
         redirect_slashes=False,
         lifespan=lifespan,
-        max_body_size=LARGEST_BODY_BYTES,
         dependencies=[Depends(refuse_unknown_parameters)],
         responses={
             "default": {
@@ -73,6 +72,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         service.docs,
     ):
         app.include_router(part.endpoints.router)
+    app.add_middleware(BodyLimit, largest_bytes=LARGEST_BODY_BYTES)
     for middleware in (HeadAsGet, EncodedSlashes, SecurityHeaders):
         app.add_middleware(middleware)
     return app

@@ -69,10 +69,14 @@ def _segment(library_id: int, which: StateFilter, sort: Sort, after: Place | Non
     keys: list[ColumnElement[Any]]
     here: Any
     there: Any
-    if absent or column is ordinal:
+    if absent or (column is ordinal and which.roll_deg is None):
         keys, here, there = [ordinal], ordinal, after and after.ordinal
-    else:
+    elif column is not ordinal:
         keys, here, there = [column, ordinal], tuple_(column, ordinal), after and (after.value, after.ordinal)
+    else:
+        # The same order by the index that has the roll; "+ 0" keeps SQLite from seeking by the ordinal instead.
+        keys = [state.c.roll_deg, state.c.pitch_deg, state.c.phase_deg]
+        here, there = ordinal + 0, after and after.ordinal
     if after is not None:
         conditions.append(here < there if sort.descending else here > there)
     order = [key.desc() if sort.descending else key.asc() for key in keys]

@@ -1,0 +1,112 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from service.app import LARGEST_BODY_BYTES, create_app
+from service.problems import KINDS, Problem
+from tests.service.conftest import StoredLibrary, client_of
+from threadstate.settings import read_settings
+
+STATES = "/v1/libraries/latest/states"
+
+
+def problem(response: Any, status: int) -> Problem:
+    """The problem that a response holds, its shape checked."""
+    assert response.status_code == status, response.text
+    assert response.headers["Content-Type"] == "application/problem+json"
+    assert response.headers["Cache-Control"] == "no-store"
+    document = Problem.model_validate(response.json())
+    assert document.status == status
+    return document
+
+
+@pytest.mark.parametrize(
+    "path", ["/v1/libraries", "/v1/libraries/1", STATES, f"{STATES}/0/0/0", "/healthz", "/readyz", "/docs", "/"]
+)
+def test_unknown_parameter_is_named_and_the_valid_ones_listed(client: TestClient, path: str) -> None:
+    found = problem(client.get(path, params={"colour": "red"}), 400)
+    assert found.type == "urn:threadstate:problem:unknown-parameter"
+    (error,) = found.errors
+    assert error.location == "query colour"
+    assert error.value == "red"
+    assert ("unit" in error.valid) == path.startswith("/v1")
+
+
+def test_valid_parameters_of_the_states_are_all_listed(client: TestClient) -> None:
+    (error,) = problem(client.get(STATES, params={"Roll": "1"}), 400).errors
+    assert set(error.valid.split(", ")) == {
+        *("roll", "pitch", "phase", "phase_min", "phase_max", "class", "bolt_region", "nut_region", "flag"),
+        *("fields", "sort", "limit", "cursor", "unit"),
+    }
+
+
+def test_parameter_given_twice_is_refused(client: TestClient) -> None:
+    (error,) = problem(client.get(f"{STATES}?roll=1&roll=0"), 400).errors
+    assert error.location == "query roll"
+
+
+def test_unknown_parameter_of_post_is_refused(client: TestClient) -> None:
+    body = {"poses": [{"roll": 0, "pitch": 0, "phase": 0}]}
+    problem(client.post("/v1/solve", params={"limit": "1"}, json=body), 400)
+
+
+def test_unknown_path_and_method(client: TestClient) -> None:
+    assert problem(client.get("/nowhere"), 404).type == "about:blank"
+    response = client.delete("/v1/libraries")
+    assert problem(response, 405).title == "Method Not Allowed"
+    assert "GET" in response.headers["Allow"]
+
+
+def test_path_out_of_range_is_refused(client: TestClient) -> None:
+    for pose in ("11/0/0", "0/nan/0", "0/0/360", "0/0/-1", "a/0/0", f"{'9' * 500}/0/0", "0/0/1e999", "%00/0/0"):
+        assert problem(client.get(f"{STATES}/{pose}"), 400).errors
+
+
+def test_echo_of_a_long_value_is_short(client: TestClient) -> None:
+    assert len(client.get(STATES, params={"x" * 10_000: "y" * 10_000}).content) < 2000
+
+
+def test_without_a_database_the_process_lives_and_is_not_ready(missing_database: str) -> None:
+    with client_of(missing_database) as client:
+        assert client.get("/healthz").json() == {"status": "ok"}
+        assert "threadstate migrate" in problem(client.get("/readyz"), 503).detail
+        for path in ("/v1/libraries", "/v1/libraries/latest", STATES):
+            assert "threadstate migrate" in problem(client.get(path), 503).detail
+
+
+def test_without_a_library_it_is_not_ready(empty_database: str) -> None:
+    with client_of(empty_database) as client:
+        assert "threadstate rebuild" in problem(client.get("/readyz"), 503).detail
+        assert "threadstate rebuild" in problem(client.get("/v1/libraries/latest"), 404).detail
+        assert client.get("/v1/libraries").json() == {"libraries": []}
+
+
+def test_with_a_library_it_is_ready(client: TestClient, made_up: StoredLibrary) -> None:
+    assert client.get("/readyz").json() == {"status": "ready", "schema_revision": "0001", "library": made_up.id}
+
+
+def test_failure_of_the_server_tells_nothing_of_itself(made_up: StoredLibrary) -> None:
+    app = create_app(read_settings({"THREADSTATE_DATABASE": made_up.database}))
+
+    @app.get("/failing")
+    def failing() -> None:
+        raise RuntimeError("a secret")
+
+    with TestClient(app, raise_server_exceptions=False) as client:
+        response = client.get("/failing")
+    assert problem(response, 500).type == "urn:threadstate:problem:internal"
+    assert "secret" not in response.text
+
+
+def test_body_too_large_is_refused(client: TestClient) -> None:
+    kilobytes = [b" " * 1024] * (LARGEST_BODY_BYTES // 1024 + 1)
+    headers = {"Content-Type": "application/json"}
+    problem(client.post("/v1/solve", content=b"".join(kilobytes), headers=headers), 413)
+    problem(client.post("/v1/solve", content=iter(kilobytes), headers=headers), 413)
+
+
+def test_kinds_have_names_of_their_own() -> None:
+    assert len({kind.name for kind in KINDS}) == len(KINDS)
