@@ -36,7 +36,7 @@ def upgrade() -> None:
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
         sa.Column("content_sha256", sa.String(length=64), nullable=True),
         sa.Column("published_at", sa.DateTime(timezone=True), nullable=True),
-        sa.CheckConstraint("length_unit IN ('in', 'mm')", name=op.f("ck_library_length_unit_known")),
+        sa.CheckConstraint("length_unit = 'in' OR length_unit = 'mm'", name=op.f("ck_library_length_unit_known")),
         sa.CheckConstraint(
             "(content_sha256 IS NULL) = (published_at IS NULL)", name=op.f("ck_library_published_with_content")
         ),
@@ -82,7 +82,8 @@ def upgrade() -> None:
         sa.Column("embedment_margin", sa.Double(), nullable=True),
         sa.Column("pivot_margin", sa.Double(), nullable=True),
         sa.CheckConstraint(
-            "state_class IN ('unstable_two_point', 'quasi_stable_two_point', 'stable_three_point')",
+            "state_class = 'unstable_two_point' OR state_class = 'quasi_stable_two_point' OR "
+            "state_class = 'stable_three_point'",
             name=op.f("ck_state_state_class_known"),
         ),
         sa.CheckConstraint("ordinal >= 0", name=op.f("ck_state_ordinal_not_negative")),
@@ -144,21 +145,22 @@ def upgrade() -> None:
         sa.Column("bolt_margin", sa.Double(), nullable=False),
         sa.Column("nut_margin", sa.Double(), nullable=False),
         sa.CheckConstraint(
-            "bolt_region IN ("
-            "'root', 'root_fillet_pos', 'flank_pos', 'crest_fillet_pos', 'crest', 'crest_fillet_neg', "
-            "'flank_neg', 'root_fillet_neg', 'base')",
+            "bolt_region = 'root' OR bolt_region = 'root_fillet_pos' OR bolt_region = 'flank_pos' OR "
+            "bolt_region = 'crest_fillet_pos' OR bolt_region = 'crest' OR "
+            "bolt_region = 'crest_fillet_neg' OR bolt_region = 'flank_neg' OR "
+            "bolt_region = 'root_fillet_neg' OR bolt_region = 'base'",
             name=op.f("ck_contact_bolt_region_known"),
         ),
         sa.CheckConstraint(
-            "features IN ("
-            "'edge-edge', 'edge-surface', 'base-edge', 'edge-thread', 'thread-edge', 'thread-thread', "
-            "'flush')",
+            "features = 'edge-edge' OR features = 'edge-surface' OR features = 'base-edge' OR "
+            "features = 'edge-thread' OR features = 'thread-edge' OR features = 'thread-thread' OR "
+            "features = 'flush'",
             name=op.f("ck_contact_features_known"),
         ),
         sa.CheckConstraint(
-            "nut_region IN ("
-            "'crest', 'crest_fillet_pos', 'flank_pos', 'root_fillet_pos', 'root', 'root_fillet_neg', "
-            "'flank_neg', 'crest_fillet_neg', 'surface')",
+            "nut_region = 'crest' OR nut_region = 'crest_fillet_pos' OR nut_region = 'flank_pos' OR "
+            "nut_region = 'root_fillet_pos' OR nut_region = 'root' OR nut_region = 'root_fillet_neg' OR "
+            "nut_region = 'flank_neg' OR nut_region = 'crest_fillet_neg' OR nut_region = 'surface'",
             name=op.f("ck_contact_nut_region_known"),
         ),
         sa.CheckConstraint("position >= 0", name=op.f("ck_contact_position_not_negative")),
@@ -218,7 +220,8 @@ def upgrade() -> None:
         sa.Column("position", sa.Integer(), nullable=False),
         sa.Column("flag", sa.String(length=32), nullable=False),
         sa.CheckConstraint(
-            "flag IN ('flush', 'tie', 'balanced', 'grazing', 'no_second', 'no_third')",
+            "flag = 'flush' OR flag = 'tie' OR flag = 'balanced' OR flag = 'grazing' OR "
+            "flag = 'no_second' OR flag = 'no_third'",
             name=op.f("ck_state_flag_flag_known"),
         ),
         sa.CheckConstraint("position >= 0", name=op.f("ck_state_flag_position_not_negative")),

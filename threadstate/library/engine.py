@@ -18,6 +18,7 @@ from threadstate.errors import InvalidValueError
 
 BUSY_TIMEOUT_S = 30.0
 WRITER_CACHE_KIB = 65536
+WRITER_CHECKPOINT_PAGES = 8192
 
 
 def database_url(database: str) -> URL:
@@ -63,6 +64,8 @@ def writer_engine(database: str) -> Engine:
         connection.execute("PRAGMA foreign_keys = ON")
         # Orientations fall in order into the tables and all over the indexes: those are to stay in memory.
         connection.execute(f"PRAGMA cache_size = -{WRITER_CACHE_KIB}")
+        # Committed pages are copied from the log into the file every 32 MiB; each time waits for the disk.
+        connection.execute(f"PRAGMA wal_autocheckpoint = {WRITER_CHECKPOINT_PAGES}")
 
     @event.listens_for(engine, "begin")
     def begin(connection: Connection) -> None:

@@ -47,8 +47,9 @@ _SHA256_LENGTH = 64
 
 
 def _one_of(column: str, names: Iterable[StrEnum]) -> CheckConstraint:
-    listed = ", ".join(f"'{name.value}'" for name in names)
-    return CheckConstraint(f"{column} IN ({listed})", name=f"{column}_known")
+    # Not IN (...): SQLite builds that list anew for every row, which made up a third of the time of writing a library.
+    either = " OR ".join(f"{column} = '{name.value}'" for name in names)
+    return CheckConstraint(either, name=f"{column}_known")
 
 
 library = Table(
