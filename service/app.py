@@ -14,18 +14,15 @@ import service.libraries.endpoints
 import service.solve.endpoints
 import service.states.endpoints
 import threadstate
+from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
 from service.middleware import BodyLimit, EncodedSlashes, HeadAsGet, SecurityHeaders
 from service.parameters import refuse_unknown_parameters
-from service.problems import MEDIA_TYPE, Problem, install_problem_handlers
+from service.problems import install_problem_handlers
 from threadstate.library.engine import reader_engine
 from threadstate.settings import Settings, read_settings
 
 LARGEST_BODY_BYTES = 256 * 1024
 """Room for 1,000 poses with all the digits that a double has."""
-
-DESCRIPTION = """Contact states of a bolt that meets a nut askew: the stored library of a thread, and the exact solver
-for any other pose. Angles are in degrees; lengths in the thread's own unit or in the one asked for by `unit`; points
-in the nut's frame. `pitch` is the pose angle; the thread's is `thread_pitch`."""
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
@@ -43,7 +40,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         yield
         engine.dispose()
 
-    app = FastAPI(
+    app = DescribedApplication(
         title="threadstate",
         version=threadstate.__version__,
         description=DESCRIPTION,
@@ -53,13 +50,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redirect_slashes=False,
         lifespan=lifespan,
         dependencies=[Depends(refuse_unknown_parameters)],
-        responses={
-            "default": {
-                "description": "A problem (RFC 9457)",
-                "model": Problem,
-                "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}},
-            }
-        },
+        responses=PROBLEM_RESPONSES,
     )
     app.state.engine = engine
     install_problem_handlers(app)

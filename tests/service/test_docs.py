@@ -1,0 +1,185 @@
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from jsonschema import Draft202012Validator
+from pydantic import BaseModel
+
+from service.docs.assets import ASSETS
+from service.histories.schemas import HistoryColumns, HistoryRows
+from service.libraries.schemas import LibraryDetail, LibraryList
+from service.problems import KINDS
+from service.solve.schemas import SolveAnswer
+from service.states.parameters import FIELDS
+from service.states.schemas import StatePage, StateSchema
+
+ELSEWHERE = re.compile(r"""(https?:)?//\w""")
+
+
+@pytest.fixture(scope="module")
+def openapi(client: TestClient) -> dict[str, Any]:
+    """The OpenAPI document."""
+    document: dict[str, Any] = client.get("/openapi.json").json()
+    return document
+
+
+def operations(openapi: dict[str, Any]) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Path, method and description of every operation."""
+    for path, methods in openapi["paths"].items():
+        for method, operation in methods.items():
+            yield path, method, operation
+
+
+def test_page_and_its_start_name_no_other_server(client: TestClient) -> None:
+    for path in ("/docs", "/docs/assets/start.js"):
+        assert not ELSEWHERE.search(client.get(path).text)
+
+
+def test_every_file_of_the_page_is_served_from_here(client: TestClient) -> None:
+    names = re.findall(r'(?:src|href)="([^"]+)"', client.get("/docs").text)
+    names.remove("data:,")
+    assert sorted(names) == sorted(f"/docs/assets/{name}" for name in ASSETS)
+    for name in names:
+        response = client.get(name)
+        assert response.status_code == 200
+        assert len(response.content) > 100
+        assert response.headers["Content-Type"] == ASSETS[Path(name).name].media_type
+
+
+def test_other_files_are_not_served(client: TestClient) -> None:
+    for name in ("assets.py", "..%2Fassets.py", "%2Fetc%2Fpasswd", "index.html"):
+        assert client.get(f"/docs/assets/{name}").status_code == 404
+
+
+def test_root_leads_to_the_page(client: TestClient) -> None:
+    assert client.get("/").url.path == "/docs"
+
+
+def test_third_party_files_are_in_a_built_wheel_with_their_licence(tmp_path: Path, repository_root: Path) -> None:
+    subprocess.run(
+        [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)],
+        cwd=repository_root,
+        check=True,
+        capture_output=True,
+    )
+    (wheel,) = tmp_path.glob("*.whl")
+    names = zipfile.ZipFile(wheel).namelist()
+    third_party = [asset.name for asset in ASSETS.values() if asset.third_party]
+    for name in (*third_party, "LICENSE", "NOTICE"):
+        assert f"service/docs/assets/{name}" in names
+    assert "service/docs/start.js" in names
+
+
+def test_no_third_party_javascript_is_committed(repository_root: Path) -> None:
+    tracked = subprocess.run(["git", "ls-files"], cwd=repository_root, check=True, capture_output=True, text=True)
+    third_party = {asset.name for asset in ASSETS.values() if asset.third_party}
+    assert not third_party & {Path(name).name for name in tracked.stdout.splitlines()}
+
+
+@pytest.mark.parametrize(
+    ("path", "schema"),
+    [
+        ("/v1/libraries", LibraryList),
+        ("/v1/libraries/latest", LibraryDetail),
+        ("/v1/libraries/latest/states?limit=1000", StatePage),
+        ("/v1/libraries/latest/states/1/0/30", StateSchema),
+        ("/v1/libraries/latest/histories/1/0", HistoryRows),
+        ("/v1/libraries/latest/histories/1/0?format=columns", HistoryColumns),
+    ],
+)
+def test_answers_have_the_documented_shape(client: TestClient, path: str, schema: type[BaseModel]) -> None:
+    document = client.get(path).json()
+    again = schema.model_validate(document).model_dump(mode="json", by_alias=True)
+    assert again == document
+
+
+def test_solved_states_have_the_documented_shape(client: TestClient) -> None:
+    document = client.post("/v1/solve", json={"poses": [{"roll": 1, "pitch": 2, "phase": 3}]}).json()
+    assert SolveAnswer.model_validate(document).model_dump(mode="json", by_alias=True) == document
+
+
+def test_schema_has_the_fields_of_the_document() -> None:
+    assert tuple(field.alias or name for name, field in StateSchema.model_fields.items()) == FIELDS
+
+
+def with_examples(node: object) -> Iterator[tuple[dict[str, Any], object]]:
+    """Every schema below ``node`` that has examples, with each of them; a parameter's own are its schema's."""
+    if isinstance(node, dict):
+        schema = node.get("schema", node)
+        examples = node.get("examples", [])
+        for example in examples.values() if isinstance(examples, dict) else examples:
+            yield schema, example["value"] if isinstance(examples, dict) else example
+        if "example" in node:
+            yield schema, node["example"]
+        for value in node.values():
+            yield from with_examples(value)
+    elif isinstance(node, list):
+        for value in node:
+            yield from with_examples(value)
+
+
+def test_every_example_is_valid(openapi: dict[str, Any]) -> None:
+    found = list(with_examples(openapi))
+    assert len(found) > 20
+    for schema, example in found:
+        Draft202012Validator({**schema, "components": openapi["components"]}).validate(example)
+
+
+def test_every_operation_documents_its_problems_and_no_other_errors(openapi: dict[str, Any]) -> None:
+    for path, method, operation in operations(openapi):
+        assert operation["summary"], (path, method)
+        assert "422" not in operation["responses"], (path, method)
+        assert list(operation["responses"]["default"]["content"]) == ["application/problem+json"], (path, method)
+
+
+def test_every_successful_answer_has_an_example_or_a_schema(openapi: dict[str, Any]) -> None:
+    for path, method, operation in operations(openapi):
+        for media_type, content in operation["responses"]["200"]["content"].items():
+            assert content["schema"], (path, method, media_type)
+
+
+def test_every_query_parameter_is_described_and_bounded(openapi: dict[str, Any]) -> None:
+    bounds = {"maximum", "exclusiveMaximum", "maxLength", "enum", "$ref"}
+    for path, _, operation in operations(openapi):
+        for parameter in operation.get("parameters", ()):
+            schema = parameter["schema"]
+            variants = [one for one in schema.get("anyOf", [schema]) if one.get("type") != "null"]
+            assert parameter["description"], (path, parameter["name"])
+            for variant in variants:
+                assert bounds & ({*variant, *schema}), (path, parameter["name"], variant)
+
+
+def test_every_operation_is_in_the_documentation(openapi: dict[str, Any], repository_root: Path) -> None:
+    text = (repository_root / "docs" / "api.md").read_text()
+    for path, method, operation in operations(openapi):
+        heading = f"`{method.upper()} {path}`"
+        assert heading in text, heading
+        section = text.partition(heading)[2].partition("\n## ")[0]
+        for parameter in operation.get("parameters", ()):
+            if parameter["in"] == "query":
+                assert f"`{parameter['name']}`" in section, (heading, parameter["name"])
+
+
+def test_every_path_and_problem_is_in_the_documentation(repository_root: Path) -> None:
+    text = (repository_root / "docs" / "api.md").read_text()
+    for path in ("/docs", "/openapi.json", "/healthz", "/readyz"):
+        assert f"`GET {path}`" in text
+    for kind in KINDS:
+        assert f"`{kind.name}` | {kind.status.value} |" in text
+
+
+def test_answers_in_the_documentation_are_real(solved_client: TestClient, repository_root: Path) -> None:
+    text = (repository_root / "docs" / "api.md").read_text()
+    shown = re.findall(r"```\ncurl '?127\.0\.0\.1:8000(/[^\s']+)'?\n```\n+```json\n(.*?)\n```", text, re.DOTALL)
+    assert shown
+    for path, answer in shown:
+        assert solved_client.get(path).json() == json.loads(answer)

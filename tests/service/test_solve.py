@@ -1,0 +1,90 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from service.solve.schemas import LARGEST_POSE_COUNT
+from tests.service.conftest import StoredLibrary
+from threadstate.state.document import state_document
+from threadstate.state.solve import solve_poses
+from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
+from threadstate.units import MILLIMETRES_PER_INCH
+
+POSES = ((2.5, -1.25, 77.7), (4.0, 0.0, 185.0), (-4.0, 0.0, 131.0), (0.0, 0.0, 0.0), (1.0, -2.0, -350.0))
+
+
+def body(*poses: tuple[float, float, float], **others: object) -> dict[str, Any]:
+    """The body that asks for these poses."""
+    return {"poses": [dict(zip(("roll", "pitch", "phase"), pose, strict=True)) for pose in poses], **others}
+
+
+def test_answer_is_the_exact_solvers(client: TestClient) -> None:
+    response = client.post("/v1/solve", json=body(*POSES))
+    assert response.status_code == 200, response.text
+    assert response.headers["Cache-Control"] == "no-store"
+    assert response.json() == {
+        "designation": "1/4-20 UNC",
+        "unit": "in",
+        "states": [state_document(state) for state in solve_poses(quarter_twenty_unc(), POSES)],
+    }
+
+
+def test_stored_states_are_what_solving_gives(solved_client: TestClient, solved: StoredLibrary) -> None:
+    poses = [(state.roll_deg, state.pitch_deg, state.phase_deg) for state in solved.states]
+    on_demand = solved_client.post("/v1/solve", json=body(*poses)).json()["states"]
+    stored = solved_client.get("/v1/libraries/latest/states", params={"limit": 1000}).json()["states"]
+    assert stored == on_demand
+
+
+def test_lengths_are_in_the_unit_asked_for(client: TestClient) -> None:
+    response = client.post("/v1/solve", params={"unit": "mm"}, json=body(POSES[1]))
+    expected = state_document(solve_poses(quarter_twenty_unc(), POSES[1:2])[0], MILLIMETRES_PER_INCH)
+    assert response.json() == {"designation": "1/4-20 UNC", "unit": "mm", "states": [expected]}
+    assert response.headers["Length-Unit"] == "mm"
+
+
+def test_thread_is_chosen_by_its_designation(client: TestClient) -> None:
+    pair = quarter_twenty_unc(RootForm.NEWER)
+    response = client.post("/v1/solve", json=body(POSES[0], designation=pair.designation))
+    assert response.json()["designation"] == pair.designation
+    assert response.json()["states"] == [state_document(state) for state in solve_poses(pair, POSES[:1])]
+
+
+def test_unknown_thread_is_told_the_known_ones(client: TestClient) -> None:
+    response = client.post("/v1/solve", json=body(POSES[0], designation="M6"))
+    assert response.status_code == 400
+    assert "1/4-20 UNC" in response.json()["detail"]
+
+
+def test_a_thousand_poses_are_solved_and_one_more_is_refused(client: TestClient) -> None:
+    poses = [(0.01 * i - 5.0, 5.0 - 0.007 * i, 0.36 * i) for i in range(LARGEST_POSE_COUNT + 1)]
+    answer = client.post("/v1/solve", json=body(*poses[:-1])).json()
+    assert [(one["roll"], one["pitch"], one["phase"]) for one in answer["states"]] == poses[:-1]
+    assert client.post("/v1/solve", json=body(*poses)).status_code == 400
+
+
+@pytest.mark.parametrize(
+    ("content", "named"),
+    [
+        ('{"poses":[]}', "poses"),
+        ("{}", "poses"),
+        ("[]", "body"),
+        ("", "body"),
+        ('{"poses":[{"roll":0,"pitch":0}]}', "phase"),
+        ('{"poses":[{"roll":0,"pitch":0,"phase":0,"yaw":0}]}', "yaw"),
+        ('{"poses":[{"roll":10.01,"pitch":0,"phase":0}]}', "roll"),
+        ('{"poses":[{"roll":0,"pitch":NaN,"phase":0}]}', "pitch"),
+        ('{"poses":[{"roll":0,"pitch":0,"phase":Infinity}]}', "phase"),
+        ('{"poses":[{"roll":0,"pitch":0,"phase":1e400}]}', "phase"),
+        ('{"poses":[{"roll":"0","pitch":0,"phase":0}]}', "roll"),
+        ('{"poses":[{"roll":true,"pitch":0,"phase":0}]}', "roll"),
+        ('{"poses":[{"roll":0,"pitch":0,"phase":0}],"unit":"mm"}', "unit"),
+        ('{"poses":[{"roll":0,"pitch":0,"phase":0}],"designation":""}', "designation"),
+    ],
+)
+def test_body_out_of_range_is_refused_by_name(client: TestClient, content: str, named: str) -> None:
+    response = client.post("/v1/solve", content=content, headers={"Content-Type": "application/json"})
+    assert response.status_code == 400
+    assert any(named in error["location"] for error in response.json()["errors"]), response.text
