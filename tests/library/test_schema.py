@@ -150,3 +150,8 @@ def test_a_password_in_a_refused_address_is_not_repeated() -> None:
     with pytest.raises(InvalidValueError) as caught:
         writer_engine("postgresql://user:secret@host/name")
     assert "secret" not in str(caught.value)
+
+
+def test_every_table_is_documented(repository_root: Path) -> None:
+    text = (repository_root / "docs" / "library.md").read_text()
+    assert {line.split("`")[1] for line in text.splitlines() if line.startswith("| `")} == set(metadata.tables)
