@@ -117,6 +117,15 @@ def test_without_json_a_pose_is_a_table(command_line: CommandLine) -> None:
     assert len(out.splitlines()) == 3 + len(state.contacts)
 
 
+@pytest.mark.parametrize("options", [[], ["--json"]])
+def test_a_file_without_poses_has_no_answers(command_line: CommandLine, tmp_path: Path, options: list[str]) -> None:
+    path = tmp_path / "poses.csv"
+    path.write_text("roll,pitch,phase\n")
+    code, out, err = command_line.here("solve", "--poses", str(path), *options)
+    assert (code, err) == (0, "")
+    assert "stable" not in out
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

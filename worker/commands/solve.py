@@ -49,7 +49,7 @@ def solve(
             for state in solve_poses(threads, wanted[start : start + BATCH]):
                 print_line(state_json(state))
         return
-    states = solve_poses(threads, wanted)
+    states = solve_poses(threads, wanted) if wanted else []
     print_states(states, threads.unit)
     if poses is None:
         print_contacts(states[0], threads.unit)
