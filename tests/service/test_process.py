@@ -1,0 +1,51 @@
+"""The service as a process of its own: what a server makes of an address, an in-process client does not show."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import httpx2
+import pytest
+
+from tests.service.conftest import StoredLibrary
+
+
+@pytest.fixture(scope="module")
+def address(made_up: StoredLibrary) -> Iterator[str]:
+    """The address of a running service over the made-up library."""
+    command = [sys.executable, "-m", "uvicorn", "--factory", "service.app:create_app", "--port", "0"]
+    environment = {**os.environ, "THREADSTATE_DATABASE": made_up.database}
+    with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr is not None
+        for line in process.stderr:
+            if found := re.search(r"running on (http://\S+)", line):
+                yield found[1]
+                break
+        else:
+            pytest.fail("the service did not start")
+        process.terminate()
+
+
+@pytest.mark.parametrize("name", ["latest", "1-4-20-unc", "1%2F4-20%20UNC"])
+def test_every_name_of_a_library_finds_it(address: str, made_up: StoredLibrary, name: str) -> None:
+    response = httpx2.get(f"{address}/v1/libraries/{name}/states/1/-1/30")
+    assert response.status_code == 200, response.text
+    assert response.headers["Content-Location"] == f"/v1/libraries/{made_up.id}/states/1/-1/30"
+
+
+def test_link_to_the_next_page_can_be_followed(address: str) -> None:
+    first = httpx2.get(f"{address}/v1/libraries/1%2F4-20%20UNC/states", params={"limit": 5})
+    second = httpx2.get(address + first.links["next"]["url"])
+    assert [state["phase"] for state in second.json()["states"]] == [150.0, 180.0, 210.0, 240.0, 270.0]
+
+
+def test_head_and_conditional_get_have_no_content(address: str) -> None:
+    path = f"{address}/v1/libraries/latest/histories/0/0"
+    got, head = httpx2.get(path), httpx2.head(path)
+    assert (head.content, head.headers["Content-Length"]) == (b"", str(len(got.content)))
+    again = httpx2.get(path, headers={"If-None-Match": head.headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
