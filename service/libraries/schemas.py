@@ -3,65 +3,18 @@
 from __future__ import annotations
 
 import json
+from dataclasses import fields, replace
 from datetime import datetime
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, TypeAdapter
 
 from service.libraries.identify import slug
 from threadstate.library.read import Counts, LibraryRecord
 from threadstate.state.model import Flag, StateClass
+from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit, conversion_factor
 
-
-class FormDocument(BaseModel):
-    """A thread's form; fillet radii as multiples of the thread pitch."""
-
-    name: str
-    flank_half_angle_deg: float
-    bolt_root_fillet: float
-    bolt_crest_fillet: float
-    nut_root_fillet: float
-    nut_crest_fillet: float
-
-
-class FitDocument(BaseModel):
-    """A fit by its diameters, in the answer's unit."""
-
-    name: str
-    bolt_major_diameter: float
-    bolt_pitch_diameter: float
-    bolt_minor_diameter: float
-    nut_major_diameter: float
-    nut_pitch_diameter: float
-    nut_minor_diameter: float
-
-    def scaled(self, factor: float) -> FitDocument:
-        """All diameters multiplied by ``factor``."""
-        lengths = {name: value * factor for name, value in self.model_dump(exclude={"name"}).items()}
-        return self.model_copy(update=lengths)
-
-
-class PairDocument(BaseModel):
-    """A bolt and its nut; lengths in ``unit``."""
-
-    designation: str
-    unit: LengthUnit
-    nominal_diameter: float
-    thread_pitch: float
-    form: FormDocument
-    fit: FitDocument
-
-    def in_unit(self, unit: LengthUnit) -> PairDocument:
-        """The same pair with its lengths in ``unit``."""
-        factor = conversion_factor(self.unit, unit)
-        return self.model_copy(
-            update={
-                "unit": unit,
-                "nominal_diameter": self.nominal_diameter * factor,
-                "thread_pitch": self.thread_pitch * factor,
-                "fit": self.fit.scaled(factor),
-            }
-        )
+_PAIR = TypeAdapter(Pair)
 
 
 class GridDocument(BaseModel):
@@ -81,7 +34,7 @@ class LibraryDocument(BaseModel):
     slug: str = Field(examples=["1-4-20-unc"])
     unit: LengthUnit = Field(description="unit of all lengths in this answer")
     stored_unit: LengthUnit = Field(description="unit in which the library was computed and is stored")
-    pair: PairDocument
+    pair: Pair = Field(description="the bolt and the nut; lengths in this answer's unit, fillets per thread pitch")
     grid: GridDocument
     method: str
     options: dict[str, float] = Field(description="limits and tolerances of the method; lengths per thread pitch")
@@ -121,7 +74,7 @@ def library_document(record: LibraryRecord, unit: LengthUnit | None) -> LibraryD
         slug=slug(record.designation),
         unit=shown,
         stored_unit=record.length_unit,
-        pair=PairDocument.model_validate_json(record.pair).in_unit(shown),
+        pair=_in_unit(_PAIR.validate_json(record.pair), shown),
         grid=GridDocument(
             tilt_max=record.grid.tilt_max_deg,
             tilt_step=record.grid.tilt_step_deg,
@@ -144,4 +97,19 @@ def library_detail(record: LibraryRecord, counts: Counts, unit: LengthUnit | Non
     document = library_document(record, unit)
     return LibraryDetail(
         **dict(document), counts=CountsDocument(classes=dict(counts.of_class), flags=dict(counts.of_flag))
+    )
+
+
+def _in_unit(pair: Pair, unit: LengthUnit) -> Pair:
+    """The same pair with its lengths in ``unit``."""
+    factor = conversion_factor(pair.unit, unit)
+    diameters = {
+        field.name: getattr(pair.fit, field.name) * factor for field in fields(pair.fit) if field.name != "name"
+    }
+    return replace(
+        pair,
+        unit=unit,
+        nominal_diameter=pair.nominal_diameter * factor,
+        thread_pitch=pair.thread_pitch * factor,
+        fit=replace(pair.fit, **diameters),
     )

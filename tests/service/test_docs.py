@@ -21,6 +21,9 @@ from service.problems import KINDS
 from service.solve.schemas import SolveAnswer
 from service.states.parameters import FIELDS
 from service.states.schemas import StatePage, StateSchema
+from threadstate.state.document import state_document
+from threadstate.state.solve import solve_pose
+from threadstate.thread.catalogue import quarter_twenty_unc
 
 ELSEWHERE = re.compile(r"""(https?:)?//\w""")
 
@@ -177,9 +180,11 @@ def test_every_path_and_problem_is_in_the_documentation(repository_root: Path) -
         assert f"`{kind.name}` | {kind.status.value} |" in text
 
 
-def test_answers_in_the_documentation_are_real(solved_client: TestClient, repository_root: Path) -> None:
-    text = (repository_root / "docs" / "api.md").read_text()
-    shown = re.findall(r"```\ncurl '?127\.0\.0\.1:8000(/[^\s']+)'?\n```\n+```json\n(.*?)\n```", text, re.DOTALL)
-    assert shown
-    for path, answer in shown:
-        assert solved_client.get(path).json() == json.loads(answer)
+@pytest.mark.parametrize("name", ["README.md", "docs/api.md"])
+def test_states_shown_in_the_documentation_are_real(repository_root: Path, name: str) -> None:
+    query = r"curl 127\.0\.0\.1:8000/v1/libraries/latest/states/([^/\s]+)/([^/\s]+)/([^/\s]+)"
+    shown = re.findall(query + r"\n```.*?```json\n(.*?)\n```", (repository_root / name).read_text(), re.DOTALL)
+    assert len(shown) == 1
+    for roll, pitch, phase, answer in shown:
+        state = solve_pose(quarter_twenty_unc(), float(roll), float(pitch), float(phase))
+        assert json.loads(answer) == state_document(state)
