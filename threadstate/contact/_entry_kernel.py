@@ -78,56 +78,24 @@ def entry(
     speed = path[9]
     second = bend * speed * speed + (lipschitz * speed if is_turn else 0.0)
     tau = start
+    certain = False
     for step in range(200):
         x, y, z = position(path, tau, is_turn)
         value, gx, gy, gz = field(x, y, z, row, sigma)
-        if value >= 0.0:
-            if step > 0:
-                return tau, THREAD
+        if value >= 0.0 and step == 0:
             return (tau, PLANE) if start > 0.0 else (0.0, INSIDE)
         vx, vy, vz = velocity(path, tau, is_turn)
         rate = gx * vx + gy * vy + gz * vz
-        if rate > 0.0 and -2.0 * value * second < rate * rate:
+        if certain or (rate > 0.0 and -2.0 * value * second < rate * rate):
+            certain = True
             move = -value / rate
-            if move <= 3e-16 * (1.0 + tau):
-                return tau, THREAD
+            if abs(move) <= 3e-16 * (1.0 + tau):
+                break
+        elif speed > 0.0:
+            move = -value / (lipschitz * speed)
         else:
-            move = -value / (lipschitz * speed) if speed > 0.0 else NEVER
-        tau += move
-        if tau > end:
             return NEVER, NONE
-    return tau, THREAD
-
-
-@njit(cache=True)
-def clear_until(
-    path: Array,
-    is_turn: bool,
-    row: Array,
-    sigma: float,
-    limit: float,
-    lipschitz: float,
-    pad_plane: float,
-    pad_thread: float,
-    pad_speed: float,
-) -> bool:
-    """Whether no point near the walker enters the solid before ``limit``, by safe steps alone.
-
-    Near means: along the curve by at most the distance over which the plane's function changes by ``pad_plane``,
-    ``phi`` by ``pad_thread`` and the speed by ``pad_speed``. False means: not proved.
-    """
-    start, stop = half_space(-sigma * path[2] + pad_plane, -sigma * path[5], -sigma * path[8], is_turn)
-    if start >= limit:
-        return True
-    end = min(stop, limit)
-    fastest = lipschitz * (path[9] + pad_speed)
-    tau = start
-    for _ in range(24):
-        x, y, z = position(path, tau, is_turn)
-        room = -phi(x, y, z, row, sigma) - pad_thread
-        if room <= 0.0:
-            return False
-        tau += room / fastest
-        if tau >= end:
-            return True
-    return False
+        tau += move
+        if tau > end and not certain:
+            return NEVER, NONE
+    return (tau, THREAD) if tau <= end else (NEVER, NONE)

@@ -84,6 +84,27 @@ def inverse_rising(r: float, row: Row) -> float:
 
 
 @njit(cache=True)
+def bend_range(s: float, half: float, row: Row) -> tuple[float, float]:
+    """Smallest and largest ``f''`` on [s - half, s + half]; on a fillet it grows in size towards the flank."""
+    u, _ = fold(s, row[P])
+    low = 0.0
+    high = 0.0
+    top = min(u + half, row[U_FLANK])
+    if top > row[U_FLAT] and u - half < row[U_FLANK]:
+        rho = row[RHO_MINOR]
+        du = top - row[U_FLAT]
+        c = math.sqrt(max((rho - du) * (rho + du), 0.0))
+        high = rho * rho / (c * c * c) if c > 0.0 else math.inf
+    bottom = max(u - half, row[U_CREST])
+    if bottom < row[U_TOP] and u + half > row[U_CREST]:
+        rho = row[RHO_MAJOR]
+        du = row[U_TOP] - bottom
+        c = math.sqrt(max((rho - du) * (rho + du), 0.0))
+        low = -rho * rho / (c * c * c) if c > 0.0 else -math.inf
+    return low, high
+
+
+@njit(cache=True)
 def region_index(s: float, row: Row) -> tuple[int, float]:
     """Index 0..7 of the region by growing ``s`` from the small-radius flat, and the arc length to its nearest boundary."""
     u, sign = fold(s, row[P])
