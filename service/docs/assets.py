@@ -13,6 +13,7 @@ _IN_SOURCE_TREE = _HERE.parent.parent / "node_modules" / "swagger-ui-dist"
 
 JAVASCRIPT = "text/javascript; charset=utf-8"
 CSS = "text/css; charset=utf-8"
+TEXT = "text/plain; charset=utf-8"
 
 
 @dataclass(frozen=True)
@@ -42,10 +43,13 @@ ASSETS = {
     for asset in (
         Asset("swagger-ui-bundle.js", JAVASCRIPT, third_party=True),
         Asset("swagger-ui.css", CSS, third_party=True),
+        Asset("swagger-ui-bundle.js.LICENSE.txt", TEXT, third_party=True),
+        Asset("LICENSE", TEXT, third_party=True),
+        Asset("NOTICE", TEXT, third_party=True),
         Asset("start.js", JAVASCRIPT, third_party=False),
     )
 }
-"""All files of the page by their names."""
+"""All files of the page, and the licences of the third-party ones, by their names."""
 
 PAGE = """<!doctype html>
 <html lang="en">
