@@ -174,11 +174,15 @@ def growth_bounds(
     s: float,
     s_slope: float,
     speed: float,
+    level: float,
     is_turn: bool,
     row_s: Array,
     bounds: Array,
 ) -> tuple[float, float]:
-    """Bounds on the derivatives of d phi / d tau by tau and by theta, over a cell during ``span``."""
+    """Bounds on the derivatives of d phi / d tau by tau and by theta, over a cell during ``span``.
+
+    ``level`` is the walker's speed across the axis; motion along the axis changes the gradient by f'' alone.
+    """
     k = row_s[pk.P] / TWO_PI
     c1 = bounds[B_C1]
     v = speed + (c1 * half if is_turn else 0.0)
@@ -189,7 +193,8 @@ def growth_bounds(
     f2 = max(high, -low)
     place = (row_s[pk.COT] * k_r * 2.0 + 1.0) / bounds[B_R_LOW]
     swing = bounds[B_LIPSCHITZ] if is_turn else 0.0
-    return f2 * along * along + place * v * v + swing * v, f2 * along * across + place * v * c1 + swing * c1
+    level += v - speed + (v * span if is_turn else 0.0)
+    return f2 * along * along + place * level * v + swing * v, f2 * along * across + place * level * c1 + swing * c1
 
 
 @njit(cache=True)
@@ -229,8 +234,9 @@ def clear(
             return False
         vx, vy, vz = velocity(path, tau, is_turn)
         rate = gx * vx + gy * vy + gz * vz
+        level = math.sqrt(vx * vx + vy * vy)
         span = end - tau
-        by_time, by_theta = growth_bounds(half, span, s, s_slope, path[9], is_turn, row_s, bounds)
+        by_time, by_theta = growth_bounds(half, span, s, s_slope, path[9], level, is_turn, row_s, bounds)
         if rate > by_time * span + by_theta * half:
             # phi grows to the end over the whole cell: the end is its highest point.
             tau = end
@@ -239,7 +245,7 @@ def clear(
             return True
         for factor in (16.0, 4.0):
             span = min(factor * step, end - tau)
-            by_time, by_theta = growth_bounds(half, span, s, s_slope, path[9], is_turn, row_s, bounds)
+            by_time, by_theta = growth_bounds(half, span, s, s_slope, path[9], level, is_turn, row_s, bounds)
             if (rate + by_theta * half + 0.5 * by_time * span) * span <= room:
                 step = span
                 break

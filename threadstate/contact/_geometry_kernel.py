@@ -69,9 +69,15 @@ def phi(x: float, y: float, z: float, row: Array, sigma: float) -> float:
 @njit(cache=True)
 def set_path(x: float, y: float, motion: Array, path: Array) -> None:
     """The path of the walker that starts at (x, y, 0) of its own frame."""
-    qx = motion[0] * x + motion[1] * y + motion[9]
-    qy = motion[3] * x + motion[4] * y + motion[10]
-    qz = motion[6] * x + motion[7] * y + motion[11]
+    set_path_from(x, y, 0.0, motion, path)
+
+
+@njit(cache=True)
+def set_path_from(x: float, y: float, z: float, motion: Array, path: Array) -> None:
+    """The path of the point that starts at (x, y, z) of the walker's own frame."""
+    qx = motion[0] * x + motion[1] * y + motion[2] * z + motion[9]
+    qy = motion[3] * x + motion[4] * y + motion[5] * z + motion[10]
+    qz = motion[6] * x + motion[7] * y + motion[8] * z + motion[11]
     ax = motion[16]
     ay = motion[17]
     az = motion[18]

@@ -8,11 +8,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from threadstate.contact import _patch_kernel as tk
 from threadstate.contact import _search_kernel as sk
-from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point, field
+from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
+Work = tuple[Array, Array, NDArray[np.int64], Array, Array, Array, Array, Array, Array]
 
 # Pairs of features, in the order of ``FeaturePair``.
 EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, FLUSH = range(7)
@@ -21,6 +23,10 @@ EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, FLU
 K_TIME, K_PAIR, K_BOLT, K_NUT, K_X, K_Y, K_Z = range(7)
 CONTACT_SIZE = 7
 MAX_CONTACTS = 16
+
+RESOLVED, UNRESOLVED = range(2)
+
+RIDGE_AZIMUTHS = 32
 
 
 @njit(cache=True)
@@ -109,24 +115,55 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
 
 
 @njit(cache=True)
+def new_work() -> Work:
+    """The scratch arrays of one thread of work."""
+    return (
+        np.empty((sk.MAX_NODES, sk.NODE_SIZE)),
+        np.empty((sk.MAX_NODES, sk.NODE_SIZE)),
+        np.empty((sk.MAX_CELLS, 2), np.int64),
+        np.empty((sk.MAX_CANDIDATES, sk.CANDIDATE_SIZE)),
+        np.empty((sk.MAX_CANDIDATES, sk.CANDIDATE_SIZE)),
+        np.empty(MOTION_SIZE),
+        np.empty(MOTION_SIZE),
+        np.empty((tk.MAX_RECTANGLES, tk.RECTANGLE_SIZE)),
+        np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
+    )
+
+
+@njit(cache=True)
 def earliest(
     pose: Array,
     is_turn: bool,
     point: Array,
     axis: Array,
-    bolt_marks: Array,
-    bolt_mark_count: int,
-    nut_marks: Array,
-    nut_mark_count: int,
+    known: Array,
+    known_count: int,
     limit: float,
     slack: float,
     bolt: Array,
     nut: Array,
-    work: tuple[Array, Array, NDArray[np.int64], Array, Array, Array, Array],
+    work: Work,
     out: Array,
 ) -> tuple[int, bool, int]:
-    """The earliest contacts of a motion by all pairs of features, sorted by time; growth; work done (nodes)."""
-    nodes_b, nodes_n, cells, found_b, found_n, bolt_walks, nut_walks = work
+    """The earliest contacts of a motion by all pairs of features, sorted by time.
+
+    ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number
+    of contacts (those within ``slack`` of the earliest are certain to be listed), whether an earlier contact has
+    grown into an overlap by then, and a status.
+    """
+    nodes_b, nodes_n, cells, found_b, found_n, bolt_walks, nut_walks, rects, tangent = work
+    bolt_marks = np.empty(2)
+    nut_marks = np.empty(2)
+    bolt_mark_count = 0
+    nut_mark_count = 0
+    for i in range(known_count):
+        pair = int(known[i, K_PAIR])
+        if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD:
+            bolt_marks[bolt_mark_count] = known[i, K_BOLT] - TWO_PI * math.floor(known[i, K_BOLT] / TWO_PI)
+            bolt_mark_count += 1
+        if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
+            nut_marks[nut_mark_count] = known[i, K_NUT] - TWO_PI * math.floor(known[i, K_NUT] / TWO_PI)
+            nut_mark_count += 1
     set_motions(pose, is_turn, point, axis, bolt_walks, nut_walks)
     any_entry = not is_turn
     count_b, total_b, best = sk.survey(
@@ -143,6 +180,11 @@ def earliest(
         nut_walks, nut, bolt, nut_marks, nut_mark_count, limit, best, any_entry, slack,
         nodes_n, total_n, cells, count_n, found_n,
     )
+    if is_turn or known_count > 0:
+        used_t = 0
+        count_t = tk.ridges(bolt_walks, bolt, nut, min(limit, best + slack), RIDGE_AZIMUTHS, tangent)
+    else:
+        count_t, used_t = tk.tangencies(bolt_walks, bolt, nut, min(limit, best + slack), rects, tangent)
     count = 0
     for i in range(count_b):
         kind = int(found_b[i, sk.C_KIND])
@@ -157,7 +199,19 @@ def earliest(
         theta_n = found_n[i, sk.C_THETA]
         x, y, _, _ = edge_point(theta_n, nut)
         count = keep(found_n[i, sk.C_TIME], pair, found_n[i, sk.C_OTHER], theta_n, x, y, 0.0, count, out)
-    used = used_b + used_n
-    if used_b == sk.OVERFLOW or used_n == sk.OVERFLOW:
-        used = sk.OVERFLOW
-    return count, grown_b or grown_n, used
+    for i in range(count_t):
+        x, y, z = tangent[i, tk.T_X], tangent[i, tk.T_Y], tangent[i, tk.T_POINT_Z]
+        again = False
+        for j in range(known_count):
+            if abs(x - known[j, K_X]) + abs(y - known[j, K_Y]) + abs(z - known[j, K_Z]) < 1e-4 * bolt[pk.P]:
+                again = True
+        if not again:
+            count = keep(
+                tangent[i, tk.T_TIME], THREAD_THREAD, tangent[i, tk.T_THETA], math.atan2(y, x), x, y, z, count, out
+            )
+    status = RESOLVED
+    if used_b == sk.OVERFLOW or used_n == sk.OVERFLOW or used_t == sk.OVERFLOW:
+        status = UNRESOLVED
+    if any_entry and best < limit and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
+        status = UNRESOLVED
+    return count, grown_b or grown_n, status

@@ -1,0 +1,137 @@
+"""The patch on which a bolt's base lies flush on the nut's surface, and its extreme points."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact._geometry_kernel import TWO_PI, edge_point
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+SAMPLES = 64
+
+# An extreme point: azimuth on the bolt, whether it lies on the nut's outline too (1.0 or 0.0), x, y.
+F_THETA, F_CORNER, F_X, F_Y = range(4)
+EXTREME_SIZE = 4
+
+
+@njit(cache=True)
+def outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float, float]:
+    """Point of the bolt's edge at ``theta`` in the nut's plane, and its derivative; the bolt is flush."""
+    x, y, dx, dy = edge_point(theta, bolt)
+    return (
+        pose[0] * x + pose[1] * y + pose[9],
+        pose[3] * x + pose[4] * y + pose[10],
+        pose[0] * dx + pose[1] * dy,
+        pose[3] * dx + pose[4] * dy,
+    )
+
+
+@njit(cache=True)
+def outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
+    """How far the bolt's edge at ``theta`` lies outside the nut's outline, radially."""
+    x, y, _, _ = outline(theta, pose, bolt)
+    return math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
+
+
+@njit(cache=True)
+def root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
+    """Azimuth in [a, b] where the outlines cross (``corner``) or the edge runs across (nx, ny) (Illinois)."""
+    fa = outline_value(a, corner, nx, ny, pose, bolt, nut)
+    fb = outline_value(b, corner, nx, ny, pose, bolt, nut)
+    wa, wb = fa, fb
+    side = 0
+    for _ in range(100):
+        c = (a * wb - b * wa) / (wb - wa)
+        if not a < c < b:
+            c = 0.5 * (a + b)
+        fc = outline_value(c, corner, nx, ny, pose, bolt, nut)
+        if (fc > 0.0) == (fa > 0.0):
+            a, fa, wa = c, fc, fc
+            if side == -1:
+                wb *= 0.5
+            side = -1
+        else:
+            b, fb, wb = c, fc, fc
+            if side == 1:
+                wa *= 0.5
+            side = 1
+        if fc == 0.0 or b - a <= 4e-16 * (1.0 + abs(a)):
+            break
+    return a if abs(fa) < abs(fb) else b
+
+
+@njit(cache=True)
+def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
+    """The function whose root is sought."""
+    if corner:
+        return outside(theta, pose, bolt, nut)
+    _, _, dx, dy = outline(theta, pose, bolt)
+    return nx * dx + ny * dy
+
+
+@njit(cache=True)
+def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, out: Array) -> int:
+    """The patch's farthest points across the axis (ax, ay) (left, then right) and along it (forth, then back).
+
+    They are points of the bolt's outline: where it runs across the direction, or at a corner of the patch (where it
+    crosses the nut's outline). Returns how many differ; 0 where the outlines do not overlap.
+    """
+    theta = np.empty(SAMPLES + 1)
+    over = np.empty(SAMPLES + 1)
+    corners = np.empty(SAMPLES)
+    corner_count = 0
+    for i in range(SAMPLES + 1):
+        theta[i] = TWO_PI * i / SAMPLES
+        over[i] = outside(theta[i], pose, bolt, nut)
+    for i in range(SAMPLES):
+        if (over[i] > 0.0) != (over[i + 1] > 0.0):
+            corners[corner_count] = root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
+            corner_count += 1
+    count = 0
+    for turn in range(4):
+        nx = (-ay, ay, ax, -ax)[turn]
+        ny = (ax, -ax, ay, -ay)[turn]
+        best = -math.inf
+        best_theta = 0.0
+        is_corner = False
+        for i in range(SAMPLES):
+            x, y, d0x, d0y = outline(theta[i], pose, bolt)
+            if over[i] > 0.0 and nx * x + ny * y > best:
+                best = nx * x + ny * y
+                best_theta = theta[i]
+                is_corner = False
+            _, _, d1x, d1y = outline(theta[i + 1], pose, bolt)
+            if nx * d0x + ny * d0y > 0.0 and nx * d1x + ny * d1y <= 0.0:
+                t = root(theta[i], theta[i + 1], False, nx, ny, pose, bolt, nut)
+                if outside(t, pose, bolt, nut) >= 0.0:
+                    x, y, _, _ = outline(t, pose, bolt)
+                    if nx * x + ny * y >= best:
+                        best = nx * x + ny * y
+                        best_theta = t
+                        is_corner = False
+        for i in range(corner_count):
+            x, y, _, _ = outline(corners[i], pose, bolt)
+            if nx * x + ny * y > best:
+                best = nx * x + ny * y
+                best_theta = corners[i]
+                is_corner = True
+        if best == -math.inf:
+            return 0
+        x, y, _, _ = outline(best_theta, pose, bolt)
+        new = True
+        for i in range(count):
+            if abs(out[i, F_X] - x) + abs(out[i, F_Y] - y) < 1e-6 * bolt[pk.R_MAJOR]:
+                new = False
+        if new:
+            out[count, F_THETA] = best_theta
+            out[count, F_CORNER] = 1.0 if is_corner else 0.0
+            out[count, F_X] = x
+            out[count, F_Y] = y
+            count += 1
+    return count

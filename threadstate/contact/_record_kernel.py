@@ -1,0 +1,211 @@
+"""One pose as one row of numbers: the format in which kernels hand over their results."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact._geometry_kernel import TWO_PI, edge_point, field
+from threadstate.contact._stage_kernel import (
+    BASE_EDGE,
+    EDGE_EDGE,
+    EDGE_SURFACE,
+    EDGE_THREAD,
+    FLUSH,
+    K_BOLT,
+    K_NUT,
+    K_PAIR,
+    K_X,
+    K_Y,
+    K_Z,
+    THREAD_EDGE,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+# The row: status, flags, number of poses, lambda, mu (rad, NaN where absent), drop, embedment, pivot offset
+# (NaN where absent), number of contacts; three poses of twelve numbers; the contacts.
+(
+    O_STATUS,
+    O_FLAGS,
+    O_POSES,
+    O_LAMBDA,
+    O_MU,
+    O_DROP,
+    O_EMBEDMENT,
+    O_PIVOT,
+    O_CONTACTS,
+) = range(9)
+O_POSE = 9
+O_CONTACT = O_POSE + 36
+
+# A contact: stage, pair, point in the nut's frame, in the bolt's, normal, region indices, margins.
+P_STAGE, P_PAIR, P_POINT, P_BOLT, P_NORMAL, P_BOLT_REGION, P_NUT_REGION, P_BOLT_MARGIN, P_NUT_MARGIN = (
+    0,
+    1,
+    2,
+    5,
+    8,
+    11,
+    12,
+    13,
+    14,
+)
+POINT_SIZE = 15
+MOST_CONTACTS = 12
+RECORD_SIZE = O_CONTACT + MOST_CONTACTS * POINT_SIZE
+
+FLAT_FACE = 8
+"""Index of the ninth region (base or surface)."""
+
+FLAG_FLUSH, FLAG_TIE, FLAG_BALANCED, FLAG_GRAZING, FLAG_NO_SECOND, FLAG_NO_THIRD = 1, 2, 4, 8, 16, 32
+
+GRAZING_SINE = 1e-3
+"""Two edges that cross at a smaller angle (its sine) graze."""
+
+
+@njit(cache=True)
+def to_bolt(pose: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """A point of the nut's frame in the bolt's."""
+    x -= pose[9]
+    y -= pose[10]
+    z -= pose[11]
+    return (
+        pose[0] * x + pose[3] * y + pose[6] * z,
+        pose[1] * x + pose[4] * y + pose[7] * z,
+        pose[2] * x + pose[5] * y + pose[8] * z,
+    )
+
+
+@njit(cache=True)
+def put_pose(pose: Array, row: Array) -> None:
+    """Appends a pose."""
+    n = int(row[O_POSES])
+    for i in range(12):
+        row[O_POSE + 12 * n + i] = pose[i]
+    row[O_POSES] = n + 1
+
+
+@njit(cache=True)
+def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
+    """Appends a contact with its points, normal, regions and margins."""
+    n = int(row[O_CONTACTS])
+    if n == MOST_CONTACTS:
+        return
+    c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
+    pair = int(contact[K_PAIR])
+    x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
+    bx, by, bz = to_bolt(pose, x, y, z)
+    on_bolt_edge = pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD
+    on_nut_edge = pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE
+    if on_bolt_edge:
+        bz = 0.0
+    c[P_STAGE] = stage
+    c[P_PAIR] = pair
+    c[P_POINT], c[P_POINT + 1], c[P_POINT + 2] = x, y, z
+    c[P_BOLT], c[P_BOLT + 1], c[P_BOLT + 2] = bx, by, bz
+    put_normal(pair, contact, pose, bolt, nut, c)
+    k = bolt[pk.P] / TWO_PI
+    if pair == BASE_EDGE:
+        c[P_BOLT_REGION] = FLAT_FACE
+        c[P_BOLT_MARGIN] = pk.radius(-k * math.atan2(by, bx), bolt) - math.hypot(bx, by)
+    else:
+        index, margin = pk.region_index((0.0 if on_bolt_edge else bz) - k * math.atan2(by, bx), bolt)
+        c[P_BOLT_REGION] = index
+        c[P_BOLT_MARGIN] = margin
+    if pair == EDGE_SURFACE:
+        c[P_NUT_REGION] = FLAT_FACE
+        c[P_NUT_MARGIN] = math.hypot(x, y) - pk.radius(-k * math.atan2(y, x), nut)
+    else:
+        index, margin = pk.region_index((0.0 if on_nut_edge else z) - k * math.atan2(y, x), nut)
+        c[P_NUT_REGION] = index
+        c[P_NUT_MARGIN] = margin
+    row[O_CONTACTS] = n + 1
+
+
+@njit(cache=True)
+def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, c: Array) -> None:
+    """The unit normal, from the nut into the bolt."""
+    x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
+    if pair == EDGE_EDGE:
+        _, _, dx, dy = edge_point(contact[K_BOLT], bolt)
+        ex = pose[0] * dx + pose[1] * dy
+        ey = pose[3] * dx + pose[4] * dy
+        ez = pose[6] * dx + pose[7] * dy
+        _, _, sx, sy = edge_point(contact[K_NUT], nut)
+        nx, ny, nz = -ez * sy, ez * sx, ex * sy - ey * sx
+        # The bolt's material lies on the side of its axis above the base.
+        bx = pose[9] + 0.5 * bolt[pk.P] * pose[2] - x
+        by = pose[10] + 0.5 * bolt[pk.P] * pose[5] - y
+        bz = pose[11] + 0.5 * bolt[pk.P] * pose[8] - z
+        flip = nx * bx + ny * by + nz * bz < 0.0
+    elif pair == EDGE_SURFACE or pair == FLUSH:
+        nx, ny, nz = 0.0, 0.0, 1.0
+        flip = False
+    elif pair == BASE_EDGE:
+        nx, ny, nz = pose[2], pose[5], pose[8]
+        flip = False
+    elif pair == THREAD_EDGE:
+        bx, by, bz = to_bolt(pose, x, y, z)
+        _, gx, gy, gz = field(bx, by, bz, bolt, -1.0)
+        nx = pose[0] * gx + pose[1] * gy + pose[2] * gz
+        ny = pose[3] * gx + pose[4] * gy + pose[5] * gz
+        nz = pose[6] * gx + pose[7] * gy + pose[8] * gz
+        flip = False
+    else:
+        _, gx, gy, gz = field(x, y, z, nut, 1.0)
+        nx, ny, nz = -gx, -gy, -gz
+        flip = False
+    n = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if flip:
+        n = -n
+    c[P_NORMAL], c[P_NORMAL + 1], c[P_NORMAL + 2] = nx / n, ny / n, nz / n
+
+
+@njit(cache=True)
+def put_flush(
+    stage: int, theta: float, corner: bool, x: float, y: float, pose: Array, bolt: Array, nut: Array, row: Array
+) -> None:
+    """Appends an extreme point of a flush patch; the bolt's edge at ``theta``, on the nut's edge if ``corner``."""
+    n = int(row[O_CONTACTS])
+    if n == MOST_CONTACTS:
+        return
+    c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
+    k = bolt[pk.P] / TWO_PI
+    c[P_STAGE] = stage
+    c[P_PAIR] = FLUSH
+    c[P_POINT], c[P_POINT + 1], c[P_POINT + 2] = x, y, 0.0
+    bx, by, _, _ = edge_point(theta, bolt)
+    c[P_BOLT], c[P_BOLT + 1], c[P_BOLT + 2] = bx, by, 0.0
+    c[P_NORMAL], c[P_NORMAL + 1], c[P_NORMAL + 2] = 0.0, 0.0, 1.0
+    index, margin = pk.region_index(-k * theta, bolt)
+    c[P_BOLT_REGION] = index
+    c[P_BOLT_MARGIN] = margin
+    azimuth = math.atan2(y, x)
+    if corner:
+        index, margin = pk.region_index(-k * azimuth, nut)
+        c[P_NUT_REGION] = index
+        c[P_NUT_MARGIN] = margin
+    else:
+        c[P_NUT_REGION] = FLAT_FACE
+        c[P_NUT_MARGIN] = math.hypot(x, y) - pk.radius(-k * azimuth, nut)
+    row[O_CONTACTS] = n + 1
+
+
+@njit(cache=True)
+def grazes(contact: Array, pose: Array, bolt: Array, nut: Array) -> bool:
+    """Whether a contact's features are nearly parallel: edges that cross at a very small angle."""
+    if int(contact[K_PAIR]) != EDGE_EDGE:
+        return False
+    _, _, dx, dy = edge_point(contact[K_BOLT], bolt)
+    ex = pose[0] * dx + pose[1] * dy
+    ey = pose[3] * dx + pose[4] * dy
+    ez = pose[6] * dx + pose[7] * dy
+    _, _, sx, sy = edge_point(contact[K_NUT], nut)
+    nx, ny, nz = -ez * sy, ez * sx, ex * sy - ey * sx
+    size = math.sqrt(nx * nx + ny * ny + nz * nz)
+    return size < GRAZING_SINE * math.hypot(dx, dy) * math.hypot(sx, sy)

@@ -1,0 +1,356 @@
+"""All three stages of tilted poses, one row of numbers a pose."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact import _flush_kernel as fk
+from threadstate.contact import _record_kernel as rk
+from threadstate.contact._geometry_kernel import TWO_PI, edge_point
+from threadstate.contact._stage_kernel import (
+    BASE_EDGE,
+    CONTACT_SIZE,
+    EDGE_EDGE,
+    EDGE_SURFACE,
+    K_BOLT,
+    K_NUT,
+    K_PAIR,
+    K_TIME,
+    K_X,
+    K_Y,
+    K_Z,
+    MAX_CONTACTS,
+    RESOLVED,
+    THREAD_EDGE,
+    THREAD_THREAD,
+    UNRESOLVED,
+    Work,
+    earliest,
+    new_work,
+    rotation,
+    turned,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+# Options of a solve: limit of a turn (rad), tolerance of a tie (length), whether both outlines are convex (1 or 0).
+S_TURN_LIMIT, S_TIE, S_CONVEX = range(3)
+
+BEFORE_FLUSH = 1e-9
+"""Where a turn ends flush, contacts are looked for up to this much (rad) before: there all edges meet at once."""
+
+
+@njit(cache=True)
+def in_plane(pair: int) -> bool:
+    """Whether a contact of these features lies both in the bolt's base plane and in the nut's surface plane."""
+    return pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == BASE_EDGE
+
+
+@njit(cache=True)
+def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array) -> None:
+    """The axis about which the bolt turns by a positive angle: the reverse of the method's t0."""
+    pair = int(contact[K_PAIR])
+    if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
+        _, _, x, y = edge_point(contact[K_NUT], nut)
+        z = 0.0
+    elif pair == THREAD_THREAD:
+        x, y, z = -contact[K_Y], contact[K_X], bolt[pk.P] / TWO_PI
+    else:
+        _, _, dx, dy = edge_point(contact[K_BOLT], bolt)
+        x = pose[0] * dx + pose[1] * dy
+        y = pose[3] * dx + pose[4] * dy
+        z = 0.0 if pair == EDGE_SURFACE else pose[6] * dx + pose[7] * dy
+    n = math.sqrt(x * x + y * y + z * z)
+    if contact[K_X] * y - contact[K_Y] * x > 0.0:
+        n = -n
+    out[0] = x / n
+    out[1] = y / n
+    out[2] = z / n
+
+
+@njit(cache=True)
+def turn_to_flush(pose: Array, axis: Array) -> float:
+    """The turn about a horizontal ``axis`` in the base plane after which the base is level; negative: turning away."""
+    nx, ny, nz = pose[2], pose[5], pose[8]
+    return math.atan2(axis[0] * ny - axis[1] * nx, nz)
+
+
+@njit(cache=True)
+def lay_flush(
+    stage: int, pose: Array, point: Array, axis: Array, tau: float, bolt: Array, nut: Array, extremes: Array, row: Array
+) -> bool:
+    """Appends the flush pose and the extreme points of its patch; False if the outlines do not overlap."""
+    level = np.empty(12)
+    turned(pose, point, axis, tau, level)
+    # The base is level now: what differs from that is round-off.
+    for i in (2, 5, 6, 7):
+        level[i] = 0.0
+    level[8] = 1.0
+    level[11] = 0.0
+    count = fk.extreme_points(level, bolt, nut, axis[0], axis[1], extremes)
+    if count == 0:
+        return False
+    rk.put_pose(level, row)
+    known = int(row[rk.O_CONTACTS])
+    for i in range(count):
+        x, y = extremes[i, fk.F_X], extremes[i, fk.F_Y]
+        again = False
+        for j in range(known):
+            c = rk.O_CONTACT + rk.POINT_SIZE * j + rk.P_POINT
+            if abs(row[c] - x) + abs(row[c + 1] - y) + abs(row[c + 2]) < 1e-6 * bolt[pk.R_MAJOR]:
+                again = True
+        if not again:
+            rk.put_flush(
+                stage, extremes[i, fk.F_THETA], extremes[i, fk.F_CORNER] > 0.0, x, y, level, bolt, nut, row
+            )
+    row[rk.O_FLAGS] = int(row[rk.O_FLAGS]) | rk.FLAG_FLUSH
+    return True
+
+
+@njit(cache=True)
+def add_flag(row: Array, flag: int) -> None:
+    """Sets a flag."""
+    row[rk.O_FLAGS] = int(row[rk.O_FLAGS]) | flag
+
+
+@njit(cache=True)
+def ties(found: Array, count: int, slack: float) -> int:
+    """How many contacts appear together with the first; they are put in order of azimuth on the nut."""
+    n = 1
+    while n < count and found[n, K_TIME] <= found[0, K_TIME] + slack:
+        n += 1
+    for i in range(1, n):
+        j = i
+        while j > 0 and azimuth(found[j]) < azimuth(found[j - 1]):
+            for m in range(CONTACT_SIZE):
+                found[j, m], found[j - 1, m] = found[j - 1, m], found[j, m]
+            j -= 1
+    return n
+
+
+@njit(cache=True)
+def azimuth(contact: Array) -> float:
+    """Azimuth on the nut in [0, 2 pi)."""
+    a = math.atan2(contact[K_Y], contact[K_X])
+    return a + TWO_PI if a < 0.0 else a
+
+
+@njit(cache=True)
+def start_height(pose: Array, bolt: Array) -> float:
+    """A height of the bolt's origin at which the whole bolt is above the nut."""
+    return bolt[pk.R_MAJOR] * math.hypot(pose[2], pose[5]) * (1.0 + 1e-9) + 1e-4 * bolt[pk.P]
+
+
+@njit(cache=True)
+def solve_pose(
+    roll: float, pitch: float, phase: float, options: Array, bolt: Array, nut: Array, work: Work, row: Array
+) -> None:
+    """Solves one tilted pose (angles in rad) into ``row``; see ``_record_kernel`` for its layout."""
+    row[:] = 0.0
+    for i in (rk.O_LAMBDA, rk.O_MU, rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT):
+        row[i] = math.nan
+    found = np.empty((MAX_CONTACTS, CONTACT_SIZE))
+    known = np.empty((2, CONTACT_SIZE))
+    extremes = np.empty((4, fk.EXTREME_SIZE))
+    pose = np.empty(12)
+    axis = np.zeros(3)
+    point = np.zeros(3)
+    slack = options[S_TIE]
+    turn_slack = slack / bolt[pk.R_MAJOR]
+
+    # First stage: straight down.
+    rotation(roll, pitch, phase, pose)
+    pose[9] = 0.0
+    pose[10] = 0.0
+    high = start_height(pose, bolt)
+    pose[11] = high
+    axis[2] = -1.0
+    count, _, status = earliest(
+        pose, False, point, axis, known, 0, high + bolt[pk.P], slack, bolt, nut, work, found
+    )
+    if status != RESOLVED or count == 0:
+        row[rk.O_STATUS] = UNRESOLVED
+        return
+    together = ties(found, count, slack)
+    pose[11] = high - found[0, K_TIME]
+    known[0] = found[0]
+    rk.put_pose(pose, row)
+    rk.put_contact(1, known[0], pose, bolt, nut, row)
+    if rk.grazes(known[0], pose, bolt, nut):
+        add_flag(row, rk.FLAG_GRAZING)
+    if together > 1:
+        add_flag(row, rk.FLAG_TIE)
+
+    # Second stage: the turn about the tangent at the first contact.
+    for i in range(3):
+        point[i] = known[0, K_X + i]
+    second = np.empty(12)
+    tied_third = False
+    if together > 1:
+        row[rk.O_LAMBDA] = 0.0
+        known[1] = found[1]
+        second[:] = pose
+        for i in range(2, together):
+            found[i - 2] = found[i]
+        together -= 2
+        tied_third = together > 0
+    else:
+        second_axis(known[0], pose, bolt, nut, axis)
+        limit = options[S_TURN_LIMIT]
+        flush = -1.0
+        if int(known[0, K_PAIR]) == EDGE_SURFACE:
+            flush = turn_to_flush(pose, axis)
+            if flush <= limit:
+                limit = flush - BEFORE_FLUSH
+        count = 0
+        # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
+        if flush < 0.0 or options[S_CONVEX] == 0.0:
+            count, _, status = earliest(pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, work, found)
+            if status != RESOLVED:
+                row[rk.O_STATUS] = UNRESOLVED
+                return
+        if count == 0:
+            if flush >= 0.0 and lay_flush(2, pose, point, axis, flush, bolt, nut, extremes, row):
+                row[rk.O_LAMBDA] = flush
+            else:
+                add_flag(row, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
+            return
+        together = ties(found, count, turn_slack)
+        if together > 1:
+            add_flag(row, rk.FLAG_TIE)
+        row[rk.O_LAMBDA] = found[0, K_TIME]
+        turned(pose, point, axis, found[0, K_TIME], second)
+        known[1] = found[0]
+        for i in range(1, together):
+            found[i - 1] = found[i]
+        together -= 1
+        tied_third = together > 0
+    rk.put_pose(second, row)
+    rk.put_contact(2, known[1], second, bolt, nut, row)
+    if rk.grazes(known[1], second, bolt, nut):
+        add_flag(row, rk.FLAG_GRAZING)
+
+    # Third stage: the turn about the pivot axis, in the sense that lowers the bolt's origin.
+    n = 0.0
+    for i in range(3):
+        axis[i] = known[1, K_X + i] - known[0, K_X + i]
+        n += axis[i] * axis[i]
+    n = math.sqrt(n)
+    for i in range(3):
+        axis[i] /= n
+    ox, oy, oz = second[9] - point[0], second[10] - point[1], second[11] - point[2]
+    cx = axis[1] * oz - axis[2] * oy
+    cy = axis[2] * ox - axis[0] * oz
+    cz = axis[0] * oy - axis[1] * ox
+    row[rk.O_PIVOT] = math.sqrt(cx * cx + cy * cy + cz * cz)
+    if tied_third:
+        row[rk.O_MU] = 0.0
+        rk.put_pose(second, row)
+        for i in range(together):
+            rk.put_contact(3, found[i], second, bolt, nut, row)
+        row[rk.O_DROP] = 0.0
+        row[rk.O_EMBEDMENT] = 0.0
+        return
+    if cz > 0.0:
+        for i in range(3):
+            axis[i] = -axis[i]
+    if abs(cz) > slack:
+        third_stage(second, point, axis, known, options, bolt, nut, work, found, extremes, row)
+        return
+    # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is kept.
+    add_flag(row, rk.FLAG_BALANCED)
+    other = row.copy()
+    third_stage(second, point, axis, known, options, bolt, nut, work, found, extremes, row)
+    for i in range(3):
+        axis[i] = -axis[i]
+    third_stage(second, point, axis, known, options, bolt, nut, work, found, extremes, other)
+    if not math.isnan(other[rk.O_MU]) and not row[rk.O_MU] <= other[rk.O_MU]:
+        row[:] = other
+
+
+@njit(cache=True)
+def third_stage(
+    second: Array,
+    point: Array,
+    axis: Array,
+    known: Array,
+    options: Array,
+    bolt: Array,
+    nut: Array,
+    work: Work,
+    found: Array,
+    extremes: Array,
+    row: Array,
+) -> None:
+    """The turn about the pivot axis up to the third contact, the drop and the embedment."""
+    slack = options[S_TIE]
+    turn_slack = slack / bolt[pk.R_MAJOR]
+    limit = options[S_TURN_LIMIT]
+    flush = -1.0
+    if in_plane(int(known[0, K_PAIR])) and in_plane(int(known[1, K_PAIR])):
+        flush = turn_to_flush(second, axis)
+        if 0.0 < flush <= limit:
+            limit = flush - BEFORE_FLUSH
+    count, growth, status = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, work, found)
+    if status != RESOLVED:
+        row[rk.O_STATUS] = UNRESOLVED
+        return
+    third = np.empty(12)
+    if count == 0:
+        if flush > 0.0 and lay_flush(3, second, point, axis, flush, bolt, nut, extremes, row):
+            row[rk.O_MU] = flush
+            for i in range(12):
+                third[i] = row[rk.O_POSE + 24 + i]
+        else:
+            add_flag(row, rk.FLAG_NO_THIRD)
+            return
+    else:
+        together = ties(found, count, turn_slack)
+        if together > 1:
+            add_flag(row, rk.FLAG_TIE)
+        row[rk.O_MU] = found[0, K_TIME]
+        turned(second, point, axis, found[0, K_TIME], third)
+        rk.put_pose(third, row)
+        for i in range(together):
+            rk.put_contact(3, found[i], third, bolt, nut, row)
+            if rk.grazes(found[i], third, bolt, nut):
+                add_flag(row, rk.FLAG_GRAZING)
+    row[rk.O_DROP] = second[11] - third[11]
+    row[rk.O_EMBEDMENT] = 0.0
+    if growth:
+        lift, status = least_lift(third, slack, bolt, nut, work, found)
+        row[rk.O_EMBEDMENT] = lift
+        if status != RESOLVED:
+            row[rk.O_STATUS] = UNRESOLVED
+
+
+@njit(cache=True)
+def least_lift(
+    pose: Array, slack: float, bolt: Array, nut: Array, work: Work, found: Array
+) -> tuple[float, int]:
+    """The lift after which the solids of an overlapping pose are free of each other, and a status."""
+    high = start_height(pose, bolt)
+    if pose[11] >= high:
+        return 0.0, RESOLVED
+    raised = pose.copy()
+    raised[11] = high
+    down = np.array([0.0, 0.0, -1.0])
+    count, _, status = earliest(
+        raised, False, down, down, found, 0, high - pose[11], slack, bolt, nut, work, found
+    )
+    if count == 0:
+        return 0.0, status
+    return high - pose[11] - found[0, K_TIME], status
+
+
+@njit(cache=True)
+def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> None:
+    """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE)."""
+    work = new_work()
+    for i in range(poses.shape[0]):
+        solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, work, rows[i])
