@@ -37,3 +37,14 @@ class NotFoundError(ThreadstateError, LookupError):
 
 class SchemaError(ThreadstateError):
     """The database's schema is not the one this code expects; the message names the mending command."""
+
+
+class UnresolvedPoseError(ThreadstateError):
+    """The exact search could not decide a pose within its limits; the message names the pose in degrees."""
+
+    def __init__(self, roll_deg: float, pitch_deg: float, phase_deg: float) -> None:
+        super().__init__(
+            f"no certain contact state for roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg: "
+            "the search ended before all its cells were closed"
+        )
+        self.pose_deg = (roll_deg, pitch_deg, phase_deg)

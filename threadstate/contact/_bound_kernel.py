@@ -36,9 +36,13 @@ B_DRIFT = 4
 B_C1 = 5
 """Bound on |C'| of the edge curve."""
 B_R_LOW = 6
-BOUNDS_SIZE = 7
+B_C2 = 7
+"""Bound on |C''|."""
+BOUNDS_SIZE = 8
 
 MOST_STEPS = 120
+FEW_STEPS = 40
+FINE = 1e-4
 
 
 @njit(cache=True)
@@ -69,6 +73,8 @@ def set_bounds(motion: Array, row_c: Array, row_s: Array, bounds: Array) -> None
         bounds[B_DRIFT] = math.sqrt(dx * dx + dy * dy + dz * dz)
     bounds[B_C1] = math.hypot(row_c[pk.R_MAJOR], k * row_c[pk.COT])
     bounds[B_R_LOW] = r_low
+    own = k * k * second_derivative_bound(row_c)
+    bounds[B_C2] = own + row_c[pk.R_MAJOR] + 2.0 * k * row_c[pk.COT]
 
 
 @njit(cache=True)
@@ -174,6 +180,7 @@ def growth_bounds(
     s: float,
     s_slope: float,
     speed: float,
+    cross: float,
     level: float,
     is_turn: bool,
     row_s: Array,
@@ -181,11 +188,12 @@ def growth_bounds(
 ) -> tuple[float, float]:
     """Bounds on the derivatives of d phi / d tau by tau and by theta, over a cell during ``span``.
 
-    ``level`` is the walker's speed across the axis; motion along the axis changes the gradient by f'' alone.
+    ``cross`` bounds the derivative of the velocity by theta, ``level`` is the walker's speed across the axis; motion
+    along the axis changes the gradient by f'' alone.
     """
     k = row_s[pk.P] / TWO_PI
     c1 = bounds[B_C1]
-    v = speed + (c1 * half if is_turn else 0.0)
+    v = speed + cross * half
     k_r = k / bounds[B_R_LOW]
     along = (1.0 + k_r) * v
     across = abs(s_slope) + (1.0 + k_r) * c1 * half * (1.0 + c1 / bounds[B_R_LOW])
@@ -194,7 +202,40 @@ def growth_bounds(
     place = (row_s[pk.COT] * k_r * 2.0 + 1.0) / bounds[B_R_LOW]
     swing = bounds[B_LIPSCHITZ] if is_turn else 0.0
     level += v - speed + (v * span if is_turn else 0.0)
-    return f2 * along * along + place * level * v + swing * v, f2 * along * across + place * level * c1 + swing * c1
+    return (
+        f2 * along * along + place * level * v + swing * v,
+        f2 * along * across + place * level * c1 + swing * cross,
+    )
+
+
+@njit(cache=True)
+def headroom(
+    theta: float,
+    half: float,
+    tau: float,
+    dx: float,
+    dy: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    bounds: Array,
+    path: Array,
+) -> tuple[float, float, float, float, float]:
+    """At ``tau``: a lower bound of -phi over the cell (0 or less: none), and of its middle the rate of phi, s, ds/dtheta
+    and the speed across the axis."""
+    is_turn = motion[M_KIND] != 0.0
+    x, y, z = position(path, tau, is_turn)
+    value, gx, gy, gz = field(x, y, z, row_s, motion[M_SIGMA])
+    vx, vy, vz = velocity(path, tau, is_turn)
+    rate = gx * vx + gy * vy + gz * vz
+    level = math.sqrt(vx * vx + vy * vy)
+    tx, ty, tz = turn_vector(dx, dy, 0.0, motion, tau)
+    s, s_slope, r = helical(x, y, z, tx, ty, tz, row_s[pk.P] / TWO_PI)
+    room = -value - abs(gx * tx + gy * ty + gz * tz) * half
+    if room > 0.0 and half > 0.0:
+        _, high = thread_bend(theta, half, s, s_slope, r, tau, motion, row_c, row_s, bounds)
+        room -= 0.5 * max(high, 0.0) * half * half
+    return room, rate, s, s_slope, level
 
 
 @njit(cache=True)
@@ -203,51 +244,47 @@ def clear(
 ) -> bool:
     """Whether no point of the curve within ``half`` of ``theta`` enters before ``limit``. False: not proved."""
     is_turn = motion[M_KIND] != 0.0
-    sigma = motion[M_SIGMA]
     tau, stop = plane_start(theta, half, limit, motion, row_c, bounds, path)
     if tau >= limit:
         return True
     end = min(stop, limit)
-    k = row_s[pk.P] / TWO_PI
     _, _, dx, dy = edge_point(theta, row_c)
-    fastest = bounds[B_LIPSCHITZ] * (path[9] + (bounds[B_C1] * half if is_turn else 0.0))
-    for _ in range(MOST_STEPS):
-        x, y, z = position(path, tau, is_turn)
-        value, gx, gy, gz = field(x, y, z, row_s, sigma)
-        if value >= 0.0:
-            return False
-        tx, ty, tz = turn_vector(dx, dy, 0.0, motion, tau)
-        slope = abs(gx * tx + gy * ty + gz * tz)
-        room = -value - slope * half
-        if room <= 0.0:
-            return False
-        s, s_slope, r = helical(x, y, z, tx, ty, tz, k)
-        _, high = thread_bend(theta, half, s, s_slope, r, tau, motion, row_c, row_s, bounds)
-        if high > 0.0:
-            room -= 0.5 * high * half * half
+    speed = path[9]
+    cross = 0.0
+    if is_turn:
+        # Velocity is axis x place, so that its derivative along the curve is axis x tangent.
+        tx, ty, tz = turn_vector(dx, dy, 0.0, motion, 0.0)
+        h = motion[16] * tx + motion[17] * ty + motion[18] * tz
+        cross = math.sqrt(max(dx * dx + dy * dy - h * h, 0.0)) + bounds[B_C2] * half
+    # The end first: there phi is highest as a rule, and a cell that fails there fails at once.
+    room, rate, s, s_slope, level = headroom(theta, half, end, dx, dy, motion, row_c, row_s, bounds, path)
+    if room <= 0.0:
+        return False
+    span = end - tau
+    by_time, by_theta = growth_bounds(half, span, s, s_slope, speed, cross, level, is_turn, row_s, bounds)
+    slowest = rate - by_time * span - by_theta * half
+    if slowest >= 0.0 or -(rate - by_theta * half - 0.5 * by_time * span) * span <= room:
+        return True
+    fastest = bounds[B_LIPSCHITZ] * (speed + cross * half)
+    end -= room / fastest
+    for _ in range(MOST_STEPS if half < FINE else FEW_STEPS):
+        if tau >= end:
+            return True
+        room, rate, s, s_slope, level = headroom(theta, half, tau, dx, dy, motion, row_c, row_s, bounds, path)
         if room <= 0.0:
             return False
         step = room / fastest
         if tau + step >= end:
             return True
-        if tau == end:
-            return False
-        vx, vy, vz = velocity(path, tau, is_turn)
-        rate = gx * vx + gy * vy + gz * vz
-        level = math.sqrt(vx * vx + vy * vy)
         span = end - tau
-        by_time, by_theta = growth_bounds(half, span, s, s_slope, path[9], level, is_turn, row_s, bounds)
+        by_time, by_theta = growth_bounds(half, span, s, s_slope, speed, cross, level, is_turn, row_s, bounds)
         if rate > by_time * span + by_theta * half:
-            # phi grows to the end over the whole cell: the end is its highest point.
-            tau = end
-            continue
+            return True
         if (rate + by_theta * half + 0.5 * by_time * span) * span <= room:
             return True
-        for factor in (16.0, 4.0):
-            span = min(factor * step, end - tau)
-            by_time, by_theta = growth_bounds(half, span, s, s_slope, path[9], level, is_turn, row_s, bounds)
-            if (rate + by_theta * half + 0.5 * by_time * span) * span <= room:
-                step = span
-                break
+        span = min(12.0 * step, span)
+        by_time, by_theta = growth_bounds(half, span, s, s_slope, speed, cross, level, is_turn, row_s, bounds)
+        if (rate + by_theta * half + 0.5 * by_time * span) * span <= room:
+            step = span
         tau += step
     return False

@@ -14,7 +14,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from threadstate.contact._geometry_kernel import field, phi, position, velocity
+from threadstate.contact._geometry_kernel import TWO_PI, field, position, velocity
+from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
@@ -64,12 +65,30 @@ def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, f
 
 
 @njit(cache=True)
+def time_bend(
+    span: float, s: float, speed: float, level: float, is_turn: bool, row: Array, lipschitz: float, r_low: float
+) -> float:
+    """Bound on the second derivative of phi by tau along one walker during ``span``.
+
+    ``s`` is its helical coordinate and ``level`` its speed across the axis at the start: motion along the axis changes
+    the gradient by f'' alone.
+    """
+    k_r = row[pk.P] / (TWO_PI * r_low)
+    along = (1.0 + k_r) * speed
+    low, high = pk.bend_range(s, along * span, row)
+    f2 = max(high, -low)
+    swing = lipschitz if is_turn else 0.0
+    level += speed * span if is_turn else 0.0
+    return f2 * along * along + (row[pk.COT] * k_r * 2.0 + 1.0) / r_low * level * speed + swing * speed
+
+
+@njit(cache=True)
 def entry(
-    path: Array, is_turn: bool, row: Array, sigma: float, limit: float, lipschitz: float, bend: float
+    path: Array, is_turn: bool, row: Array, sigma: float, limit: float, lipschitz: float, bend: float, r_low: float
 ) -> tuple[float, int]:
     """First ``tau`` in [0, limit] at which the walker is in the solid, and how it entered.
 
-    ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative.
+    ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative, ``r_low`` the radius from below.
     """
     start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
     if start > limit:
@@ -77,9 +96,10 @@ def entry(
     end = min(stop, limit)
     speed = path[9]
     second = bend * speed * speed + (lipschitz * speed if is_turn else 0.0)
+    k = row[pk.P] / TWO_PI
     tau = start
     certain = False
-    for step in range(200):
+    for step in range(400):
         x, y, z = position(path, tau, is_turn)
         value, gx, gy, gz = field(x, y, z, row, sigma)
         if value >= 0.0 and step == 0:
@@ -93,9 +113,19 @@ def entry(
                 break
         elif speed > 0.0:
             move = -value / (lipschitz * speed)
+            if step > 3:
+                level = math.sqrt(vx * vx + vy * vy)
+                span = min(12.0 * move, end - tau)
+                s = z - k * math.atan2(y, x)
+                grown = 0.5 * time_bend(span, s, speed, level, is_turn, row, lipschitz, r_low) * span
+                if (rate + grown) * span <= -0.9 * value:
+                    move = max(move, span)
         else:
             return NEVER, NONE
-        tau += move
-        if tau > end and not certain:
+        if certain:
+            tau += move
+        elif tau >= end:
             return NEVER, NONE
+        else:
+            tau = min(tau + move, end)
     return (tau, THREAD) if tau <= end else (NEVER, NONE)

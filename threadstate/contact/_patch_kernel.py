@@ -224,7 +224,7 @@ def polish(
     jac = np.empty((3, 3))
     r, _, _ = thread_point(theta, z, bolt)
     set_path_from(r * math.cos(theta), r * math.sin(theta), z, motion, path)
-    tau, how = entry(path, motion[M_KIND] != 0.0, nut, 1.0, 2.0 * limit, bounds[B_LIPSCHITZ], bounds[B_BEND])
+    tau, how = entry(path, motion[M_KIND] != 0.0, nut, 1.0, 2.0 * limit, bounds[B_LIPSCHITZ], bounds[B_BEND], bounds[B_R_LOW])
     if how != THREAD:
         return count
     residual(theta, z, tau, motion, bolt, nut, path, here)

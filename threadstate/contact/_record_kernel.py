@@ -22,6 +22,7 @@ from threadstate.contact._stage_kernel import (
     K_Y,
     K_Z,
     THREAD_EDGE,
+    THREAD_THREAD,
 )
 from threadstate.thread import _profile_kernel as pk
 
@@ -194,6 +195,16 @@ def put_flush(
         c[P_NUT_REGION] = FLAT_FACE
         c[P_NUT_MARGIN] = math.hypot(x, y) - pk.radius(-k * azimuth, nut)
     row[O_CONTACTS] = n + 1
+
+
+@njit(cache=True)
+def put_strip(contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
+    """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage."""
+    n = int(row[O_CONTACTS])
+    strip = contact.copy()
+    strip[K_PAIR] = THREAD_THREAD
+    put_contact(1, strip, pose, bolt, nut, row)
+    row[O_CONTACT + POINT_SIZE * n + P_PAIR] = FLUSH
 
 
 @njit(cache=True)

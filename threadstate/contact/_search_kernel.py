@@ -116,7 +116,7 @@ def set_node(
     sigma = motion[M_SIGMA]
     x, y, dx, dy = edge_point(theta, row_c)
     set_path(x, y, motion, path)
-    time, how = entry(path, is_turn, row_s, sigma, limit, bounds[B_LIPSCHITZ], bounds[B_BEND])
+    time, how = entry(path, is_turn, row_s, sigma, limit, bounds[B_LIPSCHITZ], bounds[B_BEND], bounds[B_R_LOW])
     node[N_THETA] = theta
     node[N_TIME] = time
     node[N_HOW] = how

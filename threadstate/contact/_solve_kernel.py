@@ -171,7 +171,7 @@ def solve_pose(
     pose[11] = high
     axis[2] = -1.0
     count, _, status = earliest(
-        pose, False, point, axis, known, 0, high + bolt[pk.P], slack, bolt, nut, work, found
+        pose, False, point, axis, known, 0, high + bolt[pk.P], slack, bolt, nut, True, work, found
     )
     if status != RESOLVED or count == 0:
         row[rk.O_STATUS] = UNRESOLVED
@@ -210,7 +210,7 @@ def solve_pose(
         count = 0
         # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
         if flush < 0.0 or options[S_CONVEX] == 0.0:
-            count, _, status = earliest(pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, work, found)
+            count, _, status = earliest(pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, False, work, found)
             if status != RESOLVED:
                 row[rk.O_STATUS] = UNRESOLVED
                 return
@@ -296,7 +296,7 @@ def third_stage(
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - BEFORE_FLUSH
-    count, growth, status = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, work, found)
+    count, growth, status = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, False, work, found)
     if status != RESOLVED:
         row[rk.O_STATUS] = UNRESOLVED
         return
@@ -341,7 +341,7 @@ def least_lift(
     raised[11] = high
     down = np.array([0.0, 0.0, -1.0])
     count, _, status = earliest(
-        raised, False, down, down, found, 0, high - pose[11], slack, bolt, nut, work, found
+        raised, False, down, down, found, 0, high - pose[11], slack, bolt, nut, False, work, found
     )
     if count == 0:
         return 0.0, status
