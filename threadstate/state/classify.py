@@ -40,14 +40,19 @@ def classify(
     embedment_margin = embedment_tolerance - embedment if embedment is not None else None
     pivot_margin = pivot_offset - pivot_threshold if pivot_offset is not None else None
 
-    if flush:
-        state_class = StateClass.STABLE_THREE_POINT
-    elif not third or drop_margin is None or embedment_margin is None or pivot_margin is None:
-        state_class = StateClass.UNSTABLE_TWO_POINT
-    elif drop_margin <= 0.0 and embedment_margin < 0.0:
-        state_class = StateClass.UNSTABLE_TWO_POINT
-    elif pivot_margin <= 0.0:
-        state_class = StateClass.QUASI_STABLE_TWO_POINT
-    else:
-        state_class = StateClass.STABLE_THREE_POINT
+    state_class = _class(flush, third, drop_margin, embedment_margin, pivot_margin)
     return Classification(state_class, drop_margin, embedment_margin, pivot_margin)
+
+
+def _class(
+    flush: bool, third: bool, drop_margin: float | None, embedment_margin: float | None, pivot_margin: float | None
+) -> StateClass:
+    if flush:
+        return StateClass.STABLE_THREE_POINT
+    if not third or drop_margin is None or embedment_margin is None or pivot_margin is None:
+        return StateClass.UNSTABLE_TWO_POINT
+    if drop_margin <= 0.0 and embedment_margin < 0.0:
+        return StateClass.UNSTABLE_TWO_POINT
+    if pivot_margin <= 0.0:
+        return StateClass.QUASI_STABLE_TWO_POINT
+    return StateClass.STABLE_THREE_POINT

@@ -106,7 +106,7 @@ def bend_range(s: float, half: float, row: Row) -> tuple[float, float]:
 
 @njit(cache=True)
 def region_index(s: float, row: Row) -> tuple[int, float]:
-    """Index 0..7 of the region by growing ``s`` from the small-radius flat, and the arc length to its nearest boundary."""
+    """Index 0..7 of the region by growing ``s`` from the small flat, and the arc length to its nearest boundary."""
     u, sign = fold(s, row[P])
     p = row[P]
     if u <= row[U_FLAT]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 
 from threadstate.thread.pair import Pair
 from threadstate.thread.profile import Profile
@@ -23,9 +24,7 @@ def axial_play(pair: Pair) -> float:
     low, high = max(bolt.minor_diameter, nut.minor_diameter) / 2.0, min(bolt.major_diameter, nut.major_diameter) / 2.0
     inner = [profile.radius(s) for profile in (bolt, nut) for s in profile.boundaries]
     marks = sorted({low, high, *(r for r in inner if low < r < high)})
-    candidates = list(marks)
-    for left, right in zip(marks, marks[1:], strict=False):
-        candidates.append(_equal_slopes(bolt, nut, left, right))
+    candidates = [*marks, *(_equal_slopes(bolt, nut, left, right) for left, right in pairwise(marks))]
     return min(bolt.inverse(r) - nut.inverse(r) for r in candidates)
 
 

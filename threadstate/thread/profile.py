@@ -56,15 +56,21 @@ class Profile:
         slack = 1e-12 * self.thread_pitch
         if flat < -quarter - slack:
             raise ImpossibleThreadError(
-                "minor_fillet_radius", self.minor_fillet_radius, f"at most {self._largest_fillet(-1)!r} (it must fit beside the axis of the groove)"
+                "minor_fillet_radius",
+                self.minor_fillet_radius,
+                f"at most {self._largest_fillet(-1)!r} (it must fit beside the axis of the groove)",
             )
         if top > quarter + slack:
             raise ImpossibleThreadError(
-                "major_fillet_radius", self.major_fillet_radius, f"at most {self._largest_fillet(+1)!r} (it must fit beside the axis of the ridge)"
+                "major_fillet_radius",
+                self.major_fillet_radius,
+                f"at most {self._largest_fillet(+1)!r} (it must fit beside the axis of the ridge)",
             )
         if flank > crest + slack:
             raise ImpossibleThreadError(
-                "minor_fillet_radius", self.minor_fillet_radius, "small enough for the two fillets to leave a flank between them"
+                "minor_fillet_radius",
+                self.minor_fillet_radius,
+                "small enough for the two fillets to leave a flank between them",
             )
 
     def _largest_fillet(self, side: int) -> float:
