@@ -14,7 +14,7 @@ from pydantic import BaseModel, Field
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 
-from threadstate.errors import InvalidValueError, NotFoundError, SchemaError
+from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, UnresolvedPoseError
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:threadstate:problem:"
@@ -54,9 +54,19 @@ NOT_FOUND = Kind("not-found", HTTPStatus.NOT_FOUND, "Not found")
 NOT_MIGRATED = Kind("not-migrated", HTTPStatus.SERVICE_UNAVAILABLE, "Database not migrated")
 NOT_READY = Kind("not-ready", HTTPStatus.SERVICE_UNAVAILABLE, "No library is published")
 DATABASE_UNAVAILABLE = Kind("database-unavailable", HTTPStatus.SERVICE_UNAVAILABLE, "Database unavailable")
+UNRESOLVED_POSE = Kind("unresolved-pose", HTTPStatus.UNPROCESSABLE_ENTITY, "Pose not resolved")
 INTERNAL = Kind("internal", HTTPStatus.INTERNAL_SERVER_ERROR, "Internal error")
 
-KINDS = (INVALID_VALUE, UNKNOWN_PARAMETER, NOT_FOUND, NOT_MIGRATED, NOT_READY, DATABASE_UNAVAILABLE, INTERNAL)
+KINDS = (
+    INVALID_VALUE,
+    UNKNOWN_PARAMETER,
+    NOT_FOUND,
+    UNRESOLVED_POSE,
+    NOT_MIGRATED,
+    NOT_READY,
+    DATABASE_UNAVAILABLE,
+    INTERNAL,
+)
 """All kinds of the service's own; any other HTTP error has the type ``about:blank``."""
 
 
@@ -78,6 +88,7 @@ def install_problem_handlers(app: FastAPI) -> None:
         (RequestValidationError, _validation),
         (InvalidValueError, _invalid_value),
         (NotFoundError, _not_found),
+        (UnresolvedPoseError, _unresolved_pose),
         (SchemaError, _schema),
         (SQLAlchemyError, _database),
         (HTTPException, _http),
@@ -129,6 +140,10 @@ def _invalid_value(_request: Request, error: Any) -> Response:
 
 def _not_found(_request: Request, error: Any) -> Response:
     return problem_response(NOT_FOUND, str(error))
+
+
+def _unresolved_pose(_request: Request, error: Any) -> Response:
+    return problem_response(UNRESOLVED_POSE, str(error))
 
 
 def _schema(_request: Request, error: Any) -> Response:

@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import os
 import time
+from pathlib import Path
 
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
-POSES = ((0.0, 0.0, 0.0), (4.0, 0.0, 185.0), (-4.0, 0.0, 131.0), (1.0, -2.0, 10.0))
-"""Poses whose solution runs through every kernel: in phase, flush, three contacts apart, near the snap."""
+POSES_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0), (-4.0, 0.0, 131.0))
+"""Poses (roll, pitch, phase) whose solution calls every kernel that is called from Python, in each way it is: level and
+in phase (a strip of flank), level and out of phase (a patch), tilted (all that the three stages may need)."""
 
 
 def main() -> None:
     """Solve a few poses, and say what takes so long the first time."""
-    print("Compiling the kernels, once (about a minute; kept in the cache) ...", flush=True)
+    cache = Path(os.environ["NUMBA_CACHE_DIR"])
+    if any(cache.rglob("*.nbc")):
+        print(f"Loading the kernels from {cache} ...", flush=True)
+    else:
+        print(f"Compiling the kernels into {cache}: once, about a minute ...", flush=True)
     start = time.perf_counter()
-    solve_poses(quarter_twenty_unc(), POSES)
-    print(f"Kernels ready after {time.perf_counter() - start:.1f} s in {os.environ['NUMBA_CACHE_DIR']}", flush=True)
+    solve_poses(quarter_twenty_unc(), POSES_DEG)
+    print(f"Kernels ready after {time.perf_counter() - start:.1f} s.", flush=True)
 
 
 if __name__ == "__main__":

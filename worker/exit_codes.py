@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from threadstate.errors import InvalidValueError, NotFoundError, SchemaError
+from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, UnresolvedPoseError
 
 
 class ExitCode(IntEnum):
@@ -15,6 +15,7 @@ class ExitCode(IntEnum):
     USAGE = 2
     SCHEMA = 3
     NOT_FOUND = 4
+    UNRESOLVED = 5
     INTERRUPTED = 130
 
 
@@ -27,5 +28,7 @@ def exit_code_of(error: Exception) -> ExitCode:
             return ExitCode.SCHEMA
         case NotFoundError():
             return ExitCode.NOT_FOUND
+        case UnresolvedPoseError():
+            return ExitCode.UNRESOLVED
         case _:
             return ExitCode.FAILURE

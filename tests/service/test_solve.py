@@ -7,9 +7,12 @@ from fastapi.testclient import TestClient
 
 from service.solve.schemas import LARGEST_POSE_COUNT
 from tests.service.conftest import StoredLibrary
+from threadstate.errors import UnresolvedPoseError
 from threadstate.state.document import state_document
+from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
+from threadstate.thread.pair import Pair
 from threadstate.units import MILLIMETRES_PER_INCH
 
 POSES = ((2.5, -1.25, 77.7), (4.0, 0.0, 185.0), (-4.0, 0.0, 131.0), (0.0, 0.0, 0.0), (1.0, -2.0, -350.0))
@@ -88,3 +91,14 @@ def test_body_out_of_range_is_refused_by_name(client: TestClient, content: str, 
     response = client.post("/v1/solve", content=content, headers={"Content-Type": "application/json"})
     assert response.status_code == 400
     assert any(named in error["location"] for error in response.json()["errors"]), response.text
+
+
+def test_a_pose_that_cannot_be_decided_is_named(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    def undecided(_pair: Pair, poses: list[tuple[float, float, float]]) -> list[ContactState]:
+        raise UnresolvedPoseError(*poses[0])
+
+    monkeypatch.setattr("service.solve.endpoints.solve_poses", undecided)
+    response = client.post("/v1/solve", json=body(POSES[0]))
+    assert response.status_code == 422
+    assert response.json()["type"] == "urn:threadstate:problem:unresolved-pose"
+    assert "roll 2.5, pitch -1.25, phase 77.7 deg" in response.json()["detail"]

@@ -12,10 +12,14 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from tests.worker.conftest import COMMAND, SMALL_GRID, CommandLine
+from threadstate.errors import UnresolvedPoseError
 from threadstate.state.document import state_json
-from threadstate.state.solve import solve_pose
+from threadstate.state.model import ContactState
+from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
+from threadstate.thread.pair import Pair
 from worker.cli import PROGRAM, app
+from worker.commands.solve import BATCH
 from worker.exit_codes import ExitCode
 
 POSE = ["--roll", "4", "--pitch", "0", "--phase", "185"]
@@ -167,6 +171,24 @@ def test_nothing_published_ends_with_4(command_line: CommandLine) -> None:
     code, out, err = command_line.here("summary")
     assert (code, out) == (ExitCode.NOT_FOUND, "")
     assert "run `threadstate rebuild`" in err
+
+
+def test_a_pose_that_cannot_be_decided_ends_with_5(
+    command_line: CommandLine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def undecided(_pair: Pair, poses: list[tuple[float, float, float]]) -> list[ContactState]:
+        if len(poses) < BATCH:
+            raise UnresolvedPoseError(*poses[0])
+        return solve_poses(quarter_twenty_unc(), poses[:1]) * len(poses)
+
+    path = tmp_path / "poses.csv"
+    path.write_text("roll,pitch,phase\n" + "4,0,185\n" * BATCH + "1,2,3\n")
+    monkeypatch.setattr("threadstate.state.solve.solve_poses", undecided)
+    code, out, err = command_line.here("solve", "--poses", str(path), "--json")
+    assert code == ExitCode.UNRESOLVED
+    assert len(out.splitlines()) == BATCH
+    assert "roll 1.0, pitch 2.0, phase 3.0 deg" in err
+    assert len(err.splitlines()) == 1
 
 
 def test_migrate_says_what_it_did(command_line: CommandLine) -> None:

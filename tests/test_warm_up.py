@@ -1,0 +1,40 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+
+AFTER_THAT_NOTHING_COMPILES = """
+import gc
+import numpy as np
+from numba.core.registry import CPUDispatcher
+from threadstate.state.solve import solve_poses
+from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
+from threadstate.warm_up import main
+
+def compiled():
+    kernels = (one for one in gc.get_objects() if isinstance(one, CPUDispatcher))
+    return {f"{one.py_func.__module__}.{one.py_func.__name__}": len(one.signatures) for one in kernels}
+
+main()
+warm = compiled()
+print(len(warm), sum(warm.values()))
+level = [(0.0, 0.0, phase) for phase in np.arange(-3.0, 3.0, 0.25)] + [(0.0, 0.0, 180.0)]
+tilted = np.random.default_rng(6).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], (40, 3))
+for pair in (quarter_twenty_unc(), quarter_twenty_unc(RootForm.NEWER)):
+    solve_poses(pair, np.vstack([level, tilted]))
+    solve_poses(pair, [])
+print(sorted(set(compiled().items()) - set(warm.items())))
+"""
+
+
+def test_after_the_warm_up_nothing_is_compiled() -> None:
+    run = subprocess.run(
+        [sys.executable, "-c", AFTER_THAT_NOTHING_COMPILES], check=True, capture_output=True, text=True
+    )
+    first, last, counts, new = run.stdout.splitlines()
+    assert first.startswith(("Loading the kernels from", "Compiling the kernels into"))
+    assert last.startswith("Kernels ready after")
+    kernels, signatures = map(int, counts.split())
+    assert kernels > 20
+    assert signatures > 5
+    assert new == "[]"
