@@ -2,6 +2,7 @@
 # make run     migrate, compute the library if this very one is not published yet, serve it
 # make test    format, lint, types, tests
 # make bench   poses per second, beside a mesh collision library
+# make docs    compute the answers shown in the documentation anew
 # make lock    renew the lock files after a change of dependencies (needs uv)
 
 PYTHON ?= python3
@@ -10,7 +11,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench lock
+.PHONY: setup run test bench docs lock
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -26,6 +27,9 @@ test: setup
 
 bench: setup
 	$(BIN)/python -m benchmarks
+
+docs: setup
+	$(BIN)/python scripts/write_answers.py
 
 $(VENV)/.created:
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)

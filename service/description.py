@@ -6,6 +6,7 @@ from typing import Any
 
 from fastapi import FastAPI
 
+from service.examples.answers import EXAMPLES
 from service.problems import MEDIA_TYPE, Problem
 
 DESCRIPTION = """Contact states of a bolt that meets a nut askew: the stored library of a thread, and the exact solver
@@ -18,7 +19,7 @@ PROBLEM_RESPONSES: dict[int | str, dict[str, Any]] = {
 
 
 class DescribedApplication(FastAPI):
-    """An application whose errors are described as what they are: problem documents."""
+    """An application that describes its errors as what they are, problem documents, and its answers by examples."""
 
     def openapi(self) -> dict[str, Any]:
         """The OpenAPI document; made once."""
@@ -28,4 +29,11 @@ class DescribedApplication(FastAPI):
                 for operation in methods.values():
                     content = operation["responses"]["default"]["content"]
                     content[MEDIA_TYPE] = content.pop("application/json")
+            # Not among the routes' responses: what FastAPI describes there loses every null.
+            for one in EXAMPLES:
+                answer = document["paths"][one.path][one.method]["responses"]["200"]["content"][one.media_type]
+                answer["examples"] = {
+                    one.name: {"summary": one.summary, "value": one.value},
+                    **answer.get("examples", {}),
+                }
         return super().openapi()

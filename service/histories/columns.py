@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -44,6 +46,15 @@ def history_columns(states: Sequence[StateDocument]) -> tuple[Column, ...]:
     for number in range(1, 1 + max((len(state["contacts"]) for state in states), default=0)):
         columns += _contact_columns(states, number)
     return tuple(columns)
+
+
+def csv_table(columns: Sequence[Column]) -> bytes:
+    """The columns as CSV with a header, in UTF-8; a cell that is None is empty."""
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow([column.name for column in columns])
+    writer.writerows(zip(*(column.cells for column in columns), strict=True))
+    return text.getvalue().encode()
 
 
 def _pose_columns(states: Sequence[StateDocument], stage: int) -> list[Column]:

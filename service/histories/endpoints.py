@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Sequence
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 
 from service.angles import PitchPath, RollPath
 from service.database import ReadConnection
-from service.histories.columns import Column, history_columns
+from service.histories.columns import csv_table, history_columns
 from service.histories.repository import history
 from service.histories.schemas import HistoryColumns, HistoryFormat, HistoryRows
 from service.libraries.identify import IdentifiedLibrary
@@ -54,7 +51,7 @@ def get_history(
     head = {"library": library.id, "unit": shown.value, "roll": roll + 0.0, "pitch": pitch + 0.0}
     match format or _accepted_format(request.headers.get("accept", "")):
         case HistoryFormat.CSV:
-            return representation(request, _csv(history_columns(states)), CSV, headers)
+            return representation(request, csv_table(history_columns(states)), CSV, headers)
         case HistoryFormat.COLUMNS:
             columns = {column.name: column.cells for column in history_columns(states)}
             return json_response(request, {**head, "columns": columns}, headers)
@@ -71,11 +68,3 @@ def _accepted_format(accept: str) -> HistoryFormat:
             case "application/json" | "application/*" | "*/*":
                 return HistoryFormat.ROWS
     return HistoryFormat.ROWS
-
-
-def _csv(columns: Sequence[Column]) -> bytes:
-    text = io.StringIO()
-    writer = csv.writer(text)
-    writer.writerow([column.name for column in columns])
-    writer.writerows(zip(*(column.cells for column in columns), strict=True))
-    return text.getvalue().encode()

@@ -31,7 +31,7 @@ class SolveRequest(BaseModel):
     """Poses to be solved."""
 
     model_config = ConfigDict(
-        **_FORBID, json_schema_extra={"examples": [{"poses": [{"roll": 2.5, "pitch": -1.25, "phase": 77.7}]}]}
+        **_FORBID, json_schema_extra={"examples": [{"poses": [{"roll": 1, "pitch": -2, "phase": 10.5}]}]}
     )
 
     designation: Annotated[str, Field(min_length=1, max_length=100, description="the thread")] = DEFAULT_DESIGNATION

@@ -72,7 +72,7 @@ def test_root_leads_to_the_page(client: TestClient) -> None:
     assert client.get("/").url.path == "/docs"
 
 
-def test_third_party_files_are_in_a_built_wheel_with_their_licence(tmp_path: Path, repository_root: Path) -> None:
+def test_files_that_are_no_python_are_in_a_built_wheel(tmp_path: Path, repository_root: Path) -> None:
     subprocess.run(
         [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)],
         cwd=repository_root,
@@ -84,7 +84,7 @@ def test_third_party_files_are_in_a_built_wheel_with_their_licence(tmp_path: Pat
     third_party = [asset.name for asset in ASSETS.values() if asset.third_party]
     for name in third_party:
         assert f"service/docs/assets/{name}" in names
-    assert "service/docs/start.js" in names
+    assert {"service/docs/start.js", "service/examples/state.json", "service/examples/solved_state.json"} <= set(names)
 
 
 def test_no_third_party_javascript_is_committed(repository_root: Path) -> None:
@@ -140,6 +140,36 @@ def test_every_example_is_valid(openapi: dict[str, Any]) -> None:
     assert len(found) > 20
     for schema, example in found:
         Draft202012Validator({**schema, "components": openapi["components"]}).validate(example)
+
+
+def states_within(answer: Any) -> list[Any]:
+    """The whole states that an answer holds, however it wraps them."""
+    return [answer] if "contacts" in answer else answer.get("states", [])
+
+
+def test_answers_with_states_have_real_ones_as_examples(openapi: dict[str, Any]) -> None:
+    for path in (
+        "/v1/libraries/{id}/states",
+        "/v1/libraries/{id}/states/{roll}/{pitch}/{phase}",
+        "/v1/libraries/{id}/histories/{roll}/{pitch}",
+        "/v1/solve",
+    ):
+        ((_, _, operation),) = operations({"paths": {path: openapi["paths"][path]}})
+        shown = [
+            state
+            for _, answer in with_examples(operation["responses"]["200"]["content"]["application/json"])
+            for state in states_within(answer)
+        ]
+        assert shown, path
+        for state in shown:
+            pose = (state["roll"], state["pitch"], state["phase"])
+            assert state == state_document(solve_pose(quarter_twenty_unc(), *pose))
+
+
+def test_example_of_a_request_is_answered_by_the_example(client: TestClient, openapi: dict[str, Any]) -> None:
+    ((_, request),) = with_examples(openapi["components"]["schemas"]["SolveRequest"])
+    content = openapi["paths"]["/v1/solve"]["post"]["responses"]["200"]["content"]["application/json"]
+    assert client.post("/v1/solve", json=request).json() == content["examples"]["solved"]["value"]
 
 
 def test_every_operation_documents_its_problems_and_no_other_errors(openapi: dict[str, Any]) -> None:

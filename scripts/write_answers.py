@@ -1,0 +1,58 @@
+"""Computes the answers shown in the documentation anew and puts them in their places: ``make docs``.
+
+Those are the JSON after every ``curl`` of a state in ``DOCUMENTS``, and the examples of the HTTP interface.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+from threadstate.state.document import StateDocument, state_document
+from threadstate.state.solve import solve_pose
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+ROOT = Path(__file__).parent.parent
+DOCUMENTS = ("README.md", "docs/api.md")
+SHOWN = re.compile(
+    r"(?P<query>curl 127\.0\.0\.1:8000/v1/libraries/latest/states/"
+    r"(?P<roll>[^/\s]+)/(?P<pitch>[^/\s]+)/(?P<phase>[^/\s]+)\n```.*?```json\n).*?(?P<end>\n```)",
+    re.DOTALL,
+)
+EXAMPLES = {"state.json": (4.0, -3.0, 185.0), "solved_state.json": (1.0, -2.0, 10.5)}
+"""Files of ``service/examples`` and the poses (roll, pitch, phase in degrees) that they show."""
+
+
+def main() -> None:
+    """Write all answers."""
+    for name in DOCUMENTS:
+        path = ROOT / name
+        path.write_text(SHOWN.sub(_shown_again, path.read_text()))
+    for name, pose in EXAMPLES.items():
+        (ROOT / "service" / "examples" / name).write_text(_broken_into_lines(_document(*pose)) + "\n")
+
+
+def _shown_again(shown: re.Match[str]) -> str:
+    document = _document(float(shown["roll"]), float(shown["pitch"]), float(shown["phase"]))
+    return shown["query"] + _broken_into_lines(document) + shown["end"]
+
+
+def _document(roll_deg: float, pitch_deg: float, phase_deg: float) -> StateDocument:
+    return state_document(solve_pose(quarter_twenty_unc(), roll_deg, pitch_deg, phase_deg))
+
+
+def _broken_into_lines(document: StateDocument) -> str:
+    """The document as JSON with a line for each field, and for each pose and contact in it."""
+    lines = []
+    for name, value in document.items():
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            items = ",\n".join(f"    {json.dumps(item)}" for item in value)
+            lines.append(f'  "{name}": [\n{items}\n  ]')
+        else:
+            lines.append(f'  "{name}": {json.dumps(value)}')
+    return "{\n" + ",\n".join(lines) + "\n}"
+
+
+if __name__ == "__main__":
+    main()
