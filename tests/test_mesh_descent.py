@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks.mesh_descent import mesh_first_heights
+from benchmarks.mesh_descent import FASTER, SAFE, Descent, mesh_first_heights
 from benchmarks.tessellation import Mesh, bolt_mesh, nut_mesh
 from tests.oracle.first_height import first_height
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -44,10 +44,10 @@ def _radius(profile: Profile, vertex: np.ndarray[tuple[int], np.dtype[np.float64
     return profile.radius(float(vertex[2]) - PAIR.thread_pitch * math.atan2(vertex[1], vertex[0]) / (2 * math.pi))
 
 
-@pytest.mark.parametrize("probe_plane", [False, True])
-def test_mesh_heights_agree_with_the_brute_force(probe_plane: bool) -> None:
+@pytest.mark.parametrize("descent", [SAFE, *FASTER])
+def test_mesh_heights_agree_with_the_brute_force(descent: Descent) -> None:
     poses = np.random.default_rng(20).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], (20, 3))
-    heights, seconds = mesh_first_heights(PAIR, poses, probe_plane)
+    heights, seconds = mesh_first_heights(PAIR, poses, descent)
     exact_inch = [first_height(PAIR, *(float(a) for a in pose)).height for pose in poses]
     assert seconds > 0.0
     # Meshes of half a degree differ from the surfaces by up to 7e-5 in near a snap (method, section 6).

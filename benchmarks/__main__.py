@@ -1,0 +1,76 @@
+"""``make bench``: the exact method's pace, beside meshes, and the time of a whole library."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.exact import first_heights, seconds_to_solve
+from benchmarks.rebuild import floor, profile, rebuilt
+from benchmarks.report import Pace, Report, as_json, print_tables
+from benchmarks.rivalry import rivals
+from benchmarks.sample import sample_poses
+from threadstate.library.grid import Grid
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+CORES = (1, 2)
+
+
+def main() -> None:
+    """Measure, and print what was found."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("--json", action="store_true", help="print one JSON object instead of tables")
+    parser.add_argument("--poses", type=int, default=6000, help="poses solved by the exact method [%(default)s]")
+    parser.add_argument("--compared", type=int, default=200, help="first of them, also by meshes [%(default)s]")
+    parser.add_argument("--tilt-max", type=float, default=4.0, help="of the library, in degrees [%(default)s]")
+    parser.add_argument("--phase-step", type=float, default=1.0, help="of the library, in degrees [%(default)s]")
+    arguments = parser.parse_args()
+    grid = Grid(tilt_max_deg=arguments.tilt_max, phase_step_deg=arguments.phase_step)
+    report = _measured(arguments.poses, arguments.compared, grid)
+    if arguments.json:
+        print(as_json(report))
+    else:
+        print_tables(report)
+
+
+def _measured(pose_count: int, compared_count: int, grid: Grid) -> Report:
+    pair = quarter_twenty_unc()
+    _tell("exact method ...")
+    sampled = sample_poses(pose_count)
+    heights = first_heights(pair, sampled)
+    decided = ~np.isnan(heights)
+    poses, heights = sampled[decided], heights[decided]
+    paces = [Pace(cores, len(poses), seconds_to_solve(pair, poses, cores)) for cores in CORES]
+    _tell("meshes ...")
+    compared = poses[:compared_count]
+    seconds = min(seconds_to_solve(pair, compared, 1) for _ in range(3))
+    found = rivals(pair, compared, heights[:compared_count], seconds)
+    _tell("whole library ...")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        rebuilds = [rebuilt(folder, grid, cores) for cores in CORES]
+        parts = profile(folder, pair, grid)
+        limit = floor(folder, parts, rebuilds[-1].processes, rebuilds[-1].database_bytes)
+    return Report(
+        sampled=len(sampled),
+        declined=len(sampled) - len(poses),
+        paces=paces,
+        compared=len(compared),
+        compared_poses_per_second=len(compared) / seconds,
+        rivals=found,
+        rebuilds=rebuilds,
+        parts=parts,
+        floor=limit,
+    )
+
+
+def _tell(what: str) -> None:
+    print(what, file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,172 @@
+"""The whole of ``threadstate rebuild`` by the clock, and where its time goes."""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+
+from benchmarks.sample import SEED
+from threadstate.contact import _solve_kernel
+from threadstate.library.engine import writer_engine
+from threadstate.library.fingerprint import states_sha256
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.rows import chunk_rows
+from threadstate.library.write import open_library, write_chunk
+from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.thread.pair import Pair
+from worker.migrate import migrate
+
+PROFILED_ORIENTATIONS = 12
+COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
+IMPORTS = "import worker.computed_library, worker.compute, worker.progress"
+FIRST_POSE = (
+    f"{IMPORTS}; from threadstate.thread.catalogue import quarter_twenty_unc; "
+    "worker.compute.solve_poses(quarter_twenty_unc(), [(1, 2, 3)])"
+)
+
+
+class RebuildFailedError(Exception):
+    """``threadstate rebuild`` ended with an error, which this is."""
+
+
+@dataclass(frozen=True)
+class Rebuilt:
+    """A library made from nothing: wall time from the start of the command to its end, published; size of the file."""
+
+    processes: int
+    states: int
+    seconds: float
+    database_bytes: int
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the work of a rebuild, with the time that it takes one core for the whole library."""
+
+    name: str
+    where: str
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Floor:
+    """What no change of this code's order or packing could go below, in seconds.
+
+    ``kernels`` is the kernels' own time spread evenly over all cores, ``disk`` a plain write of as many bytes as the
+    database has, with one wait for the disk.
+    """
+
+    kernels: float
+    disk: float
+
+
+def rebuilt(folder: Path, grid: Grid, processes: int) -> Rebuilt:
+    """Run the command on a fresh database in ``folder``.
+
+    Raises:
+        RebuildFailedError: it failed.
+    """
+    path = folder / f"rebuilt_by_{processes}.sqlite3"
+    arguments = ["rebuild", "--database", f"sqlite:///{path}", "--workers", str(processes), "--json"]
+    for option, value in (
+        ("--tilt-max", grid.tilt_max_deg),
+        ("--tilt-step", grid.tilt_step_deg),
+        ("--phase-step", grid.phase_step_deg),
+    ):
+        arguments += [option, str(value)]
+    start = time.perf_counter()
+    run = subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, check=False)
+    seconds = time.perf_counter() - start
+    if run.returncode != 0:
+        raise RebuildFailedError(run.stderr.strip().splitlines()[-1])
+    return Rebuilt(processes, int(json.loads(run.stdout)["states"]), seconds, path.stat().st_size)
+
+
+def profile(folder: Path, pair: Pair, grid: Grid) -> list[Part]:
+    """Each part by itself on one core, over orientations chosen by a seed and scaled to the whole grid."""
+    count = min(PROFILED_ORIENTATIONS, grid.orientation_count)
+    chosen = np.random.default_rng(SEED).choice(grid.orientation_count, count, replace=False).tolist()
+    scale = grid.orientation_count / count
+    engine = writer_engine(f"sqlite:///{folder / 'profiled.sqlite3'}")
+    migrate(engine)
+    library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions()))
+    solve_poses(pair, grid.poses(0)[:1])
+    kernels = _Stopwatch()
+    solve, rows, hashing, handing, writing = (_Stopwatch() for _ in range(5))
+    with mock.patch.object(_solve_kernel, "solve_rows", kernels.around(_solve_kernel.solve_rows)):
+        for index in chosen:
+            with solve.running():
+                states = solve_poses(pair, grid.poses(index))
+            with hashing.running():
+                states_sha256(states)
+            with rows.running():
+                chunk = chunk_rows(grid.orientation(index), grid.first_ordinal(index), states)
+            with handing.running():
+                pickle.loads(pickle.dumps(chunk))
+            with writing.running():
+                write_chunk(engine, library_id, chunk)
+    engine.dispose()
+    imports = _process_seconds(IMPORTS)
+    return [
+        Part("start of Python, imports", "every process", imports),
+        Part("loading the kernels", "computing", _process_seconds(FIRST_POSE) - imports),
+        Part("solve: kernels", "computing", kernels.seconds * scale),
+        Part("solve: records to values", "computing", (solve.seconds - kernels.seconds) * scale),
+        Part("hashing", "computing", hashing.seconds * scale),
+        Part("rows", "computing", (rows.seconds - hashing.seconds) * scale),
+        Part("handing over", "both", handing.seconds * scale),
+        Part("writing", "writer", writing.seconds * scale),
+    ]
+
+
+def floor(folder: Path, parts: list[Part], cores: int, database_bytes: int) -> Floor:
+    """The floor of a rebuild whose parts and size were measured."""
+    content = os.urandom(database_bytes)
+    start = time.perf_counter()
+    with (folder / "plain").open("wb") as file:
+        file.write(content)
+        os.fsync(file.fileno())
+    disk = time.perf_counter() - start
+    return Floor(sum(part.seconds for part in parts if part.name == "solve: kernels") / cores, disk)
+
+
+class _Stopwatch:
+    def __init__(self) -> None:
+        self.seconds = 0.0
+
+    @contextmanager
+    def running(self) -> Iterator[None]:
+        start = time.perf_counter()
+        yield
+        self.seconds += time.perf_counter() - start
+
+    def around(self, kernel: Callable[..., None]) -> Callable[..., None]:
+        """The kernel, timed."""
+
+        def timed(*arguments: object) -> None:
+            with self.running():
+                kernel(*arguments)
+
+        return timed
+
+
+def _process_seconds(code: str) -> float:
+    """Wall time of a Python process that runs ``code``: the second of two, so that files are in memory."""
+    seconds = 0.0
+    for _ in range(2):
+        start = time.perf_counter()
+        subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+        seconds = time.perf_counter() - start
+    return seconds

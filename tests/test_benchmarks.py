@@ -1,0 +1,90 @@
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from benchmarks.rebuild import Floor, Part, Rebuilt
+from benchmarks.report import Pace, Report, print_tables
+from benchmarks.rivalry import TUNNELLED_INCH, Rival
+from benchmarks.sample import sample_poses
+from threadstate.library.grid import Grid
+
+SMALL = ["--poses", "40", "--compared", "4", "--tilt-max", "1", "--phase-step", "120"]
+
+
+@pytest.fixture(scope="module")
+def report(repository_root: Path) -> dict[str, Any]:
+    """What ``make bench`` finds, on a small scale."""
+    run = subprocess.run(
+        [sys.executable, "-m", "benchmarks", "--json", *SMALL],
+        cwd=repository_root,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    found: dict[str, Any] = json.loads(run.stdout)
+    return found
+
+
+def test_sample_is_half_on_the_grid_and_the_same_whatever_its_size() -> None:
+    poses = sample_poses(200)
+    grid = {pose for index in range(Grid().orientation_count) for pose in Grid().poses(index)}
+    assert [tuple(pose) in grid for pose in poses.tolist()] == [True, False] * 100
+    assert np.abs(poses[:, :2]).max() <= 4.0
+    assert np.array_equal(sample_poses(7), poses[:7])
+
+
+def test_every_pose_is_counted_once_on_one_core_and_on_two(report: dict[str, Any]) -> None:
+    assert [pace["processes"] for pace in report["paces"]] == [1, 2]
+    assert all(pace["poses"] + report["declined"] == report["sampled"] == 40 for pace in report["paces"])
+
+
+def test_meshes_come_to_the_exact_heights(report: dict[str, Any]) -> None:
+    assert report["compared"] == 4
+    assert len(report["rivals"]) == 4
+    for rival in report["rivals"]:
+        # Meshes of half a degree differ from the surfaces by up to 7e-5 in near a snap (method, section 6).
+        assert 0.0 < rival["median_difference"] <= abs(rival["largest_difference"]) < 7e-5 < TUNNELLED_INCH
+        assert rival["tunnelled"] == 0
+        assert rival["ratio"] == pytest.approx(report["compared_poses_per_second"] / rival["poses_per_second"])
+
+
+def test_whole_libraries_are_made_and_every_part_is_timed(report: dict[str, Any]) -> None:
+    assert [(one["processes"], one["states"]) for one in report["rebuilds"]] == [(1, 27), (2, 27)]
+    assert len({part["name"] for part in report["parts"]}) == 8
+    assert all(part["seconds"] > 0.0 for part in report["parts"] if part["name"].startswith("solve"))
+
+
+def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
+    print_tables(
+        Report(
+            sampled=61,
+            declined=1,
+            paces=[Pace(1, 60, 0.5), Pace(2, 60, 0.25)],
+            compared=7,
+            compared_poses_per_second=110.0,
+            rivals=[Rival("march", 55.0, 2.0, 5e-7, -0.012, (1.0, -2.0, 357.5), 3)],
+            rebuilds=[Rebuilt(2, 27, 1.5, 4_000_000)],
+            parts=[Part("rows", "computing", 3.0), Part("writing", "writer", 1.0)],
+            floor=Floor(0.75, 0.5),
+        )
+    )
+    lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    for shown in (
+        "Exact: all three contacts of 60 poses; 1 more are declined",
+        "1 120 0.50",
+        "2 240 0.25",
+        "exact, all three contacts 110",
+        "march 55 2.0 x 5.0e-07 -1.2e-02 1.00, -2.00, 357.50 3",
+        "2 27 1.50 4.0",
+        "rows computing 3.00 75.0%",
+        "all 4.00",
+    ):
+        assert shown in lines
+    assert "kernels alone on 2 cores 0.75 s; 4 MB written plainly to this disk 0.50 s" in lines[-1]
