@@ -5,6 +5,7 @@ import sys
 
 AFTER_THAT_NOTHING_COMPILES = """
 import gc
+import pickle
 import numpy as np
 from numba.core.registry import CPUDispatcher
 from threadstate.state.solve import solve_poses
@@ -23,6 +24,7 @@ tilted = np.random.default_rng(6).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], 
 for pair in (quarter_twenty_unc(), quarter_twenty_unc(RootForm.NEWER)):
     solve_poses(pair, np.vstack([level, tilted]))
     solve_poses(pair, [])
+    solve_poses(pickle.loads(pickle.dumps(pair)), [(0.0, 0.0, 0.0), (4.0, 0.0, 185.0)])
 print(sorted(set(compiled().items()) - set(warm.items())))
 """
 

@@ -73,6 +73,10 @@ class Profile:
                 "small enough for the two fillets to leave a flank between them",
             )
 
+    def __getstate__(self) -> dict[str, float]:
+        # Without ``row``: out of a pickle it would come writable, and kernels would be compiled anew for such an array.
+        return {name: value for name, value in vars(self).items() if name != "row"}
+
     def _largest_fillet(self, side: int) -> float:
         half_angle = math.radians(self.flank_half_angle_deg)
         apex = self._corners[0 if side < 0 else 1]
