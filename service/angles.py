@@ -8,7 +8,7 @@ from annotated_types import Ge, Le, Lt
 from fastapi import Path, Query
 from pydantic import AllowInfNan
 
-from threadstate.library.grid import TILT_LIMIT_DEG
+from threadstate.state.options import TILT_LIMIT_DEG
 
 Tilt = Annotated[float, Ge(-TILT_LIMIT_DEG), Le(TILT_LIMIT_DEG), AllowInfNan(False)]
 Phase = Annotated[float, Ge(0.0), Lt(360.0), AllowInfNan(False)]

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from threadstate.errors import InvalidValueError
-from threadstate.library.grid import TILT_LIMIT_DEG
+from threadstate.state.options import TILT_LIMIT_DEG
 
 HEADER = ["roll", "pitch", "phase"]
 

@@ -24,7 +24,10 @@ TWO_PI = 2.0 * math.pi
 
 @dataclass(frozen=True, slots=True)
 class LevelContact:
-    """Where a level bolt comes to rest: the height of its origin, and whether on the thread (else on the surface)."""
+    """Where a level bolt comes to rest: whether on the thread (else on the surface), and the height of its origin.
+
+    ``height`` is a length in the pair's unit, in the nut's frame.
+    """
 
     height: float
     on_thread: bool
@@ -64,7 +67,9 @@ def solve_level(pair: Pair, phase: float, row: np.ndarray) -> None:
 
 
 def strip_extremes(pair: Pair, height: float) -> tuple[tuple[float, float, float], ...]:
-    """The corners of the strip of flank on which a level bolt in phase rests, in the nut's frame.
+    """The corners of the strip of flank on which a level bolt in phase rests: four points of the nut's frame.
+
+    Lengths, ``height`` of the bolt's origin too, are in the pair's unit.
 
     The strip is where the nut's positive flank lies between the bolt's base and the nut's surface, over the radii at
     which both profiles are straight: at each end of that range, at the top and at the bottom of the strip.

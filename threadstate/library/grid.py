@@ -8,8 +8,8 @@ from decimal import Decimal
 from functools import cached_property
 
 from threadstate.errors import InvalidValueError
+from threadstate.state.options import TILT_LIMIT_DEG
 
-TILT_LIMIT_DEG = 10.0
 SMALLEST_STEP_DEG = 0.01
 LARGEST_STATE_COUNT = 50_000_000
 
@@ -56,13 +56,13 @@ class Grid:
 
     @cached_property
     def tilts_deg(self) -> tuple[float, ...]:
-        """The values of roll, and of pitch, ascending."""
+        """The values of roll, and of pitch, in degrees, ascending."""
         steps = int(_decimal(self.tilt_max_deg) / _decimal(self.tilt_step_deg))
         return tuple(_multiple(i, self.tilt_step_deg) for i in range(-steps, steps + 1))
 
     @cached_property
     def phases_deg(self) -> tuple[float, ...]:
-        """The values of phase, ascending."""
+        """The values of phase in degrees, ascending."""
         return tuple(_multiple(i, self.phase_step_deg) for i in range(self.phase_count))
 
     @property

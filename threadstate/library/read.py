@@ -106,7 +106,7 @@ def states_between(connection: Connection, library_id: int, first: int, last: in
 def state_of_pose(
     connection: Connection, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float
 ) -> ContactState:
-    """The state of a pose of the grid.
+    """The state of a pose of the grid, angles in degrees; lengths in the library's unit.
 
     Raises:
         NotFoundError: the pose is not one of the grid's.

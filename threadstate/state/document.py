@@ -18,7 +18,7 @@ class PoseDocument(TypedDict):
 
 
 class ContactDocument(TypedDict):
-    """A contact in the pose of its stage; ``point`` and ``normal`` in the nut's frame."""
+    """A contact in the pose of its stage; ``point`` and ``normal`` in the nut's frame, margins as lengths."""
 
     stage: int
     point: Lengths
@@ -32,7 +32,7 @@ class ContactDocument(TypedDict):
 
 
 class MarginsDocument(TypedDict):
-    """Signed distances of the class from its thresholds, positive on the stable side; null where not known."""
+    """Signed lengths from the thresholds of the class, positive on the stable side; null where not known."""
 
     drop: float | None
     embedment: float | None
@@ -86,7 +86,7 @@ def state_document(state: ContactState, length_factor: float = 1.0) -> StateDocu
 
 
 def state_json(state: ContactState, length_factor: float = 1.0) -> str:
-    """The document of a state as one line of compact JSON; every double is written so that it reads back the same."""
+    """:func:`state_document` as one line of compact JSON; every double is written so that it reads back the same."""
     return json.dumps(state_document(state, length_factor), separators=(",", ":"), allow_nan=False)
 
 

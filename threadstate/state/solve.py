@@ -41,7 +41,12 @@ _FLAGS = tuple(
 def solve_pose(
     pair: Pair, roll_deg: float, pitch_deg: float, phase_deg: float, options: SolveOptions | None = None
 ) -> ContactState:
-    """The contact state of one pose; see :func:`solve_poses`."""
+    """The contact state of one pose, its angles in degrees; as :func:`solve_poses` of this pose alone.
+
+    Raises:
+        InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
+        UnresolvedPoseError: the search could not close all its cells.
+    """
     return solve_poses(pair, [(roll_deg, pitch_deg, phase_deg)], options)[0]
 
 

@@ -93,7 +93,7 @@ class Profile:
 
     @property
     def boundaries(self) -> tuple[float, float, float, float]:
-        """The ``s`` of flat | fillet | flank | fillet | flat on the rising half, -p/4 .. p/4."""
+        """The ``s`` of flat | fillet | flank | fillet | flat on the rising half, -p/4 .. p/4, in the pair's unit."""
         turn = math.pi / 2.0 - math.radians(self.flank_half_angle_deg)
         low, high = self._corners
         t_low = self.minor_fillet_radius * math.tan(turn / 2.0)
@@ -102,7 +102,7 @@ class Profile:
 
     @cached_property
     def row(self) -> NDArray[np.float64]:
-        """The packed parameters that the kernels take; read-only, shape (11,)."""
+        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (11,)."""
         flat, flank, crest, top = self.boundaries
         cot = 1.0 / math.tan(math.radians(self.flank_half_angle_deg))
         row = np.array(
@@ -128,12 +128,12 @@ class Profile:
         return float(kernel.radius(_finite(s), self.row))
 
     def derivatives(self, s: float) -> tuple[float, float, float]:
-        """``f, f', f''`` at ``s``; at a boundary of regions f'' is that of the flat or flank side."""
+        """``f, f', f''`` at ``s``, lengths in the pair's unit; at a boundary of regions f'' is the flat's or flank's."""
         r, d1, d2 = kernel.jet(_finite(s), self.row)
         return float(r), float(d1), float(d2)
 
     def inverse(self, r: float) -> float:
-        """The ``s`` in [-p/4, p/4] of the rising half at which the radius is ``r``.
+        """The ``s`` in [-p/4, p/4] of the rising half at which the radius is ``r``, both in the pair's unit.
 
         At the two extreme radii, where a whole flat has them, it is the end of the flat beside the fillet.
         The falling half has the same radius at p/2 - s.
