@@ -128,7 +128,7 @@ class Profile:
         return float(kernel.radius(_finite(s), self.row))
 
     def derivatives(self, s: float) -> tuple[float, float, float]:
-        """``f, f', f''`` at ``s``, lengths in the pair's unit; at a boundary of regions f'' is the flat's or flank's."""
+        """``f, f', f''`` at ``s``, lengths in the pair's unit; between two regions f'' is the flat's or flank's."""
         r, d1, d2 = kernel.jet(_finite(s), self.row)
         return float(r), float(d1), float(d2)
 
