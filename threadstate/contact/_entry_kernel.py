@@ -31,7 +31,7 @@ INSIDE = 3
 """Inside from the start."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, float]:
     """First interval of ``tau >= 0`` on which g = g0 + gc cos(tau) + gs sin(tau) (or g0 + gs tau) is >= 0.
 
@@ -64,7 +64,15 @@ def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, f
     return (first, second) if lo < NEVER else (NEVER, NEVER)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def passage(path: Array, sigma: float, is_turn: bool, coplanar: bool) -> tuple[float, float]:
+    """When the walker is in the half space of the solid's plane: :func:`half_space` of its path."""
+    if coplanar:
+        return (0.0 if -sigma * (path[2] + path[5]) >= 0.0 else NEVER), NEVER
+    return half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
+
+
+@njit(cache=True, error_model="numpy")
 def time_bend(
     span: float, s: float, speed: float, level: float, is_turn: bool, row: Array, lipschitz: float, r_low: float
 ) -> float:
@@ -82,22 +90,31 @@ def time_bend(
     return f2 * along * along + (row[pk.COT] * k_r * 2.0 + 1.0) / r_low * level * speed + swing * speed
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def entry(
-    path: Array, is_turn: bool, row: Array, sigma: float, limit: float, lipschitz: float, bend: float, r_low: float
+    path: Array,
+    is_turn: bool,
+    coplanar: bool,
+    row: Array,
+    sigma: float,
+    since: float,
+    limit: float,
+    lipschitz: float,
+    bend: float,
+    r_low: float,
 ) -> tuple[float, int]:
     """First ``tau`` in [0, limit] at which the walker is in the solid, and how it entered.
 
-    ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative, ``r_low`` the radius from below.
+    Until ``since`` it is known not to be.     ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative, ``r_low`` the radius from below.
     """
-    start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
+    start, stop = passage(path, sigma, is_turn, coplanar)
     if start > limit:
         return NEVER, NONE
     end = min(stop, limit)
     speed = path[9]
     second = bend * speed * speed + (lipschitz * speed if is_turn else 0.0)
     k = row[pk.P] / TWO_PI
-    tau = start
+    tau = max(start, since)
     certain = False
     for step in range(400):
         x, y, z = position(path, tau, is_turn)

@@ -20,7 +20,7 @@ F_THETA, F_CORNER, F_X, F_Y = range(4)
 EXTREME_SIZE = 4
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float, float]:
     """Point of the bolt's edge at ``theta`` in the nut's plane, and its derivative; the bolt is flush."""
     x, y, dx, dy = edge_point(theta, bolt)
@@ -32,14 +32,14 @@ def outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
     """How far the bolt's edge at ``theta`` lies outside the nut's outline, radially."""
     x, y, _, _ = outline(theta, pose, bolt)
     return math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
     """Azimuth in [a, b] where the outlines cross (``corner``) or the edge runs across (nx, ny) (Illinois)."""
     fa = outline_value(a, corner, nx, ny, pose, bolt, nut)
@@ -66,7 +66,7 @@ def root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bo
     return a if abs(fa) < abs(fb) else b
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
     """The function whose root is sought."""
     if corner:
@@ -75,7 +75,7 @@ def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array,
     return nx * dx + ny * dy
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, out: Array) -> int:
     """The patch's farthest points across the axis (ax, ay) (left, then right) and along it (forth, then back).
 
@@ -84,14 +84,19 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
     """
     theta = np.empty(SAMPLES + 1)
     over = np.empty(SAMPLES + 1)
-    corners = np.empty(SAMPLES)
+    place = np.empty((SAMPLES + 1, 4))
+    corners = np.empty((SAMPLES, 3))
     corner_count = 0
     for i in range(SAMPLES + 1):
         theta[i] = TWO_PI * i / SAMPLES
-        over[i] = outside(theta[i], pose, bolt, nut)
+        place[i] = outline(theta[i], pose, bolt)
+        x, y = place[i, 0], place[i, 1]
+        over[i] = math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
     for i in range(SAMPLES):
         if (over[i] > 0.0) != (over[i + 1] > 0.0):
-            corners[corner_count] = root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
+            t = root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
+            corners[corner_count, 0] = t
+            corners[corner_count, 1], corners[corner_count, 2], _, _ = outline(t, pose, bolt)
             corner_count += 1
     count = 0
     for turn in range(4):
@@ -101,25 +106,23 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
         best_theta = 0.0
         is_corner = False
         for i in range(SAMPLES):
-            x, y, d0x, d0y = outline(theta[i], pose, bolt)
-            if over[i] > 0.0 and nx * x + ny * y > best:
-                best = nx * x + ny * y
+            reach = nx * place[i, 0] + ny * place[i, 1]
+            if over[i] > 0.0 and reach > best:
+                best = reach
                 best_theta = theta[i]
                 is_corner = False
-            _, _, d1x, d1y = outline(theta[i + 1], pose, bolt)
-            if nx * d0x + ny * d0y > 0.0 and nx * d1x + ny * d1y <= 0.0:
+            if nx * place[i, 2] + ny * place[i, 3] > 0.0 and nx * place[i + 1, 2] + ny * place[i + 1, 3] <= 0.0:
                 t = root(theta[i], theta[i + 1], False, nx, ny, pose, bolt, nut)
-                if outside(t, pose, bolt, nut) >= 0.0:
-                    x, y, _, _ = outline(t, pose, bolt)
-                    if nx * x + ny * y >= best:
-                        best = nx * x + ny * y
-                        best_theta = t
-                        is_corner = False
+                x, y, _, _ = outline(t, pose, bolt)
+                if nx * x + ny * y >= best and outside(t, pose, bolt, nut) >= 0.0:
+                    best = nx * x + ny * y
+                    best_theta = t
+                    is_corner = False
         for i in range(corner_count):
-            x, y, _, _ = outline(corners[i], pose, bolt)
-            if nx * x + ny * y > best:
-                best = nx * x + ny * y
-                best_theta = corners[i]
+            reach = nx * corners[i, 1] + ny * corners[i, 2]
+            if reach > best:
+                best = reach
+                best_theta = corners[i, 0]
                 is_corner = True
         if best == -math.inf:
             return 0

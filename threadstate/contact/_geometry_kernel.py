@@ -20,20 +20,23 @@ Array = NDArray[np.float64]
 TWO_PI = 2.0 * math.pi
 
 # A motion, in the frame of the solid that the walker meets: start placement (3x3 by rows, then the offset),
-# kind (0 translation, 1 turn), a point of the axis, the unit axis (or the direction of translation), sigma.
+# kind (0 translation, 1 turn), a point of the axis, the unit axis (or the direction of translation), sigma, and 1 where
+# the axis of a turn lies both in the walker's plane and in the solid's (then the two planes meet along it, and a walker
+# stays on its side of the solid's plane until the turn has brought the planes together).
 M_ROT = 0
 M_OFF = 9
 M_KIND = 12
 M_POINT = 13
 M_AXIS = 16
 M_SIGMA = 19
-MOTION_SIZE = 20
+M_COPLANAR = 20
+MOTION_SIZE = 21
 
 # A path: x(tau) = base + d cos(tau) + e sin(tau) for a turn, base + e tau for a translation; then |dx/dtau|.
 PATH_SIZE = 10
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def edge_point(theta: float, row: Array) -> tuple[float, float, float, float]:
     """Point (x, y) of the edge curve at azimuth ``theta`` (rad) and its derivative by ``theta``."""
     k = row[pk.P] / TWO_PI
@@ -44,7 +47,7 @@ def edge_point(theta: float, row: Array) -> tuple[float, float, float, float]:
     return r * c, r * s, dr * c - r * s, dr * s + r * c
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def field(x: float, y: float, z: float, row: Array, sigma: float) -> tuple[float, float, float, float]:
     """``phi = sigma (r - f(s))``, positive inside the thread, and its gradient; undefined on the axis."""
     k = row[pk.P] / TWO_PI
@@ -59,20 +62,20 @@ def field(x: float, y: float, z: float, row: Array, sigma: float) -> tuple[float
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def phi(x: float, y: float, z: float, row: Array, sigma: float) -> float:
     """``sigma (r - f(s))`` alone."""
     k = row[pk.P] / TWO_PI
     return sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), row))
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def set_path(x: float, y: float, motion: Array, path: Array) -> None:
     """The path of the walker that starts at (x, y, 0) of its own frame."""
     set_path_from(x, y, 0.0, motion, path)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def set_path_from(x: float, y: float, z: float, motion: Array, path: Array) -> None:
     """The path of the point that starts at (x, y, z) of the walker's own frame."""
     qx = motion[0] * x + motion[1] * y + motion[2] * z + motion[9]
@@ -112,7 +115,7 @@ def set_path_from(x: float, y: float, z: float, motion: Array, path: Array) -> N
     path[9] = math.sqrt(dx * dx + dy * dy + dz * dz)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def turn_vector(x: float, y: float, z: float, motion: Array, tau: float) -> tuple[float, float, float]:
     """A vector of the walker's own frame, in the solid's frame after ``tau``."""
     vx = motion[0] * x + motion[1] * y + motion[2] * z
@@ -136,7 +139,7 @@ def turn_vector(x: float, y: float, z: float, motion: Array, tau: float) -> tupl
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def position(path: Array, tau: float, is_turn: bool) -> tuple[float, float, float]:
     """Where the walker is after ``tau``."""
     if is_turn:
@@ -150,7 +153,7 @@ def position(path: Array, tau: float, is_turn: bool) -> tuple[float, float, floa
     return path[0] + tau * path[6], path[1] + tau * path[7], path[2] + tau * path[8]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def velocity(path: Array, tau: float, is_turn: bool) -> tuple[float, float, float]:
     """The walker's velocity by ``tau``."""
     if is_turn:

@@ -31,6 +31,7 @@ from threadstate.contact._bound_kernel import (
 )
 from threadstate.contact._entry_kernel import THREAD, entry, half_space
 from threadstate.contact._geometry_kernel import (
+    M_COPLANAR,
     M_KIND,
     PATH_SIZE,
     TWO_PI,
@@ -73,13 +74,13 @@ TINY_THETA = 2e-3
 OPEN, CLEAR, OUT = range(3)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def thread_point(theta: float, z: float, row: Array) -> tuple[float, float, float]:
     """Radius, slope and second derivative of the profile at (theta, z)."""
     return pk.jet(z - row[pk.P] / TWO_PI * theta, row)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def judge(
     rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array
 ) -> int:
@@ -185,7 +186,7 @@ def judge(
     return OPEN
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def residual(
     theta: float, z: float, tau: float, motion: Array, bolt: Array, nut: Array, path: Array, out: Array
 ) -> None:
@@ -210,7 +211,7 @@ def residual(
     out[6] = zz
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def polish(
     rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array, found: Array, count: int
 ) -> int:
@@ -224,7 +225,7 @@ def polish(
     jac = np.empty((3, 3))
     r, _, _ = thread_point(theta, z, bolt)
     set_path_from(r * math.cos(theta), r * math.sin(theta), z, motion, path)
-    tau, how = entry(path, motion[M_KIND] != 0.0, nut, 1.0, 2.0 * limit, bounds[B_LIPSCHITZ], bounds[B_BEND], bounds[B_R_LOW])
+    tau, how = entry(path, motion[M_KIND] != 0.0, motion[M_COPLANAR] != 0.0, nut, 1.0, 0.0, 2.0 * limit, bounds[B_LIPSCHITZ], bounds[B_BEND], bounds[B_R_LOW])
     if how != THREAD:
         return count
     residual(theta, z, tau, motion, bolt, nut, path, here)
@@ -304,7 +305,7 @@ def polish(
     return count + 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def tangencies(
     motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array
 ) -> tuple[int, int]:
@@ -368,7 +369,7 @@ def tangencies(
     return count, looked
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def ridge_point(
     theta: float, low: float, high: float, tau: float, motion: Array, bolt: Array, nut: Array, path: Array, out: Array
 ) -> float:
@@ -400,7 +401,7 @@ def ridge_point(
     return c
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
     """Contacts of thread with thread along a turn before ``limit``, earliest first.
 
@@ -444,10 +445,17 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
                         ridge += 1
                     below = above
             for m in range(4):
-                if before[m, 0] > 0.0 and now[m, 0] < 0.0:
-                    w = before[m, 0] / (before[m, 0] - now[m, 0])
-                    rect[R_THETA] = before[m, 1] + w * (now[m, 1] - before[m, 1])
-                    rect[R_Z] = before[m, 2] + w * (now[m, 2] - before[m, 2])
+                # A maximum between two azimuths, or between an azimuth and the end of a ridge.
+                falls = before[m, 0] > 0.0 and now[m, 0] < 0.0
+                ends = before[m, 0] > 0.0 and math.isnan(now[m, 0])
+                starts = now[m, 0] < 0.0 and math.isnan(before[m, 0])
+                if falls or ends or starts:
+                    rect[R_THETA] = now[m, 1] if starts else before[m, 1]
+                    rect[R_Z] = now[m, 2] if starts else before[m, 2]
+                    if falls:
+                        w = before[m, 0] / (before[m, 0] - now[m, 0])
+                        rect[R_THETA] += w * (now[m, 1] - before[m, 1])
+                        rect[R_Z] += w * (now[m, 2] - before[m, 2])
                     rect[R_HALF_THETA] = TWO_PI / azimuths
                     count = polish(rect, limit, motion, bolt, nut, bounds, path, found, count)
             before = now

@@ -69,7 +69,7 @@ GRAZING_SINE = 1e-3
 """Two edges that cross at a smaller angle (its sine) graze."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def to_bolt(pose: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
     """A point of the nut's frame in the bolt's."""
     x -= pose[9]
@@ -82,7 +82,7 @@ def to_bolt(pose: Array, x: float, y: float, z: float) -> tuple[float, float, fl
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def put_pose(pose: Array, row: Array) -> None:
     """Appends a pose."""
     n = int(row[O_POSES])
@@ -91,7 +91,7 @@ def put_pose(pose: Array, row: Array) -> None:
     row[O_POSES] = n + 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
     """Appends a contact with its points, normal, regions and margins."""
     n = int(row[O_CONTACTS])
@@ -128,7 +128,7 @@ def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array
     row[O_CONTACTS] = n + 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, c: Array) -> None:
     """The unit normal, from the nut into the bolt."""
     x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
@@ -167,7 +167,7 @@ def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, 
     c[P_NORMAL], c[P_NORMAL + 1], c[P_NORMAL + 2] = nx / n, ny / n, nz / n
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def put_flush(
     stage: int, theta: float, corner: bool, x: float, y: float, pose: Array, bolt: Array, nut: Array, row: Array
 ) -> None:
@@ -197,7 +197,7 @@ def put_flush(
     row[O_CONTACTS] = n + 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def put_strip(contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
     """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage."""
     n = int(row[O_CONTACTS])
@@ -207,7 +207,7 @@ def put_strip(contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) 
     row[O_CONTACT + POINT_SIZE * n + P_PAIR] = FLUSH
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def grazes(contact: Array, pose: Array, bolt: Array, nut: Array) -> bool:
     """Whether a contact's features are nearly parallel: edges that cross at a very small angle."""
     if int(contact[K_PAIR]) != EDGE_EDGE:

@@ -34,8 +34,9 @@ from threadstate.contact._bound_kernel import (
     sine_of_tilt,
     thread_bend,
 )
-from threadstate.contact._entry_kernel import INSIDE, NEVER, NONE, PLANE, THREAD, entry, half_space
+from threadstate.contact._entry_kernel import INSIDE, NEVER, NONE, PLANE, THREAD, entry, passage
 from threadstate.contact._geometry_kernel import (
+    M_COPLANAR,
     M_KIND,
     M_SIGMA,
     PATH_SIZE,
@@ -64,7 +65,7 @@ N_AT_START = 6
 N_STOP = 7
 N_AT_STOP = 8
 NODE_SIZE = 9
-MAX_NODES = 6000
+MAX_NODES = 20000
 MAX_CELLS = 3000
 
 # A candidate: time, kind, azimuth on the walker's curve, azimuth on the other part, point in the solid's frame.
@@ -91,7 +92,15 @@ SMALLEST_CELL = 1e-7
 NEIGHBOURHOOD = 1e-4
 """Half-width (rad) around a contact within which no other is looked for."""
 
-GROWTH_CELL = 4e-3
+PASSAGE_CELL = 1e-4
+SMALLEST_PASSAGE = 1e-11
+"""Widths (rad) at which splitting ends around a passage over the other edge inside growth: bracketed, and not."""
+
+TURN_DOUBT = 2e-7
+HEIGHT_DOUBT = 2e-9
+"""No contact comes earlier than the one found by more than this (rad; thread pitches): that is what the cells prove."""
+
+GROWTH_CELL = 1e-2
 """Width (rad) at which a cell of growth counts as monotone by the signs at its ends alone."""
 
 START_CELLS = 24
@@ -99,33 +108,40 @@ START_CELLS = 24
 OVERFLOW = -1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def set_node(
     theta: float,
     motion: Array,
     row_c: Array,
     row_s: Array,
     horizon: float,
+    since: float,
     limit: float,
     bounds: Array,
     path: Array,
     node: Array,
+    stays_out: bool = False,
 ) -> None:
     """Entry time at ``theta`` up to ``limit``, the derivatives of the function that vanishes there, passages up to ``horizon``."""
     is_turn = motion[M_KIND] != 0.0
     sigma = motion[M_SIGMA]
+    coplanar = motion[M_COPLANAR] != 0.0
     x, y, dx, dy = edge_point(theta, row_c)
     set_path(x, y, motion, path)
-    time, how = entry(path, is_turn, row_s, sigma, limit, bounds[B_LIPSCHITZ], bounds[B_BEND], bounds[B_R_LOW])
+    time, how = NEVER, NONE
+    if not stays_out:
+        time, how = entry(
+            path, is_turn, coplanar, row_s, sigma, since, limit, bounds[B_LIPSCHITZ], bounds[B_BEND], bounds[B_R_LOW]
+        )
     node[N_THETA] = theta
     node[N_TIME] = time
     node[N_HOW] = how
     node[N_BY_THETA] = 0.0
     node[N_BY_TAU] = 0.0
-    start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
+    start, stop = passage(path, sigma, is_turn, coplanar)
     node[N_START] = NEVER
     node[N_STOP] = NEVER
-    if 0.0 < start <= horizon:
+    if start <= horizon:
         px, py, pz = position(path, start, is_turn)
         node[N_START] = start
         node[N_AT_START] = phi(px, py, pz, row_s, sigma)
@@ -146,7 +162,7 @@ def set_node(
             node[N_BY_TAU] = gx * vx + gy * vy + gz * vz
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def over_plane(
     theta: float, exit: bool, motion: Array, row_c: Array, row_s: Array, path: Array
 ) -> tuple[float, float]:
@@ -155,15 +171,15 @@ def over_plane(
     sigma = motion[M_SIGMA]
     x, y, _, _ = edge_point(theta, row_c)
     set_path(x, y, motion, path)
-    start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
+    start, stop = passage(path, sigma, is_turn, motion[M_COPLANAR] != 0.0)
     tau = stop if exit else start
-    if tau >= math.pi or (start == 0.0 and not exit):
+    if tau >= math.pi:
         return NEVER, NEVER
     px, py, pz = position(path, tau, is_turn)
     return phi(px, py, pz, row_s, sigma), tau
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def edge_root(
     a: float, b: float, exit: bool, motion: Array, row_c: Array, row_s: Array, path: Array
 ) -> tuple[float, float]:
@@ -205,7 +221,7 @@ def edge_root(
     return b, tb
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def stationary(
     left: Array, right: Array, motion: Array, row_c: Array, row_s: Array, limit: float, bounds: Array, path: Array, node: Array
 ) -> bool:
@@ -220,7 +236,7 @@ def stationary(
         c = (a * wb - b * wa) / (wb - wa)
         if not (min(a, b) < c < max(a, b)):
             c = 0.5 * (a + b)
-        set_node(c, motion, row_c, row_s, limit, limit, bounds, path, node)
+        set_node(c, motion, row_c, row_s, limit, 0.0, limit, bounds, path, node)
         if node[N_HOW] != how:
             return False
         f = node[N_BY_THETA]
@@ -241,7 +257,7 @@ def stationary(
     return True
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def wedge(theta: float, row: Array, sigma: float, out: Array) -> None:
     """Unit vectors at the edge point: along the edge (counter-clockwise), into the flat face, into the thread face."""
     x, y, ex, ey = edge_point(theta, row)
@@ -266,13 +282,13 @@ def wedge(theta: float, row: Array, sigma: float, out: Array) -> None:
     out[8] = tz / n
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def dot(ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> float:
     """Scalar product."""
     return ax * bx + ay * by + az * bz
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def wedge_support(motion: Array, tau: float, w: Array, nx: float, ny: float, nz: float) -> tuple[float, float]:
     """Components along n of the walker's two face directions after ``tau``."""
     ax, ay, az = turn_vector(w[3], w[4], w[5], motion, tau)
@@ -280,7 +296,7 @@ def wedge_support(motion: Array, tau: float, w: Array, nx: float, ny: float, nz:
     return dot(ax, ay, az, nx, ny, nz), dot(bx, by, bz, nx, ny, nz)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def edges_apart(
     theta_c: float, theta_s: float, tau: float, motion: Array, row_c: Array, row_s: Array, w: Array
 ) -> bool:
@@ -311,7 +327,7 @@ def edges_apart(
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def face_apart(
     theta_c: float, tau: float, nx: float, ny: float, nz: float, motion: Array, row_c: Array, w: Array
 ) -> bool:
@@ -321,7 +337,7 @@ def face_apart(
     return c1 >= -1e-12 and c2 >= -1e-12
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_candidate(
     time: float, kind: int, theta: float, other: float, x: float, y: float, z: float, count: int, found: Array
 ) -> int:
@@ -351,7 +367,7 @@ def add_candidate(
     return count + 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def try_edge(
     theta: float, time: float, motion: Array, row_c: Array, row_s: Array, path: Array, w: Array, count: int, found: Array
 ) -> int:
@@ -366,7 +382,7 @@ def try_edge(
     return count
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def try_face(node: Array, motion: Array, row_c: Array, row_s: Array, path: Array, w: Array, count: int, found: Array) -> int:
     """Adds the tangency at ``node`` if the walker's wedge is outside the face there."""
     is_turn = motion[M_KIND] != 0.0
@@ -387,7 +403,7 @@ def try_face(node: Array, motion: Array, row_c: Array, row_s: Array, path: Array
     return count
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def steady(
     node: Array, half: float, motion: Array, row_c: Array, row_s: Array, bounds: Array, path: Array
 ) -> bool:
@@ -427,7 +443,7 @@ def steady(
     return slope > bend * half
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def monotone(a: Array, b: Array, motion: Array, row_c: Array, row_s: Array, bounds: Array, path: Array) -> bool:
     """Whether ``T`` has no stationary point between two nodes of one face."""
     if (a[N_BY_THETA] > 0.0) != (b[N_BY_THETA] > 0.0):
@@ -436,7 +452,7 @@ def monotone(a: Array, b: Array, motion: Array, row_c: Array, row_s: Array, boun
     return steady(a, half, motion, row_c, row_s, bounds, path) and steady(b, half, motion, row_c, row_s, bounds, path)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def holds_mark(a: float, b: float, marks: Array, mark_count: int) -> bool:
     """Whether [a, b] is the closed neighbourhood of an earlier contact."""
     if b - a > 2.5 * EPS_PUNCTURE:
@@ -447,7 +463,56 @@ def holds_mark(a: float, b: float, marks: Array, mark_count: int) -> bool:
     return False
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def split_at(a: float, b: float, marks: Array, mark_count: int) -> float:
+    """Where a cell is split: in the middle, or near a mark where the distances from it are in proportion."""
+    for j in range(mark_count):
+        for turn in (0.0, TWO_PI):
+            near = a - marks[j] - turn
+            far = b - marks[j] - turn
+            if near > 0.0 and near < 0.3 * far < 0.15:
+                return marks[j] + turn + math.sqrt(near * far)
+            if far < 0.0 and far > 0.3 * near > -0.15:
+                return marks[j] + turn - math.sqrt(near * far)
+    return 0.5 * (a + b)
+
+
+@njit(cache=True, error_model="numpy")
+def smallest_growth(a: Array, b: Array) -> float:
+    """The width down to which a cell of growth is split.
+
+    Small where both ends are on one face; smaller where a passage over the other edge lies between and is bracketed, so
+    that no turning point hides beside it; next to nothing where a passage must lie between and is not bracketed yet.
+    """
+    if a[N_HOW] == b[N_HOW]:
+        return GROWTH_CELL
+    if crosses(a[N_START], b[N_START], a[N_AT_START], b[N_AT_START]) or crosses(
+        a[N_STOP], b[N_STOP], a[N_AT_STOP], b[N_AT_STOP]
+    ):
+        return PASSAGE_CELL
+    # T rises from the end that enters to the one that does not, or a turning point lies between.
+    if a[N_HOW] == NONE and in_half_space(a, b[N_TIME]):
+        return GROWTH_CELL if b[N_BY_THETA] >= 0.0 else SMALLEST_CELL
+    if b[N_HOW] == NONE and in_half_space(b, a[N_TIME]):
+        return GROWTH_CELL if a[N_BY_THETA] <= 0.0 else SMALLEST_CELL
+    return SMALLEST_PASSAGE
+
+
+@njit(cache=True, error_model="numpy")
+def crosses(time_a: float, time_b: float, at_a: float, at_b: float) -> bool:
+    """Whether two walkers pass the plane on different sides of the other edge."""
+    if time_a == NEVER or time_b == NEVER or (time_a == 0.0 and time_b == 0.0):
+        return False
+    return (at_a >= 0.0) != (at_b >= 0.0)
+
+
+@njit(cache=True, error_model="numpy")
+def in_half_space(node: Array, time: float) -> bool:
+    """Whether the walker is below the plane at ``time``: then it has not come in because the thread is farther off."""
+    return node[N_START] <= time < node[N_STOP]
+
+
+@njit(cache=True, error_model="numpy")
 def survey(
     motion: Array,
     row_c: Array,
@@ -490,7 +555,7 @@ def survey(
     nodes[:total, N_THETA].sort()
     best = limit
     for i in range(total):
-        set_node(nodes[i, N_THETA], motion, row_c, row_s, limit, best + slack, bounds, path, nodes[i])
+        set_node(nodes[i, N_THETA], motion, row_c, row_s, limit, 0.0, best + slack, bounds, path, nodes[i])
         if any_entry and nodes[i, N_TIME] < best:
             best = nodes[i, N_TIME]
     for j in range(NODE_SIZE):
@@ -507,7 +572,7 @@ def survey(
     return count, total, best
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def close_cells(
     motion: Array,
     row_c: Array,
@@ -516,6 +581,7 @@ def close_cells(
     mark_count: int,
     limit: float,
     best: float,
+    anchored: bool,
     any_entry: bool,
     slack: float,
     nodes: Array,
@@ -527,7 +593,8 @@ def close_cells(
     """Closes every cell between the surveyed nodes by a bound, splitting where none holds.
 
     ``marks`` are azimuths in [0, 2 pi) of earlier contacts on this curve. With ``any_entry`` there are none and every
-    entry is a contact (first contact, lift). ``best`` is the earliest contact known, on either curve. Returns the
+    entry is a contact (first contact, lift). ``best`` is the earliest time known, on either curve; ``anchored`` says
+    that it is a contact's and not only a node's. Returns the
     number of candidates (earliest first), whether any part of the curve is inside before the earliest (growth), the
     number of nodes (OVERFLOW if they ran out) and the earliest time.
     """
@@ -536,6 +603,9 @@ def close_cells(
     w = np.empty(9)
     spare = np.empty(NODE_SIZE)
     set_bounds(motion, row_c, row_s, bounds)
+    is_turn = motion[M_KIND] != 0.0
+    proved = np.zeros(MAX_CELLS)
+    tangent = np.empty(9)
     depth = 0
     for i in range(total - 1):
         cells[depth, 0] = i
@@ -546,49 +616,62 @@ def close_cells(
         depth -= 1
         ia = cells[depth, 0]
         ib = cells[depth, 1]
+        since = proved[depth]
         a = nodes[ia]
         b = nodes[ib]
         if holds_mark(a[N_THETA], b[N_THETA], marks, mark_count):
             continue
         width = b[N_THETA] - a[N_THETA]
-        if width < SMALLEST_CELL:
-            continue
         middle = 0.5 * (a[N_THETA] + b[N_THETA])
-        if a[N_TIME] < best or b[N_TIME] < best:
+        doubt = TURN_DOUBT if is_turn else HEIGHT_DOUBT * row_c[pk.P]
+        sure = best - doubt if anchored else best + slack
+        if a[N_TIME] < sure or b[N_TIME] < sure:
             if not any_entry:
                 growth = True
-                if width < GROWTH_CELL:
+                if width < smallest_growth(a, b):
                     continue
+            elif width < SMALLEST_CELL:
+                continue
             if a[N_HOW] == INSIDE and b[N_HOW] == INSIDE:
                 continue
             if a[N_HOW] == b[N_HOW] and monotone(a, b, motion, row_c, row_s, bounds, path):
                 continue
         else:
+            if width < SMALLEST_CELL:
+                continue
             half = 0.5 * width
-            if clear(middle, half, best + slack, motion, row_c, row_s, bounds, path):
+            since = clear(middle, half, since, sure, motion, row_c, row_s, bounds, path, tangent)
+            if since == NEVER:
                 continue
             if near_candidate(middle, half, best + slack, count, found):
                 continue
         if total + 1 >= MAX_NODES or depth + 2 >= MAX_CELLS:
             return count, growth, OVERFLOW, best
         c = nodes[total]
-        set_node(middle, motion, row_c, row_s, limit, best + slack, bounds, path, c)
+        theta = split_at(a[N_THETA], b[N_THETA], marks, mark_count)
+        late = a[N_TIME] >= sure and b[N_TIME] >= sure
+        out = late and clear(theta, 0.0, since, best + slack, motion, row_c, row_s, bounds, path, tangent) == NEVER
+        set_node(theta, motion, row_c, row_s, limit, since, best + slack, bounds, path, c, out)
         if any_entry and c[N_TIME] < best:
             best = c[N_TIME]
+            anchored = False
         count = bracket(a, c, motion, row_c, row_s, limit, best + slack, bounds, path, w, spare, count, found)
         count = bracket(c, b, motion, row_c, row_s, limit, best + slack, bounds, path, w, spare, count, found)
-        if count > 0:
+        if count > 0 and found[0, C_TIME] <= best + slack:
             best = min(best, found[0, C_TIME])
+            anchored = True
         cells[depth, 0] = ia
         cells[depth, 1] = total
         cells[depth + 1, 0] = total
         cells[depth + 1, 1] = ib
+        proved[depth] = since
+        proved[depth + 1] = since
         depth += 2
         total += 1
     return count, growth, total, best
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def bracket(
     a: Array,
     b: Array,
@@ -619,24 +702,24 @@ def bracket(
         count = try_face(spare, motion, row_c, row_s, path, w, count, found)
     if passes_edge(a[N_START], b[N_START], a[N_AT_START], b[N_AT_START], best):
         theta, time = edge_root(a[N_THETA], b[N_THETA], False, motion, row_c, row_s, path)
-        if time <= best:
+        if 0.0 < time <= best:
             count = try_edge(theta, time, motion, row_c, row_s, path, w, count, found)
     if passes_edge(a[N_STOP], b[N_STOP], a[N_AT_STOP], b[N_AT_STOP], best):
         theta, time = edge_root(a[N_THETA], b[N_THETA], True, motion, row_c, row_s, path)
-        if time <= best:
+        if 0.0 < time <= best:
             count = try_edge(theta, time, motion, row_c, row_s, path, w, count, found)
     return count
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def passes_edge(time_a: float, time_b: float, at_a: float, at_b: float, best: float) -> bool:
     """Whether between two walkers one passes the plane on the other edge, early enough to matter."""
-    if time_a == NEVER or time_b == NEVER or (at_a >= 0.0) == (at_b >= 0.0):
+    if not crosses(time_a, time_b, at_a, at_b):
         return False
     return min(time_a, time_b) - abs(time_a - time_b) <= best
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def near_candidate(middle: float, half: float, best: float, count: int, found: Array) -> bool:
     """Whether the cell is the immediate neighbourhood of a contact that is listed already."""
     for i in range(count):

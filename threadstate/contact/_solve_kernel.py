@@ -38,20 +38,21 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-# Options of a solve: limit of a turn (rad), tolerance of a tie (length), whether both outlines are convex (1 or 0).
-S_TURN_LIMIT, S_TIE, S_CONVEX = range(3)
+# Options of a solve: limit of a turn (rad), tolerance of a tie (length), whether both outlines are convex (1 or 0),
+# whether the first contact's threads are searched by closing rectangles (1) or along their ridges (0).
+S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE = range(4)
 
 BEFORE_FLUSH = 1e-9
 """Where a turn ends flush, contacts are looked for up to this much (rad) before: there all edges meet at once."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def in_plane(pair: int) -> bool:
     """Whether a contact of these features lies both in the bolt's base plane and in the nut's surface plane."""
     return pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == BASE_EDGE
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array) -> None:
     """The axis about which the bolt turns by a positive angle: the reverse of the method's t0."""
     pair = int(contact[K_PAIR])
@@ -73,14 +74,14 @@ def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array
     out[2] = z / n
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def turn_to_flush(pose: Array, axis: Array) -> float:
     """The turn about a horizontal ``axis`` in the base plane after which the base is level; negative: turning away."""
     nx, ny, nz = pose[2], pose[5], pose[8]
     return math.atan2(axis[0] * ny - axis[1] * nx, nz)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def lay_flush(
     stage: int, pose: Array, point: Array, axis: Array, tau: float, bolt: Array, nut: Array, extremes: Array, row: Array
 ) -> bool:
@@ -112,13 +113,13 @@ def lay_flush(
     return True
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_flag(row: Array, flag: int) -> None:
     """Sets a flag."""
     row[rk.O_FLAGS] = int(row[rk.O_FLAGS]) | flag
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def ties(found: Array, count: int, slack: float) -> int:
     """How many contacts appear together with the first; they are put in order of azimuth on the nut."""
     n = 1
@@ -133,20 +134,82 @@ def ties(found: Array, count: int, slack: float) -> int:
     return n
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def azimuth(contact: Array) -> float:
     """Azimuth on the nut in [0, 2 pi)."""
     a = math.atan2(contact[K_Y], contact[K_X])
     return a + TWO_PI if a < 0.0 else a
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def lowest_outline_point(pose: Array, bolt: Array) -> float:
+    """Azimuth at which a convex outline is lowest: where its height is stationary, facing down the tilt (Illinois)."""
+    # Down the tilt the height falls fastest: azimuth of -(r31, r32) in the bolt's frame. The lowest point of a convex
+    # outline r = f lies within a quarter turn of it.
+    down = math.atan2(-pose[7], -pose[6])
+    a, b = down - 0.5 * math.pi, down + 0.5 * math.pi
+    fa, fb = climb(a, pose, bolt), climb(b, pose, bolt)
+    wa, wb = fa, fb
+    side = 0
+    for _ in range(100):
+        c = (a * wb - b * wa) / (wb - wa)
+        if not a < c < b:
+            c = 0.5 * (a + b)
+        fc = climb(c, pose, bolt)
+        if fc < 0.0:
+            a, fa, wa = c, fc, fc
+            if side == -1:
+                wb *= 0.5
+            side = -1
+        else:
+            b, fb, wb = c, fc, fc
+            if side == 1:
+                wa *= 0.5
+            side = 1
+        if fc == 0.0 or b - a <= 4e-16 * (1.0 + abs(a)):
+            break
+    return a if abs(fa) < abs(fb) else b
+
+
+@njit(cache=True, error_model="numpy")
+def climb(theta: float, pose: Array, bolt: Array) -> float:
+    """Derivative by azimuth of the height of the bolt's outline."""
+    _, _, dx, dy = edge_point(theta, bolt)
+    return pose[6] * dx + pose[7] * dy
+
+
+@njit(cache=True, error_model="numpy")
+def rests_on_surface(pose: Array, bolt: Array, nut: Array, out: Array) -> bool:
+    """Whether the lowest point of a convex outline meets the nut's surface; then that is the first contact.
+
+    Proof: until its lowest point is at z = 0 the whole bolt is above the nut's surface (its thread's outward normals
+    are nearer the horizontal than the tilt, so that it is lowest at the outline), and the nut is below it. Sets the
+    contact; its time is the height of the origin.
+    """
+    theta = lowest_outline_point(pose, bolt)
+    x, y, _, _ = edge_point(theta, bolt)
+    px = pose[0] * x + pose[1] * y
+    py = pose[3] * x + pose[4] * y
+    other = math.atan2(py, px)
+    if math.hypot(px, py) < pk.radius(-bolt[pk.P] / TWO_PI * other, nut):
+        return False
+    out[K_TIME] = -(pose[6] * x + pose[7] * y)
+    out[K_PAIR] = EDGE_SURFACE
+    out[K_BOLT] = theta
+    out[K_NUT] = other
+    out[K_X] = px
+    out[K_Y] = py
+    out[K_Z] = 0.0
+    return True
+
+
+@njit(cache=True, error_model="numpy")
 def start_height(pose: Array, bolt: Array) -> float:
     """A height of the bolt's origin at which the whole bolt is above the nut."""
     return bolt[pk.R_MAJOR] * math.hypot(pose[2], pose[5]) * (1.0 + 1e-9) + 1e-4 * bolt[pk.P]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def solve_pose(
     roll: float, pitch: float, phase: float, options: Array, bolt: Array, nut: Array, work: Work, row: Array
 ) -> None:
@@ -170,13 +233,17 @@ def solve_pose(
     high = start_height(pose, bolt)
     pose[11] = high
     axis[2] = -1.0
-    count, _, status = earliest(
-        pose, False, point, axis, known, 0, high + bolt[pk.P], slack, bolt, nut, True, work, found
-    )
-    if status != RESOLVED or count == 0:
-        row[rk.O_STATUS] = UNRESOLVED
-        return
-    together = ties(found, count, slack)
+    together = 1
+    if options[S_CONVEX] > 0.0 and rests_on_surface(pose, bolt, nut, found[0]):
+        found[0, K_TIME] = high - found[0, K_TIME]
+    else:
+        count, _, status = earliest(
+            pose, False, point, axis, known, 0, high + bolt[pk.P], slack, bolt, nut, options[S_PROVE] > 0.0, work, found
+        )
+        if status != RESOLVED or count == 0:
+            row[rk.O_STATUS] = UNRESOLVED
+            return
+        together = ties(found, count, slack)
     pose[11] = high - found[0, K_TIME]
     known[0] = found[0]
     rk.put_pose(pose, row)
@@ -273,7 +340,7 @@ def solve_pose(
         row[:] = other
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def third_stage(
     second: Array,
     point: Array,
@@ -329,7 +396,7 @@ def third_stage(
             row[rk.O_STATUS] = UNRESOLVED
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def least_lift(
     pose: Array, slack: float, bolt: Array, nut: Array, work: Work, found: Array
 ) -> tuple[float, int]:
@@ -348,7 +415,7 @@ def least_lift(
     return high - pose[11] - found[0, K_TIME], status
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> None:
     """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE)."""
     work = new_work()

@@ -31,7 +31,7 @@ RIDGE_AZIMUTHS = 32
 NEAR_TURN = math.radians(7.0)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def rotation(roll: float, pitch: float, phase: float, out: Array) -> None:
     """``Rz(phase) Ry(pitch) Rx(roll)``, angles in rad, by rows."""
     ca, sa = math.cos(roll), math.sin(roll)
@@ -48,7 +48,7 @@ def rotation(roll: float, pitch: float, phase: float, out: Array) -> None:
     out[8] = cb * ca
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def turned(pose: Array, point: Array, axis: Array, tau: float, out: Array) -> None:
     """``pose`` (rotation by rows, translation) turned by ``tau`` about the axis through ``point``."""
     c = math.cos(tau)
@@ -72,8 +72,8 @@ def turned(pose: Array, point: Array, axis: Array, tau: float, out: Array) -> No
     out[11] = point[2] + m20 * a + m21 * b + m22 * d
 
 
-@njit(cache=True)
-def set_motions(pose: Array, is_turn: bool, point: Array, axis: Array, bolt_walks: Array, nut_walks: Array) -> None:
+@njit(cache=True, error_model="numpy")
+def set_motions(pose: Array, is_turn: bool, coplanar: bool, point: Array, axis: Array, bolt_walks: Array, nut_walks: Array) -> None:
     """The same motion seen from the nut (the bolt's edge walks) and from the bolt (the nut's edge walks)."""
     for i in range(12):
         bolt_walks[i] = pose[i]
@@ -82,8 +82,10 @@ def set_motions(pose: Array, is_turn: bool, point: Array, axis: Array, bolt_walk
         bolt_walks[13 + i] = point[i]
         bolt_walks[16 + i] = axis[i]
     bolt_walks[19] = 1.0
+    bolt_walks[20] = 1.0 if coplanar else 0.0
     nut_walks[12] = bolt_walks[12]
     nut_walks[19] = -1.0
+    nut_walks[20] = bolt_walks[20]
     for i in range(3):
         for j in range(3):
             nut_walks[3 * i + j] = pose[3 * j + i]
@@ -94,7 +96,7 @@ def set_motions(pose: Array, is_turn: bool, point: Array, axis: Array, bolt_walk
         nut_walks[16 + i] = -(pose[i] * axis[0] + pose[3 + i] * axis[1] + pose[6 + i] * axis[2])
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z: float, count: int, out: Array) -> int:
     """Inserts a contact by time unless the same is there already (found from the other edge)."""
     for i in range(count):
@@ -116,7 +118,7 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
     return count + 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def new_work() -> Work:
     """The scratch arrays of one thread of work."""
     return (
@@ -132,7 +134,15 @@ def new_work() -> Work:
     )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def anchored(best: float, slack: float, count_b: int, found_b: Array, count_n: int, found_n: Array) -> bool:
+    """Whether the earliest time is that of a contact on one of the curves."""
+    return (count_b > 0 and found_b[0, sk.C_TIME] <= best + slack) or (
+        count_n > 0 and found_n[0, sk.C_TIME] <= best + slack
+    )
+
+
+@njit(cache=True, error_model="numpy")
 def earliest(
     pose: Array,
     is_turn: bool,
@@ -168,7 +178,15 @@ def earliest(
         if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
             nut_marks[nut_mark_count] = known[i, K_NUT] - TWO_PI * math.floor(known[i, K_NUT] / TWO_PI)
             nut_mark_count += 1
-    set_motions(pose, is_turn, point, axis, bolt_walks, nut_walks)
+    # Through contacts that lie in both planes the axis does so, too.
+    coplanar = known_count > 0
+    for i in range(known_count):
+        pair = int(known[i, K_PAIR])
+        if known_count == 1:
+            coplanar = pair == EDGE_SURFACE
+        else:
+            coplanar = coplanar and (pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == BASE_EDGE)
+    set_motions(pose, is_turn, coplanar, point, axis, bolt_walks, nut_walks)
     any_entry = not is_turn
     # Most contacts come early: a near horizon first, the whole turn only where nothing is found before.
     near = min(limit, NEAR_TURN if is_turn else limit)
@@ -180,20 +198,25 @@ def earliest(
             nut_walks, nut, bolt, nut_marks, nut_mark_count, best, any_entry, slack, nodes_n, found_n
         )
         count_b, grown_b, used_b, best = sk.close_cells(
-            bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, horizon, best, any_entry, slack,
+            bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, horizon, best,
+            anchored(best, slack, count_b, found_b, count_n, found_n), any_entry, slack,
             nodes_b, total_b, cells, count_b, found_b,
         )
         count_n, grown_n, used_n, best = sk.close_cells(
-            nut_walks, nut, bolt, nut_marks, nut_mark_count, horizon, best, any_entry, slack,
+            nut_walks, nut, bolt, nut_marks, nut_mark_count, horizon, best,
+            anchored(best, slack, count_b, found_b, count_n, found_n), any_entry, slack,
             nodes_n, total_n, cells, count_n, found_n,
         )
         if count_b + count_n > 0 or horizon == limit:
             break
-    if not prove_threads:
-        used_t = 0
-        count_t = tk.ridges(bolt_walks, bolt, nut, min(limit, best + slack), RIDGE_AZIMUTHS, tangent)
+    used_t = 0
+    reach = min(limit, best + slack)
+    # Where no edge contact explains the earliest entry, the threads must have met before it.
+    orphan = any_entry and best < limit - 1e-8 * bolt[pk.P] and not anchored(best, slack, count_b, found_b, count_n, found_n)
+    if prove_threads or orphan:
+        count_t, used_t = tk.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
     else:
-        count_t, used_t = tk.tangencies(bolt_walks, bolt, nut, min(limit, best + slack), rects, tangent)
+        count_t = tk.ridges(bolt_walks, bolt, nut, reach, RIDGE_AZIMUTHS, tangent)
     count = 0
     for i in range(count_b):
         kind = int(found_b[i, sk.C_KIND])
@@ -221,6 +244,6 @@ def earliest(
     status = RESOLVED
     if used_b == sk.OVERFLOW or used_n == sk.OVERFLOW or used_t == sk.OVERFLOW:
         status = UNRESOLVED
-    if any_entry and best < limit and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
+    if any_entry and best < limit - 1e-8 * bolt[pk.P] and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         status = UNRESOLVED
     return count, grown_b or grown_n, status

@@ -95,7 +95,7 @@ def _checked(poses: ArrayLike) -> NDArray[np.float64]:
 @lru_cache(maxsize=64)
 def _packed(pair: Pair, options: SolveOptions) -> NDArray[np.float64]:
     convex = outline_is_convex(pair.bolt) and outline_is_convex(pair.nut)
-    packed = np.zeros(3)
+    packed = np.zeros(4)
     packed[sk.S_TURN_LIMIT] = math.radians(options.turn_limit_deg)
     packed[sk.S_TIE] = options.tie_tolerance * pair.thread_pitch
     packed[sk.S_CONVEX] = float(convex)
