@@ -261,8 +261,11 @@ def headroom(
     bounds: Array,
     path: Array,
 ) -> tuple[float, float, float, float, float]:
-    """At ``tau``: a lower bound of -phi over the cell (0 or less: none), and of its middle the rate of phi, s, ds/dtheta
-    and the speed across the axis. ``tangent`` is the curve's as a path: base, cosine and sine part."""
+    """At ``tau``: a lower bound of -phi over the cell (0 or less: none), and the state of its middle.
+
+    That is the rate of phi, s, ds/dtheta and the speed across the axis. ``tangent`` is the curve's as a path: base,
+    cosine and sine part.
+    """
     if motion[M_KIND] != 0.0:
         c = math.cos(tau)
         n = math.sin(tau)
@@ -318,9 +321,9 @@ def clear(
     path: Array,
     tangent: Array,
 ) -> float:
-    """A time until which no point of the curve within ``half`` of ``theta`` enters, given that none does until ``since``.
+    """Time until which no point of the curve within ``half`` of ``theta`` enters; NEVER if none does before ``limit``.
 
-    NEVER if none does before ``limit``.
+    None is known to enter until ``since``.
     """
     is_turn = motion[M_KIND] != 0.0
     tau, stop = plane_start(theta, half, limit, motion, row_c, bounds, path, tangent)

@@ -105,7 +105,8 @@ def entry(
 ) -> tuple[float, int]:
     """First ``tau`` in [0, limit] at which the walker is in the solid, and how it entered.
 
-    Until ``since`` it is known not to be.     ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative, ``r_low`` the radius from below.
+    Until ``since`` it is known not to be. ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative,
+    ``r_low`` the radius from below.
     """
     start, stop = passage(path, sigma, is_turn, coplanar)
     if start > limit:

@@ -81,9 +81,7 @@ def thread_point(theta: float, z: float, row: Array) -> tuple[float, float, floa
 
 
 @njit(cache=True, error_model="numpy")
-def judge(
-    rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array
-) -> int:
+def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> int:
     """What a bound says of a rectangle before ``limit``."""
     is_turn = motion[M_KIND] != 0.0
     theta = rect[R_THETA]
@@ -213,10 +211,19 @@ def residual(
 
 @njit(cache=True, error_model="numpy")
 def polish(
-    rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array, found: Array, count: int
+    rect: Array,
+    limit: float,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    bounds: Array,
+    path: Array,
+    found: Array,
+    count: int,
 ) -> int:
     """Newton's method from the middle of a small rectangle; adds the tangency if it is a contact. Steps in (u, z)
-    with u along the helix; derivatives of A and B by central differences, which set the speed and not the result."""
+    with u along the helix; derivatives of A and B by central differences, which set the speed and not the result.
+    """
     k = bolt[pk.P] / TWO_PI
     theta = rect[R_THETA]
     z = rect[R_Z]
@@ -225,7 +232,18 @@ def polish(
     jac = np.empty((3, 3))
     r, _, _ = thread_point(theta, z, bolt)
     set_path_from(r * math.cos(theta), r * math.sin(theta), z, motion, path)
-    tau, how = entry(path, motion[M_KIND] != 0.0, motion[M_COPLANAR] != 0.0, nut, 1.0, 0.0, 2.0 * limit, bounds[B_LIPSCHITZ], bounds[B_BEND], bounds[B_R_LOW])
+    tau, how = entry(
+        path,
+        motion[M_KIND] != 0.0,
+        motion[M_COPLANAR] != 0.0,
+        nut,
+        1.0,
+        0.0,
+        2.0 * limit,
+        bounds[B_LIPSCHITZ],
+        bounds[B_BEND],
+        bounds[B_R_LOW],
+    )
     if how != THREAD:
         return count
     residual(theta, z, tau, motion, bolt, nut, path, here)
@@ -239,7 +257,11 @@ def polish(
                     theta + (d if j == 0 else 0.0),
                     z + (k * d if j == 0 else (d if j == 1 else 0.0)),
                     tau + (d if j == 2 else 0.0),
-                    motion, bolt, nut, path, there,
+                    motion,
+                    bolt,
+                    nut,
+                    path,
+                    there,
                 )
                 for i in range(3):
                     if sign > 0.0:
@@ -273,7 +295,10 @@ def polish(
         theta += du
         z += k * du + dz
         tau += dt
-        if abs(theta - rect[R_THETA]) > max(4.0 * SMALL_THETA, 2.0 * rect[R_HALF_THETA]) or abs(z - rect[R_Z]) > 0.2 * bolt[pk.P]:
+        if (
+            abs(theta - rect[R_THETA]) > max(4.0 * SMALL_THETA, 2.0 * rect[R_HALF_THETA])
+            or abs(z - rect[R_Z]) > 0.2 * bolt[pk.P]
+        ):
             return count
         residual(theta, z, tau, motion, bolt, nut, path, here)
         if abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (1.0 + abs(tau)):
@@ -306,9 +331,7 @@ def polish(
 
 
 @njit(cache=True, error_model="numpy")
-def tangencies(
-    motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array
-) -> tuple[int, int]:
+def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array) -> tuple[int, int]:
     """All contacts of thread with thread before ``limit``, earliest first, and the number of rectangles looked at.
 
     ``motion`` is the bolt's, seen from the nut.

@@ -168,9 +168,7 @@ def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, 
 
 
 @njit(cache=True, error_model="numpy")
-def put_flush(
-    stage: int, theta: float, corner: bool, x: float, y: float, pose: Array, bolt: Array, nut: Array, row: Array
-) -> None:
+def put_flush(stage: int, theta: float, corner: bool, x: float, y: float, bolt: Array, nut: Array, row: Array) -> None:
     """Appends an extreme point of a flush patch; the bolt's edge at ``theta``, on the nut's edge if ``corner``."""
     n = int(row[O_CONTACTS])
     if n == MOST_CONTACTS:

@@ -122,7 +122,10 @@ def set_node(
     node: Array,
     stays_out: bool = False,
 ) -> None:
-    """Entry time at ``theta`` up to ``limit``, the derivatives of the function that vanishes there, passages up to ``horizon``."""
+    """Entry time at ``theta`` up to ``limit``, derivatives of the function that vanishes there, passages.
+
+    ``stays_out``: it is known that there is no entry.
+    """
     is_turn = motion[M_KIND] != 0.0
     sigma = motion[M_SIGMA]
     coplanar = motion[M_COPLANAR] != 0.0
@@ -164,7 +167,7 @@ def set_node(
 
 @njit(cache=True, error_model="numpy")
 def over_plane(
-    theta: float, exit: bool, motion: Array, row_c: Array, row_s: Array, path: Array
+    theta: float, leaving: bool, motion: Array, row_c: Array, row_s: Array, path: Array
 ) -> tuple[float, float]:
     """``phi`` where the walker passes the plane (entering the half space, or leaving it), and when."""
     is_turn = motion[M_KIND] != 0.0
@@ -172,7 +175,7 @@ def over_plane(
     x, y, _, _ = edge_point(theta, row_c)
     set_path(x, y, motion, path)
     start, stop = passage(path, sigma, is_turn, motion[M_COPLANAR] != 0.0)
-    tau = stop if exit else start
+    tau = stop if leaving else start
     if tau >= math.pi:
         return NEVER, NEVER
     px, py, pz = position(path, tau, is_turn)
@@ -181,11 +184,11 @@ def over_plane(
 
 @njit(cache=True, error_model="numpy")
 def edge_root(
-    a: float, b: float, exit: bool, motion: Array, row_c: Array, row_s: Array, path: Array
+    a: float, b: float, leaving: bool, motion: Array, row_c: Array, row_s: Array, path: Array
 ) -> tuple[float, float]:
     """Azimuth between ``a`` and ``b`` at which the walker passes the plane on the other edge, and when (Illinois)."""
-    fa, ta = over_plane(a, exit, motion, row_c, row_s, path)
-    fb, tb = over_plane(b, exit, motion, row_c, row_s, path)
+    fa, ta = over_plane(a, leaving, motion, row_c, row_s, path)
+    fb, tb = over_plane(b, leaving, motion, row_c, row_s, path)
     if ta == NEVER or tb == NEVER or (fa >= 0.0) == (fb >= 0.0):
         return NEVER, NEVER
     wa = fa
@@ -195,7 +198,7 @@ def edge_root(
         c = (a * wb - b * wa) / (wb - wa)
         if not (min(a, b) < c < max(a, b)):
             c = 0.5 * (a + b)
-        fc, tc = over_plane(c, exit, motion, row_c, row_s, path)
+        fc, tc = over_plane(c, leaving, motion, row_c, row_s, path)
         if tc == NEVER:
             return NEVER, NEVER
         if (fc >= 0.0) == (fa >= 0.0):
@@ -223,7 +226,15 @@ def edge_root(
 
 @njit(cache=True, error_model="numpy")
 def stationary(
-    left: Array, right: Array, motion: Array, row_c: Array, row_s: Array, limit: float, bounds: Array, path: Array, node: Array
+    left: Array,
+    right: Array,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    limit: float,
+    bounds: Array,
+    path: Array,
+    node: Array,
 ) -> bool:
     """Shrinks [left, right], whose slopes of T differ in sign on one face, to the stationary point; into ``node``."""
     a = left[N_THETA]
@@ -343,10 +354,9 @@ def add_candidate(
 ) -> int:
     """Appends a candidate unless it is listed already; the list stays sorted by time and keeps the earliest."""
     for i in range(count):
-        if (
-            found[i, C_KIND] == kind
-            and abs(found[i, C_X] - x) + abs(found[i, C_Y] - y) + abs(found[i, C_Z] - z) < 1e-9 * (abs(x) + abs(y))
-        ):
+        if found[i, C_KIND] == kind and abs(found[i, C_X] - x) + abs(found[i, C_Y] - y) + abs(
+            found[i, C_Z] - z
+        ) < 1e-9 * (abs(x) + abs(y)):
             return count
     if count == MAX_CANDIDATES:
         if time >= found[count - 1, C_TIME]:
@@ -369,7 +379,15 @@ def add_candidate(
 
 @njit(cache=True, error_model="numpy")
 def try_edge(
-    theta: float, time: float, motion: Array, row_c: Array, row_s: Array, path: Array, w: Array, count: int, found: Array
+    theta: float,
+    time: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    path: Array,
+    w: Array,
+    count: int,
+    found: Array,
 ) -> int:
     """Adds the crossing of the edges at ``theta``, ``time`` if the wedges are apart there."""
     is_turn = motion[M_KIND] != 0.0
@@ -383,7 +401,9 @@ def try_edge(
 
 
 @njit(cache=True, error_model="numpy")
-def try_face(node: Array, motion: Array, row_c: Array, row_s: Array, path: Array, w: Array, count: int, found: Array) -> int:
+def try_face(
+    node: Array, motion: Array, row_c: Array, row_s: Array, path: Array, w: Array, count: int, found: Array
+) -> int:
     """Adds the tangency at ``node`` if the walker's wedge is outside the face there."""
     is_turn = motion[M_KIND] != 0.0
     sigma = motion[M_SIGMA]
@@ -404,9 +424,7 @@ def try_face(node: Array, motion: Array, row_c: Array, row_s: Array, path: Array
 
 
 @njit(cache=True, error_model="numpy")
-def steady(
-    node: Array, half: float, motion: Array, row_c: Array, row_s: Array, bounds: Array, path: Array
-) -> bool:
+def steady(node: Array, half: float, motion: Array, row_c: Array, row_s: Array, bounds: Array, path: Array) -> bool:
     """Whether the slope of ``T`` keeps its sign within ``half`` of a node, by the bound on the second derivative."""
     slope = abs(node[N_BY_THETA])
     rate = node[N_BY_TAU]
@@ -566,7 +584,9 @@ def survey(
     for i in range(total - 1):
         if holds_mark(nodes[i, N_THETA], nodes[i + 1, N_THETA], marks, mark_count):
             continue
-        count = bracket(nodes[i], nodes[i + 1], motion, row_c, row_s, limit, best + slack, bounds, path, w, spare, count, found)
+        count = bracket(
+            nodes[i], nodes[i + 1], motion, row_c, row_s, limit, best + slack, bounds, path, w, spare, count, found
+        )
         if count > 0:
             best = min(best, found[0, C_TIME])
     return count, total, best

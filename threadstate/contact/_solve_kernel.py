@@ -106,9 +106,7 @@ def lay_flush(
             if abs(row[c] - x) + abs(row[c + 1] - y) + abs(row[c + 2]) < 1e-6 * bolt[pk.R_MAJOR]:
                 again = True
         if not again:
-            rk.put_flush(
-                stage, extremes[i, fk.F_THETA], extremes[i, fk.F_CORNER] > 0.0, x, y, level, bolt, nut, row
-            )
+            rk.put_flush(stage, extremes[i, fk.F_THETA], extremes[i, fk.F_CORNER] > 0.0, x, y, bolt, nut, row)
     row[rk.O_FLAGS] = int(row[rk.O_FLAGS]) | rk.FLAG_FLUSH
     return True
 
@@ -277,7 +275,9 @@ def solve_pose(
         count = 0
         # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
         if flush < 0.0 or options[S_CONVEX] == 0.0:
-            count, _, status = earliest(pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, False, work, found)
+            count, _, status = earliest(
+                pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, False, work, found
+            )
             if status != RESOLVED:
                 row[rk.O_STATUS] = UNRESOLVED
                 return
@@ -363,7 +363,9 @@ def third_stage(
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - BEFORE_FLUSH
-    count, growth, status = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, False, work, found)
+    count, growth, status = earliest(
+        second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, False, work, found
+    )
     if status != RESOLVED:
         row[rk.O_STATUS] = UNRESOLVED
         return
@@ -397,9 +399,7 @@ def third_stage(
 
 
 @njit(cache=True, error_model="numpy")
-def least_lift(
-    pose: Array, slack: float, bolt: Array, nut: Array, work: Work, found: Array
-) -> tuple[float, int]:
+def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, found: Array) -> tuple[float, int]:
     """The lift after which the solids of an overlapping pose are free of each other, and a status."""
     high = start_height(pose, bolt)
     if pose[11] >= high:

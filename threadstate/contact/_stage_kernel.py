@@ -73,7 +73,9 @@ def turned(pose: Array, point: Array, axis: Array, tau: float, out: Array) -> No
 
 
 @njit(cache=True, error_model="numpy")
-def set_motions(pose: Array, is_turn: bool, coplanar: bool, point: Array, axis: Array, bolt_walks: Array, nut_walks: Array) -> None:
+def set_motions(
+    pose: Array, is_turn: bool, coplanar: bool, point: Array, axis: Array, bolt_walks: Array, nut_walks: Array
+) -> None:
     """The same motion seen from the nut (the bolt's edge walks) and from the bolt (the nut's edge walks)."""
     for i in range(12):
         bolt_walks[i] = pose[i]
@@ -198,21 +200,47 @@ def earliest(
             nut_walks, nut, bolt, nut_marks, nut_mark_count, best, any_entry, slack, nodes_n, found_n
         )
         count_b, grown_b, used_b, best = sk.close_cells(
-            bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, horizon, best,
-            anchored(best, slack, count_b, found_b, count_n, found_n), any_entry, slack,
-            nodes_b, total_b, cells, count_b, found_b,
+            bolt_walks,
+            bolt,
+            nut,
+            bolt_marks,
+            bolt_mark_count,
+            horizon,
+            best,
+            anchored(best, slack, count_b, found_b, count_n, found_n),
+            any_entry,
+            slack,
+            nodes_b,
+            total_b,
+            cells,
+            count_b,
+            found_b,
         )
         count_n, grown_n, used_n, best = sk.close_cells(
-            nut_walks, nut, bolt, nut_marks, nut_mark_count, horizon, best,
-            anchored(best, slack, count_b, found_b, count_n, found_n), any_entry, slack,
-            nodes_n, total_n, cells, count_n, found_n,
+            nut_walks,
+            nut,
+            bolt,
+            nut_marks,
+            nut_mark_count,
+            horizon,
+            best,
+            anchored(best, slack, count_b, found_b, count_n, found_n),
+            any_entry,
+            slack,
+            nodes_n,
+            total_n,
+            cells,
+            count_n,
+            found_n,
         )
         if count_b + count_n > 0 or horizon == limit:
             break
     used_t = 0
     reach = min(limit, best + slack)
     # Where no edge contact explains the earliest entry, the threads must have met before it.
-    orphan = any_entry and best < limit - 1e-8 * bolt[pk.P] and not anchored(best, slack, count_b, found_b, count_n, found_n)
+    orphan = (
+        any_entry and best < limit - 1e-8 * bolt[pk.P] and not anchored(best, slack, count_b, found_b, count_n, found_n)
+    )
     if prove_threads or orphan:
         count_t, used_t = tk.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
     else:
@@ -222,8 +250,15 @@ def earliest(
         kind = int(found_b[i, sk.C_KIND])
         pair = EDGE_EDGE if kind == sk.EDGE_EDGE else (EDGE_SURFACE if kind == sk.ON_PLANE else EDGE_THREAD)
         count = keep(
-            found_b[i, sk.C_TIME], pair, found_b[i, sk.C_THETA], found_b[i, sk.C_OTHER],
-            found_b[i, sk.C_X], found_b[i, sk.C_Y], found_b[i, sk.C_Z], count, out,
+            found_b[i, sk.C_TIME],
+            pair,
+            found_b[i, sk.C_THETA],
+            found_b[i, sk.C_OTHER],
+            found_b[i, sk.C_X],
+            found_b[i, sk.C_Y],
+            found_b[i, sk.C_Z],
+            count,
+            out,
         )
     for i in range(count_n):
         kind = int(found_n[i, sk.C_KIND])

@@ -63,7 +63,7 @@ def solve_level(pair: Pair, phase: float, row: np.ndarray) -> None:
     extremes = np.empty((4, fk.EXTREME_SIZE))
     for i in range(fk.extreme_points(pose, bolt, nut, 1.0, 0.0, extremes)):
         theta, corner, x, y = extremes[i]
-        rk.put_flush(1, theta, corner > 0.0, x, y, pose, bolt, nut, row)
+        rk.put_flush(1, theta, corner > 0.0, x, y, bolt, nut, row)
 
 
 def strip_extremes(pair: Pair, height: float) -> tuple[tuple[float, float, float], ...]:
