@@ -1,0 +1,140 @@
+"""The second and the third turn end at the first distinct component, by brute force."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.contact.samples import Floats, as_poses, random_poses
+from tests.contact.turns import Turn, deepest_near, earlier_appearance, turns_of
+from threadstate.state.model import ContactState, FeaturePair
+from threadstate.state.options import SolveOptions
+from threadstate.state.solve import solve_poses
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+POSE_TOLERANCE = 1e-10
+"""Of a rotation's elements and of a translation in inches: the axis here comes from slopes by differences."""
+LEVEL_TOLERANCE = 1e-12
+BEFORE_DEG = 1e-4
+AFTER_DEG = 1e-4
+NEAR_INCH = 5e-5
+PARTED_INCH = 1e-4
+"""A component deeper than this when it is first seen, to 1e-5 deg, was not born there: it has parted from another."""
+PARTED_AFTER_DEG = 15.0
+
+PAIR = quarter_twenty_unc()
+
+SETS: dict[str, Floats] = {
+    "library tilts": random_poses(31, 50, tilt_deg=4.0),
+    "library tilts near phase 0": random_poses(32, 70, tilt_deg=4.0, phase_deg=20.0),
+    "whole degrees": np.rint(random_poses(33, 30, tilt_deg=4.4)),
+    "small tilts": random_poses(34, 20, tilt_deg=1.0),
+    "all tilts": random_poses(35, 20, tilt_deg=10.0),
+    "largest tilts": np.column_stack(
+        [
+            np.repeat([-10.0, 10.0], 10),
+            np.tile([-9.9, -5.0, 0.0, 5.0, 9.9], 4),
+            random_poses(36, 20, tilt_deg=0.0)[:, 2],
+        ]
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def states() -> dict[str, list[ContactState]]:
+    return {name: solve_poses(PAIR, poses) for name, poses in SETS.items()}
+
+
+@pytest.fixture(scope="module")
+def turns(states: dict[str, list[ContactState]]) -> dict[str, list[tuple[ContactState, Turn]]]:
+    return {
+        name: [(s, turn) for s in group if not is_level(s) for turn in turns_of(PAIR, s)]
+        for name, group in states.items()
+    }
+
+
+def is_level(state: ContactState) -> bool:
+    return state.roll_deg == 0.0 == state.pitch_deg
+
+
+def pose_of(state: ContactState) -> tuple[float, float, float]:
+    return state.roll_deg, state.pitch_deg, state.phase_deg
+
+
+def test_the_sets_are_as_large_as_they_should_be() -> None:
+    assert sum(len(poses) for poses in SETS.values()) >= 200
+    assert len(as_poses(SETS["whole degrees"])) == np.sum(SETS["whole degrees"][:, 2] % 1.0 == 0.0)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_poses_follow_from_the_turns(name: str, turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
+    for state, turn in turns[name]:
+        if turn.turn_deg is None:
+            continue
+        assert 0.0 <= turn.turn_deg <= SolveOptions().turn_limit_deg
+        rotation, translation = turn.pose_after(turn.turn_deg)
+        found = state.poses[turn.stage - 1]
+        np.testing.assert_allclose(found.rotation, rotation, rtol=0.0, atol=POSE_TOLERANCE, err_msg=f"{pose_of(state)}")
+        np.testing.assert_allclose(found.translation, translation, rtol=0.0, atol=POSE_TOLERANCE)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_turns_lower_the_origin(name: str, turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
+    for state, turn in turns[name]:
+        lowered = turn.translation[2] - turn.pose_after(1e-3)[1][2]
+        assert lowered > 0.0, pose_of(state)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_no_earlier_component(name: str, turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
+    born = []
+    for state, turn in turns[name]:
+        earlier = earlier_appearance(PAIR, turn, SolveOptions().turn_limit_deg, steps=14)
+        if earlier is None:
+            continue
+        if earlier.depth > PARTED_INCH:
+            # A piece that parts from an overlap was in contact before: it is no new contact, and comes late.
+            assert turn.turn_deg is None
+            assert earlier.turn_deg > PARTED_AFTER_DEG
+        else:
+            born.append((pose_of(state), turn.stage, turn.turn_deg, earlier))
+    assert born == []
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_a_component_is_born_where_the_turn_ends(name: str, turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
+    for state, turn in turns[name]:
+        if turn.turn_deg is None or turn.turn_deg < BEFORE_DEG:
+            continue
+        for contact in turn.found:
+            if contact.features is FeaturePair.FLUSH:
+                continue
+            point = np.array(contact.point)
+            before = deepest_near(PAIR, turn, turn.turn_deg - BEFORE_DEG, point, NEAR_INCH)
+            after = deepest_near(PAIR, turn, turn.turn_deg + AFTER_DEG, point, NEAR_INCH)
+            # Nothing there before, something after: it is joined to no other when it is born.
+            assert before < 0.0 < after, (pose_of(state), turn.stage)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_where_the_turn_ends_flush_the_bolt_lies_on_the_surface(
+    name: str, turns: dict[str, list[tuple[ContactState, Turn]]]
+) -> None:
+    for state, turn in turns[name]:
+        if not turn.found or turn.found[0].features is not FeaturePair.FLUSH:
+            continue
+        pose = state.poses[turn.stage - 1]
+        assert abs(pose.translation[2]) < LEVEL_TOLERANCE
+        assert math.hypot(*pose.rotation[2][:2]) < LEVEL_TOLERANCE
+
+
+def test_every_way_a_turn_can_end_is_among_the_sets(turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
+    ends = {
+        (turn.stage, turn.found[0].features.value if turn.found else "none")
+        for group in turns.values()
+        for _, turn in group
+    }
+    assert {(2, "flush"), (2, "edge-edge"), (2, "edge-thread"), (2, "thread-edge")} <= ends
+    assert {(3, "none"), (3, "edge-edge"), (3, "edge-thread"), (3, "thread-edge")} <= ends
