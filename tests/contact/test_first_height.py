@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.contact.events import SNAPS_DEG, TIES_DEG
+from tests.contact.finer_first_height import finer_first_height
 from tests.contact.samples import Floats, PoseDeg, around, as_poses, random_poses
 from tests.oracle.first_height import first_height
 from threadstate.state.model import ContactState
@@ -58,7 +59,11 @@ def test_the_first_contact_jumps_at_an_event(pose: PoseDeg) -> None:
 def test_first_height_is_that_of_the_brute_force(name: str) -> None:
     states = solve_poses(PAIR, SETS[name])
     for pose, state in zip(as_poses(SETS[name]), states, strict=True):
-        assert height_inch(state) == pytest.approx(first_height(PAIR, *pose).height, abs=HEIGHT_TOLERANCE_INCH), pose
+        expected = first_height(PAIR, *pose).height
+        if height_inch(state) > expected + HEIGHT_TOLERANCE_INCH:
+            # Samples find no height that is too great, but may step over a narrow pocket: take more of them.
+            expected = finer_first_height(PAIR, *pose)
+        assert height_inch(state) == pytest.approx(expected, abs=HEIGHT_TOLERANCE_INCH), pose
 
 
 def test_first_height_of_another_root_form_is_that_of_the_brute_force() -> None:
