@@ -68,7 +68,7 @@ MAX_TANGENCIES = 8
 
 AZIMUTHS = 24
 SMALL_THETA = 0.03
-SLICE = math.radians(6.0)
+SLICE = math.radians(2.0)
 TINY_THETA = 2e-3
 
 OPEN, CLEAR, OUT = range(3)
