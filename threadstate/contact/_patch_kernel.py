@@ -29,7 +29,7 @@ from threadstate.contact._bound_kernel import (
     set_bounds,
     sine_of_tilt,
 )
-from threadstate.contact._entry_kernel import THREAD, entry, half_space
+from threadstate.contact._entry_kernel import NEVER, THREAD, entry, half_space
 from threadstate.contact._geometry_kernel import (
     M_COPLANAR,
     M_KIND,
@@ -68,7 +68,8 @@ MAX_TANGENCIES = 8
 
 AZIMUTHS = 24
 SMALL_THETA = 0.03
-SLICE = math.radians(2.0)
+SLICE = math.radians(1.5)
+FOLLOW = math.radians(0.5)
 TINY_THETA = 2e-3
 
 OPEN, CLEAR, OUT = range(3)
@@ -210,28 +211,11 @@ def residual(
 
 
 @njit(cache=True, error_model="numpy")
-def polish(
-    rect: Array,
-    limit: float,
-    motion: Array,
-    bolt: Array,
-    nut: Array,
-    bounds: Array,
-    path: Array,
-    found: Array,
-    count: int,
-) -> int:
-    """Newton's method from the middle of a small rectangle; adds the tangency if it is a contact. Steps in (u, z)
-    with u along the helix; derivatives of A and B by central differences, which set the speed and not the result.
-    """
-    k = bolt[pk.P] / TWO_PI
+def touch(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> float:
+    """When the middle of a rectangle meets the nut's thread, a little beyond the limit at the most; else NEVER."""
     theta = rect[R_THETA]
-    z = rect[R_Z]
-    here = np.empty(7)
-    there = np.empty(7)
-    jac = np.empty((3, 3))
-    r, _, _ = thread_point(theta, z, bolt)
-    set_path_from(r * math.cos(theta), r * math.sin(theta), z, motion, path)
+    r, _, _ = thread_point(theta, rect[R_Z], bolt)
+    set_path_from(r * math.cos(theta), r * math.sin(theta), rect[R_Z], motion, path)
     tau, how = entry(
         path,
         motion[M_KIND] != 0.0,
@@ -244,8 +228,32 @@ def polish(
         bounds[B_BEND],
         bounds[B_R_LOW],
     )
-    if how != THREAD:
-        return count
+    return tau if how == THREAD else NEVER
+
+
+@njit(cache=True, error_model="numpy")
+def polish(
+    rect: Array,
+    tau: float,
+    limit: float,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    path: Array,
+    found: Array,
+    count: int,
+) -> int:
+    """Newton's method from the middle of a rectangle at ``tau``; adds the tangency if it is a contact.
+
+    Steps in (u, z) with u along the helix; derivatives of A and B by central differences, which set the speed and not
+    the result.
+    """
+    k = bolt[pk.P] / TWO_PI
+    theta = rect[R_THETA]
+    z = rect[R_Z]
+    here = np.empty(7)
+    there = np.empty(7)
+    jac = np.empty((3, 3))
     residual(theta, z, tau, motion, bolt, nut, path, here)
     eps = (1e-6, 1e-6 * bolt[pk.P], 1e-6 * limit)
     converged = False
@@ -381,7 +389,9 @@ def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Arra
             if judge(r, best, motion, bolt, nut, bounds, path) != OPEN:
                 continue
             if r[R_HALF_THETA] < SMALL_THETA:
-                count = polish(r, limit, motion, bolt, nut, bounds, path, found, count)
+                tau = touch(r, limit, motion, bolt, nut, bounds, path)
+                if tau < NEVER:
+                    count = polish(r, tau, limit, motion, bolt, nut, path, found, count)
                 if count > 0:
                     best = min(best, found[0, T_TIME])
             if r[R_HALF_THETA] < TINY_THETA:
@@ -422,6 +432,67 @@ def ridge_point(
         if b - a < 1e-6 * bolt[pk.P] or abs(f) < 1e-9:
             break
     return c
+
+
+@njit(cache=True, error_model="numpy")
+def settle(
+    theta: float, z: float, tau: float, motion: Array, bolt: Array, nut: Array, path: Array, here: Array
+) -> tuple[float, float, bool]:
+    """The highest point of phi on the thread near (theta, z) at a fixed ``tau`` (A = B = 0), by Newton's method."""
+    k = bolt[pk.P] / TWO_PI
+    p = bolt[pk.P]
+    there = np.empty(7)
+    for _ in range(20):
+        residual(theta, z, tau, motion, bolt, nut, path, here)
+        a, b = here[1], here[2]
+        residual(theta + 1e-5, z + k * 1e-5, tau, motion, bolt, nut, path, there)
+        a_u, b_u = (there[1] - a) * 1e5, (there[2] - b) * 1e5
+        step = 1e-6 * p
+        residual(theta, z + step, tau, motion, bolt, nut, path, there)
+        a_z, b_z = (there[1] - a) / step, (there[2] - b) / step
+        det = a_u * b_z - a_z * b_u
+        if not (b_z < 0.0 and det > 0.0):
+            return theta, z, False
+        du = min(max((a_z * b - b_z * a) / det, -0.1), 0.1)
+        dz = min(max((b_u * a - a_u * b) / det, -0.02 * p), 0.02 * p)
+        theta += du
+        z += k * du + dz
+        if abs(du) < 1e-7 and abs(dz) < 1e-7 * p:
+            residual(theta, z, tau, motion, bolt, nut, path, here)
+            return theta, z, True
+    return theta, z, False
+
+
+@njit(cache=True, error_model="numpy")
+def follow(
+    theta: float,
+    z: float,
+    tau: float,
+    limit: float,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    path: Array,
+    rect: Array,
+    found: Array,
+    count: int,
+) -> int:
+    """Follows a highest point of phi through time to where phi vanishes there, in steps of at most ``FOLLOW``."""
+    here = np.empty(7)
+    for _ in range(60):
+        theta, z, settled = settle(theta, z, tau, motion, bolt, nut, path, here)
+        if not settled or z < -0.05 * bolt[pk.P] or here[6] > 0.05 * bolt[pk.P] or here[3] <= 0.0:
+            return count
+        move = -here[0] / here[3]
+        tau += min(max(move, -FOLLOW), FOLLOW)
+        if tau <= 0.0 or tau > limit + FOLLOW:
+            return count
+        if abs(move) < 1e-6:
+            rect[R_THETA] = theta
+            rect[R_Z] = z
+            rect[R_HALF_THETA] = SMALL_THETA
+            return polish(rect, tau, limit, motion, bolt, nut, path, found, count)
+    return count
 
 
 @njit(cache=True, error_model="numpy")
@@ -480,6 +551,6 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
                         rect[R_THETA] += w * (now[m, 1] - before[m, 1])
                         rect[R_Z] += w * (now[m, 2] - before[m, 2])
                     rect[R_HALF_THETA] = TWO_PI / azimuths
-                    count = polish(rect, limit, motion, bolt, nut, bounds, path, found, count)
+                    count = follow(rect[R_THETA], rect[R_Z], tau, limit, motion, bolt, nut, path, rect, found, count)
             before = now
     return count

@@ -24,7 +24,10 @@ from threadstate.contact._stage_kernel import (
     K_Y,
     K_Z,
     MAX_CONTACTS,
+    PROVED,
     RESOLVED,
+    RIDGES,
+    RIDGES_ONLY,
     THREAD_EDGE,
     THREAD_THREAD,
     UNRESOLVED,
@@ -235,8 +238,20 @@ def solve_pose(
     if options[S_CONVEX] > 0.0 and rests_on_surface(pose, bolt, nut, found[0]):
         found[0, K_TIME] = high - found[0, K_TIME]
     else:
-        count, _, status = earliest(
-            pose, False, point, axis, known, 0, high + bolt[pk.P], slack, bolt, nut, options[S_PROVE] > 0.0, work, found
+        count, _, status, _ = earliest(
+            pose,
+            False,
+            point,
+            axis,
+            known,
+            0,
+            high + bolt[pk.P],
+            slack,
+            bolt,
+            nut,
+            PROVED if options[S_PROVE] > 0.0 else RIDGES,
+            work,
+            found,
         )
         if status != RESOLVED or count == 0:
             row[rk.O_STATUS] = UNRESOLVED
@@ -275,8 +290,8 @@ def solve_pose(
         count = 0
         # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
         if flush < 0.0 or options[S_CONVEX] == 0.0:
-            count, _, status = earliest(
-                pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, False, work, found
+            count, _, status, _ = earliest(
+                pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, RIDGES, work, found
             )
             if status != RESOLVED:
                 row[rk.O_STATUS] = UNRESOLVED
@@ -363,8 +378,8 @@ def third_stage(
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - BEFORE_FLUSH
-    count, growth, status = earliest(
-        second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, False, work, found
+    count, growth, status, _ = earliest(
+        second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, RIDGES, work, found
     )
     if status != RESOLVED:
         row[rk.O_STATUS] = UNRESOLVED
@@ -407,12 +422,13 @@ def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, f
     raised = pose.copy()
     raised[11] = high
     down = np.array([0.0, 0.0, -1.0])
-    count, _, status = earliest(
-        raised, False, down, down, found, 0, high - pose[11], slack, bolt, nut, False, work, found
+    count, _, status, best = earliest(
+        raised, False, down, down, found, 0, high - pose[11], slack, bolt, nut, RIDGES_ONLY, work, found
     )
-    if count == 0:
+    first = min(best, found[0, K_TIME]) if count > 0 else best
+    if first >= high - pose[11] - 1e-8 * bolt[pk.P]:
         return 0.0, status
-    return high - pose[11] - found[0, K_TIME], status
+    return high - pose[11] - first, status
 
 
 @njit(cache=True, error_model="numpy")

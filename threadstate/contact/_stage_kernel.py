@@ -26,6 +26,8 @@ MAX_CONTACTS = 16
 
 RESOLVED, UNRESOLVED = range(2)
 
+RIDGES, PROVED, RIDGES_ONLY = range(3)
+
 RIDGE_AZIMUTHS = 32
 
 NEAR_TURN = math.radians(7.0)
@@ -156,16 +158,16 @@ def earliest(
     slack: float,
     bolt: Array,
     nut: Array,
-    prove_threads: bool,
+    threads: int,
     work: Work,
     out: Array,
-) -> tuple[int, bool, int]:
+) -> tuple[int, bool, int, float]:
     """The earliest contacts of a motion by all pairs of features, sorted by time.
 
     ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number
-    of contacts (those within ``slack`` of the earliest are certain to be listed; thread on thread is certain with
-    ``prove_threads``, else searched along its ridges), whether an earlier contact has
-    grown into an overlap by then, and a status.
+    of contacts (those within ``slack`` of the earliest are certain to be listed), whether an earlier contact has grown into an
+    overlap by then, a status, and the earliest time at which an edge enters. ``threads`` says how thread on thread is
+    searched: RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
     nodes_b, nodes_n, cells, found_b, found_n, bolt_walks, nut_walks, rects, tangent = work
     bolt_marks = np.empty(2)
@@ -239,9 +241,12 @@ def earliest(
     reach = min(limit, best + slack)
     # Where no edge contact explains the earliest entry, the threads must have met before it.
     orphan = (
-        any_entry and best < limit - 1e-8 * bolt[pk.P] and not anchored(best, slack, count_b, found_b, count_n, found_n)
+        threads == RIDGES
+        and any_entry
+        and best < limit - 1e-8 * bolt[pk.P]
+        and not anchored(best, slack, count_b, found_b, count_n, found_n)
     )
-    if prove_threads or orphan:
+    if threads == PROVED or orphan:
         count_t, used_t = tk.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
     else:
         count_t = tk.ridges(bolt_walks, bolt, nut, reach, RIDGE_AZIMUTHS, tangent)
@@ -279,6 +284,7 @@ def earliest(
     status = RESOLVED
     if used_b == sk.OVERFLOW or used_n == sk.OVERFLOW or used_t == sk.OVERFLOW:
         status = UNRESOLVED
-    if any_entry and best < limit - 1e-8 * bolt[pk.P] and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
+    unexplained = any_entry and best < limit - 1e-8 * bolt[pk.P]
+    if threads != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         status = UNRESOLVED
-    return count, grown_b or grown_n, status
+    return count, grown_b or grown_n, status, best
