@@ -1,0 +1,80 @@
+"""The default pair by its numbers: method, sections 1, 3 and 7."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from tests.contact.region_rule import region_at
+from tests.oracle.profile import bolt_profile, nut_profile, radius
+from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
+from threadstate.thread.pair import Pair
+from threadstate.thread.play import axial_play
+from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS, Region
+
+PRINTED_INCH = 0.6e-15
+ROUND_OFF_INCH = 1e-15
+
+PAIR = quarter_twenty_unc()
+PAIRS = [quarter_twenty_unc(root_form) for root_form in RootForm]
+
+
+@pytest.mark.parametrize(
+    ("part", "s", "expected"),
+    [("bolt", 0.005, 0.116860254037844), ("bolt", 0.03, 0.099539745962156), ("nut", 0.03, 0.100165616729453)],
+)
+def test_radius_has_the_method_s_values(part: str, s: float, expected: float) -> None:
+    profile = PAIR.bolt if part == "bolt" else PAIR.nut
+    assert profile.radius(s) == pytest.approx(expected, abs=PRINTED_INCH)
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.designation)
+def test_radius_is_that_of_the_construction(pair: Pair) -> None:
+    for profile, oracle in ((pair.bolt, bolt_profile(pair)), (pair.nut, nut_profile(pair))):
+        for i in range(2001):
+            s = (i / 1000.0 - 1.0) * pair.thread_pitch
+            assert profile.radius(s) == pytest.approx(radius(s, oracle), abs=10 * ROUND_OFF_INCH)
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.designation)
+@pytest.mark.parametrize("of_nut", [False, True])
+def test_regions_and_margins_are_those_of_the_rule(pair: Pair, of_nut: bool) -> None:
+    profile, names = (pair.nut, NUT_REGIONS) if of_nut else (pair.bolt, BOLT_REGIONS)
+    for i in range(2000):
+        s = (i + 0.5) / 1000.0 * pair.thread_pitch - pair.thread_pitch
+        index, margin = profile.region_index(s)
+        rule = region_at(pair, s, of_nut=of_nut)
+        assert names[index] is rule.region
+        assert margin == pytest.approx(rule.margin, abs=1e-12)
+
+
+def test_the_ninth_region_is_the_flat_face() -> None:
+    assert (BOLT_REGIONS[8], NUT_REGIONS[8]) == (Region.BASE, Region.SURFACE)
+    assert len(set(BOLT_REGIONS)) == len(set(NUT_REGIONS)) == 9
+
+
+def test_the_bolt_s_crest_is_its_largest_radius_and_the_nut_s_its_smallest() -> None:
+    quarter = PAIR.thread_pitch / 4
+    assert BOLT_REGIONS[PAIR.bolt.region_index(quarter)[0]] is Region.CREST
+    assert NUT_REGIONS[PAIR.nut.region_index(quarter)[0]] is Region.ROOT
+    assert NUT_REGIONS[PAIR.nut.region_index(3 * quarter)[0]] is Region.CREST
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.designation)
+def test_axial_play_is_that_of_the_flanks(pair: Pair) -> None:
+    clearance = (pair.fit.nut_pitch_diameter - pair.fit.bolt_pitch_diameter) / 2
+    play = clearance * math.tan(math.radians(pair.form.flank_half_angle_deg))
+    assert axial_play(pair) == pytest.approx(play, abs=ROUND_OFF_INCH)
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.designation)
+def test_the_bolt_fits_the_nut_within_the_play_and_no_farther(pair: Pair) -> None:
+    play, p = axial_play(pair), pair.thread_pitch
+
+    def tightest(shift: float) -> float:
+        return min(pair.nut.radius(i * p / 4000) - pair.bolt.radius(i * p / 4000 + shift) for i in range(4000))
+
+    for side in (-1.0, 1.0):
+        assert tightest(side * play) >= -ROUND_OFF_INCH * 10
+        assert tightest(side * play * 1.01) < -1e-7
