@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import time
 from pathlib import Path
 
+from threadstate.contact._solve_kernel import solve_rows
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -16,8 +16,9 @@ in phase (a strip of flank), level and out of phase (a patch), tilted (all that 
 
 def main() -> None:
     """Solve a few poses, and say what takes so long the first time."""
-    cache = Path(os.environ["NUMBA_CACHE_DIR"])
-    if any(cache.rglob("*.nbc")):
+    # A folder of its own for each checkout, below the one that was chosen.
+    cache = Path(str(solve_rows.stats.cache_path))
+    if any(cache.glob("_solve_kernel.solve_rows-*.nbc")):
         print(f"Loading the kernels from {cache} ...", flush=True)
     else:
         print(f"Compiling the kernels into {cache}: once, about a minute ...", flush=True)
