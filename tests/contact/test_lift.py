@@ -10,6 +10,7 @@ import pytest
 from tests.contact.samples import random_poses
 from tests.oracle.lift import least_lift
 from threadstate.state.model import ContactState
+from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -54,8 +55,9 @@ def test_embedment_is_the_least_lift(embedded: Embedded) -> None:
 
 def test_without_embedment_the_solids_do_not_overlap(embedded: Embedded) -> None:
     assert len(embedded.free) >= 20
+    none_inch = SolveOptions().embedment_tolerance * PAIR.thread_pitch
     for state in embedded.free:
-        assert oracle_lift(state) <= LIFT_TOLERANCE_INCH, state.poses[2]
+        assert oracle_lift(state) <= none_inch, state.poses[2]
 
 
 def test_drop_is_how_far_the_origin_sinks_in_the_third_stage(states: list[ContactState]) -> None:

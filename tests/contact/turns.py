@@ -37,10 +37,8 @@ class Turn:
         return turned_pose(self.rotation, self.translation, self.point, self.direction, self.sense * turn_deg)
 
     def end_deg(self, limit_deg: float) -> float:
-        """The size of the turn; where it ended without contact, as far as the oracle can follow it."""
-        if self.turn_deg is not None:
-            return self.turn_deg
-        size = limit_deg
+        """The size of the turn, up to the limit where it ended without contact; no more than the oracle can follow."""
+        size = limit_deg if self.turn_deg is None else self.turn_deg
         while _tilt_deg(self.pose_after(size)[0]) > LARGEST_TILT_DEG - 0.1:
             size -= 0.25
         return size
