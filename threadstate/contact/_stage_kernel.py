@@ -165,9 +165,9 @@ def earliest(
     """The earliest contacts of a motion by all pairs of features, sorted by time.
 
     ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number
-    of contacts (those within ``slack`` of the earliest are certain to be listed), whether an earlier contact has grown into an
-    overlap by then, a status, and the earliest time at which an edge enters. ``threads`` says how thread on thread is
-    searched: RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
+    of contacts (those within ``slack`` of the earliest are certain to be listed), whether an earlier contact has grown
+    into an overlap by then, a status, and the earliest time at which an edge enters. ``threads`` says how thread on
+    thread is searched: RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
     nodes_b, nodes_n, cells, found_b, found_n, bolt_walks, nut_walks, rects, tangent = work
     bolt_marks = np.empty(2)
