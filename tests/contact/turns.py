@@ -44,6 +44,11 @@ class Turn:
         return size
 
 
+def within_brute_force(turn: Turn) -> bool:
+    """Whether the brute force can look at the end of a turn that ended in a contact."""
+    return turn.turn_deg is not None and _tilt_deg(turn.pose_after(turn.turn_deg)[0]) < LARGEST_TILT_DEG - 0.1
+
+
 def _tilt_deg(rotation: Floats) -> float:
     return math.degrees(math.acos(min(1.0, rotation[2, 2])))
 
