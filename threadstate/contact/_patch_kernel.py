@@ -315,7 +315,17 @@ def polish(
         if abs(here[0]) < 1e-17 and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]:
             converged = True
             break
-    if not converged or z < 0.0 or z > bolt[pk.P] or here[6] > 0.0 or tau <= 0.0 or tau > limit or here[3] <= 0.0:
+    # Both parts are one thread pitch long.
+    if (
+        not converged
+        or z < 0.0
+        or z > bolt[pk.P]
+        or here[6] > 0.0
+        or here[6] < -bolt[pk.P]
+        or tau <= 0.0
+        or tau > limit
+        or here[3] <= 0.0
+    ):
         return count
     # A contact: phi has a maximum, i.e. the Hessian in (u, z) is negative definite.
     if not (jac[1, 0] < 0.0 and jac[1, 0] * jac[2, 1] - jac[1, 1] * jac[2, 0] > 0.0):

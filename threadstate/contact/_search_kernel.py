@@ -412,6 +412,9 @@ def try_face(
     x, y, _, _ = edge_point(theta, row_c)
     set_path(x, y, motion, path)
     px, py, pz = position(path, time, is_turn)
+    if -sigma * pz > row_s[pk.P]:
+        # Beyond the far end of the part, which is one thread pitch long.
+        return count
     if node[N_HOW] == PLANE:
         if face_apart(theta, time, 0.0, 0.0, sigma, motion, row_c, w):
             return add_candidate(time, ON_PLANE, theta, math.atan2(py, px), px, py, pz, count, found)
