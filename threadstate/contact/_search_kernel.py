@@ -97,8 +97,7 @@ SMALLEST_PASSAGE = 1e-11
 """Widths (rad) at which splitting ends around a passage over the other edge inside growth: bracketed, and not."""
 
 TURN_DOUBT = 2e-7
-HEIGHT_DOUBT = 2e-9
-"""No contact comes earlier than the one found by more than this (rad; thread pitches): that is what the cells prove."""
+"""No contact of a turn comes earlier than the one found by more than this (rad): that is what the cells prove."""
 
 GROWTH_CELL = 1e-2
 """Width (rad) at which a cell of growth counts as monotone by the signs at its ends alone."""
@@ -646,8 +645,7 @@ def close_cells(
             continue
         width = b[N_THETA] - a[N_THETA]
         middle = 0.5 * (a[N_THETA] + b[N_THETA])
-        doubt = TURN_DOUBT if is_turn else HEIGHT_DOUBT * row_c[pk.P]
-        sure = best - doubt if anchored else best + slack
+        sure = best - TURN_DOUBT if is_turn and anchored else best + slack
         if a[N_TIME] < sure or b[N_TIME] < sure:
             if not any_entry:
                 growth = True
