@@ -27,6 +27,7 @@ from threadstate.contact._bound_kernel import (
     B_C1,
     B_LIPSCHITZ,
     B_R_LOW,
+    B_TILT,
     BOUNDS_SIZE,
     clear,
     helical,
@@ -97,7 +98,10 @@ SMALLEST_PASSAGE = 1e-11
 """Widths (rad) at which splitting ends around a passage over the other edge inside growth: bracketed, and not."""
 
 TURN_DOUBT = 2e-7
-"""No contact of a turn comes earlier than the one found by more than this (rad): that is what the cells prove."""
+HEIGHT_DOUBT = 2e-9
+SMALL_TILT = 1e-3
+"""No contact of a turn comes earlier than the one found by more than this (rad); at a tilt below
+``SMALL_TILT`` (rad) no first contact by more than that many thread pitches. That is what the cells prove."""
 
 GROWTH_CELL = 1e-2
 """Width (rad) at which a cell of growth counts as monotone by the signs at its ends alone."""
@@ -645,7 +649,8 @@ def close_cells(
             continue
         width = b[N_THETA] - a[N_THETA]
         middle = 0.5 * (a[N_THETA] + b[N_THETA])
-        sure = best - TURN_DOUBT if is_turn and anchored else best + slack
+        doubt = TURN_DOUBT if is_turn else (HEIGHT_DOUBT * row_c[pk.P] if bounds[B_TILT] < SMALL_TILT else 0.0)
+        sure = best - doubt if anchored and doubt > 0.0 else best + slack
         if a[N_TIME] < sure or b[N_TIME] < sure:
             if not any_entry:
                 growth = True
