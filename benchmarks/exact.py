@@ -12,6 +12,7 @@ from benchmarks.sample import Poses
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.pair import Pair
+from worker.garbage import collect_rarely
 
 BATCH = 256
 """How many poses are solved by a call, and their states then dropped."""
@@ -49,6 +50,7 @@ def seconds_to_solve(pair: Pair, poses: Poses, processes: int) -> float:
 
 
 def _solve_share(connection: Connection, pair: Pair, poses: Poses) -> None:
+    collect_rarely()  # as the processes of a rebuild do
     solve_poses(pair, poses[:8])
     connection.send(None)
     connection.recv()

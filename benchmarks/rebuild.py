@@ -26,15 +26,14 @@ from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, write_chunk
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.pair import Pair
+from worker.garbage import collect_rarely
 from worker.migrate import migrate
 
 PROFILED_ORIENTATIONS = 12
 COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
-IMPORTS = "import worker.computed_library, worker.compute, worker.progress"
-FIRST_POSE = (
-    f"{IMPORTS}; from threadstate.thread.catalogue import quarter_twenty_unc; "
-    "worker.compute.solve_poses(quarter_twenty_unc(), [(1, 2, 3)])"
-)
+WRITER_IMPORTS = "import worker.cli, worker.computed_library"
+COMPUTING_IMPORTS = "import threadstate.warm_up, worker.compute"
+LOADING = f"{COMPUTING_IMPORTS}; threadstate.warm_up.load_kernels()"
 
 
 class RebuildFailedError(Exception):
@@ -96,6 +95,7 @@ def rebuilt(folder: Path, grid: Grid, processes: int) -> Rebuilt:
 
 def profile(folder: Path, pair: Pair, grid: Grid) -> list[Part]:
     """Each part by itself on one core, over orientations chosen by a seed and scaled to the whole grid."""
+    collect_rarely()  # as the processes of a rebuild do
     count = min(PROFILED_ORIENTATIONS, grid.orientation_count)
     chosen = np.random.default_rng(SEED).choice(grid.orientation_count, count, replace=False).tolist()
     scale = grid.orientation_count / count
@@ -118,10 +118,11 @@ def profile(folder: Path, pair: Pair, grid: Grid) -> list[Part]:
             with writing.running():
                 write_chunk(engine, library_id, chunk)
     engine.dispose()
-    imports = _process_seconds(IMPORTS)
+    imports = _process_seconds(COMPUTING_IMPORTS)
     return [
-        Part("start of Python, imports", "every process", imports),
-        Part("loading the kernels", "computing", _process_seconds(FIRST_POSE) - imports),
+        Part("start of Python, imports: writer", "writer", _process_seconds(WRITER_IMPORTS)),
+        Part("start of Python, imports: kernels", "forkserver", imports),
+        Part("loading the kernels", "forkserver", _process_seconds(LOADING) - imports),
         Part("solve: kernels", "computing", kernels.seconds * scale),
         Part("solve: records to values", "computing", (solve.seconds - kernels.seconds) * scale),
         Part("hashing", "computing", hashing.seconds * scale),

@@ -14,17 +14,30 @@ POSES_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0), (-4.0, 0.0, 131.0))
 in phase (a strip of flank), level and out of phase (a patch), tilted (all that the three stages may need)."""
 
 
-def main() -> None:
-    """Solve a few poses, and say what takes so long the first time."""
-    # A folder of its own for each checkout, below the one that was chosen.
-    cache = Path(str(solve_rows.stats.cache_path))
-    if any(cache.glob("_solve_kernel.solve_rows-*.nbc")):
-        print(f"Loading the kernels from {cache} ...", flush=True)
-    else:
-        print(f"Compiling the kernels into {cache}: once, about a minute ...", flush=True)
-    start = time.perf_counter()
+def kernels_are_compiled() -> bool:
+    """Whether the cache has the kernels, so that to load them takes a moment and not a minute."""
+    return any(_cache().glob("_solve_kernel.solve_rows-*.nbc"))
+
+
+def load_kernels() -> None:
+    """Load every kernel into this process; those that the cache has not are compiled."""
     solve_poses(quarter_twenty_unc(), POSES_DEG)
+
+
+def main() -> None:
+    """Load the kernels, and say what takes so long the first time."""
+    if kernels_are_compiled():
+        print(f"Loading the kernels from {_cache()} ...", flush=True)
+    else:
+        print(f"Compiling the kernels into {_cache()}: once, about a minute ...", flush=True)
+    start = time.perf_counter()
+    load_kernels()
     print(f"Kernels ready after {time.perf_counter() - start:.1f} s.", flush=True)
+
+
+def _cache() -> Path:
+    """Where this checkout's kernels are kept: a folder of its own below the one that was chosen."""
+    return Path(str(solve_rows.stats.cache_path))
 
 
 if __name__ == "__main__":

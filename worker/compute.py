@@ -3,24 +3,12 @@
 from __future__ import annotations
 
 import signal
-from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, chunk_rows
 from threadstate.state.solve import solve_poses
-
-
-@dataclass(frozen=True, slots=True)
-class Ready:
-    """The kernels are loaded."""
-
-
-@dataclass(frozen=True, slots=True)
-class Failure:
-    """The process cannot go on."""
-
-    reason: str
+from worker.messages import Failure, Ready
 
 
 def compute_chunk(inputs: LibraryInputs, index: int) -> ChunkRows:

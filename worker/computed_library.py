@@ -6,8 +6,9 @@ from threadstate.library.engine import writer_engine
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.schema import check_schema, stored_revision
-from threadstate.state.solve import SolveOptions
+from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+from worker.forkserver import running_forkserver
 from worker.migrate import migrate
 from worker.progress import progress_bar
 from worker.rebuild import Rebuild, rebuild
@@ -34,6 +35,7 @@ def computed_library(
     engine = writer_engine(database)
     try:
         if stored_revision(engine) is None:
+            running_forkserver()  # it loads the kernels meanwhile
             migrate(engine)
         check_schema(engine)
         with progress_bar() as progress:

@@ -6,7 +6,6 @@ seen by the other as the end of the pipe: no process is left behind.
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -16,6 +15,8 @@ from multiprocessing.process import BaseProcess
 from threadstate.errors import ThreadstateError
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows
+from worker.forkserver import running_forkserver
+from worker.messages import Failure, Ready
 
 ASKED_AHEAD = 2
 """How many chunks a process is asked for at a time: it computes on while one waits to be written."""
@@ -44,9 +45,7 @@ class ComputingProcesses:
     """Processes that compute chunks of one library; made by :func:`computing_processes`."""
 
     def __init__(self, inputs: LibraryInputs, count: int) -> None:
-        # forkserver: the processes start from a clean one that has the kernels' module loaded once for all.
-        self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload(["__main__", "worker.compute"])
+        self._context = running_forkserver()
         self._inputs = inputs
         self._computers = [self._start() for _ in range(count)]
 
@@ -60,8 +59,6 @@ class ComputingProcesses:
         Raises:
             ComputeError: a process failed or died.
         """
-        from worker.compute import Failure, Ready
-
         waiting = iter(orientations)
         asked = dict.fromkeys((computer.connection for computer in self._computers), 0)
         by_connection = {computer.connection: computer for computer in self._computers}
@@ -100,13 +97,18 @@ class ComputingProcesses:
             computer.process.join(_JOIN_TIMEOUT_S)
 
     def _start(self) -> _Computer:
-        from worker.compute import serve_chunks
-
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=serve_chunks, args=(theirs, self._inputs), daemon=True)
+        process = self._context.Process(target=_compute, args=(theirs, self._inputs), daemon=True)
         process.start()
         theirs.close()
         return _Computer(process, ours)
+
+
+def _compute(connection: Connection, inputs: LibraryInputs) -> None:
+    # Imported in the computing process alone: the writing one does without numba, which is slow to load and to leave.
+    from worker.compute import serve_chunks
+
+    serve_chunks(connection, inputs)
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from pathlib import Path
 import threadstate
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
-from threadstate.state.solve import SolveOptions
+from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
 METHOD = "exact"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from functools import lru_cache
 
-from sqlalchemy import Connection, Engine, Table, func, insert, select, update
+from sqlalchemy import Connection, Dialect, Engine, Table, func, insert, select, update
 
 from threadstate.errors import ThreadstateError
 from threadstate.library.fingerprint import library_sha256
@@ -131,5 +132,10 @@ def publish(engine: Engine, library_id: int, grid: Grid) -> str:
 def _insert(connection: Connection, table: Table, library_id: int, rows: Sequence[Row]) -> None:
     """Insert positional rows; per row nothing but the driver's own work is done."""
     if rows:
-        statement = str(insert(table).compile(dialect=connection.dialect))
+        statement = _insert_statement(table, connection.dialect)
         connection.exec_driver_sql(statement, [(library_id, *row) for row in rows])
+
+
+@lru_cache
+def _insert_statement(table: Table, dialect: Dialect) -> str:
+    return str(insert(table).compile(dialect=dialect))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.errors import ImpossibleThreadError, InvalidValueError
-from threadstate.thread import _profile_kernel as kernel
 
 
 @dataclass(frozen=True)
@@ -125,11 +125,11 @@ class Profile:
 
     def radius(self, s: float) -> float:
         """``f(s)``: the radius at axial position ``s`` (any finite number), in the pair's unit."""
-        return float(kernel.radius(_finite(s), self.row))
+        return float(_kernel().radius(_finite(s), self.row))
 
     def derivatives(self, s: float) -> tuple[float, float, float]:
         """``f, f', f''`` at ``s``, lengths in the pair's unit; between two regions f'' is the flat's or flank's."""
-        r, d1, d2 = kernel.jet(_finite(s), self.row)
+        r, d1, d2 = _kernel().jet(_finite(s), self.row)
         return float(r), float(d1), float(d2)
 
     def inverse(self, r: float) -> float:
@@ -144,15 +144,22 @@ class Profile:
         low, high = self.minor_diameter / 2.0, self.major_diameter / 2.0
         if not low <= r <= high:
             raise InvalidValueError("radius", r, f"{low!r} to {high!r}")
-        return float(kernel.inverse_rising(r, self.row))
+        return float(_kernel().inverse_rising(r, self.row))
 
     def region_index(self, s: float) -> tuple[int, float]:
         """Index 0..7 of the region at ``s`` (0 the small-radius flat, growing with ``s``), and its margin.
 
         The margin is the arc length along the profile to the nearest boundary of the region.
         """
-        index, margin = kernel.region_index(_finite(s), self.row)
+        index, margin = _kernel().region_index(_finite(s), self.row)
         return int(index), float(margin)
+
+
+def _kernel() -> ModuleType:
+    """The compiled profile; numba, which it imports, takes longer to load than most of what a pair is needed for."""
+    from threadstate.thread import _profile_kernel
+
+    return _profile_kernel
 
 
 def _finite(s: float) -> float:
