@@ -328,6 +328,18 @@ def test_a_third_contact_may_come_at_once() -> None:
     assert deepest_near(PAIR, turn, state.mu_deg + 1e-4, point, 5e-5) > 0.0
 
 
+@pytest.mark.parametrize("pose", [(3.0, -1.0, 0.0), (4.0, 1.0, 1.0)])
+def test_thread_meets_thread_late_in_the_third_turn(pose: tuple[float, float, float]) -> None:
+    """A ridge ends there between two azimuths, with another one less than a tenth of a pitch away."""
+    state = solve_pose(PAIR, *pose)
+    (third,) = contacts_of_stage(state, 3)
+    assert third.features is FeaturePair.THREAD_THREAD
+    assert state.mu_deg is not None
+    turn, point = turns_of(PAIR, state)[1], np.array(third.point)
+    before, after = (deepest_near(PAIR, turn, state.mu_deg + d, point, 5e-5) for d in (-1e-4, 1e-4))
+    assert before < 0.0 < after
+
+
 # --- No third contact
 
 

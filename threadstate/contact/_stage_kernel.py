@@ -8,8 +8,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from threadstate.contact import _patch_kernel as tk
+from threadstate.contact import _rectangle_kernel as rect
+from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _search_kernel as sk
+from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point
 from threadstate.thread import _profile_kernel as pk
 
@@ -133,7 +135,7 @@ def new_work() -> Work:
         np.empty((sk.MAX_CANDIDATES, sk.CANDIDATE_SIZE)),
         np.empty(MOTION_SIZE),
         np.empty(MOTION_SIZE),
-        np.empty((tk.MAX_RECTANGLES, tk.RECTANGLE_SIZE)),
+        np.empty((rect.MAX_RECTANGLES, rect.RECTANGLE_SIZE)),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
     )
 
@@ -247,9 +249,9 @@ def earliest(
         and not anchored(best, slack, count_b, found_b, count_n, found_n)
     )
     if threads == PROVED or orphan:
-        count_t, used_t = tk.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
+        count_t, used_t = rect.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
     else:
-        count_t = tk.ridges(bolt_walks, bolt, nut, reach, RIDGE_AZIMUTHS, tangent)
+        count_t = ridge.ridges(bolt_walks, bolt, nut, reach, RIDGE_AZIMUTHS, tangent)
     count = 0
     for i in range(count_b):
         kind = int(found_b[i, sk.C_KIND])

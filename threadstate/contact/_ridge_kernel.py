@@ -1,0 +1,183 @@
+"""Thread on thread along the ridges of phi over the bolt's thread: a search, not a proof.
+
+At instants of a motion phi has ridges over the part of the bolt's thread below the nut's surface, where its slope B
+along the axis falls through zero; where the slope A along the helix falls through zero along a ridge, phi has a
+maximum (``_tangency_kernel`` defines A and B). It is followed through time to where phi vanishes there.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact._geometry_kernel import TWO_PI
+from threadstate.contact._ridge_grid_kernel import (
+    CROSSINGS_SIZE,
+    GRID_SIZE,
+    LANES,
+    MOST_CROSSINGS,
+    MOST_PIECES,
+    list_crossings,
+    list_maxima,
+    set_columns,
+    set_crossings,
+    set_slopes,
+    set_tops,
+)
+from threadstate.contact._tangency_kernel import (
+    J_A,
+    J_B,
+    J_PHI,
+    J_RATE,
+    J_UT,
+    J_UU,
+    J_UZ,
+    J_Z,
+    J_ZT,
+    J_ZZ,
+    JET_SIZE,
+    S_OFF,
+    S_ROT,
+    STANDING_SIZE,
+    polish,
+    set_jet,
+    set_standing,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+SLICE = math.radians(1.5)
+FOLLOW = math.radians(0.5)
+APART = 0.06
+"""Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
+WORTH = 3.0 * SLICE
+"""A maximum of phi that by its rate is farther than this (rad) from zero is left to the slices nearer to it."""
+
+
+@njit(cache=True, error_model="numpy")
+def settle(theta: float, z: float, standing: Array, bolt: Array, nut: Array, jet: Array) -> tuple[float, float, bool]:
+    """The highest point of phi on the thread near (theta, z) where the bolt stands (A = B = 0), by Newton's method."""
+    k = bolt[pk.P] / TWO_PI
+    p = bolt[pk.P]
+    set_jet(theta, z, standing, bolt, nut, jet)
+    for _ in range(20):
+        a, b = jet[J_A], jet[J_B]
+        uu, uz, zz = jet[J_UU], jet[J_UZ], jet[J_ZZ]
+        det = uu * zz - uz * uz
+        if not (zz < 0.0 and det > 0.0):
+            return theta, z, False
+        du = min(max((uz * b - zz * a) / det, -0.1), 0.1)
+        dz = min(max((uz * a - uu * b) / det, -0.02 * p), 0.02 * p)
+        theta += du
+        z += k * du + dz
+        set_jet(theta, z, standing, bolt, nut, jet)
+        if abs(du) < 1e-4 and abs(dz) < 1e-4 * p:
+            return theta, z, True
+    return theta, z, False
+
+
+@njit(cache=True, error_model="numpy")
+def follow(
+    theta: float,
+    z: float,
+    tau: float,
+    limit: float,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    standing: Array,
+    moved: Array,
+    jet: Array,
+    found: Array,
+    count: int,
+) -> int:
+    """Follows a highest point of phi through time to where phi vanishes there, in steps of at most ``FOLLOW``.
+
+    ``standing`` is where the bolt stands at ``tau``; ``moved`` and ``jet`` are scratch. Returns the number of contacts
+    found.
+    """
+    k = bolt[pk.P] / TWO_PI
+    p = bolt[pk.P]
+    start = tau
+    for i in range(60):
+        if i > 0:
+            set_standing(motion, tau, moved)
+        theta, z, settled = settle(theta, z, standing if i == 0 else moved, bolt, nut, jet)
+        if not settled or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
+            return count
+        move = -jet[J_PHI] / jet[J_RATE]
+        if abs(tau + move - start) > WORTH:
+            return count
+        if abs(move) < 1e-6:
+            return polish(theta, z, tau + move, limit, motion, bolt, nut, moved, jet, found, count)
+        move = min(max(move, -FOLLOW), FOLLOW)
+        tau += move
+        if tau <= 0.0 or tau > limit + FOLLOW:
+            return count
+        # The maximum moves along with time such that A and B stay zero.
+        det = jet[J_UU] * jet[J_ZZ] - jet[J_UZ] * jet[J_UZ]
+        du = move * (jet[J_UZ] * jet[J_ZT] - jet[J_ZZ] * jet[J_UT]) / det
+        dz = move * (jet[J_UZ] * jet[J_UT] - jet[J_UU] * jet[J_ZT]) / det
+        theta += du
+        z += k * du + dz
+    return count
+
+
+@njit(cache=True, error_model="numpy")
+def columns_below(standing: Array, azimuths: int, bolt: Array) -> tuple[int, int]:
+    """The first column, and how many, of all those that may have a point of the bolt below the nut's surface."""
+    x, y, up = standing[S_ROT + 6], standing[S_ROT + 7], standing[S_ROT + 8]
+    lowest = standing[S_OFF + 2] + min(0.0, up * bolt[pk.P])
+    tilt = math.sqrt(x * x + y * y)
+    reach = tilt * bolt[pk.R_MAJOR if lowest > 0.0 else pk.R_MINOR]
+    if lowest >= reach:
+        return 0, 0
+    if lowest <= -reach:
+        return 0, azimuths + 1
+    per_step = azimuths / TWO_PI
+    half = math.acos(lowest / reach) * per_step
+    middle = math.atan2(-y, -x) * per_step + azimuths
+    first = math.ceil(middle - half)
+    return first % azimuths, min(math.floor(middle + half) - first, azimuths) + 1
+
+
+@njit(cache=True, error_model="numpy")
+def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
+    """Contacts of thread with thread along a motion before ``limit``, earliest first; returns their number.
+
+    ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MOST_AZIMUTHS`` at the most, is a resolution and not a
+    bound: docs/decisions/0001-contacts.md says how it was checked.
+    """
+    grid = np.empty(GRID_SIZE)
+    standing = np.empty(STANDING_SIZE)
+    jet = np.empty(JET_SIZE)
+    moved = np.empty(STANDING_SIZE)
+    crossings = np.empty(CROSSINGS_SIZE)
+    maxima = np.empty((MOST_CROSSINGS, 2))
+    set_columns(azimuths, bolt, grid)
+    count = 0
+    slices = 1 + int(limit / SLICE)
+    for i in range(slices):
+        tau = limit * (i + 1) / slices
+        set_standing(motion, tau, standing)
+        first, columns = columns_below(standing, azimuths, bolt)
+        if columns == 0:
+            continue
+        lanes = (columns + LANES - 1) // LANES * LANES
+        highest = set_tops(first, lanes, standing, bolt, grid)
+        pieces = min(1 + int(highest / bolt[pk.P] * MOST_PIECES), MOST_PIECES)
+        set_slopes(pieces, first, lanes, azimuths, standing, bolt, nut, grid)
+        listed = list_crossings(first, columns, pieces, azimuths, grid, crossings)
+        if listed == 0:
+            continue
+        set_crossings(listed, standing, bolt, nut, crossings)
+        for j in range(list_maxima(listed, bolt[pk.P] / azimuths, APART * bolt[pk.P], crossings, maxima)):
+            theta = maxima[j, 0]
+            if theta >= TWO_PI:
+                theta -= TWO_PI
+            count = follow(theta, maxima[j, 1], tau, limit, motion, bolt, nut, standing, moved, jet, found, count)
+    return count

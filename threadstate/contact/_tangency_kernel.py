@@ -1,0 +1,258 @@
+"""Thread on thread at one place: phi along the bolt's thread, its derivatives, and Newton's method to a tangency.
+
+The bolt's thread is parametrised by azimuth and axial position (theta, z), 0 <= z <= p, in the bolt's frame. With the
+nut's phi along it, a tangency is a point with phi = 0 and both derivatives zero; it is a contact where phi has a
+maximum. Moving along the bolt's helix (theta + u, z + k u) keeps both profiles' positions nearly fixed, so that the
+derivatives used are A (by u, along the helix) and B (by z, along the axis).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact._geometry_kernel import M_AXIS, M_KIND, M_OFF, M_POINT, M_ROT, TWO_PI
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+# A tangency: time, theta and z on the bolt, point in the nut's frame.
+T_TIME = 0
+T_THETA = 1
+T_Z = 2
+T_X = 3
+T_Y = 4
+T_POINT_Z = 5
+TANGENCY_SIZE = 6
+MAX_TANGENCIES = 8
+
+REACH_THETA = 0.12
+"""How far (rad) from where Newton's method starts a tangency may lie."""
+REACH_Z = 0.2
+"""The same along the axis, in pitches."""
+
+# Where a motion has brought the bolt: rotation by rows, offset, and its twist there; a point x moves by
+# ``turn x x + drift``.
+S_ROT = 0
+S_OFF = 9
+S_TURN = 12
+S_DRIFT = 15
+STANDING_SIZE = 18
+
+# phi at a point of the bolt's thread, its derivatives A (by u), B (by z) and its rate (by tau), the point in the nut's
+# frame, and the second derivatives.
+J_PHI = 0
+J_A = 1
+J_B = 2
+J_RATE = 3
+J_X = 4
+J_Y = 5
+J_Z = 6
+J_UU = 7
+J_UZ = 8
+J_ZZ = 9
+J_UT = 10
+J_ZT = 11
+JET_SIZE = 12
+
+
+@njit(cache=True, error_model="numpy")
+def set_standing(motion: Array, tau: float, standing: Array) -> None:
+    """Where ``motion`` has brought the bolt after ``tau``."""
+    if motion[M_KIND] == 0.0:
+        for i in range(9):
+            standing[S_ROT + i] = motion[M_ROT + i]
+        for i in range(3):
+            standing[S_OFF + i] = motion[M_OFF + i] + tau * motion[M_AXIS + i]
+            standing[S_TURN + i] = 0.0
+            standing[S_DRIFT + i] = motion[M_AXIS + i]
+        return
+    ax, ay, az = motion[M_AXIS], motion[M_AXIS + 1], motion[M_AXIS + 2]
+    px, py, pz = motion[M_POINT], motion[M_POINT + 1], motion[M_POINT + 2]
+    c = math.cos(tau)
+    s = math.sin(tau)
+    for j in range(4):
+        vx, vy, vz = motion[M_ROT + j], motion[M_ROT + 3 + j], motion[M_ROT + 6 + j]
+        if j == 3:
+            vx, vy, vz = motion[M_OFF] - px, motion[M_OFF + 1] - py, motion[M_OFF + 2] - pz
+        h = ax * vx + ay * vy + az * vz
+        wx, wy, wz = vx - h * ax, vy - h * ay, vz - h * az
+        vx = h * ax + c * wx + s * (ay * wz - az * wy)
+        vy = h * ay + c * wy + s * (az * wx - ax * wz)
+        vz = h * az + c * wz + s * (ax * wy - ay * wx)
+        if j < 3:
+            standing[S_ROT + j] = vx
+            standing[S_ROT + 3 + j] = vy
+            standing[S_ROT + 6 + j] = vz
+        else:
+            standing[S_OFF] = px + vx
+            standing[S_OFF + 1] = py + vy
+            standing[S_OFF + 2] = pz + vz
+    standing[S_TURN] = ax
+    standing[S_TURN + 1] = ay
+    standing[S_TURN + 2] = az
+    standing[S_DRIFT] = az * py - ay * pz
+    standing[S_DRIFT + 1] = ax * pz - az * px
+    standing[S_DRIFT + 2] = ay * px - ax * py
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def rotated(x: float, y: float, z: float, standing: Array) -> tuple[float, float, float]:
+    """A vector of the bolt's frame in the nut's frame."""
+    return (
+        standing[0] * x + standing[1] * y + standing[2] * z,
+        standing[3] * x + standing[4] * y + standing[5] * z,
+        standing[6] * x + standing[7] * y + standing[8] * z,
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def set_jet(theta: float, z: float, standing: Array, bolt: Array, nut: Array, jet: Array) -> None:
+    """Phi and its derivatives at (theta, z) of the bolt's thread, where the bolt stands."""
+    k = bolt[pk.P] / TWO_PI
+    r_b, slope, bend = pk.jet(z - k * theta, bolt)
+    cos = math.cos(theta)
+    sin = math.sin(theta)
+    x, y, zz = rotated(r_b * cos, r_b * sin, z, standing)
+    x += standing[S_OFF]
+    y += standing[S_OFF + 1]
+    zz += standing[S_OFF + 2]
+    # Derivatives of the point by u, z and tau, and the second derivatives by u and z.
+    ux, uy, uz = rotated(-r_b * sin, r_b * cos, k, standing)
+    zx, zy, z_z = rotated(slope * cos, slope * sin, 1.0, standing)
+    outx, outy, outz = rotated(cos, sin, 0.0, standing)
+    acrossx, acrossy, acrossz = rotated(-sin, cos, 0.0, standing)
+    ax, ay, az = standing[S_TURN], standing[S_TURN + 1], standing[S_TURN + 2]
+    tx = ay * zz - az * y + standing[S_DRIFT]
+    ty = az * x - ax * zz + standing[S_DRIFT + 1]
+    tz = ax * y - ay * x + standing[S_DRIFT + 2]
+    r = math.sqrt(x * x + y * y)
+    f, f1, f2 = pk.jet(zz - k * math.atan2(y, x), nut)
+    ex = x / r
+    ey = y / r
+    k_r = k / r
+    gx = ex - f1 * k_r * ey
+    gy = ey + f1 * k_r * ex
+    # Radial and azimuthal parts of the three derivatives, and by how much s changes along them.
+    ur, ua = ex * ux + ey * uy, ex * uy - ey * ux
+    zr, za = ex * zx + ey * zy, ex * zy - ey * zx
+    tr, ta = ex * tx + ey * ty, ex * ty - ey * tx
+    us = uz - k_r * ua
+    zs = z_z - k_r * za
+    ts = tz - k_r * ta
+    twist = f1 * k_r / r
+    jet[J_PHI] = r - f
+    jet[J_A] = ur - f1 * us
+    jet[J_B] = zr - f1 * zs
+    jet[J_RATE] = tr - f1 * ts
+    jet[J_X] = x
+    jet[J_Y] = y
+    jet[J_Z] = zz
+    along_out = gx * outx + gy * outy - f1 * outz
+    along_across = gx * acrossx + gy * acrossy - f1 * acrossz
+    jet[J_UU] = ua * ua / r - f2 * us * us - 2.0 * twist * ur * ua - r_b * along_out
+    jet[J_UZ] = ua * za / r - f2 * us * zs - twist * (ur * za + ua * zr) + slope * along_across
+    jet[J_ZZ] = za * za / r - f2 * zs * zs - 2.0 * twist * zr * za + bend * along_out
+    jet[J_UT] = (
+        ua * ta / r
+        - f2 * us * ts
+        - twist * (ur * ta + ua * tr)
+        + gx * (ay * uz - az * uy)
+        + gy * (az * ux - ax * uz)
+        - f1 * (ax * uy - ay * ux)
+    )
+    jet[J_ZT] = (
+        za * ta / r
+        - f2 * zs * ts
+        - twist * (zr * ta + za * tr)
+        + gx * (ay * z_z - az * zy)
+        + gy * (az * zx - ax * z_z)
+        - f1 * (ax * zy - ay * zx)
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def polish(
+    theta_start: float,
+    z_start: float,
+    tau: float,
+    limit: float,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    standing: Array,
+    jet: Array,
+    found: Array,
+    count: int,
+) -> int:
+    """Newton's method on phi = A = B = 0 in (u, z, tau); adds the tangency to ``found`` if it is a contact.
+
+    Returns the number of contacts found.
+    """
+    k = bolt[pk.P] / TWO_PI
+    theta = theta_start
+    z = z_start
+    set_standing(motion, tau, standing)
+    set_jet(theta, z, standing, bolt, nut, jet)
+    converged = False
+    for _ in range(30):
+        phi, a, b, rate = jet[J_PHI], jet[J_A], jet[J_B], jet[J_RATE]
+        uu, uz, zz, ut, zt = jet[J_UU], jet[J_UZ], jet[J_ZZ], jet[J_UT], jet[J_ZT]
+        # Cramer's rule: minors of the rows of A and B, and what A and B leave of each column.
+        minor_u = uz * zt - ut * zz
+        minor_z = uu * zt - ut * uz
+        minor_t = uu * zz - uz * uz
+        left_u = a * uz - uu * b
+        left_z = a * zz - uz * b
+        left_t = a * zt - ut * b
+        det = a * minor_u - b * minor_z + rate * minor_t
+        if det == 0.0:
+            return count
+        du = (-phi * minor_u + b * left_t - rate * left_z) / det
+        dz = (phi * minor_z - a * left_t + rate * left_u) / det
+        dt = (-phi * minor_t + a * left_z - b * left_u) / det
+        theta += du
+        z += k * du + dz
+        tau += dt
+        if abs(theta - theta_start) > REACH_THETA or abs(z - z_start) > REACH_Z * bolt[pk.P]:
+            return count
+        set_standing(motion, tau, standing)
+        set_jet(theta, z, standing, bolt, nut, jet)
+        small = abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (1.0 + abs(tau))
+        if small or (abs(jet[J_PHI]) < 1e-17 and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]):
+            converged = True
+            break
+    # Both parts are one thread pitch long.
+    if (
+        not converged
+        or z < 0.0
+        or z > bolt[pk.P]
+        or jet[J_Z] > 0.0
+        or jet[J_Z] < -bolt[pk.P]
+        or tau <= 0.0
+        or tau > limit
+        or jet[J_RATE] <= 0.0
+    ):
+        return count
+    # A contact: phi has a maximum, i.e. the Hessian in (u, z) is negative definite.
+    if not (jet[J_UU] < 0.0 and jet[J_UU] * jet[J_ZZ] - jet[J_UZ] * jet[J_UZ] > 0.0):
+        return count
+    for i in range(count):
+        if abs(found[i, T_X] - jet[J_X]) + abs(found[i, T_Y] - jet[J_Y]) < 1e-6 * bolt[pk.P]:
+            return count
+    if count == MAX_TANGENCIES:
+        return count
+    i = count
+    while i > 0 and found[i - 1, T_TIME] > tau:
+        found[i] = found[i - 1]
+        i -= 1
+    found[i, T_TIME] = tau
+    found[i, T_THETA] = theta
+    found[i, T_Z] = z
+    found[i, T_X] = jet[J_X]
+    found[i, T_Y] = jet[J_Y]
+    found[i, T_POINT_Z] = jet[J_Z]
+    return count + 1
