@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tests.oracle.compiled import compiled
+from threadstate.contact import _lane_kernel as lk
 from threadstate.contact import _slope_kernel as sk
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI
@@ -60,10 +61,10 @@ def jet(theta: float, z: float, tau: float, bolt: Profile, nut: Profile) -> Floa
 @compiled
 def slopes_at(theta: float, z: float, standing: Floats, bolt: Floats, nut: Floats) -> tuple[float, float]:
     k = bolt[0] / TWO_PI
-    r, slope = sk.radius_and_slope(z - k * theta, sk.profile_numbers(bolt))
+    r, slope, _ = lk.radius_and_slope(z - k * theta, lk.profile_numbers(bolt))
     c, s = math.cos(theta), math.sin(theta)
     place = sk.standing_numbers(standing)
-    return sk.slopes(r * c, r * s, z, slope * c, slope * s, k, place, sk.profile_numbers(nut))
+    return sk.slopes(r * c, r * s, z, slope * c, slope * s, k, place, lk.profile_numbers(nut))
 
 
 def places() -> list[tuple[float, float]]:

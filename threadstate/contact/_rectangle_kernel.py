@@ -22,7 +22,6 @@ from threadstate.contact._bound_kernel import (
     B_OFFSET,
     B_R_LOW,
     BOUNDS_SIZE,
-    MOST_STEPS,
     set_bounds,
     sine_of_tilt,
 )
@@ -44,6 +43,7 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 MAX_RECTANGLES = 4000
+MOST_STEPS = 120
 MOST_LOOKS = 200_000
 OVERFLOW = -1
 

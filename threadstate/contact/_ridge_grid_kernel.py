@@ -14,7 +14,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._slope_kernel import profile_numbers, radius_and_slope, slopes, standing_numbers
+from threadstate.contact._lane_kernel import profile_numbers, radius_and_slope
+from threadstate.contact._slope_kernel import slopes, standing_numbers
 from threadstate.contact._tangency_kernel import S_OFF, S_ROT
 from threadstate.thread import _profile_kernel as pk
 
@@ -82,7 +83,7 @@ def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
     lead = bolt[pk.P] / azimuths
     numbers = profile_numbers(bolt)
     for j in range(STRIDE):
-        r, _ = radius_and_slope(-lead * j, numbers)
+        r, _, _ = radius_and_slope(-lead * j, numbers)
         grid[G_BASE + j] = r
 
 
@@ -121,7 +122,7 @@ def set_slopes(
             cos = view[G_COS + j]
             sin = view[G_SIN + j]
             z = part * view[G_TOP + j]
-            r, slope = radius_and_slope(z - lead * (first + j), bolt_numbers)
+            r, slope, _ = radius_and_slope(z - lead * (first + j), bolt_numbers)
             _, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)
             row[G_B + j] = b
 
@@ -180,7 +181,7 @@ def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossing
                 b_high = batch[C_B_HIGH + j]
                 side = batch[C_SIDE + j]
                 z = (low * b_high - high * b_low) / (b_high - b_low)
-                r, slope = radius_and_slope(z - k * batch[C_THETA + j], bolt_numbers)
+                r, slope, _ = radius_and_slope(z - k * batch[C_THETA + j], bolt_numbers)
                 cos = batch[C_COS + j]
                 sin = batch[C_SIN + j]
                 a, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)

@@ -1,7 +1,4 @@
-"""The slopes A and B of phi without a branch or a call of a library, for loops that the compiler can vectorise.
-
-They are good to 1e-8, which is enough for where their signs change; ``_tangency_kernel`` has them to round-off.
-"""
+"""The slopes A and B of phi without a branch or a call of a library, for loops that the compiler can vectorise."""
 
 from __future__ import annotations
 
@@ -11,70 +8,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from threadstate.contact._lane_kernel import Numbers, azimuth, radius_and_slope
 from threadstate.contact._tangency_kernel import S_OFF
-from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Numbers = tuple[float, ...]
-
-ROUNDER = 1.5 * 2.0**52
-"""Adding and taking it away rounds to the nearest whole number."""
-TINY = 1e-300
-ARC_TANGENT = (
-    0.999999999939,
-    -0.333333315182,
-    0.199999099569,
-    -0.142839484195,
-    0.110929847752,
-    -0.089790509961,
-    0.0724228399726,
-    -0.0542153058452,
-    0.0341334200475,
-    -0.0160551585434,
-    0.0048272269218,
-    -0.000680497122084,
-)
-"""Coefficients of atan(t) / t in powers of t^2, 0 <= t <= 1, by a least-squares fit: 5e-11 off at the most."""
-
-
-@njit(cache=True, error_model="numpy", forceinline=True)
-def profile_numbers(row: Array) -> Numbers:
-    """What ``radius_and_slope`` needs of a profile's row."""
-    return (
-        row[pk.P],
-        1.0 / row[pk.P],
-        row[pk.U_FLAT],
-        row[pk.U_FLANK],
-        row[pk.R_PITCH],
-        row[pk.COT],
-        row[pk.U_CREST],
-        row[pk.U_TOP],
-        row[pk.R_MINOR] + row[pk.RHO_MINOR],
-        row[pk.R_MAJOR] - row[pk.RHO_MAJOR],
-        row[pk.RHO_MINOR] * row[pk.RHO_MINOR],
-        row[pk.RHO_MAJOR] * row[pk.RHO_MAJOR],
-    )
-
-
-@njit(cache=True, error_model="numpy", forceinline=True)
-def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float]:
-    """The profile's radius and slope at ``s``, without a branch."""
-    p, per_p, u_flat, u_flank, r_pitch, cot, u_crest, u_top, low_middle, high_middle, minor2, major2 = numbers
-    turns = s * per_p + 0.25
-    q = (turns - ((turns + ROUNDER) - ROUNDER)) * p
-    u = abs(q) - 0.25 * p
-    low = u < 0.5 * (u_flank + u_crest)
-    du = u - u_flat if low else u_top - u
-    du = du if du > 0.0 else 0.0
-    # On the flank, and at a corner without a fillet, this is not a square: the flank's own numbers are taken below.
-    left = (minor2 if low else major2) - du * du
-    c = math.sqrt(left if left > TINY else TINY)
-    slope = du / c
-    radius = low_middle - c if low else high_middle + c
-    on_flank = slope >= cot
-    radius = r_pitch + u * cot if on_flank else radius
-    slope = cot if on_flank else slope
-    return radius, (slope if q > 0.0 else -slope)
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
@@ -116,24 +53,7 @@ def slopes(
     az = zx * dx + zy * dy + zz
     r = math.sqrt(x * x + y * y)
     per_r = 1.0 / r
-    t = abs(y) / (r + abs(x))
-    w = t * t
-    angle = ARC_TANGENT[11]
-    angle = angle * w + ARC_TANGENT[10]
-    angle = angle * w + ARC_TANGENT[9]
-    angle = angle * w + ARC_TANGENT[8]
-    angle = angle * w + ARC_TANGENT[7]
-    angle = angle * w + ARC_TANGENT[6]
-    angle = angle * w + ARC_TANGENT[5]
-    angle = angle * w + ARC_TANGENT[4]
-    angle = angle * w + ARC_TANGENT[3]
-    angle = angle * w + ARC_TANGENT[2]
-    angle = angle * w + ARC_TANGENT[1]
-    # The angle of half the azimuth has the tangent t.
-    angle = 2.0 * t * (angle * w + ARC_TANGENT[0])
-    angle = math.pi - angle if x < 0.0 else angle
-    angle = -angle if y < 0.0 else angle
-    _, slope = radius_and_slope(height - k * angle, numbers)
+    _, slope, _ = radius_and_slope(height - k * azimuth(x, y, r), numbers)
     x *= per_r
     y *= per_r
     k_r = k * per_r

@@ -33,6 +33,7 @@ from threadstate.contact._stage_kernel import (
     UNRESOLVED,
     Work,
     earliest,
+    edges_overlap,
     new_work,
     rotation,
     turned,
@@ -238,7 +239,7 @@ def solve_pose(
     if options[S_CONVEX] > 0.0 and rests_on_surface(pose, bolt, nut, found[0]):
         found[0, K_TIME] = high - found[0, K_TIME]
     else:
-        count, _, status, _ = earliest(
+        count, status, _ = earliest(
             pose,
             False,
             point,
@@ -290,7 +291,7 @@ def solve_pose(
         count = 0
         # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
         if flush < 0.0 or options[S_CONVEX] == 0.0:
-            count, _, status, _ = earliest(
+            count, status, _ = earliest(
                 pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, RIDGES, work, found
             )
             if status != RESOLVED:
@@ -378,39 +379,48 @@ def third_stage(
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - BEFORE_FLUSH
-    count, growth, status, _ = earliest(
-        second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, RIDGES, work, found
-    )
+    count, status, _ = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, RIDGES, work, found)
     if status != RESOLVED:
         row[rk.O_STATUS] = UNRESOLVED
         return
-    third = np.empty(12)
     if count == 0:
         if flush > 0.0 and lay_flush(3, second, point, axis, flush, bolt, nut, extremes, row):
             row[rk.O_MU] = flush
-            for i in range(12):
-                third[i] = row[rk.O_POSE + 24 + i]
+            row[rk.O_DROP] = second[11] - row[rk.O_POSE + 35]
+            row[rk.O_EMBEDMENT] = 0.0
         else:
             add_flag(row, rk.FLAG_NO_THIRD)
-            return
-    else:
-        together = ties(found, count, turn_slack)
-        if together > 1:
-            add_flag(row, rk.FLAG_TIE)
-        row[rk.O_MU] = found[0, K_TIME]
-        turned(second, point, axis, found[0, K_TIME], third)
-        rk.put_pose(third, row)
-        for i in range(together):
-            rk.put_contact(3, found[i], third, bolt, nut, row)
-            if rk.grazes(found[i], third, bolt, nut):
-                add_flag(row, rk.FLAG_GRAZING)
+        return
+    third = np.empty(12)
+    together = ties(found, count, turn_slack)
+    if together > 1:
+        add_flag(row, rk.FLAG_TIE)
+    row[rk.O_MU] = found[0, K_TIME]
+    turned(second, point, axis, found[0, K_TIME], third)
+    rk.put_pose(third, row)
+    contacts = np.empty((2 + together, CONTACT_SIZE))
+    contacts[:2] = known
+    contacts[2:] = found[:together]
+    for i in range(together):
+        rk.put_contact(3, found[i], third, bolt, nut, row)
+        if rk.grazes(found[i], third, bolt, nut):
+            add_flag(row, rk.FLAG_GRAZING)
     row[rk.O_DROP] = second[11] - third[11]
     row[rk.O_EMBEDMENT] = 0.0
-    if growth:
+    if threads_touch(contacts) or edges_overlap(third, contacts, 2 + together, bolt, nut, work):
         lift, status = least_lift(third, slack, bolt, nut, work, found)
         row[rk.O_EMBEDMENT] = lift
         if status != RESOLVED:
             row[rk.O_STATUS] = UNRESOLVED
+
+
+@njit(cache=True, error_model="numpy")
+def threads_touch(contacts: Array) -> bool:
+    """Whether thread meets thread at one of the contacts: beside it they may overlap with no edge inside."""
+    for i in range(contacts.shape[0]):
+        if int(contacts[i, K_PAIR]) == THREAD_THREAD:
+            return True
+    return False
 
 
 @njit(cache=True, error_model="numpy")
@@ -422,7 +432,7 @@ def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, f
     raised = pose.copy()
     raised[11] = high
     down = np.array([0.0, 0.0, -1.0])
-    count, _, status, best = earliest(
+    count, status, best = earliest(
         raised, False, down, down, found, 0, high - pose[11], slack, bolt, nut, RIDGES_ONLY, work, found
     )
     first = min(best, found[0, K_TIME]) if count > 0 else best

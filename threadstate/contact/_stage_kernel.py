@@ -10,13 +10,25 @@ from numpy.typing import NDArray
 
 from threadstate.contact import _rectangle_kernel as rect
 from threadstate.contact import _ridge_kernel as ridge
-from threadstate.contact import _search_kernel as sk
 from threadstate.contact import _tangency_kernel as tk
+from threadstate.contact._birth_kernel import (
+    C_KIND,
+    C_OTHER,
+    C_THETA,
+    C_TIME,
+    C_X,
+    C_Y,
+    C_Z,
+    CANDIDATE_SIZE,
+    MAX_CANDIDATES,
+)
+from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point
+from threadstate.contact._sweep_kernel import OVERFLOW, overlaps, sweep
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Work = tuple[Array, Array, NDArray[np.int64], Array, Array, Array, Array, Array, Array]
+Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array]
 
 # Pairs of features, in the order of ``FeaturePair``.
 EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, FLUSH = range(7)
@@ -32,7 +44,14 @@ RIDGES, PROVED, RIDGES_ONLY = range(3)
 
 RIDGE_AZIMUTHS = 32
 
-NEAR_TURN = math.radians(7.0)
+FIRST_SPAN_TURN = math.radians(2.0)
+FIRST_SPAN_HEIGHT = 0.05
+LONGER = 1.25
+"""A motion is searched span by span: the first one (rad, thread pitches), and how much longer each next one is."""
+
+SHORTER = 0.25
+SHORTEST_SPAN = 1e-9
+"""How much shorter a span is made that has too many boxes, and where that ends (rad, or the pair's unit)."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -128,11 +147,10 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
 def new_work() -> Work:
     """The scratch arrays of one thread of work."""
     return (
-        np.empty((sk.MAX_NODES, sk.NODE_SIZE)),
-        np.empty((sk.MAX_NODES, sk.NODE_SIZE)),
-        np.empty((sk.MAX_CELLS, 2), np.int64),
-        np.empty((sk.MAX_CANDIDATES, sk.CANDIDATE_SIZE)),
-        np.empty((sk.MAX_CANDIDATES, sk.CANDIDATE_SIZE)),
+        np.empty(BOXES_SIZE),
+        np.empty(BOXES_SIZE),
+        np.empty((MAX_CANDIDATES, CANDIDATE_SIZE)),
+        np.empty((MAX_CANDIDATES, CANDIDATE_SIZE)),
         np.empty(MOTION_SIZE),
         np.empty(MOTION_SIZE),
         np.empty((rect.MAX_RECTANGLES, rect.RECTANGLE_SIZE)),
@@ -141,11 +159,31 @@ def new_work() -> Work:
 
 
 @njit(cache=True, error_model="numpy")
-def anchored(best: float, slack: float, count_b: int, found_b: Array, count_n: int, found_n: Array) -> bool:
-    """Whether the earliest time is that of a contact on one of the curves."""
-    return (count_b > 0 and found_b[0, sk.C_TIME] <= best + slack) or (
-        count_n > 0 and found_n[0, sk.C_TIME] <= best + slack
-    )
+def set_marks(known: Array, known_count: int, bolt_marks: Array, nut_marks: Array) -> tuple[int, int]:
+    """Azimuths in [0, 2 pi) of contacts on the bolt's and on the nut's edge curve, and their numbers."""
+    on_bolt = 0
+    on_nut = 0
+    for i in range(known_count):
+        pair = int(known[i, K_PAIR])
+        if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD:
+            bolt_marks[on_bolt] = known[i, K_BOLT] - TWO_PI * math.floor(known[i, K_BOLT] / TWO_PI)
+            on_bolt += 1
+        if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
+            nut_marks[on_nut] = known[i, K_NUT] - TWO_PI * math.floor(known[i, K_NUT] / TWO_PI)
+            on_nut += 1
+    return on_bolt, on_nut
+
+
+@njit(cache=True, error_model="numpy")
+def axis_in_both_planes(known: Array, known_count: int) -> bool:
+    """Whether the axis of a turn through contacts lies in the bolt's base plane and the nut's surface plane."""
+    if known_count == 1:
+        return int(known[0, K_PAIR]) == EDGE_SURFACE
+    for i in range(known_count):
+        pair = int(known[i, K_PAIR])
+        if not (pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == BASE_EDGE):
+            return False
+    return known_count > 0
 
 
 @njit(cache=True, error_model="numpy")
@@ -163,116 +201,101 @@ def earliest(
     threads: int,
     work: Work,
     out: Array,
-) -> tuple[int, bool, int, float]:
+) -> tuple[int, int, float]:
     """The earliest contacts of a motion by all pairs of features, sorted by time.
 
     ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number
-    of contacts (those within ``slack`` of the earliest are certain to be listed), whether an earlier contact has grown
-    into an overlap by then, a status, and the earliest time at which an edge enters. ``threads`` says how thread on
-    thread is searched: RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
+    of contacts (those within ``slack`` of the earliest are certain to be listed), a status, and the earliest time at
+    which an edge enters (of a translation) or touches (of a turn). ``threads`` says how thread on thread is searched:
+    RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
-    nodes_b, nodes_n, cells, found_b, found_n, bolt_walks, nut_walks, rects, tangent = work
+    boxes, others, found_b, found_n, bolt_walks, nut_walks, rects, tangent = work
     bolt_marks = np.empty(2)
     nut_marks = np.empty(2)
-    bolt_mark_count = 0
-    nut_mark_count = 0
-    for i in range(known_count):
-        pair = int(known[i, K_PAIR])
-        if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD:
-            bolt_marks[bolt_mark_count] = known[i, K_BOLT] - TWO_PI * math.floor(known[i, K_BOLT] / TWO_PI)
-            bolt_mark_count += 1
-        if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
-            nut_marks[nut_mark_count] = known[i, K_NUT] - TWO_PI * math.floor(known[i, K_NUT] / TWO_PI)
-            nut_mark_count += 1
-    # Through contacts that lie in both planes the axis does so, too.
-    coplanar = known_count > 0
-    for i in range(known_count):
-        pair = int(known[i, K_PAIR])
-        if known_count == 1:
-            coplanar = pair == EDGE_SURFACE
-        else:
-            coplanar = coplanar and (pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == BASE_EDGE)
+    bolt_mark_count, nut_mark_count = set_marks(known, known_count, bolt_marks, nut_marks)
+    coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, bolt_walks, nut_walks)
-    any_entry = not is_turn
-    # Most contacts come early: a near horizon first, the whole turn only where nothing is found before.
-    near = min(limit, NEAR_TURN if is_turn else limit)
-    for horizon in (near, limit):
-        count_b, total_b, best = sk.survey(
-            bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, horizon, any_entry, slack, nodes_b, found_b
-        )
-        count_n, total_n, best = sk.survey(
-            nut_walks, nut, bolt, nut_marks, nut_mark_count, best, any_entry, slack, nodes_n, found_n
-        )
-        count_b, grown_b, used_b, best = sk.close_cells(
+    any_birth = not is_turn
+    count_b = 0
+    count_n = 0
+    used = 0
+    best = limit
+    since = 0.0
+    span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt[pk.P]
+    while since < best:
+        until = min(since + span, limit)
+        count_b, used_b, best = sweep(
+            since,
+            until,
             bolt_walks,
             bolt,
             nut,
             bolt_marks,
             bolt_mark_count,
-            horizon,
             best,
-            anchored(best, slack, count_b, found_b, count_n, found_n),
-            any_entry,
+            any_birth,
             slack,
-            nodes_b,
-            total_b,
-            cells,
+            boxes,
+            others,
             count_b,
             found_b,
         )
-        count_n, grown_n, used_n, best = sk.close_cells(
+        count_n, used_n, best = sweep(
+            since,
+            until,
             nut_walks,
             nut,
             bolt,
             nut_marks,
             nut_mark_count,
-            horizon,
             best,
-            anchored(best, slack, count_b, found_b, count_n, found_n),
-            any_entry,
+            any_birth,
             slack,
-            nodes_n,
-            total_n,
-            cells,
+            boxes,
+            others,
             count_n,
             found_n,
         )
-        if count_b + count_n > 0 or horizon == limit:
-            break
-    used_t = 0
+        if used_b == OVERFLOW or used_n == OVERFLOW:
+            span *= SHORTER
+            if span < SHORTEST_SPAN:
+                return 0, UNRESOLVED, best
+            continue
+        since = until
+        span *= LONGER
     reach = min(limit, best + slack)
-    # Where no edge contact explains the earliest entry, the threads must have met before it.
-    orphan = (
-        threads == RIDGES
-        and any_entry
-        and best < limit - 1e-8 * bolt[pk.P]
-        and not anchored(best, slack, count_b, found_b, count_n, found_n)
-    )
-    if threads == PROVED or orphan:
-        count_t, used_t = rect.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
-    else:
+    unexplained = any_birth and best < limit
+    if (count_b > 0 and found_b[0, C_TIME] <= best + slack) or (count_n > 0 and found_n[0, C_TIME] <= best + slack):
+        unexplained = False
+    count_t = 0
+    if threads != PROVED:
         count_t = ridge.ridges(bolt_walks, bolt, nut, reach, RIDGE_AZIMUTHS, tangent)
+    if threads == PROVED or (threads == RIDGES and unexplained and count_t == 0):
+        # Where no edge contact explains the earliest entry, the threads must have met before it.
+        count_t, used = rect.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
+        if used == rect.OVERFLOW:
+            return 0, UNRESOLVED, best
     count = 0
     for i in range(count_b):
-        kind = int(found_b[i, sk.C_KIND])
-        pair = EDGE_EDGE if kind == sk.EDGE_EDGE else (EDGE_SURFACE if kind == sk.ON_PLANE else EDGE_THREAD)
+        kind = int(found_b[i, C_KIND])
+        pair = EDGE_EDGE if kind == ONE_EDGE else (EDGE_SURFACE if kind == ONE_PLANE else EDGE_THREAD)
         count = keep(
-            found_b[i, sk.C_TIME],
+            found_b[i, C_TIME],
             pair,
-            found_b[i, sk.C_THETA],
-            found_b[i, sk.C_OTHER],
-            found_b[i, sk.C_X],
-            found_b[i, sk.C_Y],
-            found_b[i, sk.C_Z],
+            found_b[i, C_THETA],
+            found_b[i, C_OTHER],
+            found_b[i, C_X],
+            found_b[i, C_Y],
+            found_b[i, C_Z],
             count,
             out,
         )
     for i in range(count_n):
-        kind = int(found_n[i, sk.C_KIND])
-        pair = EDGE_EDGE if kind == sk.EDGE_EDGE else (BASE_EDGE if kind == sk.ON_PLANE else THREAD_EDGE)
-        theta_n = found_n[i, sk.C_THETA]
+        kind = int(found_n[i, C_KIND])
+        pair = EDGE_EDGE if kind == ONE_EDGE else (BASE_EDGE if kind == ONE_PLANE else THREAD_EDGE)
+        theta_n = found_n[i, C_THETA]
         x, y, _, _ = edge_point(theta_n, nut)
-        count = keep(found_n[i, sk.C_TIME], pair, found_n[i, sk.C_OTHER], theta_n, x, y, 0.0, count, out)
+        count = keep(found_n[i, C_TIME], pair, found_n[i, C_OTHER], theta_n, x, y, 0.0, count, out)
     for i in range(count_t):
         x, y, z = tangent[i, tk.T_X], tangent[i, tk.T_Y], tangent[i, tk.T_POINT_Z]
         again = False
@@ -283,10 +306,20 @@ def earliest(
             count = keep(
                 tangent[i, tk.T_TIME], THREAD_THREAD, tangent[i, tk.T_THETA], math.atan2(y, x), x, y, z, count, out
             )
-    status = RESOLVED
-    if used_b == sk.OVERFLOW or used_n == sk.OVERFLOW or used_t == sk.OVERFLOW:
-        status = UNRESOLVED
-    unexplained = any_entry and best < limit - 1e-8 * bolt[pk.P]
     if threads != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
-        status = UNRESOLVED
-    return count, grown_b or grown_n, status, best
+        return count, UNRESOLVED, best
+    return count, RESOLVED, best
+
+
+@njit(cache=True, error_model="numpy")
+def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
+    """Whether an edge curve of one part is inside the other at a pose, beyond the ``contacts`` on it."""
+    boxes, others, _, _, bolt_walks, nut_walks, _, _ = work
+    bolt_marks = np.empty(count)
+    nut_marks = np.empty(count)
+    bolt_mark_count, nut_mark_count = set_marks(contacts, count, bolt_marks, nut_marks)
+    down = np.array([0.0, 0.0, -1.0])
+    set_motions(pose, False, False, down, down, bolt_walks, nut_walks)
+    return overlaps(bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, boxes, others) or overlaps(
+        nut_walks, nut, bolt, nut_marks, nut_mark_count, boxes, others
+    )

@@ -1,0 +1,277 @@
+"""Births of an overlap at one part's edge curve: their exact place and time, and whether they are contacts."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact._box_kernel import ONE_EDGE, ONE_THREAD
+from threadstate.contact._geometry_kernel import (
+    M_COPLANAR,
+    M_KIND,
+    M_SIGMA,
+    TWO_PI,
+    edge_point,
+    field,
+    position,
+    set_path,
+    turn_vector,
+    velocity,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+# A candidate: time, kind (ONE_EDGE, ONE_THREAD or ONE_PLANE), azimuth on the walker's curve, azimuth on the other part,
+# point in the solid's frame.
+C_TIME, C_KIND, C_THETA, C_OTHER, C_X, C_Y, C_Z = range(7)
+CANDIDATE_SIZE = 7
+MAX_CANDIDATES = 16
+
+# A jet: g, phi and their derivatives by theta and tau; their second derivatives by theta twice and by theta and tau;
+# the place.
+J_G, J_G_THETA, J_G_TAU, J_PHI, J_PHI_THETA, J_PHI_TAU = range(6)
+J_G_2, J_G_MIXED, J_PHI_2, J_PHI_MIXED, J_X, J_Y, J_Z = range(6, 13)
+JET_SIZE = 13
+
+
+@njit(cache=True, error_model="numpy")
+def set_jet(theta: float, tau: float, motion: Array, row_c: Array, row_s: Array, path: Array, jet: Array) -> None:
+    """The functions whose zeros are births, at one point of the edge curve and one time."""
+    is_turn = motion[M_KIND] != 0.0
+    sigma = motion[M_SIGMA]
+    k = row_c[pk.P] / TWO_PI
+    r, d1, d2 = pk.jet(-k * theta, row_c)
+    c = math.cos(theta)
+    s = math.sin(theta)
+    dr = -k * d1
+    ddr = k * k * d2
+    cx, cy = dr * c - r * s, dr * s + r * c
+    ccx, ccy = (ddr - r) * c - 2.0 * dr * s, (ddr - r) * s + 2.0 * dr * c
+    set_path(r * c, r * s, motion, path)
+    x, y, z = position(path, tau, is_turn)
+    tx, ty, tz = turn_vector(cx, cy, 0.0, motion, tau)
+    bx, by, bz = turn_vector(ccx, ccy, 0.0, motion, tau)
+    vx, vy, vz = velocity(path, tau, is_turn)
+    wx, wy, wz = 0.0, 0.0, 0.0
+    if is_turn:
+        ax, ay, az = motion[16], motion[17], motion[18]
+        wx, wy, wz = ay * tz - az * ty, az * tx - ax * tz, ax * ty - ay * tx
+    rr = math.sqrt(x * x + y * y)
+    f, f1, f2 = pk.jet(z - k * math.atan2(y, x), row_s)
+    ex, ey = x / rr, y / rr
+    kr = k / rr
+    tr, tt = tx * ex + ty * ey, ty * ex - tx * ey
+    vr, vt = vx * ex + vy * ey, vy * ex - vx * ey
+    br, bt = bx * ex + by * ey, by * ex - bx * ey
+    wr, wt = wx * ex + wy * ey, wy * ex - wx * ey
+    ts, vs, bs, ws = tz - kr * tt, vz - kr * vt, bz - kr * bt, wz - kr * wt
+    jet[J_PHI] = sigma * (rr - f)
+    jet[J_PHI_THETA] = sigma * (tr - f1 * ts)
+    jet[J_PHI_TAU] = sigma * (vr - f1 * vs)
+    jet[J_PHI_2] = sigma * (br - f1 * bs + tt * tt / rr - f2 * ts * ts - 2.0 * f1 * kr / rr * tr * tt)
+    jet[J_PHI_MIXED] = sigma * (wr - f1 * ws + tt * vt / rr - f2 * ts * vs - f1 * kr / rr * (tr * vt + tt * vr))
+    jet[J_X] = x
+    jet[J_Y] = y
+    jet[J_Z] = z
+    if motion[M_COPLANAR] != 0.0:
+        jet[J_G] = -sigma * (path[2] + path[5])
+        jet[J_G_THETA] = -sigma * (motion[6] * cx + motion[7] * cy)
+        jet[J_G_2] = -sigma * (motion[6] * ccx + motion[7] * ccy)
+        jet[J_G_TAU] = 0.0
+        jet[J_G_MIXED] = 0.0
+        return
+    jet[J_G] = -sigma * z
+    jet[J_G_THETA] = -sigma * tz
+    jet[J_G_TAU] = -sigma * vz
+    jet[J_G_2] = -sigma * bz
+    jet[J_G_MIXED] = -sigma * wz
+
+
+@njit(cache=True, error_model="numpy")
+def pin(
+    kind: int,
+    theta: float,
+    half: float,
+    start: float,
+    end: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    path: Array,
+    jet: Array,
+) -> tuple[bool, float, float]:
+    """The one birth or end of a box by Newton's method: whether it lies in the box, its azimuth and time.
+
+    ``kind`` is the box's verdict: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0.
+    """
+    t = theta
+    tau = 0.5 * (start + end)
+    span = 0.5 * (end - start)
+    before = math.inf
+    for _ in range(40):
+        set_jet(t, tau, motion, row_c, row_s, path, jet)
+        if kind == ONE_EDGE:
+            f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
+            f1, c, d = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
+        elif kind == ONE_THREAD:
+            f0, a, b = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
+            f1, c, d = jet[J_PHI_THETA], jet[J_PHI_2], jet[J_PHI_MIXED]
+        else:
+            f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
+            f1, c, d = jet[J_G_THETA], jet[J_G_2], jet[J_G_MIXED]
+        det = a * d - b * c
+        if det == 0.0:
+            return False, t, tau
+        dt = (f1 * b - f0 * d) / det
+        dtau = (f0 * c - f1 * a) / det
+        t += dt
+        tau += dtau
+        if abs(t - theta) > 2.0 * half or abs(tau - 0.5 * (start + end)) > 2.0 * span:
+            return False, t, tau
+        size = abs(dt) / (1.0 + abs(t)) + abs(dtau) / (1.0 + abs(tau))
+        if size <= 4e-16 or (size < 1e-11 and size >= 0.5 * before):
+            inside = abs(t - theta) <= half * (1.0 + 1e-9) + 1e-13 and start - 1e-13 <= tau <= end + 1e-13
+            return inside, t, tau
+        before = size
+    return False, t, tau
+
+
+@njit(cache=True, error_model="numpy")
+def wedge(theta: float, row: Array, sigma: float, out: Array) -> None:
+    """Unit vectors at the edge point: along the edge (counter-clockwise), into the flat face, into the thread face."""
+    x, y, ex, ey = edge_point(theta, row)
+    n = math.hypot(ex, ey)
+    ex /= n
+    ey /= n
+    _, gx, gy, gz = field(x, y, 0.0, row, sigma)
+    out[0] = ex
+    out[1] = ey
+    out[2] = 0.0
+    out[3] = sigma * ey
+    out[4] = -sigma * ex
+    out[5] = 0.0
+    tx = -gz * ey
+    ty = gz * ex
+    tz = gx * ey - gy * ex
+    n = math.sqrt(tx * tx + ty * ty + tz * tz)
+    if sigma * tz > 0.0:
+        n = -n
+    out[6] = tx / n
+    out[7] = ty / n
+    out[8] = tz / n
+
+
+@njit(cache=True, error_model="numpy")
+def dot(ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> float:
+    """Scalar product."""
+    return ax * bx + ay * by + az * bz
+
+
+@njit(cache=True, error_model="numpy")
+def wedge_support(motion: Array, tau: float, w: Array, nx: float, ny: float, nz: float) -> tuple[float, float]:
+    """Components along n of the walker's two face directions after ``tau``."""
+    ax, ay, az = turn_vector(w[3], w[4], w[5], motion, tau)
+    bx, by, bz = turn_vector(w[6], w[7], w[8], motion, tau)
+    return dot(ax, ay, az, nx, ny, nz), dot(bx, by, bz, nx, ny, nz)
+
+
+@njit(cache=True, error_model="numpy")
+def edges_apart(
+    theta_c: float, theta_s: float, tau: float, motion: Array, row_c: Array, row_s: Array, w: Array
+) -> bool:
+    """Whether at a crossing of two edges a plane separates the two wedges."""
+    sigma = motion[M_SIGMA]
+    wedge(theta_c, row_c, -sigma, w)
+    ex, ey, ez = turn_vector(w[0], w[1], w[2], motion, tau)
+    _, _, sx, sy = edge_point(theta_s, row_s)
+    n = math.hypot(sx, sy)
+    sx /= n
+    sy /= n
+    nx = -ez * sy
+    ny = ez * sx
+    nz = ex * sy - ey * sx
+    n = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if n < 1e-12:
+        return False
+    nx /= n
+    ny /= n
+    nz /= n
+    c1, c2 = wedge_support(motion, tau, w, nx, ny, nz)
+    wedge(theta_s, row_s, sigma, w)
+    s1 = dot(w[3], w[4], w[5], nx, ny, nz)
+    s2 = dot(w[6], w[7], w[8], nx, ny, nz)
+    tol = 1e-12
+    return (c1 >= -tol and c2 >= -tol and s1 <= tol and s2 <= tol) or (
+        c1 <= tol and c2 <= tol and s1 >= -tol and s2 >= -tol
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def face_apart(
+    theta_c: float, tau: float, nx: float, ny: float, nz: float, motion: Array, row_c: Array, w: Array
+) -> bool:
+    """Whether the walker's wedge lies on the side of a face to which its outward normal n points."""
+    wedge(theta_c, row_c, -motion[M_SIGMA], w)
+    c1, c2 = wedge_support(motion, tau, w, nx, ny, nz)
+    return c1 >= -1e-12 and c2 >= -1e-12
+
+
+@njit(cache=True, error_model="numpy")
+def add_candidate(
+    time: float, kind: int, theta: float, other: float, x: float, y: float, z: float, count: int, found: Array
+) -> int:
+    """Appends a candidate unless it is listed already; the list stays sorted by time and keeps the earliest."""
+    for i in range(count):
+        if found[i, C_KIND] == kind and abs(found[i, C_X] - x) + abs(found[i, C_Y] - y) + abs(
+            found[i, C_Z] - z
+        ) < 1e-9 * (abs(x) + abs(y)):
+            return count
+    if count == MAX_CANDIDATES:
+        if time >= found[count - 1, C_TIME]:
+            return count
+        count -= 1
+    i = count
+    while i > 0 and found[i - 1, C_TIME] > time:
+        for j in range(CANDIDATE_SIZE):
+            found[i, j] = found[i - 1, j]
+        i -= 1
+    found[i, C_TIME] = time
+    found[i, C_KIND] = kind
+    found[i, C_THETA] = theta
+    found[i, C_OTHER] = other
+    found[i, C_X] = x
+    found[i, C_Y] = y
+    found[i, C_Z] = z
+    return count + 1
+
+
+@njit(cache=True, error_model="numpy")
+def rises(kind: int, jet: Array) -> bool:
+    """Whether the peak of min(g, phi) rises through zero there: a birth, and not the end of an overlap."""
+    if kind == ONE_EDGE:
+        fall = jet[J_PHI_THETA] - jet[J_G_THETA]
+        return (jet[J_G_TAU] * jet[J_PHI_THETA] - jet[J_PHI_TAU] * jet[J_G_THETA]) * fall > 0.0
+    return jet[J_PHI_TAU] > 0.0 if kind == ONE_THREAD else jet[J_G_TAU] > 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def is_contact(
+    kind: int, theta: float, tau: float, motion: Array, row_c: Array, row_s: Array, jet: Array, w: Array
+) -> bool:
+    """Whether at a birth the walker's wedge is outside the other part: else an overlap is open there already."""
+    sigma = motion[M_SIGMA]
+    x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
+    if -sigma * z > row_s[pk.P]:
+        # Beyond the far end of the part, which is one thread pitch long.
+        return False
+    if kind == ONE_EDGE:
+        return edges_apart(theta, math.atan2(y, x), tau, motion, row_c, row_s, w)
+    if kind == ONE_THREAD:
+        _, gx, gy, gz = field(x, y, z, row_s, sigma)
+        n = math.sqrt(gx * gx + gy * gy + gz * gz)
+        return face_apart(theta, tau, -gx / n, -gy / n, -gz / n, motion, row_c, w)
+    return face_apart(theta, tau, 0.0, 0.0, sigma, motion, row_c, w)

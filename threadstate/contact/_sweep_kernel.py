@@ -1,0 +1,308 @@
+"""All births of an overlap at one part's edge curve during a span of time, every box closed by a bound."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from threadstate.contact._birth_kernel import (
+    J_G,
+    J_PHI,
+    J_X,
+    J_Y,
+    J_Z,
+    JET_SIZE,
+    add_candidate,
+    is_contact,
+    pin,
+    rises,
+    set_jet,
+)
+from threadstate.contact._box_kernel import (
+    BY_THETA,
+    BY_TIME,
+    CAPACITY,
+    CLOSED,
+    EMPTY,
+    ONE_EDGE,
+    ONE_PLANE,
+    ONE_THREAD,
+    PEAK_EDGE,
+    PEAK_THREAD,
+    X_BEND,
+    X_DEPTH,
+    X_END,
+    X_HALF,
+    X_START,
+    X_THETA,
+    X_VERDICT,
+    judge_boxes,
+)
+from threadstate.contact._geometry_kernel import PATH_SIZE, TWO_PI
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+AZIMUTHS = 32
+"""Boxes all round with which a span of time is begun."""
+
+EPS_PUNCTURE = 1e-6
+"""Half-width (rad) around an earlier contact within which nothing is told apart from it."""
+
+BESIDE = 1e-2
+"""Distance (rad) from an earlier contact up to which a birth may be one with it."""
+
+REACH = 16.0
+"""How near to an earlier contact, in its half-widths, a box is looked at together with it."""
+
+NOISE = 1e-14
+"""Round-off of a distance from a surface, in thread pitches."""
+
+NARROW = 1e-7
+"""Half-width (rad) of an overlap that is not told apart from a contact."""
+
+MOST_BOXES = 4_000
+
+SHALLOW = 1e-10
+"""Depth (thread pitches) up to which an edge counts as touching."""
+
+OVERFLOW = -1
+LANES = 8
+
+
+@njit(cache=True, error_model="numpy")
+def begin(since: float, until: float, boxes: Array) -> int:
+    """The boxes all round with which a span of time is begun; their number."""
+    for i in range(AZIMUTHS):
+        boxes[X_THETA + i] = TWO_PI * (i + 0.5) / AZIMUTHS
+        boxes[X_HALF + i] = math.pi / AZIMUTHS
+        boxes[X_START + i] = since
+        boxes[X_END + i] = until
+    return AZIMUTHS
+
+
+@njit(cache=True, error_model="numpy")
+def fill(count: int, boxes: Array) -> int:
+    """Fills the last vector of a list with empty boxes; the number of boxes then."""
+    while count % LANES != 0:
+        boxes[X_THETA + count] = 0.0
+        boxes[X_HALF + count] = 0.0
+        boxes[X_START + count] = 0.0
+        boxes[X_END + count] = 0.0
+        count += 1
+    return count
+
+
+@njit(cache=True, error_model="numpy")
+def keep_open(i: int, end: float, by_time: bool, count: int, boxes: Array) -> int:
+    """Moves an open box to the front of its list, with how it is to be split; the number of open boxes then."""
+    boxes[X_THETA + count] = boxes[X_THETA + i]
+    boxes[X_HALF + count] = boxes[X_HALF + i]
+    boxes[X_START + count] = boxes[X_START + i]
+    boxes[X_END + count] = end
+    boxes[X_VERDICT + count] = BY_TIME if by_time else BY_THETA
+    return count + 1
+
+
+@njit(cache=True, error_model="numpy")
+def split(count: int, boxes: Array, others: Array) -> int:
+    """Splits the boxes at the front of a list into another: in halves, or finer where lanes would stay idle."""
+    parts = 2
+    while 0 < 2 * parts * count <= LANES:
+        parts *= 2
+    m = 0
+    for i in range(count):
+        theta, half = boxes[X_THETA + i], boxes[X_HALF + i]
+        start, end = boxes[X_START + i], boxes[X_END + i]
+        by_time = boxes[X_VERDICT + i] == BY_TIME
+        for j in range(parts):
+            others[X_THETA + m] = theta if by_time else theta + half * ((2 * j + 1) / parts - 1.0)
+            others[X_HALF + m] = half if by_time else half / parts
+            others[X_START + m] = start + (end - start) * j / parts if by_time else start
+            others[X_END + m] = start + (end - start) * (j + 1) / parts if by_time else end
+            m += 1
+    return m
+
+
+@njit(cache=True, error_model="numpy")
+def mark_distance(theta: float, marks: Array, mark_count: int) -> float:
+    """How far from an azimuth the nearest earlier contact is (rad)."""
+    nearest = math.pi
+    for j in range(mark_count):
+        gap = theta - marks[j]
+        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+        nearest = min(nearest, abs(gap))
+    return nearest
+
+
+@njit(cache=True, error_model="numpy")
+def arches(
+    theta: float,
+    half: float,
+    start: float,
+    end: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    marks: Array,
+    mark_count: int,
+    spare: Array,
+) -> bool:
+    """Whether phi is concave from the nearest earlier contact to the far end of a box, as long as the box lasts.
+
+    At that contact phi is not negative, so that no other point between can have a maximum there.
+    """
+    nearest = math.inf
+    for j in range(mark_count):
+        gap = theta - marks[j]
+        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+        if abs(gap) < abs(nearest):
+            nearest = gap
+    near = theta - nearest
+    far = theta + math.copysign(half, nearest)
+    spare[X_THETA] = 0.5 * (near + far)
+    spare[X_HALF] = 0.5 * abs(far - near) + 1e-12
+    spare[X_START] = start
+    spare[X_END] = end
+    judge_boxes(1, motion, row_c, row_s, spare)
+    return spare[X_BEND] < 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def joined(
+    theta: float,
+    tau: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    marks: Array,
+    mark_count: int,
+    path: Array,
+    jet: Array,
+) -> bool:
+    """Whether a birth beside an earlier contact is one with it: the curve between them is nowhere outside.
+
+    On the earlier contact the curve touches at all times, so that round-off alone can make a peak beside it rise.
+    """
+    for j in range(mark_count):
+        gap = theta - marks[j]
+        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+        if abs(gap) < EPS_PUNCTURE:
+            return True
+        if abs(gap) < BESIDE:
+            apart = False
+            for i in range(1, 8):
+                set_jet(theta - gap * i / 8.0, tau, motion, row_c, row_s, path, jet)
+                apart = apart or min(jet[J_G], jet[J_PHI]) < -NOISE * row_s[pk.P]
+            if not apart:
+                return True
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def sweep(
+    since: float,
+    until: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    marks: Array,
+    mark_count: int,
+    best: float,
+    any_birth: bool,
+    slack: float,
+    boxes: Array,
+    others: Array,
+    count: int,
+    found: Array,
+) -> tuple[int, int, float]:
+    """Contacts of the edge curve of ``row_c`` with the solid of ``row_s`` from ``since`` to ``until``.
+
+    ``marks`` are the azimuths of earlier contacts on this curve, ``best`` the earliest time known; nothing later than
+    ``slack`` after it is looked for. With ``any_birth`` a birth that is no contact ends the search, too. Returns the
+    number of candidates in ``found`` (earliest first), the number of boxes looked at (OVERFLOW: too many), the
+    earliest time.
+    """
+    path = np.empty(PATH_SIZE)
+    jet = np.empty(JET_SIZE)
+    w = np.empty(9)
+    looked = 0
+    n = begin(since, min(until, best + slack), boxes)
+    while n > 0:
+        n = fill(n, boxes)
+        judge_boxes(n, motion, row_c, row_s, boxes)
+        looked += n
+        m = 0
+        for i in range(n):
+            verdict = int(boxes[X_VERDICT + i])
+            half = boxes[X_HALF + i]
+            start = boxes[X_START + i]
+            if verdict <= CLOSED or half == 0.0 or start > best + slack:
+                continue
+            theta = boxes[X_THETA + i]
+            end = boxes[X_END + i]
+            gap = mark_distance(theta, marks, mark_count)
+            if gap + half < EPS_PUNCTURE or (gap <= half + 1e-13 and verdict < BY_THETA):
+                continue
+            concave = verdict == ONE_THREAD or verdict == PEAK_THREAD
+            if (
+                concave
+                and gap < REACH * half
+                and arches(theta, half, start, end, motion, row_c, row_s, marks, mark_count, others)
+            ):
+                continue
+            if gap < BESIDE and half < EPS_PUNCTURE and abs(boxes[X_DEPTH + i]) < NOISE * row_s[pk.P]:
+                continue
+            if verdict <= ONE_PLANE:
+                inside, t, tau = pin(verdict, theta, half, start, end, motion, row_c, row_s, path, jet)
+                if (
+                    inside
+                    and tau <= best + slack
+                    and rises(verdict, jet)
+                    and not joined(t, tau, motion, row_c, row_s, marks, mark_count, path, jet)
+                ):
+                    set_jet(t, tau, motion, row_c, row_s, path, jet)
+                    contact = is_contact(verdict, t, tau, motion, row_c, row_s, jet, w)
+                    if contact:
+                        x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
+                        count = add_candidate(tau, verdict, t, math.atan2(y, x), x, y, z, count, found)
+                    if contact or any_birth:
+                        best = min(best, tau)
+                if inside:
+                    continue
+            by_time = verdict == BY_TIME or (verdict < BY_THETA and end - start > half)
+            m = keep_open(i, min(end, best + slack), by_time, m, boxes)
+        if 2 * m + LANES > CAPACITY or looked > MOST_BOXES:
+            return count, OVERFLOW, best
+        n = split(m, boxes, others)
+        boxes, others = others, boxes
+    return count, looked, best
+
+
+@njit(cache=True, error_model="numpy")
+def overlaps(
+    motion: Array, row_c: Array, row_s: Array, marks: Array, mark_count: int, boxes: Array, others: Array
+) -> bool:
+    """Whether the edge curve is inside the other solid at the start of a motion, beyond its contacts ``marks``."""
+    n = begin(0.0, 0.0, boxes)
+    while n > 0:
+        n = fill(n, boxes)
+        judge_boxes(n, motion, row_c, row_s, boxes)
+        m = 0
+        for i in range(n):
+            verdict = int(boxes[X_VERDICT + i])
+            half = boxes[X_HALF + i]
+            if verdict == EMPTY or half < NARROW:
+                continue
+            theta = boxes[X_THETA + i]
+            if boxes[X_DEPTH + i] > SHALLOW * row_s[pk.P]:
+                return True
+            if (verdict == ONE_EDGE or verdict == PEAK_EDGE) and mark_distance(theta, marks, mark_count) <= half:
+                continue
+            m = keep_open(i, 0.0, False, m, boxes)
+        n = split(m, boxes, others)
+        boxes, others = others, boxes
+    return False
