@@ -25,7 +25,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("--json", action="store_true", help="print one JSON object instead of tables")
     parser.add_argument("--poses", type=int, default=6000, help="poses solved by the exact method [%(default)s]")
-    parser.add_argument("--compared", type=int, default=200, help="first of them, also by meshes [%(default)s]")
+    parser.add_argument("--compared", type=int, default=1000, help="first of them, also by meshes [%(default)s]")
     parser.add_argument("--tilt-max", type=float, default=4.0, help="of the library, in degrees [%(default)s]")
     parser.add_argument("--phase-step", type=float, default=1.0, help="of the library, in degrees [%(default)s]")
     arguments = parser.parse_args()

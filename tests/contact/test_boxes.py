@@ -14,7 +14,7 @@ from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import M_COPLANAR, MOTION_SIZE, PATH_SIZE, TWO_PI
 from threadstate.contact._lane_kernel import azimuth, bends, profile_numbers, radius_and_slope, sine_cosine
 from threadstate.contact._range_kernel import ranges
-from threadstate.contact._solve_kernel import start_height
+from threadstate.contact._rest_kernel import start_height
 from threadstate.contact._stage_kernel import rotation, set_motions
 from threadstate.state.model import Contact, ContactState, FeaturePair
 from threadstate.state.solve import solve_poses

@@ -65,14 +65,6 @@ def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, f
 
 
 @njit(cache=True, error_model="numpy")
-def passage(path: Array, sigma: float, is_turn: bool, coplanar: bool) -> tuple[float, float]:
-    """When the walker is in the half space of the solid's plane: :func:`half_space` of its path."""
-    if coplanar:
-        return (0.0 if -sigma * (path[2] + path[5]) >= 0.0 else NEVER), NEVER
-    return half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
-
-
-@njit(cache=True, error_model="numpy")
 def time_bend(
     span: float, s: float, speed: float, level: float, is_turn: bool, row: Array, lipschitz: float, r_low: float
 ) -> float:
@@ -94,7 +86,6 @@ def time_bend(
 def entry(
     path: Array,
     is_turn: bool,
-    coplanar: bool,
     row: Array,
     sigma: float,
     since: float,
@@ -108,7 +99,7 @@ def entry(
     Until ``since`` it is known not to be. ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative,
     ``r_low`` the radius from below.
     """
-    start, stop = passage(path, sigma, is_turn, coplanar)
+    start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
     if start > limit:
         return NEVER, NONE
     end = min(stop, limit)

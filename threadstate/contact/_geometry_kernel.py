@@ -63,13 +63,6 @@ def field(x: float, y: float, z: float, row: Array, sigma: float) -> tuple[float
 
 
 @njit(cache=True, error_model="numpy")
-def phi(x: float, y: float, z: float, row: Array, sigma: float) -> float:
-    """``sigma (r - f(s))`` alone."""
-    k = row[pk.P] / TWO_PI
-    return sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), row))
-
-
-@njit(cache=True, error_model="numpy")
 def set_path(x: float, y: float, motion: Array, path: Array) -> None:
     """The path of the walker that starts at (x, y, 0) of its own frame."""
     set_path_from(x, y, 0.0, motion, path)

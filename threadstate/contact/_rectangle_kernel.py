@@ -27,7 +27,6 @@ from threadstate.contact._bound_kernel import (
 )
 from threadstate.contact._entry_kernel import NEVER, THREAD, entry, half_space
 from threadstate.contact._geometry_kernel import (
-    M_COPLANAR,
     M_KIND,
     PATH_SIZE,
     TWO_PI,
@@ -174,7 +173,6 @@ def touch(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
     tau, how = entry(
         path,
         motion[M_KIND] != 0.0,
-        motion[M_COPLANAR] != 0.0,
         nut,
         1.0,
         0.0,

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point
+from threadstate.contact._rest_kernel import rests_on_surface, start_height
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     CONTACT_SIZE,
@@ -22,7 +23,6 @@ from threadstate.contact._stage_kernel import (
     K_TIME,
     K_X,
     K_Y,
-    K_Z,
     MAX_CONTACTS,
     PROVED,
     RESOLVED,
@@ -141,74 +141,6 @@ def azimuth(contact: Array) -> float:
     """Azimuth on the nut in [0, 2 pi)."""
     a = math.atan2(contact[K_Y], contact[K_X])
     return a + TWO_PI if a < 0.0 else a
-
-
-@njit(cache=True, error_model="numpy")
-def lowest_outline_point(pose: Array, bolt: Array) -> float:
-    """Azimuth at which a convex outline is lowest: where its height is stationary, facing down the tilt (Illinois)."""
-    # Down the tilt the height falls fastest: azimuth of -(r31, r32) in the bolt's frame. The lowest point of a convex
-    # outline r = f lies within a quarter turn of it.
-    down = math.atan2(-pose[7], -pose[6])
-    a, b = down - 0.5 * math.pi, down + 0.5 * math.pi
-    fa, fb = climb(a, pose, bolt), climb(b, pose, bolt)
-    wa, wb = fa, fb
-    side = 0
-    for _ in range(100):
-        c = (a * wb - b * wa) / (wb - wa)
-        if not a < c < b:
-            c = 0.5 * (a + b)
-        fc = climb(c, pose, bolt)
-        if fc < 0.0:
-            a, fa, wa = c, fc, fc
-            if side == -1:
-                wb *= 0.5
-            side = -1
-        else:
-            b, fb, wb = c, fc, fc
-            if side == 1:
-                wa *= 0.5
-            side = 1
-        if fc == 0.0 or b - a <= 4e-16 * (1.0 + abs(a)):
-            break
-    return a if abs(fa) < abs(fb) else b
-
-
-@njit(cache=True, error_model="numpy")
-def climb(theta: float, pose: Array, bolt: Array) -> float:
-    """Derivative by azimuth of the height of the bolt's outline."""
-    _, _, dx, dy = edge_point(theta, bolt)
-    return pose[6] * dx + pose[7] * dy
-
-
-@njit(cache=True, error_model="numpy")
-def rests_on_surface(pose: Array, bolt: Array, nut: Array, out: Array) -> bool:
-    """Whether the lowest point of a convex outline meets the nut's surface; then that is the first contact.
-
-    Proof: until its lowest point is at z = 0 the whole bolt is above the nut's surface (its thread's outward normals
-    are nearer the horizontal than the tilt, so that it is lowest at the outline), and the nut is below it. Sets the
-    contact; its time is the height of the origin.
-    """
-    theta = lowest_outline_point(pose, bolt)
-    x, y, _, _ = edge_point(theta, bolt)
-    px = pose[0] * x + pose[1] * y
-    py = pose[3] * x + pose[4] * y
-    other = math.atan2(py, px)
-    if math.hypot(px, py) < pk.radius(-bolt[pk.P] / TWO_PI * other, nut):
-        return False
-    out[K_TIME] = -(pose[6] * x + pose[7] * y)
-    out[K_PAIR] = EDGE_SURFACE
-    out[K_BOLT] = theta
-    out[K_NUT] = other
-    out[K_X] = px
-    out[K_Y] = py
-    out[K_Z] = 0.0
-    return True
-
-
-@njit(cache=True, error_model="numpy")
-def start_height(pose: Array, bolt: Array) -> float:
-    """A height of the bolt's origin at which the whole bolt is above the nut."""
-    return bolt[pk.R_MAJOR] * math.hypot(pose[2], pose[5]) * (1.0 + 1e-9) + 1e-4 * bolt[pk.P]
 
 
 @njit(cache=True, error_model="numpy")
