@@ -51,7 +51,7 @@ def seconds_to_solve(pair: Pair, poses: Poses, processes: int) -> float:
 
 def _solve_share(connection: Connection, pair: Pair, poses: Poses) -> None:
     collect_rarely()  # as the processes of a rebuild do
-    solve_poses(pair, poses[:8])
+    solve_poses(pair, poses[:BATCH])
     connection.send(None)
     connection.recv()
     for start in range(0, len(poses), BATCH):
