@@ -43,7 +43,7 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 # Options of a solve: limit of a turn (rad), tolerance of a tie (length), whether both outlines are convex (1 or 0),
-# whether the first contact's threads are searched by closing rectangles (1) or along their ridges (0).
+# whether thread on thread is searched by closing rectangles (1) or along ridges (0).
 S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE = range(4)
 
 BEFORE_FLUSH = 1e-9
@@ -159,6 +159,7 @@ def solve_pose(
     point = np.zeros(3)
     slack = options[S_TIE]
     turn_slack = slack / bolt[pk.R_MAJOR]
+    threads = PROVED if options[S_PROVE] > 0.0 else RIDGES
 
     # First stage: straight down.
     rotation(roll, pitch, phase, pose)
@@ -182,7 +183,7 @@ def solve_pose(
             slack,
             bolt,
             nut,
-            PROVED if options[S_PROVE] > 0.0 else RIDGES,
+            threads,
             work,
             found,
         )
@@ -224,7 +225,7 @@ def solve_pose(
         # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
         if flush < 0.0 or options[S_CONVEX] == 0.0:
             count, status, _ = earliest(
-                pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, RIDGES, work, found
+                pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, threads, work, found
             )
             if status != RESOLVED:
                 row[rk.O_STATUS] = UNRESOLVED
@@ -305,13 +306,14 @@ def third_stage(
     """The turn about the pivot axis up to the third contact, the drop and the embedment."""
     slack = options[S_TIE]
     turn_slack = slack / bolt[pk.R_MAJOR]
+    threads = PROVED if options[S_PROVE] > 0.0 else RIDGES
     limit = options[S_TURN_LIMIT]
     flush = -1.0
     if in_plane(int(known[0, K_PAIR])) and in_plane(int(known[1, K_PAIR])):
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - BEFORE_FLUSH
-    count, status, _ = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, RIDGES, work, found)
+    count, status, _ = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, threads, work, found)
     if status != RESOLVED:
         row[rk.O_STATUS] = UNRESOLVED
         return

@@ -1,0 +1,54 @@
+"""Thread on thread along its ridges, against closing rectangles of the whole thread."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.contact.samples import Floats, random_poses
+from threadstate.contact import _record_kernel as record
+from threadstate.contact._solve_kernel import S_CONVEX, S_PROVE, S_TIE, S_TURN_LIMIT, solve_rows
+from threadstate.contact._stage_kernel import THREAD_THREAD
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+PAIR = quarter_twenty_unc()
+LENGTHS = [record.O_POSE + 11, record.O_LAMBDA, record.O_MU]
+FIRST_PAIR = record.O_CONTACT + record.P_PAIR
+
+
+def rows(poses: Floats, *, rectangles: bool) -> Floats:
+    options = np.zeros(4)
+    options[S_TURN_LIMIT] = math.radians(4.0)
+    options[S_TIE] = 2e-11 * PAIR.thread_pitch
+    options[S_CONVEX] = 1.0
+    options[S_PROVE] = float(rectangles)
+    found = np.empty((len(poses), record.RECORD_SIZE))
+    solve_rows(np.radians(poses), options, PAIR.bolt.row, PAIR.nut.row, found)
+    return found
+
+
+@pytest.mark.parametrize(
+    "poses",
+    [
+        pytest.param(random_poses(71, 80, tilt_deg=4.0), id="library tilts"),
+        pytest.param(random_poses(72, 80, tilt_deg=4.0, phase_deg=25.0), id="near phase 0"),
+    ],
+)
+def test_closing_rectangles_finds_no_other_contact(poses: Floats) -> None:
+    """Heights of first contact and both turns, up to 4 deg of turn."""
+    by_ridges, by_rectangles = rows(poses, rectangles=False), rows(poses, rectangles=True)
+    assert (by_rectangles[:, record.O_STATUS] == 0.0).all()
+    assert by_ridges[:, LENGTHS] == pytest.approx(by_rectangles[:, LENGTHS], abs=1e-10, nan_ok=True)
+
+
+def test_where_threads_meet_first_rectangles_say_so_too() -> None:
+    grid = np.array([(r, p, f) for r in (2, 3, 4) for p in (1, 2, 3) for f in range(337, 360)], dtype=np.float64)
+    by_ridges = rows(grid, rectangles=False)
+    threads = grid[by_ridges[:, FIRST_PAIR] == THREAD_THREAD]
+    assert len(threads) > 20
+    by_rectangles = rows(threads, rectangles=True)
+    assert (by_rectangles[:, FIRST_PAIR] == THREAD_THREAD).all()
+    heights = by_ridges[by_ridges[:, FIRST_PAIR] == THREAD_THREAD][:, LENGTHS]
+    assert heights == pytest.approx(by_rectangles[:, LENGTHS], abs=1e-10, nan_ok=True)
