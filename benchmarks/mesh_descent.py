@@ -1,9 +1,9 @@
 """The rival: a plain descent to the first contact alone by a mesh collision library; the one file that imports fcl.
 
-Both parts are closed meshes of 60,476 triangles (``benchmarks.tessellation``), each in a search tree that is built
-once. For every pose the bolt starts where its lowest vertex is in the plane of the nut's surface (nothing can touch
-above), goes down by a fixed step until the meshes collide, and the last step is bisected to ``TOLERANCE_INCH``.
-Queries are boolean: one contact ends them and none is computed.
+Both parts are closed meshes of the preset ``fine`` (``threadstate.mesh``), each in a search tree that is built once.
+For every pose the bolt starts where its lowest vertex is in the plane of the nut's surface (nothing can touch above),
+goes down by a fixed step until the meshes collide, and the last step is bisected to ``TOLERANCE_INCH``. Queries are
+boolean: one contact ends them and none is computed.
 
 A step tunnels where the meshes part again below the first contact before the step has ended: it passes a barrier that
 is thinner than the step. Over 10,212 poses with roll and pitch within 4 deg (6,000 at random, half of them within
@@ -22,11 +22,15 @@ import fcl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from benchmarks.tessellation import Mesh, bolt_mesh, nut_mesh
+from threadstate.mesh.part import part_solid
+from threadstate.mesh.part_name import Part
+from threadstate.mesh.presets import Preset
+from threadstate.mesh.solid import Solid
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 
+PRESET = Preset.FINE
 TOLERANCE_INCH = 1e-6
 
 
@@ -48,7 +52,7 @@ FASTER = (Descent(1e-4, probe_plane=True), Descent(5e-4), Descent(5e-4, probe_pl
 """With what is known of this geometry: a step of half the thinnest barrier, the plane first, both."""
 
 
-def _tree(mesh: Mesh) -> fcl.BVHModel:
+def _tree(mesh: Solid) -> fcl.BVHModel:
     model = fcl.BVHModel()
     model.beginModel(len(mesh.vertices), len(mesh.triangles))
     model.addSubModel(mesh.vertices, mesh.triangles)
@@ -73,10 +77,10 @@ class MeshDescent:
     """Bolt and nut of a pair as meshes with their search trees."""
 
     def __init__(self, pair: Pair) -> None:
-        bolt = bolt_mesh(pair)
+        bolt, nut = (part_solid(pair, part, PRESET.tessellation) for part in Part)
         self._lowest_candidates = bolt.vertices[bolt.vertices[:, 2] <= 0.5 * pair.thread_pitch]
         self._bolt = fcl.CollisionObject(_tree(bolt))
-        self._nut = fcl.CollisionObject(_tree(nut_mesh(pair)))
+        self._nut = fcl.CollisionObject(_tree(nut))
         self._request = fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
         self._position = np.zeros(3)
 

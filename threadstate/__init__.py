@@ -1,7 +1,8 @@
 """Contact states of a bolt that meets a nut askew, computed exactly.
 
 The rooms, in the order in which data flows: ``thread`` (solids), ``contact`` (where they touch),
-``state`` (what a pose comes to), ``library`` (all states of a pair, stored).
+``state`` (what a pose comes to), ``mesh`` (the same by the collision of triangle meshes), ``library`` (all states of
+a pair, stored).
 """
 
 from threadstate._numba_cache import choose_numba_cache

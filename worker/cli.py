@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import inspect
 import os
 import sys
 
@@ -10,6 +11,7 @@ import typer
 from typer.exceptions import TyperException
 
 from threadstate.errors import ThreadstateError
+from worker.commands.mesh import mesh
 from worker.commands.migrate import migrate
 from worker.commands.rebuild import rebuild
 from worker.commands.run import run
@@ -30,8 +32,9 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-for command in (solve, rebuild, summary, migrate, serve, run):
-    app.command()(command)
+for command in (solve, rebuild, summary, mesh, migrate, serve, run):
+    # In a raw docstring the mark that keeps lines apart is two characters; typer wants the one that they stand for.
+    app.command(help=inspect.cleandoc(command.__doc__ or "").replace("\\b", "\b"))(command)
 
 
 def main() -> None:

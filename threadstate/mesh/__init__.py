@@ -1,0 +1,1 @@
+"""Meshes: bolt and nut as closed triangle solids, and contact states by their collision."""

@@ -1,0 +1,89 @@
+"""Solids as mesh files, and what can be said of them; by trimesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import cast
+
+import trimesh
+
+from threadstate.errors import InvalidValueError, ThreadstateError
+from threadstate.mesh.deviation import deviation
+from threadstate.mesh.part import part_solid
+from threadstate.mesh.part_name import Part
+from threadstate.mesh.presets import Tessellation
+from threadstate.mesh.solid import Solid
+from threadstate.thread.pair import Pair
+
+ENDINGS = ("stl", "ply", "glb")
+
+
+class UnwritableFileError(ThreadstateError):
+    """A file could not be written; the message names it and says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class MeshReport:
+    """What a solid came to; lengths in the pair's unit.
+
+    ``chord_deviation`` is the largest distance from the thread's mesh to the true surface, ``edge_deviation`` that from
+    the outline of the cut end to the true edge curve.
+    """
+
+    vertices: int
+    triangles: int
+    watertight: bool
+    volume: float
+    chord_deviation: float
+    edge_deviation: float
+
+
+def as_trimesh(solid: Solid) -> trimesh.Trimesh:
+    """The solid as trimesh has it, its vertices and triangles in the same order."""
+    return trimesh.Trimesh(vertices=solid.vertices, faces=solid.triangles, process=False)
+
+
+def mesh_report(pair: Pair, part: Part, tessellation: Tessellation) -> MeshReport:
+    """The report of a part's solid."""
+    solid = part_solid(pair, part, tessellation)
+    found = deviation(solid, pair.bolt if part is Part.BOLT else pair.nut)
+    mesh = as_trimesh(solid)
+    return MeshReport(
+        vertices=len(solid.vertices),
+        triangles=len(solid.triangles),
+        watertight=bool(mesh.is_watertight and mesh.is_winding_consistent),
+        volume=float(mesh.volume),
+        chord_deviation=found.surface,
+        edge_deviation=found.edge,
+    )
+
+
+def file_ending(path: Path) -> str:
+    """The ending of a mesh file, without its dot and in small letters.
+
+    Raises:
+        InvalidValueError: it is none that can be written.
+    """
+    ending = path.suffix.removeprefix(".").lower()
+    if ending not in ENDINGS:
+        raise InvalidValueError("ending of the file", str(path), ", ".join(f".{known}" for known in ENDINGS))
+    return ending
+
+
+def write_mesh(solid: Solid, path: Path) -> int:
+    """Write a solid as STL, PLY or GLB, by the file's ending; numbers are in the pair's unit, as 32-bit floats.
+
+    Returns:
+        The file's size in bytes.
+
+    Raises:
+        InvalidValueError: another ending.
+        UnwritableFileError: the file cannot be written.
+    """
+    # trimesh knows formats of text and of several files, too; these are bytes.
+    content = cast("bytes", as_trimesh(solid).export(file_type=file_ending(path)))
+    try:
+        return path.write_bytes(content)
+    except OSError as error:
+        raise UnwritableFileError(f"cannot write {str(path)!r}: {error.strerror or error}") from None

@@ -1,0 +1,70 @@
+"""Bolt and nut of a pair as solids (method, section 1; the paper, section 4)."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from threadstate.mesh.end_face import SIDES, end_face
+from threadstate.mesh.part_name import Part
+from threadstate.mesh.presets import Tessellation
+from threadstate.mesh.solid import Face, Floats, Ints, Solid
+from threadstate.mesh.thread_surface import thread_surface
+from threadstate.thread.pair import Pair
+from threadstate.thread.profile import Profile
+
+BORE = 0.5
+"""Inradius of the bolt's bore in minor radii: a nut's edge comes no nearer to the axis within 45 deg of tilt."""
+WALL = 1.0
+"""How far, in thread pitches, the nut's prism extends beyond its major radius: farther than a bolt's edge slides."""
+
+
+@lru_cache(maxsize=8)
+def part_solid(pair: Pair, part: Part, tessellation: Tessellation) -> Solid:
+    """The bolt, 0 <= z <= p, hollow; or the nut, -p <= z <= 0, cut from a prism of 16 sides."""
+    p = pair.thread_pitch
+    if part is Part.BOLT:
+        return _solid(pair.bolt, 0.0, BORE * pair.fit.bolt_minor_diameter / 2.0, tessellation, outward=True)
+    return _solid(pair.nut, -p, pair.fit.nut_major_diameter / 2.0 + WALL * p, tessellation, outward=False)
+
+
+def _solid(profile: Profile, z_low: float, inradius: float, tessellation: Tessellation, *, outward: bool) -> Solid:
+    p = profile.thread_pitch
+    width = 2.0 * max(inradius, profile.major_diameter / 2.0)
+    thread = thread_surface(profile, z_low, tessellation, math.sqrt(2.0 * width * width + p * p))
+    low = end_face(thread.vertices[thread.low], thread.low, inradius, len(thread.vertices))
+    first = len(thread.vertices) + len(low.vertices)
+    high = end_face(thread.vertices[thread.high], thread.high, inradius, first)
+
+    walls = _wall(low.polygon, high.polygon)
+    cut, far = (Face.CUT, Face.FAR_END) if outward else (Face.FAR_END, Face.CUT)
+    patches = (
+        (thread.triangles if outward else _turned_over(thread.triangles), Face.THREAD),
+        (_turned_over(low.triangles), cut),
+        (high.triangles, far),
+        (_turned_over(walls) if outward else walls, Face.WALL),
+    )
+    edge = thread.low if outward else thread.high
+    return Solid(
+        vertices=np.vstack([thread.vertices, low.vertices, high.vertices]),
+        triangles=np.vstack([triangles for triangles, _ in patches]),
+        faces=np.concatenate([np.full(len(triangles), face, dtype=np.int8) for triangles, face in patches]),
+        edge=_by_azimuth(thread.vertices, edge),
+    )
+
+
+def _wall(low: Ints, high: Ints) -> Ints:
+    """The sides between two polygons, normals away from the axis."""
+    after = (np.arange(SIDES) + 1) % SIDES
+    return np.vstack([np.column_stack([low, low[after], high[after]]), np.column_stack([low, high[after], high])])
+
+
+def _turned_over(triangles: Ints) -> Ints:
+    return triangles[:, ::-1]
+
+
+def _by_azimuth(vertices: Floats, ring: Ints) -> Ints:
+    azimuths = np.arctan2(vertices[ring, 1], vertices[ring, 0]) % (2.0 * math.pi)
+    return np.roll(ring, -int(np.argmin(azimuths)))

@@ -1,0 +1,158 @@
+"""A thread's surface of one pitch as columns of vertices, cut along helices at chosen places of the profile.
+
+Every vertex lies on the true surface. The columns stand where a helix leaves the thread at its ends, and between; so
+the two outlines are cut wherever the profile is, and no triangle ends in a sliver beside them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from threadstate.mesh.presets import Tessellation
+from threadstate.mesh.solid import Floats, Ints
+from threadstate.mesh.strip import strip
+from threadstate.thread.profile import Profile
+
+FEWEST_AROUND, FEWEST_ON_FILLET = 16, 2
+FEWEST_ON_STRAIGHT = 2
+MINOR_FILLET, FLANK, MAJOR_FILLET = 1, 2, 3
+"""Numbers of the parts of a rising half profile that are no flats."""
+SHORTEST = 1e-9
+"""Parts of a profile that are shorter than this many thread pitches (a fillet of radius 0, say) are not there."""
+
+
+@dataclass(frozen=True, eq=False)
+class ThreadSurface:
+    """Vertices (n, 3), triangles (m, 3) with normals away from the axis, and the outlines' vertices by azimuth."""
+
+    vertices: Floats
+    triangles: Ints
+    low: Ints
+    high: Ints
+
+
+def thread_surface(profile: Profile, z_low: float, tessellation: Tessellation, part_size: float) -> ThreadSurface:
+    """The surface from ``z_low``, a multiple of the thread pitch, up by one pitch; lengths in the pair's unit."""
+    cuts = profile_cuts(profile, tessellation, part_size)
+    places = _column_places(cuts, _around(profile, tessellation))
+    columns = [_column(cuts, place) for place in places]
+    counts = np.array([len(column) for column in columns])
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    radii = np.concatenate([_radii(profile, cuts, column) for column in columns])
+    axial = [_axial(cuts, column) for column in columns]
+    heights = np.concatenate([_heights(s, z_low, profile.thread_pitch) for s in axial])
+    azimuths = np.repeat([-2.0 * math.pi * s[0] / profile.thread_pitch for s in axial], counts)
+    vertices = np.column_stack([radii * np.cos(azimuths), radii * np.sin(azimuths), heights])
+
+    triangles: list[tuple[int, int, int]] = []
+    for i, column in enumerate(columns):
+        after = (i + 1) % len(columns)
+        # One turn on, the same helix is a period of the profile lower.
+        next_column = columns[after] - (len(cuts) - 1 if after == 0 else 0)
+        triangles += strip(column, next_column, int(offsets[i]), int(offsets[after]))
+    return ThreadSurface(vertices, np.array(triangles, dtype=np.int64), offsets[:-1], offsets[1:] - 1)
+
+
+def profile_cuts(profile: Profile, tessellation: Tessellation, part_size: float) -> Floats:
+    """Axial positions over one period, from -p/4 to 3p/4 with both ends, at which the profile is cut; ascending."""
+    p = profile.thread_pitch
+    flat, flank, crest, top = profile.boundaries
+    ends = (-p / 4, flat, flank, crest, top, p / 4)
+    fillets = {MINOR_FILLET: profile.minor_fillet_radius, MAJOR_FILLET: profile.major_fillet_radius}
+    rising = [-p / 4]
+    for i, (a, b) in enumerate(pairwise(ends)):
+        if b - rising[-1] > SHORTEST * p:
+            if i in fillets:
+                rising += _fillet_cuts(profile, i, fillets[i], tessellation, part_size)
+            else:
+                n = _flank_strips(profile, tessellation) if i == FLANK else FEWEST_ON_STRAIGHT
+                rising += [a + (b - a) * k / n for k in range(1, n + 1)]
+    rising[-1] = p / 4
+    return np.array([*rising, *(p / 2 - s for s in reversed(rising[:-1]))])
+
+
+def _flank_strips(profile: Profile, tessellation: Tessellation) -> int:
+    """Strips on which the flank's twist stays below half the chord height.
+
+    Between two columns and two helices the flank is a patch whose corners are not in a plane: a diagonal runs
+    ``d_theta ds twist / 4`` beside it, twist being the mixed derivative of the surface along its normal.
+    """
+    _, flank, crest, _ = profile.boundaries
+    slope = 1.0 / math.tan(math.radians(profile.flank_half_angle_deg))
+    lead = profile.thread_pitch / (math.pi * profile.minor_diameter)
+    twist = slope * slope * lead / math.sqrt(1.0 + slope * slope * (1.0 + lead * lead))
+    d_theta = 2.0 * math.pi / _around(profile, tessellation)
+    chord = 0.5 * tessellation.chord_height * profile.thread_pitch
+    return max(FEWEST_ON_STRAIGHT, math.ceil((crest - flank) * d_theta * twist / 4.0 / chord))
+
+
+def _fillet_cuts(
+    profile: Profile, which: int, radius: float, tessellation: Tessellation, part_size: float
+) -> list[float]:
+    """Cuts at equal angles of the arc, whose sagitta is half the chord height; the other half is for the way around."""
+    flat, flank, _, top = profile.boundaries
+    full = math.pi / 2.0 - math.radians(profile.flank_half_angle_deg)
+    chord = 0.5 * tessellation.chord_at(radius, part_size) * profile.thread_pitch
+    n = max(FEWEST_ON_FILLET, math.ceil(full / _angle_of_chord(radius, chord)))
+    if which == MINOR_FILLET:
+        return [flat + radius * math.sin(full * k / n) for k in range(1, n)] + [flank]
+    return [top - radius * math.sin(full * (n - k) / n) for k in range(1, n)] + [top]
+
+
+def _around(profile: Profile, tessellation: Tessellation) -> int:
+    """Segments of a full turn whose sagitta at the major radius is half the chord height."""
+    chord = 0.5 * tessellation.chord_height * profile.thread_pitch
+    return max(FEWEST_AROUND, math.ceil(2.0 * math.pi / _angle_of_chord(profile.major_diameter / 2.0, chord)))
+
+
+def _angle_of_chord(radius: float, chord_height: float) -> float:
+    """The angle (rad) of an arc that is ``chord_height`` high, at most a quarter turn."""
+    return 2.0 * math.acos(1.0 - min(chord_height / radius, 1.0 - math.sqrt(0.5)))
+
+
+def _column_places(cuts: Floats, around: int) -> list[float]:
+    """Where columns begin, as fractional indices of the cuts, descending: at every cut, and evenly between."""
+    period = cuts[-1] - cuts[0]
+    places = []
+    for i in range(len(cuts) - 2, -1, -1):
+        n = math.ceil((cuts[i + 1] - cuts[i]) / period * around - 1e-9)
+        places += [i + 1.0] + [i + 1.0 - k / n for k in range(1, n)]
+    return places
+
+
+def _column(cuts: Floats, place: float) -> Floats:
+    """Fractional indices of a column's vertices over one period, its two ends included; ascending."""
+    period = len(cuts) - 1
+    inside = np.arange(math.floor(place) + 1, math.ceil(place) + period, dtype=np.float64)
+    return np.concatenate([[place], inside, [place + period]])
+
+
+def _axial(cuts: Floats, column: Floats) -> Floats:
+    """The axial position ``s`` of fractional indices."""
+    period = len(cuts) - 1
+    turns = np.floor(column / period)
+    within = column - turns * period
+    return np.asarray(np.interp(within, np.arange(period + 1.0), cuts) + turns * (cuts[-1] - cuts[0]))
+
+
+def _radii(profile: Profile, cuts: Floats, column: Floats) -> Floats:
+    inside = _profile_radii(profile, tuple(cuts.tolist()))
+    end = profile.radius(float(_axial(cuts, column[:1])[0]))
+    within = column[1:-1].astype(np.int64) % (len(cuts) - 1)
+    return np.concatenate([[end], inside[within], [end]])
+
+
+@lru_cache(maxsize=8)
+def _profile_radii(profile: Profile, cuts: tuple[float, ...]) -> Floats:
+    return np.array([profile.radius(s) for s in cuts])
+
+
+def _heights(s: Floats, z_low: float, thread_pitch: float) -> Floats:
+    z = s - s[0] + z_low
+    z[-1] = z_low + thread_pitch
+    return z
