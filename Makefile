@@ -2,6 +2,7 @@
 # make run     migrate, compute the library if this very one is not published yet, serve it
 # make test    format, lint, types, tests
 # make bench   poses per second, beside a mesh collision library
+# make paper   put the paper's statements to the test, write docs/paper-claims.md
 # make docs    compute the answers shown in the documentation anew
 # make lock    renew the lock files after a change of dependencies (needs uv)
 
@@ -11,7 +12,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench docs lock
+.PHONY: setup run test bench paper docs lock
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -27,6 +28,9 @@ test: setup
 
 bench: setup
 	$(BIN)/python -m benchmarks
+
+paper: setup
+	$(BIN)/python -m studies.paper
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py

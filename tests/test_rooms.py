@@ -73,7 +73,7 @@ def test_mesh_libraries_are_imported_in_their_room_alone(repository_root: Path) 
 def test_one_file_alone_imports_fcl(repository_root: Path) -> None:
     importing = [
         path
-        for part in (*ROOMS, "benchmarks", "tests")
+        for part in (*ROOMS, "benchmarks", "studies", "tests")
         for path in _files(repository_root, part)
         if any(module.split(".")[0] == "fcl" for module in _imports(path))
     ]

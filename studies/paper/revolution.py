@@ -1,0 +1,102 @@
+"""One revolution of a bolt of one orientation, counter-clockwise, as arrays over phase."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from studies.paper.rules import ON_SURFACE
+from threadstate.state.model import Contact, ContactState
+from threadstate.thread.regions import Region
+
+Array = NDArray[np.float64]
+
+
+def first_contact(state: ContactState) -> Contact:
+    """The first contact; of simultaneous ones the first listed."""
+    return state.contacts[0]
+
+
+def first_height(state: ContactState) -> float:
+    """Height of the bolt's origin at the first contact, in inches."""
+    return state.poses[0].translation[2]
+
+
+@dataclass(frozen=True)
+class Revolution:
+    """The states of an orientation, phase by phase from 0 in steps of ``step_deg``; positions count cyclically."""
+
+    roll_deg: int
+    pitch_deg: int
+    step_deg: int
+    states: tuple[ContactState, ...]
+
+    @cached_property
+    def heights(self) -> Array:
+        """Heights of first contact in inches, shape (n,)."""
+        return np.array([first_height(state) for state in self.states])
+
+    @cached_property
+    def points(self) -> Array:
+        """First contacts in the nut's frame, in inches, shape (n, 3)."""
+        return np.array([first_contact(state).point for state in self.states])
+
+    @cached_property
+    def normals(self) -> Array:
+        """Unit normals of the first contacts, nut into bolt, shape (n, 3)."""
+        return np.array([first_contact(state).normal for state in self.states])
+
+    @cached_property
+    def bolt_regions(self) -> tuple[Region, ...]:
+        """The bolt's regions of the first contacts."""
+        return tuple(first_contact(state).bolt_region for state in self.states)
+
+    @cached_property
+    def nut_regions(self) -> tuple[Region, ...]:
+        """The nut's regions of the first contacts."""
+        return tuple(first_contact(state).nut_region for state in self.states)
+
+    @cached_property
+    def below(self) -> NDArray[np.bool_]:
+        """Where the first contact is below the nut's surface, shape (n,)."""
+        return self.points[:, 2] < -ON_SURFACE
+
+    @cached_property
+    def fall_at(self) -> int:
+        """The position after which the height falls most in one step."""
+        return int(np.argmax(self.heights - np.roll(self.heights, -1)))
+
+    @property
+    def fall(self) -> float:
+        """The largest fall of the height in one step, in inches."""
+        return float(self.heights[self.fall_at] - self.heights[self.after_fall])
+
+    @property
+    def after_fall(self) -> int:
+        """The position after the fall."""
+        return (self.fall_at + 1) % len(self.states)
+
+    @property
+    def fall_phase_deg(self) -> int:
+        """The phase before the fall."""
+        return self.fall_at * self.step_deg
+
+    @cached_property
+    def from_fall(self) -> NDArray[np.intp]:
+        """All positions in the order of turning, from just after the fall to just before it."""
+        return (self.after_fall + np.arange(len(self.states))) % len(self.states)
+
+    @cached_property
+    def beyond_fall_deg(self) -> Array:
+        """How far each phase is from the middle of the fall, either way round, in degrees, shape (n,)."""
+        phases = np.arange(len(self.states)) * self.step_deg
+        apart = np.abs(phases - (self.fall_phase_deg + 0.5 * self.step_deg))
+        nearest: Array = np.minimum(apart, 360.0 - apart)
+        return nearest
+
+    def degrees(self, chosen: NDArray[np.bool_]) -> int:
+        """The phase that the chosen positions stand for, in degrees."""
+        return int(np.count_nonzero(chosen)) * self.step_deg

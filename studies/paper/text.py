@@ -1,0 +1,55 @@
+"""What the page says beside its tables."""
+
+OPENING = """\
+# The paper's claims, measured
+
+Every statement of S. Wiedmann and B. Sturges, *Spatial Kinematic Analysis of Threaded Fastener Assembly*, J. Mech.
+Des. 128 (2006), that can be put to the test, with what the exact solver measures and the verdict that follows. `make
+paper` computes this page; no verdict is typed in."""
+
+CONVENTIONS = """\
+## How the paper is read
+
+- **Geometry.** The paper gives neither fit nor fillet radii, and its figures are not at hand. The pair is the default
+  one: 1/4-20 UNC, 2A at maximum on 2B at minimum material, root fillets of the bolt and crest fillets of the nut
+  0.108 p, the others 0.054 p. Statements of section 5, which hang on edges and fillets, are also tested on four other
+  geometries: the fit in the middle and at the loose end of its tolerances, all fillets half as large, the root of the
+  bolt rounded throughout. Lengths are in inches, angles in degrees.
+- **Datum of phase.** Declared: in phase at phase 0, the crest of the bolt's base outline at azimuth 270. It makes a
+  positive roll lead with the crest, as case 1 says. The paper's is unstated; where it decides, every datum is tried.
+- **Order of the rotations.** Declared: `Rz(phase) Ry(pitch) Rx(roll)`, the tilt goes round with the phase. By the
+  letter of Eqs. 2 and 3 (`P_F = T^-1 P_b`) the bolt is first turned about its own axis, then tilted about axes that
+  stay: `Rx(roll) Ry(pitch) Rz(phase)`. Statements on turning are tested in both.
+- **Sign of phase.** Growing phase turns counter-clockwise. By the letter of Eq. 2 with rotations of the body it turns
+  clockwise; since the paper turns its bolt counter-clockwise, this matters only where it gives a phase as a number.
+- **Regions.** As in section 3: positive where the radius grows with +z. The nut's crest is its smallest radius. A
+  contact on an edge carries the region of the thread at that azimuth; "at the surface" means at the height z = 0 of
+  the nut's flat face, "below" deeper than 1e-9 in.
+- **Fall.** The largest fall of the height in one step of phase, turning counter-clockwise; it marks the clearance
+  window.
+- **Second turn.** About the tangent of the edge in contact. The paper says "a vector tangent to the surface of the
+  nut".
+- **Third contact.** A component of contact that holds neither of the first two. The paper's "three distinct contact
+  states" of a mesh are not defined further.
+- **Classes.** Unstable: no third contact, or a drop of at most the embedment (7.1). Quasi-stable: else, and the pivot
+  axis passes the origin within 0.1 of the nominal radius; the paper says "at or near". Stable: else. A bolt that
+  comes to lie flush has a patch of contact, which the paper does not foresee; it counts as stable, and statements on
+  how frequent the classes are are also tested with it unstable.
+
+**Verdicts.** A statement *agrees* if it holds on the declared geometry in the declared reading; where another one
+contradicts, the last column says which. It *disagrees* if it holds in none of the readings and geometries that were
+tried. Else it *cannot be decided*, and the last column says what would have to be known. Rules and tolerances stand
+beside each statement."""
+
+UNTESTED = """\
+## What is not in the tables
+
+- Whether the triangles of the bolt are smaller than those of the nut, how many pairs of triangles a contact has (four
+  each in Fig. 21) and what their number does to the accuracy (4.1, 4.2): properties of meshes that are not given.
+- The depth in Fig. 8 below what is possible, and its variability that grows with roll: read off single triangles.
+- That a clockwise rotation after the snap assembles the parts (7): a motion with contact kept, which no state
+  describes.
+- The annuli of Fig. 22 for roll -3, pitch 3: the figure alone holds them.
+- The types of intersection of two triangles and the angles of Tables 1 to 3 (4.2): steps of a computation on meshes,
+  which the exact method does not take.
+- Definitions: Eq. 1, the nine regions, the frames and transforms of Eqs. 2 to 17."""
