@@ -1,4 +1,4 @@
-"""The rival: a plain descent to the first contact alone by a mesh collision library; the one file that imports fcl.
+"""The rival: a plain descent to the first contact alone by a mesh collision library.
 
 Both parts are closed meshes of the preset ``fine`` (``threadstate.mesh``), each in a search tree that is built once.
 For every pose the bolt starts where its lowest vertex is in the plane of the nut's surface (nothing can touch above),
@@ -18,17 +18,16 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import fcl
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from threadstate.mesh.collision import Collider
+from threadstate.mesh.frames import fixed_from_bolt
 from threadstate.mesh.part import part_solid
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.solid import Solid
+from threadstate.mesh.solid import Floats
 from threadstate.thread.pair import Pair
-
-Floats = NDArray[np.float64]
 
 PRESET = Preset.FINE
 TOLERANCE_INCH = 1e-6
@@ -52,51 +51,27 @@ FASTER = (Descent(1e-4, probe_plane=True), Descent(5e-4), Descent(5e-4, probe_pl
 """With what is known of this geometry: a step of half the thinnest barrier, the plane first, both."""
 
 
-def _tree(mesh: Solid) -> fcl.BVHModel:
-    model = fcl.BVHModel()
-    model.beginModel(len(mesh.vertices), len(mesh.triangles))
-    model.addSubModel(mesh.vertices, mesh.triangles)
-    model.endModel()
-    return model
-
-
-def _rotation(roll_deg: float, pitch_deg: float, phase_deg: float) -> Floats:
-    """``Rz(phase) Ry(pitch) Rx(roll)``, shape (3, 3): bolt to nut (method, section 2)."""
-    a, b, c = np.radians([roll_deg, pitch_deg, phase_deg])
-    sa, ca, sb, cb, sc, cc = np.sin(a), np.cos(a), np.sin(b), np.cos(b), np.sin(c), np.cos(c)
-    return np.array(
-        [
-            [cc * cb, cc * sb * sa - sc * ca, cc * sb * ca + sc * sa],
-            [sc * cb, sc * sb * sa + cc * ca, sc * sb * ca - cc * sa],
-            [-sb, cb * sa, cb * ca],
-        ]
-    )
-
-
 class MeshDescent:
     """Bolt and nut of a pair as meshes with their search trees."""
 
     def __init__(self, pair: Pair) -> None:
         bolt, nut = (part_solid(pair, part, PRESET.tessellation) for part in Part)
         self._lowest_candidates = bolt.vertices[bolt.vertices[:, 2] <= 0.5 * pair.thread_pitch]
-        self._bolt = fcl.CollisionObject(_tree(bolt))
-        self._nut = fcl.CollisionObject(_tree(nut))
-        self._request = fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
-        self._position = np.zeros(3)
+        self._collider = Collider(bolt, nut)
 
     def first_height(self, roll_deg: float, pitch_deg: float, phase_deg: float, descent: Descent = SAFE) -> float:
         """Height of the bolt's origin (in) at which the descending meshes first touch, at most 1e-6 in too high."""
-        rotation = _rotation(roll_deg, pitch_deg, phase_deg)
-        self._bolt.setRotation(rotation)
-        free = float(-(self._lowest_candidates @ rotation[2]).min()) + 0.5 * TOLERANCE_INCH
-        if descent.probe_plane and self._collides(free - TOLERANCE_INCH):
-            return free
-        return _descend(self._collides, free, descent.march_step_inch)
+        roll, pitch, phase = np.radians([roll_deg, pitch_deg, phase_deg]).tolist()
+        pose = fixed_from_bolt(roll, pitch, phase, np.zeros(3))
 
-    def _collides(self, height: float) -> bool:
-        self._position[2] = height
-        self._bolt.setTranslation(self._position)
-        return bool(fcl.collide(self._bolt, self._nut, self._request, fcl.CollisionResult()))
+        def collides(height: float) -> bool:
+            pose[2, 3] = height
+            return self._collider.collides(pose)
+
+        free = float(-(self._lowest_candidates @ pose[2, :3]).min()) + 0.5 * TOLERANCE_INCH
+        if descent.probe_plane and collides(free - TOLERANCE_INCH):
+            return free
+        return _descend(collides, free, descent.march_step_inch)
 
 
 def _descend(collides: Callable[[float], bool], free: float, step: float) -> float:

@@ -40,11 +40,24 @@ class SchemaError(ThreadstateError):
 
 
 class UnresolvedPoseError(ThreadstateError):
-    """The exact search could not decide a pose within its limits; the message names the pose in degrees."""
+    """A pose could not be decided within the limits of the search; the message names the pose in degrees."""
 
-    def __init__(self, roll_deg: float, pitch_deg: float, phase_deg: float) -> None:
+    def __init__(
+        self,
+        roll_deg: float,
+        pitch_deg: float,
+        phase_deg: float,
+        reason: str = "the search ended before all its cells were closed",
+    ) -> None:
         super().__init__(
-            f"no certain contact state for roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg: "
-            "the search ended before all its cells were closed"
+            f"no certain contact state for roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg: {reason}"
         )
         self.pose_deg = (roll_deg, pitch_deg, phase_deg)
+
+
+class MeshUndecidedError(UnresolvedPoseError):
+    """Meshes cannot answer for a pose; ``reason`` says why."""
+
+    def __init__(self, roll_deg: float, pitch_deg: float, phase_deg: float, reason: str) -> None:
+        super().__init__(roll_deg, pitch_deg, phase_deg, reason)
+        self.reason = reason

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import Annotated
 
 import typer
@@ -17,6 +18,18 @@ Database = Annotated[
         show_default=f"{settings.DATABASE}, else a file in the data directory",
     ),
 ]
+
+
+class Method(StrEnum):
+    """How contact states are found."""
+
+    EXACT = "exact"
+    """By the closed form of edge curves and threads."""
+    MESH = "mesh"
+    """By the collision of triangle meshes: the paper's method."""
+
+
+MethodName = Annotated[Method, typer.Option("--method", help="How states are found.")]
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.", show_default=False)]
 

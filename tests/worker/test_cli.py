@@ -13,6 +13,9 @@ from typer.main import get_command
 
 from tests.worker.conftest import COMMAND, SMALL_GRID, CommandLine
 from threadstate.errors import UnresolvedPoseError
+from threadstate.mesh.options import Descent, MeshOptions, Tangent
+from threadstate.mesh.presets import Preset
+from threadstate.mesh.solve import solve_poses_by_mesh
 from threadstate.state.document import state_json
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose, solve_poses
@@ -112,6 +115,22 @@ def test_a_named_pair_is_solved(command_line: CommandLine) -> None:
     assert out == state_json(solve_pose(pair_by_designation(name), 4.0, 0.0, 185.0)) + "\n"
 
 
+def test_a_pose_is_solved_by_meshes(command_line: CommandLine) -> None:
+    chosen = ["--preset", "coarse", "--descent", "decades", "--final-step", "10uin", "--tangent", "azimuthal"]
+    code, out, err = command_line.here("solve", *POSE, "--method", "mesh", *chosen, "--json")
+    options = MeshOptions(Preset.COARSE.tessellation, Descent.DECADES, 2e-4, Tangent.AZIMUTHAL)
+    assert (code, err) == (0, "")
+    assert out == state_json(solve_poses_by_mesh(quarter_twenty_unc(), [(4.0, 0.0, 185.0)], options)[0]) + "\n"
+    assert "stable" in command_line.here("solve", *POSE, "--method", "mesh")[1]
+
+
+def test_a_pose_that_meshes_cannot_answer_ends_with_5(command_line: CommandLine) -> None:
+    level = ["--roll", "0", "--pitch", "0", "--phase", "0"]
+    code, out, err = command_line.here("solve", *level, "--method", "mesh", "--preset", "coarse")
+    assert (code, out) == (ExitCode.UNRESOLVED, "")
+    assert "phase 0.0 deg: a level bolt in phase rests on a strip of its thread" in err
+
+
 def test_without_json_a_pose_is_a_table(command_line: CommandLine) -> None:
     code, out, _ = command_line.here("solve", *POSE)
     state = solve_pose(quarter_twenty_unc(), 4.0, 0.0, 185.0)
@@ -142,6 +161,9 @@ def test_a_file_without_poses_has_no_answers(command_line: CommandLine, tmp_path
         (["solve", "--roll", "0", "--pitch", "0", "--phase", "inf"], "phase is inf"),
         (["solve", *POSE, "--pair", "M6"], "designation is 'M6'; valid: 1/4-20 UNC"),
         (["solve", *POSE, "--poses", "poses.csv"], "not both"),
+        (["solve", *POSE, "--method", "guess"], "'guess' is not one of"),
+        (["solve", *POSE, "--preset", "fine"], "--preset is 'fine'; valid: a setting of --method mesh alone"),
+        (["solve", *POSE, "--method", "mesh", "--final-step", "2uin"], "'2uin' is not one of"),
         (["solve", "--poses", "no-such-file.csv"], "no-such-file.csv"),
         (["rebuild", "--phase-step", "7"], "phase_step is 7.0; valid: a step that divides 360 deg evenly"),
         (["rebuild", "--tilt-max", "11"], "tilt_max is 11.0; valid: 0 to 10 deg"),

@@ -47,7 +47,7 @@ def solve_poses(pair: Pair, poses: ArrayLike, options: SolveOptions | None = Non
         UnresolvedPoseError: the search could not close all its cells; no state is better than a guessed one.
     """
     options = options or SolveOptions()
-    wanted = _checked(poses)
+    wanted = checked_poses(poses)
     rows = np.empty((len(wanted), rk.RECORD_SIZE))
     level = (np.abs(wanted[:, 0]) < LEVEL_TILT_DEG) & (np.abs(wanted[:, 1]) < LEVEL_TILT_DEG)
     tilted = np.flatnonzero(~level)
@@ -61,7 +61,8 @@ def solve_poses(pair: Pair, poses: ArrayLike, options: SolveOptions | None = Non
     return decoded_states(pair, options, wanted, rows)
 
 
-def _checked(poses: ArrayLike) -> NDArray[np.float64]:
+def checked_poses(poses: ArrayLike) -> NDArray[np.float64]:
+    """Poses as an array of shape (n, 3), each valid; see :func:`solve_poses` for what is raised."""
     wanted = np.array(poses, dtype=np.float64, ndmin=2)
     if wanted.size == 0:
         return wanted.reshape(0, 3)

@@ -1,0 +1,346 @@
+"""The three stages of a pose by the collision of meshes (method, section 4; the paper, section 6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from threadstate.contact import _record_kernel as rk
+from threadstate.contact import _solve_kernel as sk
+from threadstate.contact import _stage_kernel as stage
+from threadstate.errors import MeshUndecidedError
+from threadstate.mesh.clusters import Cluster, Connectivity, Neighbourhood, connected
+from threadstate.mesh.collision import Collider, TooManyPairsError
+from threadstate.mesh.deviation import deviation
+from threadstate.mesh.facing import closes_a_gap
+from threadstate.mesh.flush_patch import extreme_points
+from threadstate.mesh.frames import along, fixed_from_bolt, trans, turned
+from threadstate.mesh.options import Descent, MeshOptions, Tangent
+from threadstate.mesh.part import part_solid
+from threadstate.mesh.part_name import Part
+from threadstate.mesh.pivot import origin_moment
+from threadstate.mesh.solid import Floats
+from threadstate.mesh.steps import Reached, approach, decades, march_and_halve, regress
+from threadstate.mesh.touch import NoContactPointError, Touch, touch, touches_beyond
+from threadstate.state.options import SolveOptions
+from threadstate.thread.pair import Pair
+
+FIRST_STEP = 0.2
+"""First step of a descent in decades, in thread pitches: the paper's 0.01 in."""
+MARCH = 2e-3
+"""Step of the march of a safe turn and of a lift, in thread pitches of arc at the bolt's major radius."""
+MOST_STEPS = 20_000
+"""Steps after which a safe descent gives up: the bolt slides down beside the nut, nearer than the final step."""
+BEFORE_FLUSH = 4.0
+"""A turn that ends flush is searched up to this many final steps of arc before: there everything meets at once."""
+MOMENT = 1e-4
+"""The turn (rad) after which a contact is looked at to tell which way it goes."""
+NOISE = 4.0
+"""An embedment counts beyond this many times what meshes and steps can make of none."""
+
+Clusters = tuple[Cluster, ...]
+Touches = tuple[Touch, ...]
+
+
+class _Undecided(Exception):  # noqa: N818 - it never leaves this module
+    """Why a pose cannot be answered."""
+
+
+class MeshMethod:
+    """Bolt and nut of a pair as meshes in their search trees, and what is asked of them."""
+
+    def __init__(self, pair: Pair, options: MeshOptions) -> None:
+        self._pair, self._options = pair, options
+        self._bolt, self._nut = (part_solid(pair, part, options.tessellation) for part in Part)
+        self._collider = Collider(self._bolt, self._nut)
+        self._connectivity = Connectivity(self._bolt, self._nut)
+        self._final = options.final_step * pair.thread_pitch
+        self._arm = pair.fit.bolt_major_diameter / 2.0
+        self.edge_deviation = sum(
+            deviation(solid, profile).edge for solid, profile in ((self._bolt, pair.bolt), (self._nut, pair.nut))
+        )
+
+    def solve_options(self, options: SolveOptions) -> SolveOptions:
+        """The options with an embedment tolerance that no noise of meshes and steps reaches."""
+        noise = NOISE * (self.edge_deviation + self._final) / self._pair.thread_pitch
+        return replace(options, embedment_tolerance=min(1e-2, max(options.embedment_tolerance, noise)))
+
+    def solve(self, pose_deg: tuple[float, float, float], options: SolveOptions) -> Floats:
+        """The record of a pose (roll, pitch, phase in degrees); see ``contact._record_kernel`` for its layout.
+
+        Raises:
+            MeshUndecidedError: the meshes cannot answer.
+        """
+        row = np.zeros(rk.RECORD_SIZE)
+        for i in (rk.O_LAMBDA, rk.O_MU, rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT):
+            row[i] = math.nan
+        try:
+            self._first_stage(pose_deg, options, row)
+        except (_Undecided, NoContactPointError, TooManyPairsError) as error:
+            raise MeshUndecidedError(*pose_deg, str(error)) from None
+        return row
+
+    def first_pose(self, pose_deg: tuple[float, float, float]) -> tuple[Floats, Clusters]:
+        """The pose ``T_nut_bolt`` (4, 4) in which the descending meshes first collide, and the clusters there.
+
+        It is the last and blocked place of the descent: lower than first contact by at most the final step.
+
+        Raises:
+            MeshUndecidedError: they never collide, or slide beside each other too long.
+        """
+        try:
+            return self._descend(pose_deg)
+        except (_Undecided, TooManyPairsError) as error:
+            raise MeshUndecidedError(*pose_deg, str(error)) from None
+
+    def _descend(self, pose_deg: tuple[float, float, float]) -> tuple[Floats, Clusters]:
+        roll, pitch, phase = (math.radians(angle) for angle in pose_deg)
+        level = fixed_from_bolt(roll, pitch, phase, np.zeros(3))
+        p = self._pair.thread_pitch
+        start = -float((self._bolt.vertices @ level[2, :3]).min()) + 2.0 * self._final
+
+        def pose(way: float) -> Floats:
+            return trans([0.0, 0.0, start - way]) @ level
+
+        def found(way: float) -> Clusters | None:
+            return self._clusters(pose(way)) or None
+
+        limit = start + p
+        if self._options.descent is Descent.DECADES:
+            reached = regress(found, decades(FIRST_STEP * p, self._final), limit)
+        else:
+            try:
+                reached = approach(
+                    found, lambda way: self._collider.distance(pose(way)), self._final, limit, MOST_STEPS
+                )
+            except TimeoutError:
+                raise _Undecided(f"the bolt slides beside the nut for more than {MOST_STEPS} steps") from None
+        if reached is None:
+            raise _Undecided("the meshes do not collide on the way down by a thread pitch")
+        return pose(reached.place), reached.found
+
+    def _clusters(self, T_nut_bolt: Floats) -> Clusters:
+        return self._connectivity.clusters(self._collider.pairs(T_nut_bolt))
+
+    def _touches(self, clusters: Iterable[Cluster], T_nut_bolt: Floats) -> Touches:
+        """The contacts that clusters are, by azimuth on the nut, from 0 on."""
+        found = (touch(cluster, self._bolt, self._nut, T_nut_bolt) for cluster in clusters)
+        return tuple(sorted(found, key=lambda one: math.atan2(one.point[1], one.point[0]) % (2.0 * math.pi)))
+
+    def _first_stage(self, pose_deg: tuple[float, float, float], options: SolveOptions, row: Floats) -> None:
+        first, clusters = self._descend(pose_deg)
+        tilt = math.hypot(first[2, 0], first[2, 1])
+        if tilt * self._arm < self._final:
+            self._lie_level(first, row)
+            return
+        touches = self._touches(clusters, first)
+        self._put_pose(first, row)
+        self._put(1, touches[:1], first, row)
+        if len(touches) > 1:
+            sk.add_flag(row, rk.FLAG_TIE)
+            row[rk.O_LAMBDA] = 0.0
+            self._after_second(first, touches[0], touches[1:], options, row)
+            return
+        self._second_stage(first, touches[0], options, row)
+
+    def _lie_level(self, first: Floats, row: Floats) -> None:
+        """A level bolt: on the surface a patch; on its thread, which facets cannot tell from a crossing, no answer."""
+        if first[2, 3] < -BEFORE_FLUSH * self._final:
+            raise _Undecided(
+                "a level bolt in phase rests on a strip of its thread: facets in one plane have no segment"
+            )
+        self._lay_flush(1, first, np.array([1.0, 0.0, 0.0]), row)
+
+    def _second_stage(self, first: Floats, cp0: Touch, options: SolveOptions, row: Floats) -> None:
+        numbers = cp0.numbers(first)
+        reverse = np.zeros(3)
+        sk.second_axis(numbers, _flat(first), self._pair.bolt.row, self._pair.nut.row, reverse)
+        if self._options.tangent is Tangent.AZIMUTHAL:
+            x, y, _ = cp0.point
+            reverse = np.array([y, -x, 0.0]) / math.hypot(x, y)
+        tangent = -reverse
+        frame = along(tangent, cp0.point)
+
+        def pose(turn: float) -> Floats:
+            return turned(first, frame, -turn)
+
+        limit = math.radians(options.turn_limit_deg)
+        flush = math.nan
+        if cp0.features == stage.EDGE_SURFACE and self._options.tangent is Tangent.EDGE:
+            flush = float(sk.turn_to_flush(_flat(first), reverse))
+            if 0.0 <= flush <= limit:
+                limit = max(0.0, flush - BEFORE_FLUSH * self._final / self._arm)
+        reached = self._turn(pose, [cp0.cluster], limit)
+        if reached is None:
+            if flush >= 0.0 and self._lay_flush(2, pose(flush), tangent, row):
+                row[rk.O_LAMBDA] = flush
+            else:
+                sk.add_flag(row, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
+            return
+        row[rk.O_LAMBDA] = reached.place
+        second = pose(reached.place)
+        touches = reached.found
+        if len(touches) > 1:
+            sk.add_flag(row, rk.FLAG_TIE)
+        self._after_second(second, cp0, touches, options, row)
+
+    def _after_second(self, second: Floats, cp0: Touch, touches: Touches, options: SolveOptions, row: Floats) -> None:
+        """What follows once CP1, the first of the touches, is there; any more of them make the third stage at once."""
+        cp1, more = touches[0], touches[1:]
+        self._put_pose(second, row)
+        self._put(2, (cp1,), second, row)
+        axis = (cp1.point - cp0.point) / np.linalg.norm(cp1.point - cp0.point)
+        row[rk.O_PIVOT] = float(np.linalg.norm(np.cross(axis, second[:3, 3] - cp0.point)))
+        if more:
+            row[rk.O_MU] = row[rk.O_DROP] = row[rk.O_EMBEDMENT] = 0.0
+            self._put_pose(second, row)
+            self._put(3, more, second, row)
+            return
+        moment = origin_moment(cp0.point, cp1.point, second[:3, 3])
+        if abs(moment) > self._final:
+            self._third_stage(second, cp0, cp1, -math.copysign(1.0, moment), options, row)
+            return
+        sk.add_flag(row, rk.FLAG_BALANCED)
+        other = row.copy()
+        self._third_stage(second, cp0, cp1, 1.0, options, row)
+        self._third_stage(second, cp0, cp1, -1.0, options, other)
+        if not math.isnan(other[rk.O_MU]) and not row[rk.O_MU] <= other[rk.O_MU]:
+            row[:] = other
+
+    def _third_stage(
+        self, second: Floats, cp0: Touch, cp1: Touch, sense: float, options: SolveOptions, row: Floats
+    ) -> None:
+        axis = (cp1.point - cp0.point) / np.linalg.norm(cp1.point - cp0.point)
+        frame = along(axis, cp0.point)
+
+        def pose(turn: float) -> Floats:
+            return turned(second, frame, sense * turn)
+
+        limit = math.radians(options.turn_limit_deg)
+        flush = math.nan
+        if sk.in_plane(cp0.features) and sk.in_plane(cp1.features):
+            flush = float(sk.turn_to_flush(_flat(second), sense * axis))
+            if 0.0 < flush <= limit:
+                limit = max(0.0, flush - BEFORE_FLUSH * self._final / self._arm)
+        reached = self._turn(pose, [cp0.cluster, cp1.cluster], limit)
+        if reached is None:
+            if flush > 0.0 and self._lay_flush(3, pose(flush), axis, row):
+                row[rk.O_MU] = flush
+                row[rk.O_DROP] = second[2, 3] - row[rk.O_POSE + 35]
+                row[rk.O_EMBEDMENT] = 0.0
+            else:
+                sk.add_flag(row, rk.FLAG_NO_THIRD)
+            return
+        third = pose(reached.place)
+        touches = reached.found
+        if len(touches) > 1:
+            sk.add_flag(row, rk.FLAG_TIE)
+        row[rk.O_MU] = reached.place
+        self._put_pose(third, row)
+        self._put(3, touches, third, row)
+        row[rk.O_DROP] = second[2, 3] - third[2, 3]
+        row[rk.O_EMBEDMENT] = self._least_lift(third)
+
+    def _turn(self, pose: Callable[[float], Floats], known: list[Cluster], limit: float) -> Reached[Touches] | None:
+        """The smallest turn (rad) at which contacts appear that hold none of the known ones, and those contacts.
+
+        A cluster holds a contact where it lies in the ring of triangles about it on both meshes. One that is connected
+        with a cluster of the place before is not new: it may grow and roll away, and parts of it may part. A hole in
+        an overlap is none, nor is what touches a part's far end.
+        """
+        own = [self._connectivity.neighbourhood(cluster) for cluster in known]
+        about = [self._connectivity.neighbourhood(cluster, rings=1) for cluster in known]
+        before: Clusters = tuple(known)
+
+        def found(turn: float) -> Touches | None:
+            nonlocal before
+            T_nut_bolt, later = pose(turn), pose(turn + MOMENT)
+            clusters = self._clusters(T_nut_bolt)
+            new = self._touches((one for one in clusters if self._is_new(one, own, before)), T_nut_bolt)
+            born = tuple(one for one in new if closes_a_gap(one, self._bolt, self._nut, T_nut_bolt, later))
+            if not born:
+                before = clusters
+                return None
+            if any(self._connectivity.reaches(one.cluster, place) for one in born for place in about):
+                raise _Undecided(
+                    "a contact appears within a ring of triangles about an earlier one: too near for these meshes"
+                )
+            return born
+
+        p = self._pair.thread_pitch
+        final = self._final / self._arm
+        if self._options.descent is Descent.DECADES:
+            return regress(found, decades(FIRST_STEP * p / self._arm, final), limit)
+        return march_and_halve(found, MARCH * p / self._arm, final, limit)
+
+    def _is_new(self, cluster: Cluster, places: list[Neighbourhood], before: Clusters) -> bool:
+        return (
+            not any(self._connectivity.reaches(cluster, place) for place in places)
+            and not any(connected(cluster, one) for one in before)
+            and not touches_beyond(cluster, self._bolt, self._nut)
+        )
+
+    def _least_lift(self, T_nut_bolt: Floats) -> float:
+        """The least lift after which the meshes do not collide."""
+
+        def free(lift: float) -> bool | None:
+            return None if self._collider.collides(trans([0.0, 0.0, lift]) @ T_nut_bolt) else True
+
+        p = self._pair.thread_pitch
+        reached = march_and_halve(free, MARCH * p, self._final, 2.0 * (p + self._arm))
+        if reached is None:
+            raise _Undecided("no lift frees the third pose")
+        return reached.place
+
+    def _lay_flush(self, number: int, T_nut_bolt: Floats, axis: Floats, row: Floats) -> bool:
+        """Put the flush pose and the extreme points of its patch that are no contacts yet; False without a patch."""
+        level = T_nut_bolt.copy()
+        level[2, :3] = level[:3, 2] = (0.0, 0.0, 1.0)
+        level[2, 3] = 0.0
+        extremes = extreme_points(self._bolt, self._nut, level, axis)
+        if not extremes:
+            return False
+        self._put_pose(level, row)
+        known = int(row[rk.O_CONTACTS])
+        used = row[rk.O_CONTACT : rk.O_CONTACT + rk.POINT_SIZE * known].reshape(known, rk.POINT_SIZE)
+        places = used[:, rk.P_POINT : rk.P_POINT + 2].copy()
+        for one in extremes:
+            x, y = one.point.tolist()
+            # A contact's place is known to a segment of the mesh: an extreme point that near is the contact.
+            if len(places) and np.hypot(places[:, 0] - x, places[:, 1] - y).min() < self._segment():
+                continue
+            rk.put_flush(number, one.bolt_azimuth, one.corner, x, y, self._pair.bolt.row, self._pair.nut.row, row)
+        sk.add_flag(row, rk.FLAG_FLUSH)
+        return True
+
+    def _segment(self) -> float:
+        """The longest segment of the bolt's outline."""
+        edge = self._bolt.vertices[self._bolt.edge]
+        return float(np.linalg.norm(edge - np.roll(edge, 1, axis=0), axis=1).max())
+
+    def _put_pose(self, T_nut_bolt: Floats, row: Floats) -> None:
+        rk.put_pose(_flat(T_nut_bolt), row)
+
+    def _put(self, number: int, touches: Touches, T_nut_bolt: Floats, row: Floats) -> None:
+        bolt, nut = self._pair.bolt.row, self._pair.nut.row
+        flat = _flat(T_nut_bolt)
+        for one in touches:
+            numbers = one.numbers(T_nut_bolt)
+            rk.put_contact(number, numbers, flat, bolt, nut, row)
+            if rk.grazes(numbers, flat, bolt, nut):
+                sk.add_flag(row, rk.FLAG_GRAZING)
+
+
+@lru_cache(maxsize=4)
+def mesh_method(pair: Pair, options: MeshOptions) -> MeshMethod:
+    """The method for a pair; its meshes and search trees are kept."""
+    return MeshMethod(pair, options)
+
+
+def _flat(T_nut_bolt: Floats) -> Floats:
+    """A pose as the kernels' twelve numbers: rotation by rows, translation."""
+    return np.concatenate([T_nut_bolt[:3, :3].ravel(), T_nut_bolt[:3, 3]])
