@@ -37,6 +37,8 @@ MOST_STEPS = 20_000
 """Steps after which a safe descent gives up: the bolt slides down beside the nut, nearer than the final step."""
 BEFORE_FLUSH = 4.0
 """A turn that ends flush is searched up to this many final steps of arc before: there everything meets at once."""
+LEAP = 6
+"""Pairs of triangles, beyond a tenth more, by which overlaps grow in a leap: what is between is looked at, too."""
 MOMENT = 1e-4
 """The turn (rad) after which a contact is looked at to tell which way it goes."""
 NOISE = 4.0
@@ -255,15 +257,19 @@ class MeshMethod:
         own = [self._connectivity.neighbourhood(cluster) for cluster in known]
         about = [self._connectivity.neighbourhood(cluster, rings=1) for cluster in known]
         before: Clusters = tuple(known)
+        since = 0.0
+        final = self._final / self._arm
 
         def found(turn: float) -> Touches | None:
-            nonlocal before
+            nonlocal before, since
             T_nut_bolt, later = pose(turn), pose(turn + MOMENT)
             clusters = self._clusters(T_nut_bolt)
             new = self._touches((one for one in clusters if self._is_new(one, own, before)), T_nut_bolt)
             born = tuple(one for one in new if closes_a_gap(one, self._bolt, self._nut, T_nut_bolt, later))
             if not born:
-                before = clusters
+                if turn - since > final and _has_leapt(before, clusters):
+                    return found(0.5 * (since + turn)) or found(turn)
+                before, since = clusters, turn
                 return None
             if any(self._connectivity.reaches(one.cluster, place) for one in born for place in about):
                 raise _Undecided(
@@ -272,7 +278,6 @@ class MeshMethod:
             return born
 
         p = self._pair.thread_pitch
-        final = self._final / self._arm
         if self._options.descent is Descent.DECADES:
             return regress(found, decades(FIRST_STEP * p / self._arm, final), limit)
         return march_and_halve(found, MARCH * p / self._arm, final, limit)
@@ -339,6 +344,15 @@ class MeshMethod:
 def mesh_method(pair: Pair, options: MeshOptions) -> MeshMethod:
     """The method for a pair; its meshes and search trees are kept."""
     return MeshMethod(pair, options)
+
+
+def _has_leapt(before: Clusters, after: Clusters) -> bool:
+    """Whether the overlaps have grown so much between two places that one born between may be part of them already."""
+    return _pair_count(after) > 1.1 * _pair_count(before) + LEAP
+
+
+def _pair_count(clusters: Clusters) -> int:
+    return sum(len(cluster.pairs) for cluster in clusters)
 
 
 def _flat(T_nut_bolt: Floats) -> Floats:
