@@ -19,7 +19,7 @@ import numpy as np
 from benchmarks.sample import SEED
 from threadstate.contact import _solve_kernel
 from threadstate.library.engine import writer_engine
-from threadstate.library.fingerprint import states_sha256
+from threadstate.library.fingerprint import answers_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
@@ -110,7 +110,7 @@ def profile(folder: Path, pair: Pair, grid: Grid) -> list[Part]:
             with solve.running():
                 states = solve_poses(pair, grid.poses(index))
             with hashing.running():
-                states_sha256(states)
+                answers_sha256(states)
             with rows.running():
                 chunk = chunk_rows(grid.orientation(index), grid.first_ordinal(index), states)
             with handing.running():

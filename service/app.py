@@ -13,6 +13,7 @@ import service.histories.endpoints
 import service.libraries.endpoints
 import service.solve.endpoints
 import service.states.endpoints
+import service.undecided.endpoints
 import threadstate
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
 from service.middleware import BodyLimit, EncodedSlashes, HeadAsGet, SecurityHeaders
@@ -58,6 +59,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         service.libraries,
         service.states,
         service.histories,
+        service.undecided,
         service.solve,
         service.health,
         service.docs,

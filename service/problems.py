@@ -14,7 +14,7 @@ from pydantic import BaseModel, Field
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 
-from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, UnresolvedPoseError
+from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, UndecidedPoseError, UnresolvedPoseError
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:threadstate:problem:"
@@ -51,6 +51,7 @@ class Kind:
 INVALID_VALUE = Kind("invalid-value", HTTPStatus.BAD_REQUEST, "Invalid value")
 UNKNOWN_PARAMETER = Kind("unknown-parameter", HTTPStatus.BAD_REQUEST, "Unknown parameter")
 NOT_FOUND = Kind("not-found", HTTPStatus.NOT_FOUND, "Not found")
+UNDECIDED_POSE = Kind("undecided-pose", HTTPStatus.NOT_FOUND, "Pose not decided")
 NOT_MIGRATED = Kind("not-migrated", HTTPStatus.SERVICE_UNAVAILABLE, "Database not migrated")
 NOT_READY = Kind("not-ready", HTTPStatus.SERVICE_UNAVAILABLE, "No library is published")
 DATABASE_UNAVAILABLE = Kind("database-unavailable", HTTPStatus.SERVICE_UNAVAILABLE, "Database unavailable")
@@ -61,6 +62,7 @@ KINDS = (
     INVALID_VALUE,
     UNKNOWN_PARAMETER,
     NOT_FOUND,
+    UNDECIDED_POSE,
     UNRESOLVED_POSE,
     NOT_MIGRATED,
     NOT_READY,
@@ -87,6 +89,7 @@ def install_problem_handlers(app: FastAPI) -> None:
         (RefusedParameterError, _refused_parameter),
         (RequestValidationError, _validation),
         (InvalidValueError, _invalid_value),
+        (UndecidedPoseError, _undecided_pose),
         (NotFoundError, _not_found),
         (UnresolvedPoseError, _unresolved_pose),
         (SchemaError, _schema),
@@ -140,6 +143,10 @@ def _invalid_value(_request: Request, error: Any) -> Response:
 
 def _not_found(_request: Request, error: Any) -> Response:
     return problem_response(NOT_FOUND, str(error))
+
+
+def _undecided_pose(_request: Request, error: Any) -> Response:
+    return problem_response(UNDECIDED_POSE, str(error))
 
 
 def _unresolved_pose(_request: Request, error: Any) -> Response:

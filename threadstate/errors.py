@@ -35,6 +35,10 @@ class NotFoundError(ThreadstateError, LookupError):
     """Something that was asked for by name is not stored."""
 
 
+class UndecidedPoseError(NotFoundError):
+    """A library has no state for a pose of its grid, because its method could not decide it; the message says why."""
+
+
 class SchemaError(ThreadstateError):
     """The database's schema is not the one this code expects; the message names the mending command."""
 
@@ -53,11 +57,8 @@ class UnresolvedPoseError(ThreadstateError):
             f"no certain contact state for roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg: {reason}"
         )
         self.pose_deg = (roll_deg, pitch_deg, phase_deg)
+        self.reason = reason
 
 
 class MeshUndecidedError(UnresolvedPoseError):
     """Meshes cannot answer for a pose; ``reason`` says why."""
-
-    def __init__(self, roll_deg: float, pitch_deg: float, phase_deg: float, reason: str) -> None:
-        super().__init__(roll_deg, pitch_deg, phase_deg, reason)
-        self.reason = reason

@@ -7,15 +7,14 @@ from multiprocessing.connection import Connection
 
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, chunk_rows
-from threadstate.state.solve import solve_poses
+from worker.answers import answers
 from worker.messages import Failure, Ready
 
 
 def compute_chunk(inputs: LibraryInputs, index: int) -> ChunkRows:
-    """All states of an orientation, as rows."""
+    """The answers for all poses of an orientation, as rows."""
     grid = inputs.grid
-    states = solve_poses(inputs.pair, grid.poses(index), inputs.options)
-    return chunk_rows(grid.orientation(index), grid.first_ordinal(index), states)
+    return chunk_rows(grid.orientation(index), grid.first_ordinal(index), answers(inputs, grid.poses(index)))
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
@@ -27,7 +26,7 @@ def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         try:
-            solve_poses(inputs.pair, inputs.grid.poses(0)[:1], inputs.options)
+            answers(inputs, inputs.grid.poses(0)[:1])
             connection.send(Ready())
             while True:
                 connection.send(compute_chunk(inputs, connection.recv()))

@@ -6,6 +6,7 @@ from threadstate.library.engine import writer_engine
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.schema import check_schema, stored_revision
+from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
 from worker.forkserver import running_forkserver
@@ -22,8 +23,11 @@ def computed_library(
     tilt_max_deg: float,
     tilt_step_deg: float,
     workers: int,
+    mesh: MeshOptions | None = None,
 ) -> Rebuild:
     """The published library of that pair and grid, computed if need be; an empty database is migrated first.
+
+    Its states are those of the exact method, or with ``mesh`` of meshes.
 
     Raises:
         InvalidValueError: a value is not valid.
@@ -31,7 +35,7 @@ def computed_library(
         ComputeError: a computing process failed.
     """
     pair = pair_by_designation(DEFAULT_DESIGNATION if designation is None else designation)
-    inputs = LibraryInputs(pair, Grid(tilt_max_deg, tilt_step_deg, phase_step_deg), SolveOptions())
+    inputs = LibraryInputs(pair, Grid(tilt_max_deg, tilt_step_deg, phase_step_deg), SolveOptions(), mesh)
     engine = writer_engine(database)
     try:
         if stored_revision(engine) is None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
 from threadstate import settings
+from threadstate.library.method import Method
 
 Database = Annotated[
     str | None,
@@ -18,16 +18,6 @@ Database = Annotated[
         show_default=f"{settings.DATABASE}, else a file in the data directory",
     ),
 ]
-
-
-class Method(StrEnum):
-    """How contact states are found."""
-
-    EXACT = "exact"
-    """By the closed form of edge curves and threads."""
-    MESH = "mesh"
-    """By the collision of triangle meshes: the paper's method."""
-
 
 MethodName = Annotated[Method, typer.Option("--method", help="How states are found.")]
 

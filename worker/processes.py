@@ -37,8 +37,17 @@ class _Computer:
         try:
             return self.connection.recv()
         except (EOFError, ConnectionError):
-            self.process.join(_JOIN_TIMEOUT_S)
-            raise ComputeError(f"a computing process died (exit code {self.process.exitcode})") from None
+            raise self._died() from None
+
+    def ask(self, orientation: int) -> None:
+        try:
+            self.connection.send(orientation)
+        except ConnectionError:
+            raise self._died() from None
+
+    def _died(self) -> ComputeError:
+        self.process.join(_JOIN_TIMEOUT_S)
+        return ComputeError(f"a computing process died (exit code {self.process.exitcode})")
 
 
 class ComputingProcesses:
@@ -78,7 +87,7 @@ class ComputingProcesses:
                 else:
                     asked[connection] -= 1
                 while asked[connection] < ASKED_AHEAD and (index := next(waiting, None)) is not None:
-                    connection.send(index)
+                    by_connection[connection].ask(index)
                     asked[connection] += 1
                 if isinstance(message, ChunkRows):
                     yield message

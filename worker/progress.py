@@ -1,4 +1,4 @@
-"""The progress bar of a rebuild: states done, poses per second, time left; on stderr."""
+"""The progress bar of a rebuild: poses done, poses per second, time left; on stderr."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ProgressBar:
     def begin(self, committed: int, total: int) -> None:
         """Announce the kernels: the first run on a machine compiles them, which takes a while."""
         if committed:
-            self._progress.console.print(f"going on from {committed} states of an earlier run", highlight=False)
+            self._progress.console.print(f"going on from {committed} poses of an earlier run", highlight=False)
         self._task = self._progress.add_task(
             "loading kernels (a first run compiles them)", total=total, completed=committed, start=False
         )
@@ -41,10 +41,10 @@ class ProgressBar:
             self._progress.update(self._task, description="computing")
             self._progress.start_task(self._task)
 
-    def advance(self, states: int) -> None:
+    def advance(self, poses: int) -> None:
         """Move on."""
         if self._task is not None:
-            self._progress.advance(self._task, states)
+            self._progress.advance(self._task, poses)
 
 
 @contextmanager

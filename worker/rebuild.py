@@ -8,7 +8,7 @@ from typing import Protocol
 from sqlalchemy import Engine
 
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.read import library_by_input
+from threadstate.library.read import LibraryRecord, library_by_input
 from threadstate.library.write import committed_orientations, open_library, publish, write_chunk
 from worker.processes import computing_processes
 
@@ -22,7 +22,8 @@ class Rebuild:
         input_sha256: hash of its inputs.
         content_sha256: hash of its content.
         state_count: how many states it has.
-        computed: how many of them this run computed.
+        undecided_count: how many poses its method could not decide.
+        computed: for how many poses this run computed the answer.
         was_published: whether it was published already, so that nothing was to be done.
     """
 
@@ -30,21 +31,22 @@ class Rebuild:
     input_sha256: str
     content_sha256: str
     state_count: int
+    undecided_count: int
     computed: int
     was_published: bool
 
 
 class Progress(Protocol):
-    """Somebody who watches a rebuild; counts are of states."""
+    """Somebody who watches a rebuild; counts are of poses."""
 
     def begin(self, committed: int, total: int) -> None:
-        """The library is open; ``committed`` of ``total`` states are there from an earlier run."""
+        """The library is open; ``committed`` of ``total`` poses are there from an earlier run."""
 
     def ready(self) -> None:
-        """The kernels are loaded, states are being computed."""
+        """The kernels are loaded, poses are being computed."""
 
-    def advance(self, states: int) -> None:
-        """That many more states are committed."""
+    def advance(self, poses: int) -> None:
+        """That many more poses are committed."""
 
 
 def rebuild(engine: Engine, inputs: LibraryInputs, workers: int, progress: Progress) -> Rebuild:
@@ -56,10 +58,9 @@ def rebuild(engine: Engine, inputs: LibraryInputs, workers: int, progress: Progr
     Raises:
         ComputeError: a computing process failed.
     """
-    with engine.connect() as connection:
-        known = library_by_input(connection, inputs.sha256)
+    known = _published(engine, inputs)
     if known is not None:
-        return Rebuild(known.id, known.input_sha256, known.content_sha256, known.state_count, 0, was_published=True)
+        return _rebuild(known, 0, was_published=True)
 
     grid = inputs.grid
     library_id = open_library(engine, inputs)
@@ -71,7 +72,26 @@ def rebuild(engine: Engine, inputs: LibraryInputs, workers: int, progress: Progr
         with computing_processes(inputs, min(workers, len(missing))) as processes:
             for rows in processes.chunks(missing, progress.ready):
                 if write_chunk(engine, library_id, rows):
-                    computed += len(rows.states)
-                progress.advance(len(rows.states))
-    content_sha256 = publish(engine, library_id, grid)
-    return Rebuild(library_id, inputs.sha256, content_sha256, grid.state_count, computed, was_published=False)
+                    computed += rows.pose_count
+                progress.advance(rows.pose_count)
+    publish(engine, library_id, grid)
+    made = _published(engine, inputs)
+    assert made is not None
+    return _rebuild(made, computed, was_published=False)
+
+
+def _published(engine: Engine, inputs: LibraryInputs) -> LibraryRecord | None:
+    with engine.connect() as connection:
+        return library_by_input(connection, inputs.sha256)
+
+
+def _rebuild(library: LibraryRecord, computed: int, *, was_published: bool) -> Rebuild:
+    return Rebuild(
+        library.id,
+        library.input_sha256,
+        library.content_sha256,
+        library.state_count,
+        library.undecided_count,
+        computed,
+        was_published,
+    )

@@ -33,14 +33,21 @@ EXAMPLES = (
         _STATES, "get", _JSON, "page", "The last page", {"library": 1, "unit": "in", "states": [STATE], "next": None}
     ),
     Example(_STATES + "/{roll}/{pitch}/{phase}", "get", _JSON, "flush", "The bolt comes to lie flush", STATE),
-    Example(_HISTORY, "get", _JSON, "rows", "Rows, cut off after the first state", {**_ORIENTATION, "states": [STATE]}),
+    Example(
+        _HISTORY,
+        "get",
+        _JSON,
+        "rows",
+        "Rows, cut off after the first state",
+        {**_ORIENTATION, "states": [STATE], "undecided": []},
+    ),
     Example(
         _HISTORY,
         "get",
         _JSON,
         "columns",
         "Columns, cut off after the first state",
-        {**_ORIENTATION, "columns": {column.name: list(column.cells) for column in _COLUMNS}},
+        {**_ORIENTATION, "columns": {column.name: list(column.cells) for column in _COLUMNS}, "undecided": []},
     ),
     Example(_HISTORY, "get", "text/csv", "csv", "A table, cut off after the first state", csv_table(_COLUMNS).decode()),
     Example(

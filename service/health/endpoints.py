@@ -42,7 +42,7 @@ def readyz(request: Request, response: Response) -> Readiness | Response:
     check_schema(engine)
     try:
         with engine.connect() as connection:
-            library = latest_library(connection)
+            library = latest_library(connection, method=None)
     except NotFoundError as error:
         return problem_response(NOT_READY, str(error))
     response.headers["Cache-Control"] = "no-store"

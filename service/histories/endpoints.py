@@ -43,20 +43,22 @@ def get_history(
     format: FormatQuery = None,  # noqa: A002 - the parameter's name in the address
     unit: UnitQuery = None,
 ) -> Response:
-    """The states of an orientation at all phases, in order; the three formats say the same."""
+    """The states of an orientation at all phases, in order; `csv` leaves out the phases without a state."""
     shown = unit or library.length_unit
     factor = conversion_factor(library.length_unit, shown)
-    states = [state_document(state, factor) for state in history(connection, library, roll, pitch)]
+    found = history(connection, library, roll, pitch)
+    states = [state_document(state, factor) for state in found.states]
     headers = {UNIT_HEADER: shown.value, "Vary": "Accept"}
     head = {"library": library.id, "unit": shown.value, "roll": roll + 0.0, "pitch": pitch + 0.0}
+    tail = {"undecided": [{"phase": pose.phase_deg, "reason": pose.reason} for pose in found.undecided]}
     match format or _accepted_format(request.headers.get("accept", "")):
         case HistoryFormat.CSV:
             return representation(request, csv_table(history_columns(states)), CSV, headers)
         case HistoryFormat.COLUMNS:
             columns = {column.name: column.cells for column in history_columns(states)}
-            return json_response(request, {**head, "columns": columns}, headers)
+            return json_response(request, {**head, "columns": columns, **tail}, headers)
         case HistoryFormat.ROWS:
-            return json_response(request, {**head, "states": states}, headers)
+            return json_response(request, {**head, "states": states, **tail}, headers)
 
 
 def _accepted_format(accept: str) -> HistoryFormat:

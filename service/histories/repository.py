@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from sqlalchemy import Connection
 
 from threadstate.errors import NotFoundError
-from threadstate.library.read import LibraryRecord, states_between
-from threadstate.state.model import ContactState
+from threadstate.library.read import LibraryRecord, states_between, undecided_between
+from threadstate.state.model import ContactState, UndecidedPose
 
 
-def history(connection: Connection, library: LibraryRecord, roll_deg: float, pitch_deg: float) -> list[ContactState]:
-    """The states of an orientation at all phases, in order.
+@dataclass(frozen=True)
+class History:
+    """The states of an orientation, and its poses that have none, each in the order of phases."""
+
+    states: list[ContactState]
+    undecided: list[UndecidedPose]
+
+
+def history(connection: Connection, library: LibraryRecord, roll_deg: float, pitch_deg: float) -> History:
+    """The answers for an orientation at all phases, in order.
 
     Raises:
         NotFoundError: the orientation is not one of the library's grid.
@@ -23,4 +33,8 @@ def history(connection: Connection, library: LibraryRecord, roll_deg: float, pit
         )
     orientation = grid.tilts_deg.index(roll_deg) * grid.tilt_count + grid.tilts_deg.index(pitch_deg)
     first = grid.first_ordinal(orientation)
-    return states_between(connection, library.id, first, first + grid.phase_count - 1)
+    last = first + grid.phase_count - 1
+    return History(
+        states_between(connection, library.id, first, last),
+        [pose for _, pose in undecided_between(connection, library.id, first, last)],
+    )

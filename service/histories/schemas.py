@@ -7,6 +7,7 @@ from enum import StrEnum
 from pydantic import BaseModel, Field
 
 from service.states.schemas import StateSchema
+from service.undecided.schemas import UndecidedPhase
 from threadstate.units import LengthUnit
 
 
@@ -23,6 +24,7 @@ class _History(BaseModel):
     unit: LengthUnit = Field(description="unit of all lengths in this answer")
     roll: float
     pitch: float
+    undecided: list[UndecidedPhase] = Field(description="the phases without a state, and why")
 
 
 class HistoryRows(_History):

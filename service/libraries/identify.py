@@ -9,9 +9,11 @@ from fastapi import Depends, Path
 
 from service.database import ReadConnection
 from threadstate.errors import NotFoundError
+from threadstate.library.method import Method
 from threadstate.library.read import LibraryRecord, latest_library, library_by_id, published_libraries
 
 LATEST = "latest"
+LATEST_MESH = "latest-mesh"
 _NUMBER = re.compile(r"[0-9]{1,18}")
 
 LibraryId = Annotated[
@@ -20,8 +22,9 @@ LibraryId = Annotated[
         alias="id",
         min_length=1,
         max_length=100,
-        description="`latest`; a library's number; or a thread's designation, with its slash percent-encoded "
-        "(`1%2F4-20%20UNC`) or as a slug (`1-4-20-unc`), for the latest library of that thread",
+        description="`latest`, by the exact method; `latest-mesh`, by meshes; a library's number; or a thread's "
+        "designation, with its slash percent-encoded (`1%2F4-20%20UNC`) or as a slug (`1-4-20-unc`), for the latest "
+        "library of that thread by the exact method",
         examples=[LATEST, "1", "1-4-20-unc"],
     ),
 ]
@@ -40,10 +43,12 @@ def identified_library(connection: ReadConnection, library_id: LibraryId) -> Lib
     """
     if library_id == LATEST:
         return latest_library(connection)
+    if library_id == LATEST_MESH:
+        return latest_library(connection, method=Method.MESH)
     if _NUMBER.fullmatch(library_id):
         return library_by_id(connection, int(library_id))
     name = library_id.replace("%2F", "/")
-    latest_first = published_libraries(connection)
+    latest_first = [record for record in published_libraries(connection) if record.method is Method.EXACT]
     for record in latest_first:
         if name in (record.designation, slug(record.designation)):
             return record

@@ -9,6 +9,7 @@ from datetime import datetime
 from pydantic import BaseModel, Field, TypeAdapter
 
 from service.libraries.identify import slug
+from threadstate.library.method import Method
 from threadstate.library.read import Counts, LibraryRecord
 from threadstate.state.model import Flag, StateClass
 from threadstate.thread.pair import Pair
@@ -36,9 +37,10 @@ class LibraryDocument(BaseModel):
     stored_unit: LengthUnit = Field(description="unit in which the library was computed and is stored")
     pair: Pair = Field(description="the bolt and the nut; lengths in this answer's unit, fillets per thread pitch")
     grid: GridDocument
-    method: str
-    options: dict[str, float] = Field(description="limits and tolerances of the method; lengths per thread pitch")
+    method: Method
+    options: dict[str, float | str] = Field(description="limits and tolerances of the method; lengths per thread pitch")
     state_count: int
+    undecided_count: int = Field(description="how many more poses of the grid the method could not decide")
     code_version: str
     input_sha256: str = Field(description="SHA-256 of everything that the content depends on")
     content_sha256: str = Field(description="SHA-256 of the content; the same on every machine")
@@ -84,6 +86,7 @@ def library_document(record: LibraryRecord, unit: LengthUnit | None) -> LibraryD
         method=record.method,
         options=json.loads(record.options),
         state_count=record.state_count,
+        undecided_count=record.undecided_count,
         code_version=record.code_version,
         input_sha256=record.input_sha256,
         content_sha256=record.content_sha256,

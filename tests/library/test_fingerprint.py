@@ -10,7 +10,7 @@ from hypothesis import given
 
 from tests.library.states import plain_state, states_at
 from threadstate.errors import InvalidValueError
-from threadstate.library.fingerprint import library_sha256, state_bytes, states_sha256
+from threadstate.library.fingerprint import answers_sha256, library_sha256, state_bytes
 from threadstate.state.model import ContactState
 
 
@@ -72,5 +72,5 @@ def test_numbers_too_large_to_be_summed_are_finite_all_the_same() -> None:
 
 def test_the_order_of_states_and_of_chunks_counts() -> None:
     one, other = plain_state(phase_deg=0.0), plain_state(phase_deg=1.0)
-    assert states_sha256([one, other]) != states_sha256([other, one])
+    assert answers_sha256([one, other]) != answers_sha256([other, one])
     assert library_sha256(["a", "b"]) != library_sha256(["b", "a"])

@@ -15,7 +15,7 @@ from tests.library.states import orientation_states, plain_state
 from threadstate.errors import NotFoundError
 from threadstate.library import read, write
 from threadstate.library.engine import reader_engine, writer_engine
-from threadstate.library.fingerprint import library_sha256, states_sha256
+from threadstate.library.fingerprint import answers_sha256, library_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, chunk_rows
@@ -75,8 +75,8 @@ def test_states_are_read_back_bit_by_bit(data: st.DataObject) -> None:
         reading.dispose()
     assert stored == states
     # Equality is blind to the last bit of nothing but zeros; the hash looks at every bit.
-    assert states_sha256(stored) == rows.content_sha256
-    assert content_sha256 == library_sha256([states_sha256(states)])
+    assert answers_sha256(stored) == rows.content_sha256
+    assert content_sha256 == library_sha256([answers_sha256(states)])
     assert at_second == [states[1], states[0]]
 
 
@@ -119,7 +119,7 @@ def test_the_content_does_not_depend_on_the_order_of_writing(writer: Engine) -> 
     library_id = write.open_library(writer, INPUTS)
     for index in reversed(range(GRID.orientation_count)):
         assert write.write_chunk(writer, library_id, _chunk(index))
-    expected = library_sha256([states_sha256(_states(index)) for index in range(GRID.orientation_count)])
+    expected = library_sha256([answers_sha256(_states(index)) for index in range(GRID.orientation_count)])
     assert write.publish(writer, library_id, GRID) == expected
 
 

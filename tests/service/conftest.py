@@ -15,19 +15,20 @@ from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
+from threadstate.mesh.options import MeshOptions
 from threadstate.settings import read_settings
-from threadstate.state.model import ContactState
+from threadstate.state.model import Answer, ContactState
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 from worker.migrate import migrate
 
-Solve = Callable[[Sequence[tuple[float, float, float]]], list[ContactState]]
+Solve = Callable[[Sequence[tuple[float, float, float]]], Sequence[Answer]]
 
 
 @dataclass(frozen=True)
 class StoredLibrary:
-    """A library in a database: the database's URL, the library's number, its pair and grid, its states in order."""
+    """A library in a database: its URL, the library's number, its pair and grid, its states in order."""
 
     database: str
     id: int
@@ -36,16 +37,18 @@ class StoredLibrary:
     states: tuple[ContactState, ...]
 
 
-def store_library(database: str, pair: Pair, grid: Grid, solve: Solve) -> StoredLibrary:
+def store_library(
+    database: str, pair: Pair, grid: Grid, solve: Solve, mesh: MeshOptions | None = None
+) -> StoredLibrary:
     """Migrate the database and publish a library in it."""
     engine = writer_engine(database)
     migrate(engine)
-    library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions()))
+    library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions(), mesh))
     states: list[ContactState] = []
     for index in range(grid.orientation_count):
         solved = solve(grid.poses(index))
         write_chunk(engine, library_id, chunk_rows(grid.orientation(index), grid.first_ordinal(index), solved))
-        states += solved
+        states += [answer for answer in solved if isinstance(answer, ContactState)]
     publish(engine, library_id, grid)
     engine.dispose()
     return StoredLibrary(database, library_id, pair, grid, tuple(states))

@@ -8,6 +8,7 @@ from fastapi.testclient import TestClient
 from service.app import LARGEST_BODY_BYTES, create_app
 from service.problems import KINDS, Problem
 from tests.service.conftest import StoredLibrary, client_of
+from threadstate.library.schema import SCHEMA_REVISION
 from threadstate.settings import read_settings
 
 STATES = "/v1/libraries/latest/states"
@@ -85,7 +86,11 @@ def test_without_a_library_it_is_not_ready(empty_database: str) -> None:
 
 
 def test_with_a_library_it_is_ready(client: TestClient, made_up: StoredLibrary) -> None:
-    assert client.get("/readyz").json() == {"status": "ready", "schema_revision": "0001", "library": made_up.id}
+    assert client.get("/readyz").json() == {
+        "status": "ready",
+        "schema_revision": SCHEMA_REVISION,
+        "library": made_up.id,
+    }
 
 
 def test_failure_of_the_server_tells_nothing_of_itself(made_up: StoredLibrary) -> None:

@@ -13,6 +13,7 @@ from typer.main import get_command
 
 from tests.worker.conftest import COMMAND, SMALL_GRID, CommandLine
 from threadstate.errors import UnresolvedPoseError
+from threadstate.library.schema import SCHEMA_REVISION
 from threadstate.mesh.options import Descent, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.solve import solve_poses_by_mesh
@@ -214,8 +215,11 @@ def test_a_pose_that_cannot_be_decided_ends_with_5(
 
 
 def test_migrate_says_what_it_did(command_line: CommandLine) -> None:
-    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": None, "after": "0001"}
-    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": "0001", "after": "0001"}
+    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": None, "after": SCHEMA_REVISION}
+    assert json.loads(command_line.here("migrate", "--json")[1]) == {
+        "before": SCHEMA_REVISION,
+        "after": SCHEMA_REVISION,
+    }
     assert "already" in command_line.here("migrate")[1]
 
 

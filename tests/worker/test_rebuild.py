@@ -15,7 +15,7 @@ from sqlalchemy import select
 from tests.worker.conftest import SMALL_GRID, CommandLine
 from threadstate.errors import NotFoundError
 from threadstate.library.engine import reader_engine
-from threadstate.library.fingerprint import library_sha256, states_sha256
+from threadstate.library.fingerprint import answers_sha256, library_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import latest_library, states_between
@@ -34,7 +34,7 @@ def expected_content() -> str:
     """The content hash of the small library, computed in this process, chunk by chunk."""
     pair = quarter_twenty_unc()
     return library_sha256(
-        [states_sha256(solve_poses(pair, GRID.poses(index))) for index in range(GRID.orientation_count)]
+        [answers_sha256(solve_poses(pair, GRID.poses(index))) for index in range(GRID.orientation_count)]
     )
 
 
@@ -115,7 +115,7 @@ def test_what_is_stored_is_what_the_solver_says(command_line: CommandLine, expec
             for index in range(GRID.orientation_count)
         ]
     engine.dispose()
-    assert library_sha256([states_sha256(states) for states in chunks]) == library.content_sha256 == expected_content
+    assert library_sha256([answers_sha256(states) for states in chunks]) == library.content_sha256 == expected_content
     assert library.input_sha256 == LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions()).sha256
 
 

@@ -8,7 +8,7 @@ import struct
 from collections.abc import Iterable, Sequence
 
 from threadstate.errors import InvalidValueError
-from threadstate.state.model import ContactState
+from threadstate.state.model import Answer, ContactState, UndecidedPose
 
 _ABSENT = math.nan
 """Stands for None: no stored number is NaN, and ``struct`` writes this one always alike."""
@@ -54,11 +54,17 @@ def state_bytes(state: ContactState) -> bytes:
     return head.encode() + struct.pack(f"<{len(values)}d", *values)
 
 
-def states_sha256(states: Iterable[ContactState]) -> str:
-    """SHA-256, in hexadecimal, of states in the order given: the content hash of a chunk."""
+def undecided_bytes(pose: UndecidedPose) -> bytes:
+    """One undecided pose as bytes: a line that says so, a line of its reason, then its angles as doubles."""
+    angles = (pose.roll_deg + 0.0, pose.pitch_deg + 0.0, pose.phase_deg + 0.0)
+    return f"undecided\n{pose.reason}\n".encode() + struct.pack("<3d", *angles)
+
+
+def answers_sha256(answers: Iterable[Answer]) -> str:
+    """SHA-256, in hexadecimal, of states and undecided poses in the order given: the content hash of a chunk."""
     digest = hashlib.sha256()
-    for state in states:
-        content = state_bytes(state)
+    for answer in answers:
+        content = undecided_bytes(answer) if isinstance(answer, UndecidedPose) else state_bytes(answer)
         digest.update(f"{len(content)}\n".encode())
         digest.update(content)
     return digest.hexdigest()

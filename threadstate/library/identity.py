@@ -6,28 +6,36 @@ import hashlib
 import json
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache, cached_property
+from importlib.metadata import version
 from pathlib import Path
 
 import threadstate
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
+from threadstate.library.method import Method
+from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
-METHOD = "exact"
-"""The method by which states are found: closed-form kernels, no mesh."""
-
 PHYSICS = ("thread/*.py", "contact/*.py", "state/*.py")
+MESH_PHYSICS = (*PHYSICS, "mesh/*.py")
+COLLISION_LIBRARY = "python-fcl"
 NOT_PHYSICS = ("state/document.py",)
 
 
 @dataclass(frozen=True)
 class LibraryInputs:
-    """All that a library's content depends on."""
+    """All that a library's content depends on; with ``mesh`` its method is that of meshes, else the exact one."""
 
     pair: Pair
     grid: Grid
     options: SolveOptions
+    mesh: MeshOptions | None = None
+
+    @property
+    def method(self) -> Method:
+        """How states are found."""
+        return Method.EXACT if self.mesh is None else Method.MESH
 
     @cached_property
     def pair_json(self) -> str:
@@ -36,13 +44,21 @@ class LibraryInputs:
 
     @cached_property
     def options_json(self) -> str:
-        """The options as canonical JSON."""
-        return canonical_json(self.options)
+        """The options as canonical JSON, those of meshes beside those of every method."""
+        options = _flat(_plain(self.options, "options"))
+        if self.mesh is not None:
+            options |= _flat(_plain(self.mesh, "mesh")) | {COLLISION_LIBRARY: version(COLLISION_LIBRARY)}
+        return _json(options)
+
+    @property
+    def code_version(self) -> str:
+        """The project's version and the first 12 digits of the hash of the code that finds the states."""
+        return _code_version(PHYSICS if self.mesh is None else MESH_PHYSICS)
 
     @cached_property
     def sha256(self) -> str:
         """SHA-256, in hexadecimal, of pair, grid, method, options and code version."""
-        parts = (self.pair_json, canonical_json(self.grid), METHOD, self.options_json, code_version())
+        parts = (self.pair_json, canonical_json(self.grid), self.method, self.options_json, self.code_version)
         return hashlib.sha256(json.dumps(parts, separators=(",", ":")).encode()).hexdigest()
 
 
@@ -54,7 +70,20 @@ def canonical_json(value: object) -> str:
     Raises:
         InvalidValueError: a number is not finite or a value has no JSON form.
     """
-    return json.dumps(_plain(value, type(value).__name__), sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return _json(_plain(value, type(value).__name__))
+
+
+def _json(value: object) -> str:
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _flat(value: object) -> dict[str, object]:
+    """The numbers and names of nested objects, by their own keys alone."""
+    assert isinstance(value, dict)
+    flat: dict[str, object] = {}
+    for name, part in value.items():
+        flat |= _flat(part) if isinstance(part, dict) else {name: part}
+    return flat
 
 
 def _plain(value: object, name: str) -> object:
@@ -73,18 +102,15 @@ def _plain(value: object, name: str) -> object:
 
 
 @cache
-def code_version() -> str:
-    """The project's version and the first 12 digits of :func:`physics_sha256` of the code that runs.
-
-    Any change of the physics makes new libraries beside the old ones without anyone having to remember a number.
-    """
-    return f"{threadstate.__version__}+{physics_sha256(Path(threadstate.__file__).parent)[:12]}"
+def _code_version(patterns: tuple[str, ...]) -> str:
+    # Any change of the physics makes new libraries beside the old ones without anyone having to remember a number.
+    return f"{threadstate.__version__}+{physics_sha256(Path(threadstate.__file__).parent, patterns)[:12]}"
 
 
-def physics_sha256(package: Path) -> str:
+def physics_sha256(package: Path, patterns: tuple[str, ...] = PHYSICS) -> str:
     """SHA-256, in hexadecimal, of the names and sources of the physics in a folder that holds this package."""
     digest = hashlib.sha256()
-    for path in sorted(path for pattern in PHYSICS for path in package.glob(pattern)):
+    for path in sorted(path for pattern in patterns for path in package.glob(pattern)):
         name = path.relative_to(package).as_posix()
         if name not in NOT_PHYSICS:
             source = path.read_bytes()

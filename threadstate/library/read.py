@@ -8,17 +8,21 @@ from datetime import datetime
 
 from sqlalchemy import ColumnElement, Connection, RowMapping, Table, func, select
 
-from threadstate.errors import NotFoundError
+from threadstate.errors import NotFoundError, UndecidedPoseError
 from threadstate.library.grid import Grid
+from threadstate.library.method import Method
 from threadstate.library.rows import Row, states_from_rows
-from threadstate.library.tables import contact, library, stage_pose, state, state_flag
-from threadstate.state.model import ContactState, Flag, StateClass
+from threadstate.library.tables import contact, library, stage_pose, state, state_flag, undecided
+from threadstate.state.model import ContactState, Flag, StateClass, UndecidedPose
 from threadstate.units import LengthUnit
 
 
 @dataclass(frozen=True)
 class LibraryRecord:
-    """A published library: what it was computed from, and what it holds. ``pair`` and ``options`` are JSON."""
+    """A published library: what it was computed from, and what it holds. ``pair`` and ``options`` are JSON.
+
+    ``state_count`` is how many states it has; its method could not decide ``undecided_count`` more poses of the grid.
+    """
 
     id: int
     designation: str
@@ -26,11 +30,12 @@ class LibraryRecord:
     input_sha256: str
     content_sha256: str
     pair: str
-    method: str
+    method: Method
     options: str
     code_version: str
     grid: Grid
     state_count: int
+    undecided_count: int
     created_at: datetime
     published_at: datetime
 
@@ -71,17 +76,22 @@ def library_by_input(connection: Connection, input_sha256: str) -> LibraryRecord
     return None if row is None else _record(row)
 
 
-def latest_library(connection: Connection, designation: str | None = None) -> LibraryRecord:
-    """The library published last, of all or of one designation.
+def latest_library(
+    connection: Connection, designation: str | None = None, method: Method | None = Method.EXACT
+) -> LibraryRecord:
+    """The library published last, of all or of one designation, by a method or (None) by any.
 
     Raises:
         NotFoundError: none is published.
     """
-    which = [] if designation is None else [library.c.designation == designation]
+    which = [] if method is None else [library.c.method == method.value]
+    if designation is not None:
+        which.append(library.c.designation == designation)
     row = _published(connection, *which)
     if row is None:
         of = "" if designation is None else f" of {designation!r}"
-        raise NotFoundError(f"no library{of} is published yet; run `threadstate rebuild`")
+        chosen = f" --method {method.value}" if method is Method.MESH else ""
+        raise NotFoundError(f"no library{of} is published yet; run `threadstate rebuild{chosen}`")
     return _record(row)
 
 
@@ -109,21 +119,42 @@ def state_of_pose(
     """The state of a pose of the grid, angles in degrees; lengths in the library's unit.
 
     Raises:
+        UndecidedPoseError: the library's method could not decide the pose.
         NotFoundError: the pose is not one of the grid's.
     """
-    ordinal = connection.execute(
-        select(state.c.ordinal).where(
-            state.c.library_id == library_id,
-            state.c.roll_deg == roll_deg,
-            state.c.pitch_deg == pitch_deg,
-            state.c.phase_deg == phase_deg,
-        )
-    ).scalar()
-    if ordinal is None:
-        raise NotFoundError(
-            f"library {library_id} has no state at roll {roll_deg:g}, pitch {pitch_deg:g}, phase {phase_deg:g} deg"
-        )
-    return states_at(connection, library_id, [ordinal])[0]
+
+    def of_pose(table: Table, column: str) -> int | str | None:
+        return connection.execute(
+            select(table.c[column]).where(
+                table.c.library_id == library_id,
+                table.c.roll_deg == roll_deg,
+                table.c.pitch_deg == pitch_deg,
+                table.c.phase_deg == phase_deg,
+            )
+        ).scalar()
+
+    ordinal = of_pose(state, "ordinal")
+    if isinstance(ordinal, int):
+        return states_at(connection, library_id, [ordinal])[0]
+    place = f"library {library_id} has no state at roll {roll_deg:g}, pitch {pitch_deg:g}, phase {phase_deg:g} deg"
+    reason = of_pose(undecided, "reason")
+    if reason is not None:
+        raise UndecidedPoseError(f"{place}: {reason}")
+    raise NotFoundError(place)
+
+
+def undecided_between(
+    connection: Connection, library_id: int, first: int, last: int, limit: int | None = None
+) -> list[tuple[int, UndecidedPose]]:
+    """The undecided poses with ordinals ``first`` to ``last``, both included, with these and in order."""
+    rows = _rows(connection, undecided, library_id, undecided.c.ordinal.between(first, last), limit)
+    return [(ordinal, UndecidedPose(*values)) for ordinal, *values in rows]
+
+
+def undecided_reasons(connection: Connection, library_id: int) -> list[tuple[str, int]]:
+    """Why poses of a library are undecided, and how many for each reason, the most frequent first."""
+    rows = _grouped(connection, undecided, "reason", library_id)
+    return sorted(((row[0], row[1]) for row in rows), key=lambda row: (-row[1], row[0]))
 
 
 def counts(connection: Connection, library_id: int) -> Counts:
@@ -161,12 +192,15 @@ def _states(
     return dict(zip(ordinals, states_from_rows(states, poses, contacts, flags), strict=True))
 
 
-def _rows(connection: Connection, table: Table, library_id: int, which: ColumnElement[bool]) -> list[Row]:
+def _rows(
+    connection: Connection, table: Table, library_id: int, which: ColumnElement[bool], limit: int | None = None
+) -> list[Row]:
     columns = [column for column in table.c if column.name != "library_id"]
     query = (
         select(*columns)
         .where(table.c.library_id == library_id, which)
         .order_by(*(column for column in table.primary_key.columns if column.name != "library_id"))
+        .limit(limit)
     )
     return [tuple(row) for row in connection.execute(query)]
 
@@ -179,11 +213,12 @@ def _record(row: RowMapping) -> LibraryRecord:
         input_sha256=row["input_sha256"],
         content_sha256=row["content_sha256"],
         pair=row["pair"],
-        method=row["method"],
+        method=Method(row["method"]),
         options=row["options"],
         code_version=row["code_version"],
         grid=Grid(row["tilt_max_deg"], row["tilt_step_deg"], row["phase_step_deg"]),
-        state_count=row["state_count"],
+        state_count=row["state_count"] - row["undecided_count"],
+        undecided_count=row["undecided_count"],
         created_at=row["created_at"],
         published_at=row["published_at"],
     )

@@ -6,15 +6,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from threadstate.library.fingerprint import states_sha256
+from threadstate.library.fingerprint import answers_sha256
 from threadstate.library.grid import Orientation
 from threadstate.state.model import (
+    Answer,
     Contact,
     ContactState,
     FeaturePair,
     Flag,
     StagePose,
     StateClass,
+    UndecidedPose,
     Vector,
 )
 from threadstate.thread.regions import Region
@@ -33,20 +35,31 @@ class ChunkRows:
     stage_poses: tuple[Row, ...]
     contacts: tuple[Row, ...]
     flags: tuple[Row, ...]
+    undecided: tuple[Row, ...]
+
+    @property
+    def pose_count(self) -> int:
+        """How many poses the orientation has, decided or not."""
+        return len(self.states) + len(self.undecided)
 
 
-def chunk_rows(orientation: Orientation, first_ordinal: int, states: Sequence[ContactState]) -> ChunkRows:
-    """The rows of an orientation's states, which are given in order.
+def chunk_rows(orientation: Orientation, first_ordinal: int, answers: Sequence[Answer]) -> ChunkRows:
+    """The rows of the answers for an orientation's poses, which are given in order.
 
     Raises:
         InvalidValueError: a number of a state is not finite.
     """
-    content_sha256 = states_sha256(states)
+    content_sha256 = answers_sha256(answers)
     state_rows: list[Row] = []
     pose_rows: list[Row] = []
     contact_rows: list[Row] = []
     flag_rows: list[Row] = []
-    for ordinal, state in enumerate(states, first_ordinal):
+    undecided_rows: list[Row] = []
+    for ordinal, state in enumerate(answers, first_ordinal):
+        if isinstance(state, UndecidedPose):
+            angles = _positive_zero(state.roll_deg, state.pitch_deg, state.phase_deg)
+            undecided_rows.append((ordinal, *angles, state.reason))
+            continue
         state_rows.append(
             (
                 ordinal,
@@ -83,7 +96,13 @@ def chunk_rows(orientation: Orientation, first_ordinal: int, states: Sequence[Co
             )
         flag_rows += [(ordinal, position, flag.value) for position, flag in enumerate(state.flags)]
     return ChunkRows(
-        orientation, content_sha256, tuple(state_rows), tuple(pose_rows), tuple(contact_rows), tuple(flag_rows)
+        orientation,
+        content_sha256,
+        tuple(state_rows),
+        tuple(pose_rows),
+        tuple(contact_rows),
+        tuple(flag_rows),
+        tuple(undecided_rows),
     )
 
 

@@ -70,11 +70,14 @@ library = Table(
     Column("phase_step_deg", Double, nullable=False),
     Column("tilt_count", Integer, nullable=False),
     Column("phase_count", Integer, nullable=False),
+    # The poses of the grid; each has a state or is undecided.
     Column("state_count", Integer, nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
     # Both null until the library is whole; readers see published libraries only.
     Column("content_sha256", String(_SHA256_LENGTH)),
     Column("published_at", UtcDateTime),
+    # How many of the poses are undecided; 0 until the library is whole.
+    Column("undecided_count", Integer, nullable=False, server_default="0"),
     PrimaryKeyConstraint("id"),
     # Serves: is this very library here already? (worker, before it computes)
     UniqueConstraint("input_sha256"),
@@ -212,3 +215,22 @@ state_flag = Table(
     sqlite_with_rowid=False,
 )
 """A flag of a state; ``position`` is its place, from 0, among the state's flags."""
+
+undecided = Table(
+    "undecided",
+    metadata,
+    Column("library_id", Integer, nullable=False),
+    Column("ordinal", Integer, nullable=False),
+    Column("roll_deg", Double, nullable=False),
+    Column("pitch_deg", Double, nullable=False),
+    Column("phase_deg", Double, nullable=False),
+    Column("reason", Text, nullable=False),
+    # Serves: the undecided poses in order, page by page; those of an orientation as a range.
+    PrimaryKeyConstraint("library_id", "ordinal"),
+    ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),
+    # Serves: why a pose has no state.
+    UniqueConstraint("library_id", "roll_deg", "pitch_deg", "phase_deg"),
+    CheckConstraint("ordinal >= 0", name="ordinal_not_negative"),
+    sqlite_with_rowid=False,
+)
+"""A pose of the grid that the library's method could not decide, in place of its state, and why."""

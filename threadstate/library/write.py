@@ -11,9 +11,9 @@ from sqlalchemy import Connection, Dialect, Engine, Table, func, insert, select,
 from threadstate.errors import ThreadstateError
 from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
-from threadstate.library.identity import METHOD, LibraryInputs, code_version
+from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, Row
-from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag
+from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag, undecided
 
 
 class IncompleteLibraryError(ThreadstateError):
@@ -34,9 +34,9 @@ def open_library(engine: Engine, inputs: LibraryInputs) -> int:
                 length_unit=inputs.pair.unit.value,
                 input_sha256=inputs.sha256,
                 pair=inputs.pair_json,
-                method=METHOD,
+                method=inputs.method.value,
                 options=inputs.options_json,
-                code_version=code_version(),
+                code_version=inputs.code_version,
                 tilt_max_deg=grid.tilt_max_deg,
                 tilt_step_deg=grid.tilt_step_deg,
                 phase_step_deg=grid.phase_step_deg,
@@ -75,6 +75,7 @@ def write_chunk(engine: Engine, library_id: int, rows: ChunkRows) -> bool:
         _insert(connection, stage_pose, library_id, rows.stage_poses)
         _insert(connection, contact, library_id, rows.contacts)
         _insert(connection, state_flag, library_id, rows.flags)
+        _insert(connection, undecided, library_id, rows.undecided)
         _insert(
             connection,
             chunk,
@@ -84,7 +85,7 @@ def write_chunk(engine: Engine, library_id: int, rows: ChunkRows) -> bool:
                     orientation.index,
                     orientation.roll_deg,
                     orientation.pitch_deg,
-                    len(rows.states),
+                    rows.pose_count,
                     rows.content_sha256,
                 )
             ],
@@ -112,21 +113,25 @@ def publish(engine: Engine, library_id: int, grid: Grid) -> str:
             .where(chunk.c.library_id == library_id)
             .order_by(chunk.c.orientation)
         ).all()
-        states = connection.execute(
-            select(func.count()).select_from(state).where(state.c.library_id == library_id)
-        ).scalar_one()
-        if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or states != grid.state_count:
+        states, left_undecided = (_count(connection, table, library_id) for table in (state, undecided))
+        answers = states + left_undecided
+        if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or answers != grid.state_count:
             raise IncompleteLibraryError(
                 f"library {library_id} has {len(chunks)} of {grid.orientation_count} orientations and "
-                f"{states} of {grid.state_count} states"
+                f"{answers} of {grid.state_count} poses"
             )
         content_sha256 = library_sha256([row.content_sha256 for row in chunks])
         connection.execute(
             update(library)
             .where(library.c.id == library_id)
-            .values(content_sha256=content_sha256, published_at=datetime.now(UTC))
+            .values(content_sha256=content_sha256, published_at=datetime.now(UTC), undecided_count=left_undecided)
         )
     return content_sha256
+
+
+def _count(connection: Connection, table: Table, library_id: int) -> int:
+    counted = select(func.count()).select_from(table).where(table.c.library_id == library_id)
+    return int(connection.execute(counted).scalar_one())
 
 
 def _insert(connection: Connection, table: Table, library_id: int, rows: Sequence[Row]) -> None:

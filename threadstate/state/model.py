@@ -103,3 +103,17 @@ class ContactState:
     embedment_margin: float | None
     pivot_margin: float | None
     contacts: tuple[Contact, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class UndecidedPose:
+    """A pose (degrees) whose state a method could not decide, and why."""
+
+    roll_deg: float
+    pitch_deg: float
+    phase_deg: float
+    reason: str
+
+
+Answer = ContactState | UndecidedPose
+"""What a method says of a pose."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import time
 
+from threadstate.library.method import Method
 from threadstate.settings import read_settings
-from worker.options import Database, Designation, Json, PhaseStep, TiltMax, TiltStep, Workers
+from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, mesh_options
+from worker.options import Database, Designation, Json, MethodName, PhaseStep, TiltMax, TiltStep, Workers
 from worker.output import print_json, print_line
 
 
@@ -16,23 +18,31 @@ def rebuild(
     tilt_max: TiltMax = 4.0,
     tilt_step: TiltStep = 1.0,
     workers: Workers = None,
+    method: MethodName = Method.EXACT,
+    preset: PresetName = None,
+    descent: DescentName = None,
+    final_step: FinalStepName = None,
+    tangent: TangentName = None,
     as_json: Json = False,
 ) -> None:
     r"""Compute the library of a pair and publish it.
 
     Goes on where an earlier run was stopped. A library of the same inputs that is published already is left as it is;
-    other inputs make a new library beside the old one. An empty database is migrated first.
+    other inputs make a new library beside the old one. An empty database is migrated first. Poses that the method
+    cannot decide are stored as such, with the reason; by meshes a pose takes a tenth of a second and more.
 
     \b
     Examples:
       threadstate rebuild
       threadstate rebuild --database sqlite:////tmp/threads.sqlite3 --workers 2
       threadstate rebuild --phase-step 5 --tilt-max 2 --json
+      threadstate rebuild --phase-step 30 --tilt-max 1 --method mesh --preset coarse
     """
     began = time.perf_counter()
     from worker.computed_library import computed_library
 
     settings = read_settings()
+    mesh = mesh_options(method, preset, descent, final_step, tangent)
     result = computed_library(
         database or settings.database,
         designation=pair,
@@ -40,6 +50,7 @@ def rebuild(
         tilt_max_deg=tilt_max,
         tilt_step_deg=tilt_step,
         workers=workers or settings.workers,
+        mesh=mesh,
     )
     elapsed_s = time.perf_counter() - began
     if as_json:
@@ -49,14 +60,16 @@ def rebuild(
                 "input_sha256": result.input_sha256,
                 "content_sha256": result.content_sha256,
                 "states": result.state_count,
+                "undecided": result.undecided_count,
                 "computed": result.computed,
                 "was_published": result.was_published,
                 "elapsed_s": round(elapsed_s, 3),
             }
         )
         return
-    name = f"library {result.library_id} ({result.state_count} states, content {result.content_sha256[:12]})"
+    undecided = f", {result.undecided_count} poses undecided" if result.undecided_count else ""
+    name = f"library {result.library_id} ({result.state_count} states{undecided}, content {result.content_sha256[:12]})"
     if result.was_published:
         print_line(f"{name} is published already; nothing to do")
     else:
-        print_line(f"{name} published: {result.computed} states computed, {elapsed_s:.1f} s")
+        print_line(f"{name} published: {result.computed} poses computed, {elapsed_s:.1f} s")

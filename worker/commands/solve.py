@@ -10,9 +10,9 @@ from typing import Annotated
 import typer
 
 from threadstate.errors import InvalidValueError
-from threadstate.mesh.options import Descent, FinalStep, MeshOptions, Tangent
-from threadstate.mesh.presets import Preset
-from worker.options import Designation, Json, Method, MethodName
+from threadstate.library.method import Method
+from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, mesh_options
+from worker.options import Designation, Json, MethodName
 from worker.output import print_line
 
 BATCH = 1024
@@ -29,28 +29,10 @@ def solve(
     ] = None,
     pair: Designation = None,
     method: MethodName = Method.EXACT,
-    preset: Annotated[
-        Preset | None,
-        typer.Option("--preset", help="Mesh: how finely the parts are tessellated.", show_default=Preset.PAPER.value),
-    ] = None,
-    descent: Annotated[
-        Descent | None,
-        typer.Option(
-            "--descent", help="Mesh: how motions are stepped; decades tunnel.", show_default=Descent.SAFE.value
-        ),
-    ] = None,
-    final_step: Annotated[
-        FinalStep | None,
-        typer.Option(
-            "--final-step",
-            help="Mesh: the smallest step, on a pitch of 0.05 in.",
-            show_default=FinalStep.ONE_MICROINCH.value,
-        ),
-    ] = None,
-    tangent: Annotated[
-        Tangent | None,
-        typer.Option("--tangent", help="Mesh: the axis of the second turn.", show_default=Tangent.EDGE.value),
-    ] = None,
+    preset: PresetName = None,
+    descent: DescentName = None,
+    final_step: FinalStepName = None,
+    tangent: TangentName = None,
     as_json: Json = False,
 ) -> None:
     r"""Solve the contact state of one pose, or of every pose of a file.
@@ -66,7 +48,7 @@ def solve(
       threadstate solve --roll 0 --pitch -4 --phase 350 --method mesh --descent decades
     """
     wanted = _wanted(roll, pitch, phase, poses)
-    options = _mesh_options(method, preset, descent, final_step, tangent)
+    mesh = mesh_options(method, preset, descent, final_step, tangent)
     batch = BATCH if method is Method.EXACT else 1
 
     from threadstate.state.document import state_json
@@ -76,10 +58,10 @@ def solve(
     from worker.state_table import print_contacts, print_states
 
     threads = pair_by_designation(DEFAULT_DESIGNATION if pair is None else pair)
-    if method is Method.MESH:
+    if mesh is not None:
         from threadstate.mesh.solve import solve_poses_by_mesh
 
-        found: Callable[..., list[ContactState]] = partial(solve_poses_by_mesh, mesh=options)
+        found: Callable[..., list[ContactState]] = partial(solve_poses_by_mesh, mesh=mesh)
     else:
         found = solve_poses
     if as_json:
@@ -91,25 +73,6 @@ def solve(
     print_states(states, threads.unit)
     if poses is None:
         print_contacts(states[0], threads.unit)
-
-
-def _mesh_options(
-    method: Method,
-    preset: Preset | None,
-    descent: Descent | None,
-    final_step: FinalStep | None,
-    tangent: Tangent | None,
-) -> MeshOptions:
-    chosen = (("preset", preset), ("descent", descent), ("final-step", final_step), ("tangent", tangent))
-    for name, value in chosen:
-        if value is not None and method is not Method.MESH:
-            raise InvalidValueError(f"--{name}", value.value, "a setting of --method mesh alone")
-    return MeshOptions(
-        tessellation=(preset or Preset.PAPER).tessellation,
-        descent=descent or Descent.SAFE,
-        final_step=(final_step or FinalStep.ONE_MICROINCH).thread_pitches,
-        tangent=tangent or Tangent.EDGE,
-    )
 
 
 def _wanted(

@@ -1,0 +1,1 @@
+"""The poses that a library's method could not decide."""

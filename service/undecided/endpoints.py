@@ -1,0 +1,41 @@
+"""``/v1/libraries/{id}/undecided``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+from urllib.parse import urlencode
+
+from fastapi import APIRouter, Query, Request, Response
+
+from service.database import ReadConnection
+from service.libraries.identify import IdentifiedLibrary
+from service.representation import NOT_MODIFIED, json_response
+from service.states.parameters import LimitQuery
+from service.undecided.schemas import UndecidedPage, undecided_document
+from threadstate.library.grid import LARGEST_STATE_COUNT
+from threadstate.library.read import undecided_between
+
+router = APIRouter(prefix="/v1/libraries/{id}/undecided", tags=["states"])
+
+AfterQuery = Annotated[int, Query(ge=-1, le=LARGEST_STATE_COUNT, description="from the `next` link of the page before")]
+
+
+@router.get("", summary="Poses without a state", response_model=UndecidedPage, responses=NOT_MODIFIED)
+def list_undecided(
+    request: Request,
+    connection: ReadConnection,
+    library: IdentifiedLibrary,
+    limit: LimitQuery = 100,
+    after: AfterQuery = -1,
+) -> Response:
+    """The poses of the grid that the library's method could not decide, and why, page by page."""
+    found = undecided_between(connection, library.id, after + 1, LARGEST_STATE_COUNT, limit + 1)
+    shown = found[:limit]
+    following = None
+    headers = {}
+    if len(found) > limit:
+        query = urlencode({**request.query_params, "after": shown[-1][0]})
+        following = f"{request.scope.get('root_path', '')}/v1/libraries/{library.id}/undecided?{query}"
+        headers["Link"] = f'<{following}>; rel="next"'
+    page = UndecidedPage(library=library.id, undecided=[undecided_document(pose) for _, pose in shown], next=following)
+    return json_response(request, page.model_dump(mode="json"), headers)

@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+import json
+
+from tests.worker.conftest import CommandLine
+from threadstate.library.engine import reader_engine
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.method import Method
+from threadstate.library.read import latest_library, state_of_pose, undecided_between
+from threadstate.mesh.options import MeshOptions
+from threadstate.mesh.presets import Preset
+from threadstate.mesh.solve import solve_poses_by_mesh
+from threadstate.state.model import ContactState, UndecidedPose
+from threadstate.state.options import SolveOptions
+from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.answers import answers
+
+GRID = ["--tilt-max", "2", "--tilt-step", "2", "--phase-step", "180"]
+BY_MESH = ["--method", "mesh", "--preset", "coarse", "--final-step", "10uin"]
+
+
+def test_a_library_by_meshes_stands_beside_the_exact_one(command_line: CommandLine) -> None:
+    exact = json.loads(command_line.out("rebuild", "--json", "--workers", "2", *GRID))
+    by_mesh = json.loads(command_line.out("rebuild", "--json", "--workers", "2", *GRID, *BY_MESH))
+    assert by_mesh["library"] != exact["library"]
+    assert exact["undecided"] == 0
+    assert by_mesh["undecided"] > 0
+    assert by_mesh["states"] + by_mesh["undecided"] == by_mesh["computed"] == exact["states"] == 18
+
+    options = MeshOptions(Preset.COARSE.tessellation, final_step=2e-4)
+    engine = reader_engine(command_line.database)
+    with engine.connect() as connection:
+        assert latest_library(connection).id == exact["library"]
+        library = latest_library(connection, method=Method.MESH)
+        assert library.id == by_mesh["library"]
+        level = undecided_between(connection, library.id, 0, 17)
+        assert (0.0, 0.0, 0.0) in [(pose.roll_deg, pose.pitch_deg, pose.phase_deg) for _, pose in level]
+        stored = state_of_pose(connection, library.id, 2.0, 0.0, 180.0)
+    engine.dispose()
+    assert [stored] == solve_poses_by_mesh(quarter_twenty_unc(), [(2.0, 0.0, 180.0)], options)
+
+    again = json.loads(command_line.out("rebuild", "--json", "--workers", "1", *GRID, *BY_MESH))
+    assert again["was_published"]
+    counted = json.loads(command_line.out("summary", "--json", "--method", "mesh"))
+    assert counted["content_sha256"] == by_mesh["content_sha256"]
+    assert sum(counted["undecided"].values()) == by_mesh["undecided"]
+    text = command_line.out("summary", "--method", "mesh")
+    assert "rests on a strip of its thread" in text
+
+
+def test_a_setting_of_meshes_needs_their_method(command_line: CommandLine) -> None:
+    code, _, error = command_line.here("rebuild", "--preset", "coarse", *GRID)
+    assert code == 2
+    assert "--method mesh" in error
+
+
+def test_the_exact_method_names_the_poses_that_it_cannot_decide() -> None:
+    """Nearly level and in phase, where its search may run out of boxes; the poses beside one keep their states."""
+    poses = [(1.0, 2.0, 30.0), *((1e-6 * i, 2e-6 * i, 0.01 * i) for i in range(1, 60)), (3.0, -2.0, 200.0)]
+    found = answers(LibraryInputs(quarter_twenty_unc(), Grid(), SolveOptions()), poses)
+    undecided = [answer for answer in found if isinstance(answer, UndecidedPose)]
+    assert undecided
+    assert all((one.roll_deg, one.pitch_deg, one.phase_deg) in poses and one.reason for one in undecided)
+    for answer, pose in zip(found, poses, strict=True):
+        assert (answer.roll_deg, answer.pitch_deg, answer.phase_deg) == pose
+    assert isinstance(found[0], ContactState)
+    assert isinstance(found[-1], ContactState)

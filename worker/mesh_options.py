@@ -1,0 +1,59 @@
+"""The options of commands that can find states by meshes."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from threadstate.errors import InvalidValueError
+from threadstate.library.method import Method
+from threadstate.mesh.options import Descent, FinalStep, MeshOptions, Tangent
+from threadstate.mesh.presets import Preset
+
+PresetName = Annotated[
+    Preset | None,
+    typer.Option("--preset", help="Mesh: how finely the parts are tessellated.", show_default=Preset.PAPER.value),
+]
+DescentName = Annotated[
+    Descent | None,
+    typer.Option("--descent", help="Mesh: how motions are stepped; decades tunnel.", show_default=Descent.SAFE.value),
+]
+FinalStepName = Annotated[
+    FinalStep | None,
+    typer.Option(
+        "--final-step",
+        help="Mesh: the smallest step, on a pitch of 0.05 in.",
+        show_default=FinalStep.ONE_MICROINCH.value,
+    ),
+]
+TangentName = Annotated[
+    Tangent | None,
+    typer.Option("--tangent", help="Mesh: the axis of the second turn.", show_default=Tangent.EDGE.value),
+]
+
+
+def mesh_options(
+    method: Method,
+    preset: Preset | None,
+    descent: Descent | None,
+    final_step: FinalStep | None,
+    tangent: Tangent | None,
+) -> MeshOptions | None:
+    """What was chosen of meshes; None where the method is another.
+
+    Raises:
+        InvalidValueError: something was chosen, and the method is another.
+    """
+    if method is Method.MESH:
+        return MeshOptions(
+            tessellation=(preset or Preset.PAPER).tessellation,
+            descent=descent or Descent.SAFE,
+            final_step=(final_step or FinalStep.ONE_MICROINCH).thread_pitches,
+            tangent=tangent or Tangent.EDGE,
+        )
+    chosen = (("preset", preset), ("descent", descent), ("final-step", final_step), ("tangent", tangent))
+    for name, value in chosen:
+        if value is not None:
+            raise InvalidValueError(f"--{name}", value.value, "a setting of --method mesh alone")
+    return None
