@@ -31,6 +31,10 @@ TangentName = Annotated[
     Tangent | None,
     typer.Option("--tangent", help="Mesh: the axis of the second turn.", show_default=Tangent.EDGE.value),
 ]
+Unchecked = Annotated[
+    bool,
+    typer.Option("--unchecked", help="Mesh: without a second tessellation that has to agree.", show_default=False),
+]
 
 
 def mesh_options(
@@ -39,6 +43,8 @@ def mesh_options(
     descent: Descent | None,
     final_step: FinalStep | None,
     tangent: Tangent | None,
+    *,
+    unchecked: bool,
 ) -> MeshOptions | None:
     """What was chosen of meshes; None where the method is another.
 
@@ -51,9 +57,12 @@ def mesh_options(
             descent=descent or Descent.SAFE,
             final_step=(final_step or FinalStep.ONE_MICROINCH).thread_pitches,
             tangent=tangent or Tangent.EDGE,
+            checked=not unchecked,
         )
-    chosen = (("preset", preset), ("descent", descent), ("final-step", final_step), ("tangent", tangent))
-    for name, value in chosen:
-        if value is not None:
-            raise InvalidValueError(f"--{name}", value.value, "a setting of --method mesh alone")
+    chosen = {"preset": preset, "descent": descent, "final-step": final_step, "tangent": tangent}
+    given = {name: value.value for name, value in chosen.items() if value is not None}
+    if unchecked:
+        given["unchecked"] = "given"
+    for name, value in given.items():
+        raise InvalidValueError(f"--{name}", value, "a setting of --method mesh alone")
     return None

@@ -17,7 +17,7 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.answers import answers
 
 GRID = ["--tilt-max", "2", "--tilt-step", "2", "--phase-step", "180"]
-BY_MESH = ["--method", "mesh", "--preset", "coarse", "--final-step", "10uin"]
+BY_MESH = ["--method", "mesh", "--preset", "coarse", "--final-step", "10uin", "--unchecked"]
 
 
 def test_a_library_by_meshes_stands_beside_the_exact_one(command_line: CommandLine) -> None:
@@ -28,7 +28,7 @@ def test_a_library_by_meshes_stands_beside_the_exact_one(command_line: CommandLi
     assert by_mesh["undecided"] > 0
     assert by_mesh["states"] + by_mesh["undecided"] == by_mesh["computed"] == exact["states"] == 18
 
-    options = MeshOptions(Preset.COARSE.tessellation, final_step=2e-4)
+    options = MeshOptions(Preset.COARSE.tessellation, final_step=2e-4, checked=False)
     engine = reader_engine(command_line.database)
     with engine.connect() as connection:
         assert latest_library(connection).id == exact["library"]
@@ -40,13 +40,12 @@ def test_a_library_by_meshes_stands_beside_the_exact_one(command_line: CommandLi
     engine.dispose()
     assert [stored] == solve_poses_by_mesh(quarter_twenty_unc(), [(2.0, 0.0, 180.0)], options)
 
-    again = json.loads(command_line.out("rebuild", "--json", "--workers", "1", *GRID, *BY_MESH))
+    again = json.loads(command_line.here("rebuild", "--json", "--workers", "1", *GRID, *BY_MESH)[1])
     assert again["was_published"]
-    counted = json.loads(command_line.out("summary", "--json", "--method", "mesh"))
+    counted = json.loads(command_line.here("summary", "--json", "--method", "mesh")[1])
     assert counted["content_sha256"] == by_mesh["content_sha256"]
     assert sum(counted["undecided"].values()) == by_mesh["undecided"]
-    text = command_line.out("summary", "--method", "mesh")
-    assert "rests on a strip of its thread" in text
+    assert "rests on a strip of its thread" in command_line.here("summary", "--method", "mesh")[1]
 
 
 def test_a_setting_of_meshes_needs_their_method(command_line: CommandLine) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -316,14 +316,15 @@ class MeshMethod:
         for one in extremes:
             x, y = one.point.tolist()
             # A contact's place is known to a segment of the mesh: an extreme point that near is the contact.
-            if len(places) and np.hypot(places[:, 0] - x, places[:, 1] - y).min() < self._segment():
+            if len(places) and np.hypot(places[:, 0] - x, places[:, 1] - y).min() < self.segment:
                 continue
             rk.put_flush(number, one.bolt_azimuth, one.corner, x, y, self._pair.bolt.row, self._pair.nut.row, row)
         sk.add_flag(row, rk.FLAG_FLUSH)
         return True
 
-    def _segment(self) -> float:
-        """The longest segment of the bolt's outline."""
+    @cached_property
+    def segment(self) -> float:
+        """The longest segment of the bolt's outline, in the pair's unit."""
         edge = self._bolt.vertices[self._bolt.edge]
         return float(np.linalg.norm(edge - np.roll(edge, 1, axis=0), axis=1).max())
 

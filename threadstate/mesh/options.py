@@ -48,6 +48,9 @@ SMALLEST_STEP, LARGEST_STEP = 1e-7, 1e-2
 class MeshOptions:
     """Tessellation, descent, final step (in thread pitches; turns: of arc at the bolt's major radius), tangent.
 
+    ``checked`` is whether another tessellation has to agree (:mod:`threadstate.mesh.agreement`); the paper has no such
+    check.
+
     Raises:
         InvalidValueError: the final step is out of range.
     """
@@ -56,6 +59,7 @@ class MeshOptions:
     descent: Descent = Descent.SAFE
     final_step: float = FinalStep.ONE_MICROINCH.thread_pitches
     tangent: Tangent = Tangent.EDGE
+    checked: bool = True
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.final_step) and SMALLEST_STEP <= self.final_step <= LARGEST_STEP):

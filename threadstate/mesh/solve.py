@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from threadstate.contact._record_kernel import RECORD_SIZE
+from threadstate.errors import MeshUndecidedError
+from threadstate.mesh.agreement import disagreement, other_tessellation
 from threadstate.mesh.method import mesh_method
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.decode import decoded_states
@@ -13,6 +15,11 @@ from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
+
+PoseDeg = tuple[float, float, float]
+
+SEGMENTS = 1.5
+"""Contacts of two tessellations are one where they are no farther apart than this many of the longer segments."""
 
 
 def solve_poses_by_mesh(
@@ -28,10 +35,29 @@ def solve_poses_by_mesh(
         InvalidValueError: poses not of shape (n, 3), a value not finite, roll or pitch beyond 10 deg.
         MeshUndecidedError: the meshes cannot answer for a pose; the reason is named.
     """
-    method = mesh_method(pair, mesh or MeshOptions())
+    mesh = mesh or MeshOptions()
+    chosen = options or SolveOptions()
     wanted = checked_poses(poses)
-    chosen = method.solve_options(options or SolveOptions())
-    records = np.empty((len(wanted), RECORD_SIZE))
-    for i, (roll, pitch, phase) in enumerate(wanted.tolist()):
-        records[i] = method.solve((roll, pitch, phase), chosen)
-    return decoded_states(pair, chosen, wanted, records)
+    solve = _checked if mesh.checked else _unchecked
+    return [solve(pair, mesh, chosen, (roll, pitch, phase)) for roll, pitch, phase in wanted.tolist()]
+
+
+def _checked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
+    other_mesh = other_tessellation(mesh)
+    state = _unchecked(pair, mesh, options, pose_deg)
+    try:
+        other = _unchecked(pair, other_mesh, options, pose_deg)
+    except MeshUndecidedError as error:
+        raise MeshUndecidedError(*pose_deg, f"by another tessellation: {error.reason}") from None
+    near = SEGMENTS * max(mesh_method(pair, one).segment for one in (mesh, other_mesh))
+    reason = disagreement(state, other, near)
+    if reason is not None:
+        raise MeshUndecidedError(*pose_deg, reason)
+    return state
+
+
+def _unchecked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
+    method = mesh_method(pair, mesh)
+    chosen = method.solve_options(options)
+    record = method.solve(pose_deg, chosen)
+    return decoded_states(pair, chosen, np.array([pose_deg]), record.reshape(1, RECORD_SIZE))[0]

@@ -6,7 +6,7 @@ import time
 
 from threadstate.library.method import Method
 from threadstate.settings import read_settings
-from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, mesh_options
+from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, Unchecked, mesh_options
 from worker.options import Database, Designation, Json, MethodName, PhaseStep, TiltMax, TiltStep, Workers
 from worker.output import print_json, print_line
 
@@ -23,6 +23,7 @@ def rebuild(
     descent: DescentName = None,
     final_step: FinalStepName = None,
     tangent: TangentName = None,
+    unchecked: Unchecked = False,
     as_json: Json = False,
 ) -> None:
     r"""Compute the library of a pair and publish it.
@@ -42,7 +43,7 @@ def rebuild(
     from worker.computed_library import computed_library
 
     settings = read_settings()
-    mesh = mesh_options(method, preset, descent, final_step, tangent)
+    mesh = mesh_options(method, preset, descent, final_step, tangent, unchecked=unchecked)
     result = computed_library(
         database or settings.database,
         designation=pair,

@@ -11,7 +11,7 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.method import Method
-from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, mesh_options
+from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, Unchecked, mesh_options
 from worker.options import Designation, Json, MethodName
 from worker.output import print_line
 
@@ -33,6 +33,7 @@ def solve(
     descent: DescentName = None,
     final_step: FinalStepName = None,
     tangent: TangentName = None,
+    unchecked: Unchecked = False,
     as_json: Json = False,
 ) -> None:
     r"""Solve the contact state of one pose, or of every pose of a file.
@@ -48,7 +49,7 @@ def solve(
       threadstate solve --roll 0 --pitch -4 --phase 350 --method mesh --descent decades
     """
     wanted = _wanted(roll, pitch, phase, poses)
-    mesh = mesh_options(method, preset, descent, final_step, tangent)
+    mesh = mesh_options(method, preset, descent, final_step, tangent, unchecked=unchecked)
     batch = BATCH if method is Method.EXACT else 1
 
     from threadstate.state.document import state_json
