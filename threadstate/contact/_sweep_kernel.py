@@ -303,6 +303,9 @@ def overlaps(
             if (verdict == ONE_EDGE or verdict == PEAK_EDGE) and mark_distance(theta, marks, mark_count) <= half:
                 continue
             m = keep_open(i, 0.0, False, m, boxes)
+        if 2 * m + LANES > CAPACITY:
+            # Not decided: the lift that is then searched for is right either way.
+            return True
         n = split(m, boxes, others)
         boxes, others = others, boxes
     return False
