@@ -19,11 +19,24 @@ FORBIDDEN = [
     # The physics knows no database, and data flows thread -> contact -> state -> library.
     (
         "threadstate/thread",
-        ("sqlalchemy", "threadstate.contact", "threadstate.state", "threadstate.mesh", "threadstate.library"),
+        (
+            "sqlalchemy",
+            "threadstate.contact",
+            "threadstate.state",
+            "threadstate.mesh",
+            "threadstate.library",
+            "threadstate.history",
+        ),
     ),
-    ("threadstate/contact", ("sqlalchemy", "threadstate.state", "threadstate.mesh", "threadstate.library")),
-    ("threadstate/state", ("sqlalchemy", "threadstate.mesh", "threadstate.library")),
-    ("threadstate/mesh", ("sqlalchemy", "threadstate.library")),
+    (
+        "threadstate/contact",
+        ("sqlalchemy", "threadstate.state", "threadstate.mesh", "threadstate.library", "threadstate.history"),
+    ),
+    ("threadstate/state", ("sqlalchemy", "threadstate.mesh", "threadstate.library", "threadstate.history")),
+    ("threadstate/mesh", ("sqlalchemy", "threadstate.library", "threadstate.history")),
+    ("threadstate/history", ("sqlalchemy", "threadstate.mesh", "threadstate.library")),
+    # The search for changes knows no physics.
+    ("threadstate/history/changes.py", ("threadstate",)),
     # The tables know no physics: names alone (classes, flags, regions) come from there.
     (
         "threadstate/library/tables.py",

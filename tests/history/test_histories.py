@@ -1,0 +1,99 @@
+"""Histories against states that are solved one by one, from outside."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from threadstate.history.build import POINT_DEG, histories_of, history_of
+from threadstate.history.heights import heights_of
+from threadstate.history.labels import Labels, labels_of
+from threadstate.history.model import Boundary, History, Interval
+from threadstate.history.window import deepest_window
+from threadstate.state.solve import solve_pose, solve_poses
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+PAIR = quarter_twenty_unc()
+BESIDE_DEG = 1e-5
+ORIENTATIONS = [(0.0, -4.0), (3.0, 3.0), *np.random.default_rng(71).uniform(-4.0, 4.0, (2, 2)).tolist()]
+
+
+@pytest.fixture(scope="module")
+def histories() -> list[History]:
+    return histories_of(PAIR, [(roll, pitch) for roll, pitch in ORIENTATIONS])
+
+
+def labels_at(history: History, phases_deg: list[float]) -> list[Labels]:
+    """The labels of states that are solved at phases."""
+    poses = [(history.roll_deg, history.pitch_deg, phase) for phase in phases_deg]
+    return [labels_of(state) for state in solve_poses(PAIR, poses)]
+
+
+def with_sides(history: History) -> list[tuple[Interval, Boundary, Interval]]:
+    """Every boundary between the interval before it and the one after it."""
+    earlier = history.intervals[-1:] + history.intervals[:-1]
+    return list(zip(earlier, history.boundaries, history.intervals, strict=True))
+
+
+def test_intervals_cover_the_circle_once(histories: list[History]) -> None:
+    for history in histories:
+        assert len(history.intervals) == len(history.boundaries) > 1
+        for one, following in pairwise(history.intervals):
+            assert one.end_deg == following.start_deg
+        assert history.intervals[-1].end_deg == history.intervals[0].start_deg + 360.0
+        assert 0.0 <= history.intervals[0].start_deg < 360.0
+        assert all(interval.width_deg > 0.0 for interval in history.intervals)
+
+
+def test_every_boundary_is_narrow_and_bracketed_by_solved_states(histories: list[History]) -> None:
+    for history in histories:
+        for before, boundary, after in with_sides(history):
+            for state, phase, interval in (
+                (boundary.before, boundary.low_deg, before),
+                (boundary.after, boundary.high_deg, after),
+            ):
+                assert labels_of(state) == interval.labels
+                if state is not None:
+                    assert state == solve_pose(PAIR, history.roll_deg, history.pitch_deg, phase % 360.0)
+            if boundary.before is not None and boundary.after is not None:
+                assert boundary.width_deg <= POINT_DEG
+
+
+def test_labels_differ_across_a_boundary(histories: list[History]) -> None:
+    for history in histories:
+        for before, boundary, after in with_sides(history):
+            moved = any(change.moved for change in boundary.changes)
+            assert before.labels != after.labels or boundary.through or moved or boundary.last_height_jump
+
+
+def test_labels_agree_within_intervals(histories: list[History]) -> None:
+    compared = 0
+    for history in histories:
+        for interval in history.intervals:
+            if interval.width_deg > 100.0 * BESIDE_DEG and interval.labels.decided:
+                inside = [
+                    interval.start_deg + BESIDE_DEG,
+                    *np.linspace(interval.start_deg, interval.end_deg, 7)[1:-1].tolist(),
+                    interval.end_deg - BESIDE_DEG,
+                ]
+                assert set(labels_at(history, inside)) == {interval.labels}, (history.roll_deg, history.pitch_deg)
+                compared += 1
+    assert compared > 60
+
+
+def test_a_history_has_the_same_bits_alone_and_beside_others(histories: list[History]) -> None:
+    roll, pitch = ORIENTATIONS[1]
+    assert history_of(PAIR, roll, pitch) == histories[1]
+
+
+def test_heights_hold_both_sides_of_the_snap(histories: list[History]) -> None:
+    heights = heights_of(PAIR, histories[0], 0.5)
+    window = deepest_window(PAIR, histories[0])
+    assert window is not None
+    assert window.snap is not None
+    falls = heights.first[:-1] - heights.first[1:]
+    assert np.nanmax(falls) == window.snap.fall
+    assert heights.phases_deg[:-1][np.nanargmax(falls)] == pytest.approx(window.snap.phase_deg, abs=1e-6)
+    assert (np.isnan(heights.first) == np.isnan(heights.last)).all()

@@ -1,0 +1,66 @@
+"""Clearance windows, and what the mirror of the outlines implies for them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from threadstate.history.build import history_of
+from threadstate.history.window import deepest_window
+from threadstate.state.model import FeaturePair
+from threadstate.state.solve import solve_pose, solve_poses
+from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.play import axial_play
+
+PAIR = quarter_twenty_unc()
+
+
+def test_the_snap_at_roll_0_pitch_minus_4() -> None:
+    window = deepest_window(PAIR, history_of(PAIR, 0.0, -4.0))
+    assert window is not None
+    assert window.snap is not None
+    snap = window.snap
+    assert 357.0 < snap.phase_deg < 358.0
+    assert snap.width_deg <= 1e-9
+    before, after, later = (
+        solve_pose(PAIR, 0.0, -4.0, snap.phase_deg + offset).poses[0].translation[2]
+        for offset in (-snap.width_deg, snap.width_deg, 1e-6)
+    )
+    # Before the snap the height falls as the root of the phase that is left, behind it by the lead.
+    assert before == pytest.approx(snap.height_before, abs=1e-8)
+    assert after == pytest.approx(snap.height_after, abs=1e-12)
+    assert later - snap.height_after == pytest.approx(PAIR.thread_pitch / 360.0 * 1e-6, abs=1e-12)
+    assert window.lowest_height == snap.height_after
+
+
+def test_the_edge_climbs_on_the_nut_s_thread_by_the_lead() -> None:
+    window = deepest_window(PAIR, history_of(PAIR, 0.0, -4.0))
+    assert window is not None
+    rates = [c.rate_per_lead(PAIR.thread_pitch) for c in window.courses if c.features is FeaturePair.EDGE_THREAD]
+    assert rates
+    assert rates == pytest.approx([1.0] * len(rates), abs=1e-6)
+
+
+@pytest.mark.parametrize(("roll", "pitch"), [(2.0, 3.0), (-3.0, 1.5), (0.3, -4.0)])
+def test_the_mirror_of_a_pose_has_the_same_height_where_edges_meet(roll: float, pitch: float) -> None:
+    # The outlines are their own mirror images in x, the threads are not.
+    phases = np.arange(0.5, 360.0, 7.0)
+    on_edges = (FeaturePair.EDGE_SURFACE, FeaturePair.EDGE_EDGE)
+    compared = 0
+    for phase in phases.tolist():
+        one, other = solve_poses(PAIR, [(roll, pitch, phase), (roll, -pitch, -phase)])
+        if one.contacts[0].features in on_edges and other.contacts[0].features in on_edges:
+            assert one.poses[0].translation[2] == pytest.approx(other.poses[0].translation[2], abs=1e-12)
+            compared += 1
+    assert compared > 30
+
+
+def test_a_level_bolt_drops_by_its_play_and_climbs_by_the_lead() -> None:
+    window = deepest_window(PAIR, history_of(PAIR, 0.0, 0.0))
+    assert window is not None
+    assert window.snap is not None
+    play = axial_play(PAIR)
+    assert window.snap.fall == pytest.approx(2.0 * play, abs=1e-10)
+    assert window.enter_deg == pytest.approx(360.0 * (1.0 - play / PAIR.thread_pitch), abs=3e-7)
+    assert window.width_deg == pytest.approx(720.0 * play / PAIR.thread_pitch, abs=3e-7)
+    assert [c.rate_per_lead(PAIR.thread_pitch) for c in window.courses] == pytest.approx([1.0], abs=1e-6)

@@ -1,0 +1,1 @@
+"""Histories: what an orientation goes through as its phase turns, cut where anything changes."""

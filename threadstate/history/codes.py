@@ -1,0 +1,129 @@
+"""Labels of many records at once as integers that are equal where the labels are, and the numbers that may jump."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.contact import _record_kernel as rk
+from threadstate.contact._stage_kernel import FLUSH
+from threadstate.history.changes import NO_ANSWER, Samples
+from threadstate.history.records import Floats, Integers, records_of
+from threadstate.state.classify import classify
+from threadstate.state.model import StateClass
+from threadstate.state.options import SolveOptions
+from threadstate.thread.pair import Pair
+
+BATCH = 4096
+"""Poses that are solved in one go: as many records fit into 8 MB."""
+
+_CLASSES = tuple(StateClass)
+_LABEL_COLUMNS = (rk.P_STAGE, rk.P_PAIR, rk.P_BOLT_REGION, rk.P_NUT_REGION)
+_MOST_NUMBERS = 3 + 3 * rk.MOST_CONTACTS
+
+HEIGHT_JUMP = 2e-4
+"""The least change of a height, in thread pitches, that is a jump."""
+
+PLACE_JUMP = 0.1
+"""The least distance along an axis, in thread pitches, by which a contact jumps elsewhere.
+
+Where edges graze, a contact runs along them so fast that shorter jumps cannot be told from it.
+"""
+
+
+class LabelCodes:
+    """Samples poses; a code is the place of its labels in the order in which they were met.
+
+    Codes differ between two objects of this class, whether two of them are equal does not.
+    """
+
+    def __init__(self, pair: Pair, options: SolveOptions) -> None:
+        self._pair = pair
+        self._options = options
+        self._codes: dict[bytes, int] = {}
+
+    def samples(self, poses_deg: Floats) -> Samples:
+        """Codes and numbers of poses of shape (n, 3): roll, pitch, phase in degrees.
+
+        The code of an undecided pose is NO_ANSWER. The numbers are the heights of the bolt's origin in its three poses,
+        as multiples of a height's jump, and the coordinates in the nut's frame, as multiples of a place's jump, of all
+        contacts but those of a patch, whose extreme points are no events.
+        """
+        parts = [self._batch(poses_deg[i : i + BATCH]) for i in range(0, len(poses_deg), BATCH)]
+        return Samples(np.concatenate([p.codes for p in parts]), np.concatenate([p.values for p in parts]))
+
+    def _batch(self, poses_deg: Floats) -> Samples:
+        records = records_of(self._pair, self._options, poses_deg)
+        undecided = records[:, rk.O_STATUS] != 0.0
+        contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MOST_CONTACTS, rk.POINT_SIZE)
+        used = np.arange(rk.MOST_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
+        used[undecided] = False
+        labels = np.zeros((len(records), 3 + 4 * rk.MOST_CONTACTS), dtype=np.uint8)
+        labels[:, 0] = self._classes(records)
+        labels[:, 1] = records[:, rk.O_FLAGS]
+        labels[:, 2] = records[:, rk.O_CONTACTS]
+        labels[:, 3:] = np.where(used[..., np.newaxis], contacts[:, :, _LABEL_COLUMNS], 0.0).reshape(len(records), -1)
+
+        values = np.full((len(records), _MOST_NUMBERS), np.nan)
+        heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
+        reached = (np.arange(3) < records[:, rk.O_POSES, np.newaxis]) & ~undecided[:, np.newaxis]
+        values[:, :3] = np.where(reached, heights / (HEIGHT_JUMP * self._pair.thread_pitch), np.nan)
+        points = contacts[:, :, rk.P_POINT : rk.P_POINT + 3] / (PLACE_JUMP * self._pair.thread_pitch)
+        placed = used & (contacts[:, :, rk.P_PAIR] != FLUSH)
+        values[:, 3:] = np.where(placed[..., np.newaxis], points, np.nan).reshape(len(records), -1)
+        return Samples(np.where(undecided, NO_ANSWER, self._numbered(labels)), values)
+
+    def _classes(self, records: Floats) -> NDArray[np.uint8]:
+        """Index of every record's class.
+
+        A class depends on which margins are present and on their signs: it is asked for once for all records that
+        are alike in that.
+        """
+        flush = records[:, rk.O_FLAGS].astype(np.int64) & rk.FLAG_FLUSH
+        third = ~np.isnan(records[:, rk.O_MU])
+        drop, embedment, pivot = (records[:, i] for i in (rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT))
+        pivot_threshold = self._options.quasi_stable_fraction * self._pair.nominal_diameter / 2.0
+        embedment_tolerance = self._options.embedment_tolerance * self._pair.thread_pitch
+        alike = np.column_stack(
+            [
+                flush,
+                third,
+                _sign(drop - embedment),
+                _sign(embedment_tolerance - embedment),
+                _sign(pivot - pivot_threshold),
+            ]
+        )
+        _, first, which = np.unique(alike, axis=0, return_index=True, return_inverse=True)
+        classes = [
+            _CLASSES.index(
+                classify(
+                    flush=bool(flush[i]),
+                    third=bool(third[i]),
+                    drop=_present(drop[i]),
+                    embedment=_present(embedment[i]),
+                    pivot_offset=_present(pivot[i]),
+                    pivot_threshold=pivot_threshold,
+                    embedment_tolerance=embedment_tolerance,
+                ).state_class
+            )
+            for i in first
+        ]
+        return np.array(classes, dtype=np.uint8)[which.ravel()]
+
+    def _numbered(self, labels: NDArray[np.uint8]) -> Integers:
+        """One integer for every row, the same where the rows are."""
+        keys = np.ascontiguousarray(labels).view(np.dtype((np.void, labels.shape[1]))).ravel()
+        kinds, which = np.unique(keys, return_inverse=True)
+        numbers = [self._codes.setdefault(kind.tobytes(), len(self._codes)) for kind in kinds]
+        return np.array(numbers, dtype=np.int64)[which.ravel()]
+
+
+def _sign(values: Floats) -> Integers:
+    """-1, 0 or 1; 2 for NaN."""
+    return np.where(np.isnan(values), 2.0, np.sign(values)).astype(np.int64)
+
+
+def _present(value: float) -> float | None:
+    return None if math.isnan(value) else float(value)
