@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from threadstate.history.build import POINT_DEG, histories_of, history_of
+from threadstate.history.build import POINT_DEG, RESOLUTION, histories_of, history_of
 from threadstate.history.heights import heights_of
 from threadstate.history.labels import Labels, labels_of
 from threadstate.history.model import Boundary, History, Interval
@@ -97,3 +98,12 @@ def test_heights_hold_both_sides_of_the_snap(histories: list[History]) -> None:
     assert np.nanmax(falls) == window.snap.fall
     assert heights.phases_deg[:-1][np.nanargmax(falls)] == pytest.approx(window.snap.phase_deg, abs=1e-6)
     assert (np.isnan(heights.first) == np.isnan(heights.last)).all()
+
+
+def test_ten_times_the_density_finds_nothing_new(histories: list[History]) -> None:
+    dense = histories_of(PAIR, [ORIENTATIONS[0]], resolution=replace(RESOLUTION, step=RESOLUTION.step / 10.0))
+    phases = np.array([boundary.phase_deg for boundary in histories[0].boundaries])
+    dense_phases = [b.phase_deg for b in dense[0].boundaries if b.before is not None and b.after is not None]
+    assert len(dense_phases) > 30
+    for phase in dense_phases:
+        assert np.abs(phases - phase).min() <= BESIDE_DEG

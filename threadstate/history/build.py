@@ -20,7 +20,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
 
-RESOLUTION = Resolution(step=0.5, width=2.5e-7, jump_width=1e-11, no_answer_width=1e-3)
+RESOLUTION = Resolution(step=0.2, width=2.5e-7, jump_width=1e-11, no_answer_width=1e-3)
 """In degrees. Within 1e-7 deg of a tie a pose can take seconds; what a denser start finds is in decision 7."""
 
 POINT_DEG = 1e-6

@@ -113,8 +113,12 @@ def windows_of(pair: Pair, history: History) -> tuple[Window, ...]:
 
 
 def deepest_window(pair: Pair, history: History) -> Window | None:
-    """The window in which the bolt sinks farthest, the first of equals; None where there is none."""
-    return max(windows_of(pair, history), key=lambda window: window.drop, default=None)
+    """The window in which the bolt sinks farthest, None where there is none.
+
+    Of those in which it sinks equally far, to the least height that counts as a jump, it is the widest.
+    """
+    least = HEIGHT_JUMP * pair.thread_pitch
+    return max(windows_of(pair, history), key=lambda window: (window.drop // least, window.width_deg), default=None)
 
 
 def _within_thread(interval: Interval) -> bool:
