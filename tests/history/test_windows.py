@@ -22,7 +22,7 @@ def test_the_snap_at_roll_0_pitch_minus_4() -> None:
     assert window.snap is not None
     snap = window.snap
     assert 357.0 < snap.phase_deg < 358.0
-    assert snap.width_deg <= 1e-9
+    assert snap.width_deg <= 1e-8
     before, after, later = (
         solve_pose(PAIR, 0.0, -4.0, snap.phase_deg + offset).poses[0].translation[2]
         for offset in (-snap.width_deg, snap.width_deg, 1e-6)
