@@ -50,6 +50,13 @@ def test_service_loads_no_mesh_library_and_no_worker() -> None:
     assert not {name for name in loaded if name.partition(".")[0] in ("fcl", "trimesh", "worker", "migrations")}
 
 
+def test_network_loads_no_solver_and_no_database(repository_root: Path) -> None:
+    modules = sorted(path.stem for path in (repository_root / "threadstate" / "network").glob("[!_]*.py"))
+    loaded = modules_loaded_by(f"from threadstate.network import {', '.join(modules)}")
+    assert {f"threadstate.network.{name}" for name in modules} <= loaded
+    assert not {name for name in loaded if name.partition(".")[0] in ("numba", "sqlalchemy", "fastapi", "pydantic")}
+
+
 def test_mesh_libraries_are_there_to_be_loaded() -> None:
     assert {"fcl", "trimesh"} <= modules_loaded_by("import fcl, trimesh")
 

@@ -37,6 +37,18 @@ FORBIDDEN = [
     ("threadstate/history", ("sqlalchemy", "threadstate.mesh", "threadstate.library")),
     # The search for changes knows no physics.
     ("threadstate/history/changes.py", ("threadstate",)),
+    # The network stands on labels alone: it knows neither how they were found nor where they are kept.
+    (
+        "threadstate/network",
+        (
+            "numba",
+            "sqlalchemy",
+            "threadstate.contact",
+            "threadstate.state.solve",
+            "threadstate.mesh",
+            "threadstate.library",
+        ),
+    ),
     # The tables know no physics: names alone (classes, flags, regions) come from there.
     (
         "threadstate/library/tables.py",

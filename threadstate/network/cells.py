@@ -1,0 +1,200 @@
+"""The cells of a library: for every orientation of its grid the phase circle, cut where a label changes."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+from threadstate.errors import InvalidValueError
+from threadstate.network.formation import Formation
+from threadstate.network.moves import Move
+from threadstate.state.model import Flag
+
+CIRCLE_DEG = 360.0
+
+ROUNDING_DEG = 1e-9
+"""By how much the end of a cell may differ from the start of the next one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """An interval of phase of one orientation over which every label is constant.
+
+    ``orientation`` is the orientation's number, ``position`` the cell's place (from 0) in its orientation, in order of
+    phase. The cell is [``start_deg``, ``end_deg``), with ``start_deg`` in [0, 360) and ``end_deg`` above 360 where it
+    holds phase 0. ``margin`` is the smallest margin of class and regions half way, a length; None where undecided.
+    ``in_window`` says whether the bolt has fallen into the clearance window there.
+    """
+
+    orientation: int
+    position: int
+    start_deg: float
+    end_deg: float
+    formation: Formation
+    flags: tuple[Flag, ...]
+    margin: float | None
+    in_window: bool
+
+    @property
+    def width_deg(self) -> float:
+        """How much phase the cell covers."""
+        return self.end_deg - self.start_deg
+
+
+class Overlap(NamedTuple):
+    """A stretch of phase that a cell shares with one of another orientation.
+
+    ``low_deg`` and ``high_deg`` lie between the start and the end of the former. ``lap`` is how many turns they are
+    ahead of the same phases between the start and the end of the latter.
+    """
+
+    cell: Cell
+    low_deg: float
+    high_deg: float
+    lap: int
+
+
+@dataclass(frozen=True)
+class CellMap:
+    """All cells: ``cells[k]`` are those of orientation ``k = i_roll * n + i_pitch`` in order of phase.
+
+    ``tilts_deg`` are the n values of roll, and of pitch, ascending. A cell ends where the next one begins; ends are
+    made to do so exactly, and equal formations to be one object.
+
+    Raises:
+        InvalidValueError: tilts that do not ascend, not n * n orientations, cells that do not follow upon each
+            other or do not close the circle.
+    """
+
+    tilts_deg: tuple[float, ...]
+    cells: tuple[tuple[Cell, ...], ...]
+
+    def __post_init__(self) -> None:
+        tilts = self.tilts_deg
+        if not tilts or any(low >= high for low, high in pairwise(tilts)):
+            raise InvalidValueError("tilts", tilts, "at least one, ascending")
+        if len(self.cells) != len(tilts) ** 2:
+            raise InvalidValueError("number of orientations", len(self.cells), f"{len(tilts) ** 2}")
+        formations: dict[Formation, Formation] = {}
+        joined = tuple(_joined(number, cells, formations) for number, cells in enumerate(self.cells))
+        object.__setattr__(self, "cells", joined)
+
+    @property
+    def orientation_count(self) -> int:
+        """How many pairs of roll and pitch there are."""
+        return len(self.cells)
+
+    @property
+    def total_deg(self) -> float:
+        """The phase of all orientations together."""
+        return CIRCLE_DEG * len(self.cells)
+
+    @cached_property
+    def formations(self) -> tuple[Formation, ...]:
+        """All formations, in order of their keys.
+
+        Raises:
+            InvalidValueError: two formations have the same key.
+        """
+        formations = sorted({cell.formation for cell in self}, key=lambda formation: formation.key)
+        for one, other in pairwise(formations):
+            if one.key == other.key:
+                raise InvalidValueError("key of a formation", other.text, f"another one than that of {one.text}")
+        return tuple(formations)
+
+    def __iter__(self) -> Iterator[Cell]:
+        """All cells, by orientation and phase."""
+        return (cell for cells in self.cells for cell in cells)
+
+    def tilt_deg(self, orientation: int) -> tuple[float, float]:
+        """Roll and pitch of an orientation."""
+        i_roll, i_pitch = divmod(orientation, len(self.tilts_deg))
+        return self.tilts_deg[i_roll], self.tilts_deg[i_pitch]
+
+    def orientation(self, roll_deg: float, pitch_deg: float) -> int:
+        """The number of an orientation.
+
+        Raises:
+            InvalidValueError: roll or pitch is none of the tilts.
+        """
+        for name, value in (("roll", roll_deg), ("pitch", pitch_deg)):
+            if value not in self.tilts_deg:
+                raise InvalidValueError(name, value, f"one of {', '.join(f'{tilt:g}' for tilt in self.tilts_deg)} deg")
+        return self.tilts_deg.index(roll_deg) * len(self.tilts_deg) + self.tilts_deg.index(pitch_deg)
+
+    def at(self, roll_deg: float, pitch_deg: float, phase_deg: float) -> Cell:
+        """The cell of a pose; any phase, in degrees.
+
+        Raises:
+            InvalidValueError: roll or pitch is none of the tilts.
+        """
+        return self.at_phase(self.orientation(roll_deg, pitch_deg), phase_deg)
+
+    def at_phase(self, orientation: int, phase_deg: float) -> Cell:
+        """The cell of an orientation that holds a phase."""
+        cells = self.cells[orientation]
+        return cells[bisect_right(self._starts[orientation], phase_deg % CIRCLE_DEG) - 1]
+
+    def after(self, cell: Cell) -> Cell:
+        """The cell that follows as phase grows: the cell itself where it is the only one of its orientation."""
+        cells = self.cells[cell.orientation]
+        return cells[(cell.position + 1) % len(cells)]
+
+    def neighbours(self, orientation: int) -> tuple[tuple[Move, int], ...]:
+        """The tilts that lead from an orientation to those beside it in the grid, and to which."""
+        return self._neighbours[orientation]
+
+    def overlaps(self, cell: Cell, orientation: int) -> list[Overlap]:
+        """How the cells of another orientation cover a cell, in order of growing phase."""
+        starts, cells = self._starts[orientation], self.cells[orientation]
+        count = len(cells)
+        lap, place = divmod(bisect_right(starts, cell.start_deg) - 1, count)
+        low = cell.start_deg
+        found = []
+        while low < cell.end_deg:
+            next_lap, next_place = (lap, place + 1) if place + 1 < count else (lap + 1, 0)
+            high = min(starts[next_place] + CIRCLE_DEG * next_lap, cell.end_deg)
+            found.append(Overlap(cells[place], low, high, lap))
+            lap, place, low = next_lap, next_place, high
+        return found
+
+    @cached_property
+    def _starts(self) -> tuple[list[float], ...]:
+        return tuple([cell.start_deg for cell in cells] for cells in self.cells)
+
+    @cached_property
+    def _neighbours(self) -> tuple[tuple[tuple[Move, int], ...], ...]:
+        return tuple(_neighbours(number, len(self.tilts_deg)) for number in range(len(self.cells)))
+
+
+def _neighbours(orientation: int, count: int) -> tuple[tuple[Move, int], ...]:
+    i_roll, i_pitch = divmod(orientation, count)
+    beside = (
+        (Move.ROLL_UP, i_roll + 1, i_pitch),
+        (Move.ROLL_DOWN, i_roll - 1, i_pitch),
+        (Move.PITCH_UP, i_roll, i_pitch + 1),
+        (Move.PITCH_DOWN, i_roll, i_pitch - 1),
+    )
+    return tuple((move, i * count + j) for move, i, j in beside if 0 <= i < count and 0 <= j < count)
+
+
+def _joined(orientation: int, cells: Sequence[Cell], formations: dict[Formation, Formation]) -> tuple[Cell, ...]:
+    """The cells of an orientation, each with the start of the next one for its end and the first equal formation."""
+    if [(cell.orientation, cell.position) for cell in cells] != [(orientation, i) for i in range(len(cells))]:
+        raise InvalidValueError("cells", f"those of orientation {orientation}", "numbered by orientation and position")
+    if not cells or not 0.0 <= cells[0].start_deg <= cells[-1].start_deg < CIRCLE_DEG:
+        raise InvalidValueError("cells", f"those of orientation {orientation}", "at least one, with starts in [0, 360)")
+    ends = [*(cell.start_deg for cell in cells[1:]), cells[0].start_deg + CIRCLE_DEG]
+    for cell, end in zip(cells, ends, strict=True):
+        if not (cell.start_deg < end and abs(cell.end_deg - end) <= ROUNDING_DEG):
+            raise InvalidValueError(
+                "end of a cell", cell.end_deg, f"{end!r}, where the next one begins, and after its start"
+            )
+    return tuple(
+        replace(cell, end_deg=end, formation=formations.setdefault(cell.formation, cell.formation))
+        for cell, end in zip(cells, ends, strict=True)
+    )
