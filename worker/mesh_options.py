@@ -8,8 +8,9 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.method import Method
-from threadstate.mesh.options import Descent, FinalStep, MeshOptions, Tangent
+from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
+from threadstate.mesh.scene_name import Scene
 
 PresetName = Annotated[
     Preset | None,
@@ -31,6 +32,10 @@ TangentName = Annotated[
     Tangent | None,
     typer.Option("--tangent", help="Mesh: the axis of the second turn.", show_default=Tangent.EDGE.value),
 ]
+SceneName = Annotated[
+    Scene | None,
+    typer.Option("--scene", help="Mesh: how much of the parts is modelled.", show_default=DEFAULT_SCENE.value),
+]
 Unchecked = Annotated[
     bool,
     typer.Option("--unchecked", help="Mesh: without a second tessellation that has to agree.", show_default=False),
@@ -43,6 +48,7 @@ def mesh_options(
     descent: Descent | None,
     final_step: FinalStep | None,
     tangent: Tangent | None,
+    scene: Scene | None,
     *,
     unchecked: bool,
 ) -> MeshOptions | None:
@@ -57,9 +63,10 @@ def mesh_options(
             descent=descent or Descent.SAFE,
             final_step=(final_step or FinalStep.ONE_MICROINCH).thread_pitches,
             tangent=tangent or Tangent.EDGE,
+            scene=scene or DEFAULT_SCENE,
             checked=not unchecked,
         )
-    chosen = {"preset": preset, "descent": descent, "final-step": final_step, "tangent": tangent}
+    chosen = {"preset": preset, "descent": descent, "final-step": final_step, "tangent": tangent, "scene": scene}
     given = {name: value.value for name, value in chosen.items() if value is not None}
     if unchecked:
         given["unchecked"] = "given"

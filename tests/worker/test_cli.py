@@ -16,6 +16,7 @@ from threadstate.errors import UnresolvedPoseError
 from threadstate.library.schema import SCHEMA_REVISION
 from threadstate.mesh.options import Descent, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
+from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solve import solve_poses_by_mesh
 from threadstate.state.document import state_json
 from threadstate.state.model import ContactState
@@ -118,8 +119,9 @@ def test_a_named_pair_is_solved(command_line: CommandLine) -> None:
 
 def test_a_pose_is_solved_by_meshes(command_line: CommandLine) -> None:
     chosen = ["--preset", "coarse", "--descent", "decades", "--final-step", "10uin", "--tangent", "azimuthal"]
+    chosen += ["--scene", "edges"]
     code, out, err = command_line.here("solve", *POSE, "--method", "mesh", *chosen, "--json")
-    options = MeshOptions(Preset.COARSE.tessellation, Descent.DECADES, 2e-4, Tangent.AZIMUTHAL)
+    options = MeshOptions(Preset.COARSE.tessellation, Descent.DECADES, 2e-4, Tangent.AZIMUTHAL, Scene.EDGES)
     assert (code, err) == (0, "")
     assert out == state_json(solve_poses_by_mesh(quarter_twenty_unc(), [(4.0, 0.0, 185.0)], options)[0]) + "\n"
     assert "stable" in command_line.here("solve", *POSE, "--method", "mesh")[1]
@@ -165,6 +167,7 @@ def test_a_file_without_poses_has_no_answers(command_line: CommandLine, tmp_path
         (["solve", *POSE, "--method", "guess"], "'guess' is not one of"),
         (["solve", *POSE, "--preset", "fine"], "--preset is 'fine'; valid: a setting of --method mesh alone"),
         (["solve", *POSE, "--method", "mesh", "--final-step", "2uin"], "'2uin' is not one of"),
+        (["solve", *POSE, "--scene", "curves"], "--scene is 'curves'; valid: a setting of --method mesh alone"),
         (["solve", "--poses", "no-such-file.csv"], "no-such-file.csv"),
         (["rebuild", "--phase-step", "7"], "phase_step is 7.0; valid: a step that divides 360 deg evenly"),
         (["rebuild", "--tilt-max", "11"], "tilt_max is 11.0; valid: 0 to 10 deg"),

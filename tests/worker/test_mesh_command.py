@@ -55,6 +55,16 @@ def test_a_chord_of_ones_own(command_line: CommandLine, tmp_path: Path) -> None:
     assert report["chord_deviation"] < 5e-5
 
 
+def test_a_scene_that_leaves_out_what_cannot_touch(command_line: CommandLine, tmp_path: Path) -> None:
+    arguments = ["mesh", "--part", "nut", "--preset", "paper", "--scene", "edges"]
+    report = json.loads(command_line.here(*arguments, "--json", "--out", str(tmp_path / "nut.stl"))[1])
+    assert (report["scene"], report["watertight"]) == ("edges", False)
+    assert report["triangles"] < 11252 / 2
+    out = command_line.here(*arguments, "--out", str(tmp_path / "nut.stl"))[1]
+    assert "scene edges: open where nothing can touch" in out
+    assert "volume" not in out
+
+
 def test_without_json_the_report_is_prose(command_line: CommandLine, tmp_path: Path) -> None:
     code, out, _ = command_line.here("mesh", "--part", "bolt", "--out", str(tmp_path / "bolt.stl"))
     assert code == ExitCode.OK
@@ -74,6 +84,8 @@ def test_without_json_the_report_is_prose(command_line: CommandLine, tmp_path: P
         (["--part", "bolt", "--out", "x.stl", "--preset", "best"], "'best' is not one of"),
         (["--part", "bolt", "--out", "x.stl", "--chord", "0"], "chord_height is 0.0"),
         (["--part", "bolt", "--out", "x.stl", "--angle-control", "2"], "angle_control is 2.0; valid: 0 to 1"),
+        (["--part", "bolt", "--out", "x.stl", "--scene", "none"], "'none' is not one of"),
+        (["--part", "bolt", "--out", "x.stl", "--scene", "curves"], "--scene is 'curves'; valid: full, band, edges"),
         (["--part", "bolt", "--out", "x.stl", "--pair", "M6"], "designation is 'M6'"),
     ],
 )

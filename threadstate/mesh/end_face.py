@@ -32,12 +32,13 @@ def polygon_vertices(inradius: float, z: float) -> Floats:
     return np.column_stack([r * np.cos(azimuths), r * np.sin(azimuths), np.full(SIDES, z)])
 
 
-def end_face(outline: Floats, numbers: Ints, inradius: float, first_number: int) -> EndFace:
+def end_face(outline: Floats, numbers: Ints, inradius: float, first_number: int, *, halving: bool = False) -> EndFace:
     """The face between an outline and the polygon of that inradius, which lies wholly inside it or wholly outside.
 
     ``outline`` holds its points by azimuth, shape (n, 3), all at one height, ``numbers`` (n,) their vertex numbers; new
     vertices are numbered from ``first_number`` on. Beside the outline the face is divided into rings, each twice as
-    wide as the one before, so that triangles there are small in both directions.
+    wide as the one before, so that triangles there are small in both directions; with ``halving`` each but the first
+    has half the vertices of the one before, too.
     """
     z = float(outline[0, 2])
     radii = np.hypot(outline[:, 0], outline[:, 1])
@@ -51,12 +52,14 @@ def end_face(outline: Floats, numbers: Ints, inradius: float, first_number: int)
     new: list[Floats] = []
     triangles: list[tuple[int, int, int]] = []
     number = first_number
-    for share in _ring_shares(radii, to_polygon):
+    for k, share in enumerate(_ring_shares(radii, to_polygon)):
+        step = 2 if halving and k and len(radii) > 2 * SIDES else 1
+        radii, to_polygon, ring_azimuths = radii[::step], to_polygon[::step], azimuths[::step]
         r = radii + share * to_polygon
         after = number + np.arange(len(r))
-        new.append(np.column_stack([r * np.cos(azimuths), r * np.sin(azimuths), np.full(len(r), z)]))
-        triangles += _between(ring, azimuths, after, azimuths, outward)
-        ring, number = after, number + len(r)
+        new.append(np.column_stack([r * np.cos(ring_azimuths), r * np.sin(ring_azimuths), np.full(len(r), z)]))
+        triangles += _between(ring, azimuths, after, ring_azimuths, outward)
+        ring, azimuths, number = after, ring_azimuths, number + len(r)
     polygon = number + np.arange(SIDES)
     new.append(polygon_vertices(inradius, z))
     triangles += _between(ring, azimuths, polygon, side * np.arange(SIDES, dtype=np.float64), outward)
@@ -82,9 +85,12 @@ def _between(
     rows = [(ring, azimuths), (other, other_azimuths)]
     (outer, outer_azimuths), (inner, inner_azimuths) = reversed(rows) if outward else rows
     closed_outer, closed_inner = np.append(outer, outer[0]), np.append(inner, inner[0])
-    full = 2.0 * math.pi
     first_inner = len(closed_outer)
     numbers = np.concatenate([closed_outer, closed_inner]).tolist()
     # Seen from above and running counter-clockwise, what lies outside is to the right.
-    local = strip(np.append(inner_azimuths, full), np.append(outer_azimuths, full), first_inner, 0)
+    local = strip(_closed(inner_azimuths), _closed(outer_azimuths), first_inner, 0)
     return [(numbers[a], numbers[b], numbers[c]) for a, b, c in local]
+
+
+def _closed(azimuths: Floats) -> Floats:
+    return np.append(azimuths, azimuths[0] + 2.0 * math.pi)

@@ -10,9 +10,10 @@ import trimesh
 
 from threadstate.errors import InvalidValueError, ThreadstateError
 from threadstate.mesh.deviation import deviation
-from threadstate.mesh.part import part_solid
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Tessellation
+from threadstate.mesh.scene import scene_part
+from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solid import Solid
 from threadstate.thread.pair import Pair
 
@@ -44,9 +45,9 @@ def as_trimesh(solid: Solid) -> trimesh.Trimesh:
     return trimesh.Trimesh(vertices=solid.vertices, faces=solid.triangles, process=False)
 
 
-def mesh_report(pair: Pair, part: Part, tessellation: Tessellation) -> MeshReport:
-    """The report of a part's solid."""
-    solid = part_solid(pair, part, tessellation)
+def mesh_report(pair: Pair, part: Part, tessellation: Tessellation, scene: Scene = Scene.FULL) -> MeshReport:
+    """The report of a part as a scene with triangles has it; of an open mesh the volume means nothing."""
+    solid = scene_part(pair, part, tessellation, scene)
     found = deviation(solid, pair.bolt if part is Part.BOLT else pair.nut)
     mesh = as_trimesh(solid)
     return MeshReport(

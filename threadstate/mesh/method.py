@@ -20,9 +20,10 @@ from threadstate.mesh.facing import closes_a_gap
 from threadstate.mesh.flush_patch import extreme_points
 from threadstate.mesh.frames import along, fixed_from_bolt, trans, turned
 from threadstate.mesh.options import Descent, MeshOptions, Tangent
-from threadstate.mesh.part import part_solid
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.pivot import origin_moment
+from threadstate.mesh.scene import scene_part
+from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solid import Floats
 from threadstate.mesh.steps import Reached, approach, decades, march_and_halve, regress
 from threadstate.mesh.touch import NoContactPointError, Touch, touch, touches_beyond
@@ -48,7 +49,7 @@ Clusters = tuple[Cluster, ...]
 Touches = tuple[Touch, ...]
 
 
-class _Undecided(Exception):  # noqa: N818 - it never leaves this module
+class Undecided(Exception):  # noqa: N818 - it never leaves the method
     """Why a pose cannot be answered."""
 
 
@@ -57,14 +58,17 @@ class MeshMethod:
 
     def __init__(self, pair: Pair, options: MeshOptions) -> None:
         self._pair, self._options = pair, options
-        self._bolt, self._nut = (part_solid(pair, part, options.tessellation) for part in Part)
-        self._collider = Collider(self._bolt, self._nut)
-        self._connectivity = Connectivity(self._bolt, self._nut)
+        self._bolt, self._nut = (scene_part(pair, part, options.tessellation, options.scene) for part in Part)
+        self._set_up_search()
         self._final = options.final_step * pair.thread_pitch
         self._arm = pair.fit.bolt_major_diameter / 2.0
         self.edge_deviation = sum(
             deviation(solid, profile).edge for solid, profile in ((self._bolt, pair.bolt), (self._nut, pair.nut))
         )
+
+    def _set_up_search(self) -> None:
+        self._collider = Collider(self._bolt, self._nut)
+        self._connectivity = Connectivity(self._bolt, self._nut)
 
     def solve_options(self, options: SolveOptions) -> SolveOptions:
         """The options with an embedment tolerance that no noise of meshes and steps reaches."""
@@ -82,7 +86,7 @@ class MeshMethod:
             row[i] = math.nan
         try:
             self._first_stage(pose_deg, options, row)
-        except (_Undecided, NoContactPointError, TooManyPairsError) as error:
+        except (Undecided, NoContactPointError, TooManyPairsError) as error:
             raise MeshUndecidedError(*pose_deg, str(error)) from None
         return row
 
@@ -96,7 +100,7 @@ class MeshMethod:
         """
         try:
             return self._descend(pose_deg)
-        except (_Undecided, TooManyPairsError) as error:
+        except (Undecided, TooManyPairsError) as error:
             raise MeshUndecidedError(*pose_deg, str(error)) from None
 
     def _descend(self, pose_deg: tuple[float, float, float]) -> tuple[Floats, Clusters]:
@@ -120,9 +124,9 @@ class MeshMethod:
                     found, lambda way: self._collider.distance(pose(way)), self._final, limit, MOST_STEPS
                 )
             except TimeoutError:
-                raise _Undecided(f"the bolt slides beside the nut for more than {MOST_STEPS} steps") from None
+                raise Undecided(f"the bolt slides beside the nut for more than {MOST_STEPS} steps") from None
         if reached is None:
-            raise _Undecided("the meshes do not collide on the way down by a thread pitch")
+            raise Undecided("the meshes do not collide on the way down by a thread pitch")
         return pose(reached.place), reached.found
 
     def _clusters(self, T_nut_bolt: Floats) -> Clusters:
@@ -134,12 +138,10 @@ class MeshMethod:
         return tuple(sorted(found, key=lambda one: math.atan2(one.point[1], one.point[0]) % (2.0 * math.pi)))
 
     def _first_stage(self, pose_deg: tuple[float, float, float], options: SolveOptions, row: Floats) -> None:
-        first, clusters = self._descend(pose_deg)
-        tilt = math.hypot(first[2, 0], first[2, 1])
-        if tilt * self._arm < self._final:
+        first, touches = self._first_touches(pose_deg)
+        if self._is_level(first):
             self._lie_level(first, row)
             return
-        touches = self._touches(clusters, first)
         self._put_pose(first, row)
         self._put(1, touches[:1], first, row)
         if len(touches) > 1:
@@ -149,12 +151,18 @@ class MeshMethod:
             return
         self._second_stage(first, touches[0], options, row)
 
+    def _first_touches(self, pose_deg: tuple[float, float, float]) -> tuple[Floats, Touches]:
+        """The pose at the end of the descent, and the contacts there of a bolt that is not level."""
+        first, clusters = self._descend(pose_deg)
+        return first, () if self._is_level(first) else self._touches(clusters, first)
+
+    def _is_level(self, T_nut_bolt: Floats) -> bool:
+        return math.hypot(T_nut_bolt[2, 0], T_nut_bolt[2, 1]) * self._arm < self._final
+
     def _lie_level(self, first: Floats, row: Floats) -> None:
         """A level bolt: on the surface a patch; on its thread, which facets cannot tell from a crossing, no answer."""
         if first[2, 3] < -BEFORE_FLUSH * self._final:
-            raise _Undecided(
-                "a level bolt in phase rests on a strip of its thread: facets in one plane have no segment"
-            )
+            raise Undecided("a level bolt in phase rests on a strip of its thread: facets in one plane have no segment")
         self._lay_flush(1, first, np.array([1.0, 0.0, 0.0]), row)
 
     def _second_stage(self, first: Floats, cp0: Touch, options: SolveOptions, row: Floats) -> None:
@@ -176,7 +184,7 @@ class MeshMethod:
             flush = float(sk.turn_to_flush(_flat(first), reverse))
             if 0.0 <= flush <= limit:
                 limit = max(0.0, flush - BEFORE_FLUSH * self._final / self._arm)
-        reached = self._turn(pose, [cp0.cluster], limit)
+        reached = self._turn(pose, [cp0], limit)
         if reached is None:
             if flush >= 0.0 and self._lay_flush(2, pose(flush), tangent, row):
                 row[rk.O_LAMBDA] = flush
@@ -228,7 +236,7 @@ class MeshMethod:
             flush = float(sk.turn_to_flush(_flat(second), sense * axis))
             if 0.0 < flush <= limit:
                 limit = max(0.0, flush - BEFORE_FLUSH * self._final / self._arm)
-        reached = self._turn(pose, [cp0.cluster, cp1.cluster], limit)
+        reached = self._turn(pose, [cp0, cp1], limit)
         if reached is None:
             if flush > 0.0 and self._lay_flush(3, pose(flush), axis, row):
                 row[rk.O_MU] = flush
@@ -247,16 +255,16 @@ class MeshMethod:
         row[rk.O_DROP] = second[2, 3] - third[2, 3]
         row[rk.O_EMBEDMENT] = self._least_lift(third)
 
-    def _turn(self, pose: Callable[[float], Floats], known: list[Cluster], limit: float) -> Reached[Touches] | None:
+    def _turn(self, pose: Callable[[float], Floats], known: list[Touch], limit: float) -> Reached[Touches] | None:
         """The smallest turn (rad) at which contacts appear that hold none of the known ones, and those contacts.
 
         A cluster holds a contact where it lies in the ring of triangles about it on both meshes. One that is connected
         with a cluster of the place before is not new: it may grow and roll away, and parts of it may part. A hole in
         an overlap is none, nor is what touches a part's far end.
         """
-        own = [self._connectivity.neighbourhood(cluster) for cluster in known]
-        about = [self._connectivity.neighbourhood(cluster, rings=1) for cluster in known]
-        before: Clusters = tuple(known)
+        before: Clusters = tuple(one.cluster for one in known)
+        own = [self._connectivity.neighbourhood(cluster) for cluster in before]
+        about = [self._connectivity.neighbourhood(cluster, rings=1) for cluster in before]
         since = 0.0
         final = self._final / self._arm
 
@@ -272,7 +280,7 @@ class MeshMethod:
                 before, since = clusters, turn
                 return None
             if any(self._connectivity.reaches(one.cluster, place) for one in born for place in about):
-                raise _Undecided(
+                raise Undecided(
                     "a contact appears within a ring of triangles about an earlier one: too near for these meshes"
                 )
             return born
@@ -293,13 +301,16 @@ class MeshMethod:
         """The least lift after which the meshes do not collide."""
 
         def free(lift: float) -> bool | None:
-            return None if self._collider.collides(trans([0.0, 0.0, lift]) @ T_nut_bolt) else True
+            return None if self._collides(trans([0.0, 0.0, lift]) @ T_nut_bolt) else True
 
         p = self._pair.thread_pitch
         reached = march_and_halve(free, MARCH * p, self._final, 2.0 * (p + self._arm))
         if reached is None:
-            raise _Undecided("no lift frees the third pose")
+            raise Undecided("no lift frees the third pose")
         return reached.place
+
+    def _collides(self, T_nut_bolt: Floats) -> bool:
+        return self._collider.collides(T_nut_bolt)
 
     def _lay_flush(self, number: int, T_nut_bolt: Floats, axis: Floats, row: Floats) -> bool:
         """Put the flush pose and the extreme points of its patch that are no contacts yet; False without a patch."""
@@ -344,6 +355,10 @@ class MeshMethod:
 @lru_cache(maxsize=4)
 def mesh_method(pair: Pair, options: MeshOptions) -> MeshMethod:
     """The method for a pair; its meshes and search trees are kept."""
+    if options.scene is Scene.CURVES:
+        from threadstate.mesh.curve_method import CurveMethod
+
+        return CurveMethod(pair, options)
     return MeshMethod(pair, options)
 
 

@@ -8,6 +8,7 @@ from enum import StrEnum
 
 from threadstate.errors import InvalidValueError
 from threadstate.mesh.presets import Preset, Tessellation
+from threadstate.mesh.scene_name import Scene
 
 
 class Descent(StrEnum):
@@ -40,13 +41,14 @@ class Tangent(StrEnum):
     """The azimuthal direction at the contact: the bolt's edge rolls into the nut at once."""
 
 
+DEFAULT_SCENE = Scene.FULL
 SMALLEST_STEP, LARGEST_STEP = 1e-7, 1e-2
 """Bounds of the final step, in thread pitches."""
 
 
 @dataclass(frozen=True, slots=True)
 class MeshOptions:
-    """Tessellation, descent, final step (in thread pitches; turns: of arc at the bolt's major radius), tangent.
+    """Tessellation, descent, final step (in thread pitches; turns: of arc at the bolt's major radius), tangent, scene.
 
     ``checked`` is whether another tessellation has to agree (:mod:`threadstate.mesh.agreement`); the paper has no such
     check.
@@ -59,6 +61,7 @@ class MeshOptions:
     descent: Descent = Descent.SAFE
     final_step: float = FinalStep.ONE_MICROINCH.thread_pitches
     tangent: Tangent = Tangent.EDGE
+    scene: Scene = DEFAULT_SCENE
     checked: bool = True
 
     def __post_init__(self) -> None:

@@ -24,16 +24,29 @@ WALL = 1.0
 @lru_cache(maxsize=8)
 def part_solid(pair: Pair, part: Part, tessellation: Tessellation) -> Solid:
     """The bolt, 0 <= z <= p, hollow; or the nut, -p <= z <= 0, cut from a prism of 16 sides."""
-    p = pair.thread_pitch
+    inradius = cut_inradius(pair, part)
     if part is Part.BOLT:
-        return _solid(pair.bolt, 0.0, BORE * pair.fit.bolt_minor_diameter / 2.0, tessellation, outward=True)
-    return _solid(pair.nut, -p, pair.fit.nut_major_diameter / 2.0 + WALL * p, tessellation, outward=False)
+        return _solid(pair.bolt, 0.0, inradius, tessellation, outward=True)
+    return _solid(pair.nut, -pair.thread_pitch, inradius, tessellation, outward=False)
+
+
+def cut_inradius(pair: Pair, part: Part) -> float:
+    """The inradius (in the pair's unit) of the polygon that a part's cut ends extend to: inward to the bolt's bore, or
+    outward to the sides of the nut's prism.
+    """
+    if part is Part.BOLT:
+        return BORE * pair.fit.bolt_minor_diameter / 2.0
+    return pair.fit.nut_major_diameter / 2.0 + WALL * pair.thread_pitch
+
+
+def part_size(profile: Profile, inradius: float) -> float:
+    """The diagonal of the box about a part whose cut ends extend to a polygon of that inradius."""
+    width = 2.0 * max(inradius, profile.major_diameter / 2.0)
+    return math.sqrt(2.0 * width * width + profile.thread_pitch**2)
 
 
 def _solid(profile: Profile, z_low: float, inradius: float, tessellation: Tessellation, *, outward: bool) -> Solid:
-    p = profile.thread_pitch
-    width = 2.0 * max(inradius, profile.major_diameter / 2.0)
-    thread = thread_surface(profile, z_low, tessellation, math.sqrt(2.0 * width * width + p * p))
+    thread = thread_surface(profile, z_low, tessellation, part_size(profile, inradius))
     low = end_face(thread.vertices[thread.low], thread.low, inradius, len(thread.vertices))
     first = len(thread.vertices) + len(low.vertices)
     high = end_face(thread.vertices[thread.high], thread.high, inradius, first)

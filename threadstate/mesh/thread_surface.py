@@ -22,6 +22,8 @@ FEWEST_AROUND, FEWEST_ON_FILLET = 16, 2
 FEWEST_ON_STRAIGHT = 2
 MINOR_FILLET, FLANK, MAJOR_FILLET = 1, 2, 3
 """Numbers of the parts of a rising half profile that are no flats."""
+NEAR_END = 0.3
+"""Of a part of the pitch, the share of a step between two cuts that its columns' last step may be longer by."""
 SHORTEST = 1e-9
 """Parts of a profile that are shorter than this many thread pitches (a fillet of radius 0, say) are not there."""
 
@@ -36,17 +38,25 @@ class ThreadSurface:
     high: Ints
 
 
-def thread_surface(profile: Profile, z_low: float, tessellation: Tessellation, part_size: float) -> ThreadSurface:
-    """The surface from ``z_low``, a multiple of the thread pitch, up by one pitch; lengths in the pair's unit."""
+def thread_surface(
+    profile: Profile, z_low: float, tessellation: Tessellation, part_size: float, height: float | None = None
+) -> ThreadSurface:
+    """The surface from ``z_low`` up by ``height``, at most the thread pitch, which it is by default.
+
+    Lengths are in the pair's unit. The outline at ``z_low`` is cut wherever the profile is; that at the top, too, if it
+    is a whole pitch higher.
+    """
     cuts = profile_cuts(profile, tessellation, part_size)
     places = _column_places(cuts, _around(profile, tessellation))
-    columns = [_column(cuts, place) for place in places]
+    columns = [_column(cuts, place, height) for place in places]
     counts = np.array([len(column) for column in columns])
     offsets = np.concatenate([[0], np.cumsum(counts)])
     radii = np.concatenate([_radii(profile, cuts, column) for column in columns])
     axial = [_axial(cuts, column) for column in columns]
-    heights = np.concatenate([_heights(s, z_low, profile.thread_pitch) for s in axial])
-    azimuths = np.repeat([-2.0 * math.pi * s[0] / profile.thread_pitch for s in axial], counts)
+    rise = profile.thread_pitch if height is None else height
+    heights = np.concatenate([_heights(s, z_low, rise) for s in axial])
+    offset = math.fmod(z_low, profile.thread_pitch)
+    azimuths = np.repeat([2.0 * math.pi * (offset - s[0]) / profile.thread_pitch for s in axial], counts)
     vertices = np.column_stack([radii * np.cos(azimuths), radii * np.sin(azimuths), heights])
 
     triangles: list[tuple[int, int, int]] = []
@@ -56,6 +66,16 @@ def thread_surface(profile: Profile, z_low: float, tessellation: Tessellation, p
         next_column = columns[after] - (len(cuts) - 1 if after == 0 else 0)
         triangles += strip(column, next_column, int(offsets[i]), int(offsets[after]))
     return ThreadSurface(vertices, np.array(triangles, dtype=np.int64), offsets[:-1], offsets[1:] - 1)
+
+
+def outline(profile: Profile, tessellation: Tessellation, part_size: float) -> Floats:
+    """The points at which a surface that begins at z = 0 is cut there, by growing azimuth; (n, 3), z = 0."""
+    cuts = profile_cuts(profile, tessellation, part_size)
+    s = _axial(cuts, np.array(_column_places(cuts, _around(profile, tessellation))))
+    azimuths = -2.0 * math.pi * s / profile.thread_pitch
+    radii = np.array([profile.radius(place) for place in s.tolist()])
+    points = np.column_stack([radii * np.cos(azimuths), radii * np.sin(azimuths), np.zeros(len(s))])
+    return points[np.argsort(azimuths % (2.0 * math.pi))]
 
 
 def profile_cuts(profile: Profile, tessellation: Tessellation, part_size: float) -> Floats:
@@ -125,11 +145,23 @@ def _column_places(cuts: Floats, around: int) -> list[float]:
     return places
 
 
-def _column(cuts: Floats, place: float) -> Floats:
-    """Fractional indices of a column's vertices over one period, its two ends included; ascending."""
-    period = len(cuts) - 1
-    inside = np.arange(math.floor(place) + 1, math.ceil(place) + period, dtype=np.float64)
-    return np.concatenate([[place], inside, [place + period]])
+def _column(cuts: Floats, place: float, height: float | None) -> Floats:
+    """Fractional indices of a column's vertices over one period or a height, its two ends included; ascending."""
+    if height is None:
+        top = place + len(cuts) - 1
+        last = math.ceil(top)
+    else:
+        top = _index(cuts, float(_axial(cuts, np.array([place]))[0]) + height)
+        last = math.ceil(top - NEAR_END)
+    inside = np.arange(math.floor(place) + 1, last, dtype=np.float64)
+    return np.concatenate([[place], inside, [top]])
+
+
+def _index(cuts: Floats, s: float) -> float:
+    """The fractional index of an axial position: the inverse of :func:`_axial`."""
+    turns = math.floor((s - cuts[0]) / (cuts[-1] - cuts[0]))
+    within = np.interp(s - turns * (cuts[-1] - cuts[0]), cuts, np.arange(len(cuts)))
+    return float(within) + turns * (len(cuts) - 1)
 
 
 def _axial(cuts: Floats, column: Floats) -> Floats:
@@ -142,9 +174,9 @@ def _axial(cuts: Floats, column: Floats) -> Floats:
 
 def _radii(profile: Profile, cuts: Floats, column: Floats) -> Floats:
     inside = _profile_radii(profile, tuple(cuts.tolist()))
-    end = profile.radius(float(_axial(cuts, column[:1])[0]))
+    low, high = (profile.radius(s) for s in _axial(cuts, column[[0, -1]]).tolist())
     within = column[1:-1].astype(np.int64) % (len(cuts) - 1)
-    return np.concatenate([[end], inside[within], [end]])
+    return np.concatenate([[low], inside[within], [high]])
 
 
 @lru_cache(maxsize=8)
@@ -152,7 +184,7 @@ def _profile_radii(profile: Profile, cuts: tuple[float, ...]) -> Floats:
     return np.array([profile.radius(s) for s in cuts])
 
 
-def _heights(s: Floats, z_low: float, thread_pitch: float) -> Floats:
+def _heights(s: Floats, z_low: float, rise: float) -> Floats:
     z = s - s[0] + z_low
-    z[-1] = z_low + thread_pitch
+    z[-1] = z_low + rise
     return z

@@ -6,7 +6,15 @@ import time
 
 from threadstate.library.method import Method
 from threadstate.settings import read_settings
-from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, Unchecked, mesh_options
+from worker.mesh_options import (
+    DescentName,
+    FinalStepName,
+    PresetName,
+    SceneName,
+    TangentName,
+    Unchecked,
+    mesh_options,
+)
 from worker.options import Database, Designation, Json, MethodName, PhaseStep, TiltMax, TiltStep, Workers
 from worker.output import print_json, print_line
 
@@ -23,6 +31,7 @@ def rebuild(
     descent: DescentName = None,
     final_step: FinalStepName = None,
     tangent: TangentName = None,
+    scene: SceneName = None,
     unchecked: Unchecked = False,
     as_json: Json = False,
 ) -> None:
@@ -43,7 +52,7 @@ def rebuild(
     from worker.computed_library import computed_library
 
     settings = read_settings()
-    mesh = mesh_options(method, preset, descent, final_step, tangent, unchecked=unchecked)
+    mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
     result = computed_library(
         database or settings.database,
         designation=pair,

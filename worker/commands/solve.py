@@ -11,7 +11,15 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.method import Method
-from worker.mesh_options import DescentName, FinalStepName, PresetName, TangentName, Unchecked, mesh_options
+from worker.mesh_options import (
+    DescentName,
+    FinalStepName,
+    PresetName,
+    SceneName,
+    TangentName,
+    Unchecked,
+    mesh_options,
+)
 from worker.options import Designation, Json, MethodName
 from worker.output import print_line
 
@@ -33,6 +41,7 @@ def solve(
     descent: DescentName = None,
     final_step: FinalStepName = None,
     tangent: TangentName = None,
+    scene: SceneName = None,
     unchecked: Unchecked = False,
     as_json: Json = False,
 ) -> None:
@@ -46,10 +55,11 @@ def solve(
       threadstate solve --roll 4 --pitch -3 --phase 185 --json
       threadstate solve --poses poses.csv --json
       threadstate solve --roll 4 --pitch -3 --phase 185 --method mesh --preset medium
+      threadstate solve --roll 4 --pitch -3 --phase 185 --method mesh --preset fine --scene curves
       threadstate solve --roll 0 --pitch -4 --phase 350 --method mesh --descent decades
     """
     wanted = _wanted(roll, pitch, phase, poses)
-    mesh = mesh_options(method, preset, descent, final_step, tangent, unchecked=unchecked)
+    mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
     batch = BATCH if method is Method.EXACT else 1
 
     from threadstate.state.document import state_json
