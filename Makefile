@@ -3,6 +3,7 @@
 # make test    format, lint, types, tests
 # make bench   poses per second, beside a mesh collision library
 # make paper   put the paper's statements to the test, write docs/paper-claims.md
+# make chart   measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make docs    compute the answers shown in the documentation anew
 # make lock    renew the lock files after a change of dependencies (needs uv)
 
@@ -12,7 +13,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper docs lock
+.PHONY: setup run test bench paper chart docs lock
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -31,6 +32,9 @@ bench: setup
 
 paper: setup
 	$(BIN)/python -m studies.paper
+
+chart: setup
+	$(BIN)/python -m studies.chart
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py

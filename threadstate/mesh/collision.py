@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import fcl
 import numpy as np
 
@@ -15,8 +17,21 @@ class TooManyPairsError(ThreadstateError):
     """More triangles collide than are listed."""
 
 
+class Engine(Protocol):
+    """What is asked of two meshes; a pose ``T_nut_bolt`` is a (4, 4) array, lengths in the pair's unit."""
+
+    def collides(self, T_nut_bolt: Floats) -> bool:
+        """Whether any triangle of the bolt meets one of the nut: the surfaces, not the solids."""
+
+    def pairs(self, T_nut_bolt: Floats) -> Ints:
+        """The numbers of the triangles that meet, the bolt's first, shape (k, 2), in ascending order."""
+
+    def distance(self, T_nut_bolt: Floats) -> float:
+        """The least distance of the surfaces; 0 where they meet."""
+
+
 class Collider:
-    """Bolt and nut with their search trees; a pose ``T_nut_bolt`` is a (4, 4) array, lengths in the pair's unit."""
+    """Bolt and nut with fcl's search trees: an :class:`Engine`."""
 
     def __init__(self, bolt: Solid, nut: Solid) -> None:
         self._bolt, self._nut = fcl.CollisionObject(_tree(bolt)), fcl.CollisionObject(_tree(nut))

@@ -14,7 +14,7 @@ from threadstate.contact import _solve_kernel as sk
 from threadstate.contact import _stage_kernel as stage
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.clusters import Cluster, Connectivity, Neighbourhood, connected
-from threadstate.mesh.collision import Collider, TooManyPairsError
+from threadstate.mesh.collision import Collider, Engine, TooManyPairsError
 from threadstate.mesh.deviation import deviation
 from threadstate.mesh.facing import closes_a_gap
 from threadstate.mesh.flush_patch import extreme_points
@@ -24,7 +24,7 @@ from threadstate.mesh.part_name import Part
 from threadstate.mesh.pivot import origin_moment
 from threadstate.mesh.scene import scene_part
 from threadstate.mesh.scene_name import Scene
-from threadstate.mesh.solid import Floats
+from threadstate.mesh.solid import Floats, Solid
 from threadstate.mesh.steps import Reached, approach, decades, march_and_halve, regress
 from threadstate.mesh.touch import NoContactPointError, Touch, touch, touches_beyond
 from threadstate.state.options import SolveOptions
@@ -56,8 +56,10 @@ class Undecided(Exception):  # noqa: N818 - it never leaves the method
 class MeshMethod:
     """Bolt and nut of a pair as meshes in their search trees, and what is asked of them."""
 
-    def __init__(self, pair: Pair, options: MeshOptions) -> None:
-        self._pair, self._options = pair, options
+    def __init__(self, pair: Pair, options: MeshOptions, engine: Callable[[Solid, Solid], Engine] = Collider) -> None:
+        self._engine = engine
+        self.pair = self._pair = pair
+        self._options = options
         self._bolt, self._nut = (scene_part(pair, part, options.tessellation, options.scene) for part in Part)
         self._set_up_search()
         self._final = options.final_step * pair.thread_pitch
@@ -67,7 +69,7 @@ class MeshMethod:
         )
 
     def _set_up_search(self) -> None:
-        self._collider = Collider(self._bolt, self._nut)
+        self._collider = self._engine(self._bolt, self._nut)
         self._connectivity = Connectivity(self._bolt, self._nut)
 
     def solve_options(self, options: SolveOptions) -> SolveOptions:

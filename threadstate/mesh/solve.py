@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.agreement import disagreement, other_tessellation
-from threadstate.mesh.method import mesh_method
+from threadstate.mesh.method import MeshMethod, mesh_method
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
@@ -57,7 +57,15 @@ def _checked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: Pos
 
 
 def _unchecked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
-    method = mesh_method(pair, mesh)
+    return state_by(mesh_method(pair, mesh), options, pose_deg)
+
+
+def state_by(method: MeshMethod, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
+    """The state of a valid pose (roll, pitch, phase in degrees) by a method that is there, unchecked.
+
+    Raises:
+        MeshUndecidedError: the meshes cannot answer.
+    """
     chosen = method.solve_options(options)
     record = method.solve(pose_deg, chosen)
-    return decoded_states(pair, chosen, np.array([pose_deg]), record.reshape(1, RECORD_SIZE))[0]
+    return decoded_states(method.pair, chosen, np.array([pose_deg]), record.reshape(1, RECORD_SIZE))[0]

@@ -1,0 +1,100 @@
+"""What is measured: methods with their settings, grouped in series."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from studies.chart.scale import TURN_LIMIT_DEG, Scale
+from threadstate.mesh.options import Descent, MeshOptions
+from threadstate.mesh.presets import Preset
+from threadstate.mesh.scene_name import Scene
+from threadstate.state.options import SolveOptions
+
+MICROINCH = 2e-5
+"""A microinch on the paper's thread, in thread pitches."""
+FINAL_STEPS = (10.0, 1.0, 0.1)
+"""Final steps in microinches."""
+COAL_PRESETS = 4
+"""How many of the presets, from the coarsest, coal is given, too: it takes twice the time."""
+TIE_TOLERANCES = (1e-13, 1e-8, 1e-6)
+"""Tolerances of a tie, in thread pitches, beside the default."""
+
+
+class Series(StrEnum):
+    """A line of the chart."""
+
+    EXACT = "exact method"
+    EDGES = "meshes fine along the edges"
+    FULL = "full solids"
+    BAND = "band without walls"
+    CURVES = "two edge curves, no mesh"
+    DECADES = "decade descent"
+    COAL = "coal in place of fcl"
+
+
+class Engine(StrEnum):
+    """The collision library."""
+
+    FCL = "fcl"
+    COAL = "coal"
+
+
+@dataclass(frozen=True)
+class ByMesh:
+    """The mesh method."""
+
+    options: MeshOptions
+    engine: Engine = Engine.FCL
+
+
+@dataclass(frozen=True)
+class Exactly:
+    """The exact method; ``boxes`` is how many boxes of azimuth an edge is begun with, None as it is built."""
+
+    boxes: int | None = None
+    proved: bool = False
+
+
+@dataclass(frozen=True)
+class Contestant:
+    """A method with its settings; ``label`` tells it from the others of its series."""
+
+    series: Series
+    label: str
+    way: ByMesh | Exactly
+    options: SolveOptions
+
+
+LIMITED = SolveOptions(turn_limit_deg=TURN_LIMIT_DEG)
+DEFAULT = Contestant(Series.EXACT, "as built", Exactly(), LIMITED)
+
+
+def contestants(scale: Scale) -> list[Contestant]:
+    """All of them, series by series, from coarse to fine."""
+    found = [DEFAULT, replace(DEFAULT, label="threads by rectangles", way=Exactly(proved=True))]
+    found += [replace(DEFAULT, label=f"{boxes} boxes", way=Exactly(boxes)) for boxes in scale.bracketings]
+    found += [
+        replace(DEFAULT, label=f"tie {tolerance:g} p", options=replace(LIMITED, tie_tolerance=tolerance))
+        for tolerance in TIE_TOLERANCES
+    ]
+    for series, scene in ((Series.EDGES, Scene.EDGES), (Series.CURVES, Scene.CURVES)):
+        found += [_by_mesh(series, scene, preset, step) for preset in scale.presets for step in FINAL_STEPS]
+    for series, scene in ((Series.FULL, Scene.FULL), (Series.BAND, Scene.BAND)):
+        found += [_by_mesh(series, scene, preset, 1.0) for preset in scale.presets]
+    for preset in scale.presets:
+        tenth = _by_mesh(Series.DECADES, Scene.EDGES, preset, 1.0)
+        assert isinstance(tenth.way, ByMesh)
+        found.append(
+            replace(tenth, way=replace(tenth.way, options=replace(tenth.way.options, descent=Descent.DECADES)))
+        )
+    for preset in scale.presets[:COAL_PRESETS]:
+        other = _by_mesh(Series.COAL, Scene.EDGES, preset, 1.0)
+        assert isinstance(other.way, ByMesh)
+        found.append(replace(other, way=replace(other.way, engine=Engine.COAL)))
+    return found
+
+
+def _by_mesh(series: Series, scene: Scene, preset: Preset, microinches: float) -> Contestant:
+    options = MeshOptions(preset.tessellation, final_step=microinches * MICROINCH, scene=scene)
+    return Contestant(series, f"{preset.value}, {microinches:g} uin", ByMesh(options), LIMITED)
