@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 
 from tests.network.cell_maps import A, B, C, cell_maps, orientation_cells
 from threadstate.errors import InvalidValueError
@@ -88,16 +87,17 @@ def test_neighbours_are_one_step_of_one_angle_away() -> None:
             assert (move.reverse, number) in cell_map.neighbours(beside)
 
 
-@given(cell_maps(), st.data())
-def test_overlaps_cover_a_cell_by_the_cells_that_hold_its_phases(cell_map: CellMap, data: st.DataObject) -> None:
-    cell = data.draw(st.sampled_from(list(cell_map)))
-    other = data.draw(st.integers(0, cell_map.orientation_count - 1))
-    overlaps = cell_map.overlaps(cell, other)
-    edges = [cell.start_deg, *(overlap.high_deg for overlap in overlaps)]
-    assert edges[-1] == cell.end_deg
-    assert [overlap.low_deg for overlap in overlaps] == edges[:-1]
-    for overlap in overlaps:
-        middle = 0.5 * (overlap.low_deg + overlap.high_deg)
-        assert overlap.cell is cell_map.at_phase(other, middle)
-        assert overlap.cell.start_deg <= overlap.low_deg - 360.0 * overlap.lap
-        assert overlap.high_deg - 360.0 * overlap.lap <= overlap.cell.end_deg
+@given(cell_maps())
+def test_crossings_cover_a_cell_by_the_cells_that_hold_its_phases(cell_map: CellMap) -> None:
+    for number, cell in enumerate(cell_map.all_cells):
+        assert cell_map.number(cell) == number
+        for move, beside in cell_map.neighbours(cell.orientation):
+            found = [one for one in cell_map.crossings[number] if one.move is move]
+            edges = [cell.start_deg, *(one.high_deg for one in found)]
+            assert edges[-1] == cell.end_deg
+            assert [one.low_deg for one in found] == edges[:-1]
+            for one in found:
+                target = cell_map.all_cells[one.target]
+                assert target is cell_map.at_phase(beside, 0.5 * (one.low_deg + one.high_deg))
+                assert target.start_deg <= one.low_deg - 360.0 * one.lap
+                assert one.high_deg - 360.0 * one.lap <= target.end_deg

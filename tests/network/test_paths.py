@@ -11,7 +11,8 @@ from tests.network.cell_maps import TICK_DEG, TICKS, UNDECIDED, A, B, C, cell_ma
 from threadstate.errors import InvalidValueError, NotFoundError
 from threadstate.network.cells import Cell, CellMap
 from threadstate.network.moves import TILTS, Move
-from threadstate.network.paths import Objective, Path, best_path
+from threadstate.network.paths import Path, best_path
+from threadstate.network.search import Objective
 
 Value = tuple[float, float]
 
@@ -111,7 +112,7 @@ def test_from_a_formation_no_way_from_any_of_its_occurrences_is_better(
     path = best_path(cell_map, formation, objective, tilts | {Move.COUNTER_CLOCKWISE})
     values = [
         value_by_ticks(cell_map, cell, round(cell.start_deg / TICK_DEG), objective, tilts)
-        for cell in cell_map
+        for cell in cell_map.all_cells
         if cell.formation == formation
     ]
     assert value_of(path) == min((value for value in values if value is not None), default=None)

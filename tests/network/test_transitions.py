@@ -83,12 +83,12 @@ def test_each_transition_has_its_reverse(cell_map: CellMap) -> None:
 def test_tilts_and_equal_neighbours_cover_the_circle(cell_map: CellMap) -> None:
     found = tr.transitions(cell_map)
     for number in range(cell_map.orientation_count):
-        for move, beside in cell_map.neighbours(number):
+        for move, _ in cell_map.neighbours(number):
             tilted = tr.with_move(tr.from_orientation(found, number), move)
             alike = fsum(
-                high - low
+                one.high_deg - one.low_deg
                 for cell in cell_map.cells[number]
-                for other, low, high, _ in cell_map.overlaps(cell, beside)
-                if other.formation == cell.formation
+                for one in cell_map.crossings[cell_map.number(cell)]
+                if one.move is move and cell_map.all_cells[one.target].formation == cell.formation
             )
             assert fsum(one.cover_deg for one in tilted) + alike == 360.0

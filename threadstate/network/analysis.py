@@ -119,10 +119,10 @@ def dead_ends(network: ConstraintNetwork, moves: Collection[Move] = SNAP_SEARCH)
     """
     cell_map = network.cell_map
     numbers = _cells_by_phase(cell_map)
-    in_window = np.array([cell.in_window for cell in cell_map])
+    in_window = np.array([cell.in_window for cell in cell_map.all_cells])
     reaching = _reaching(in_window[numbers], len(cell_map.tilts_deg), in_order(moves))
     found = set(np.unique(numbers[reaching]).tolist())
-    escaping = {cell.formation.key for number, cell in enumerate(cell_map) if number in found}
+    escaping = {cell.formation.key for number, cell in enumerate(cell_map.all_cells) if number in found}
     return tuple(formation for formation in cell_map.formations if formation.key not in escaping)
 
 
@@ -131,7 +131,7 @@ def _cells_by_phase(cell_map: CellMap) -> NDArray[np.intp]:
 
     No cell of any orientation begins within a stretch of phase.
     """
-    starts = np.unique([cell.start_deg for cell in cell_map])
+    starts = np.unique([cell.start_deg for cell in cell_map.all_cells])
     first, rows = 0, []
     for cells in cell_map.cells:
         places = np.searchsorted([cell.start_deg for cell in cells], starts, side="right") - 1

@@ -6,7 +6,7 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 from threadstate.errors import InvalidValueError
@@ -45,14 +45,15 @@ class Cell:
         return self.end_deg - self.start_deg
 
 
-class Overlap(NamedTuple):
-    """A stretch of phase that a cell shares with one of another orientation.
+class Crossing(NamedTuple):
+    """A stretch of phase in which a tilt leads from one cell to another.
 
-    ``low_deg`` and ``high_deg`` lie between the start and the end of the former. ``lap`` is how many turns they are
-    ahead of the same phases between the start and the end of the latter.
+    ``low_deg`` and ``high_deg`` lie between the start and the end of the former; 360 * ``lap`` deg less, they lie
+    between those of the latter, whose number is ``target``.
     """
 
-    cell: Cell
+    move: Move
+    target: int
     low_deg: float
     high_deg: float
     lap: int
@@ -100,15 +101,20 @@ class CellMap:
         Raises:
             InvalidValueError: two formations have the same key.
         """
-        formations = sorted({cell.formation for cell in self}, key=lambda formation: formation.key)
+        formations = sorted({cell.formation for cell in self.all_cells}, key=lambda formation: formation.key)
         for one, other in pairwise(formations):
             if one.key == other.key:
                 raise InvalidValueError("key of a formation", other.text, f"another one than that of {one.text}")
         return tuple(formations)
 
-    def __iter__(self) -> Iterator[Cell]:
-        """All cells, by orientation and phase."""
-        return (cell for cells in self.cells for cell in cells)
+    @cached_property
+    def all_cells(self) -> tuple[Cell, ...]:
+        """All cells by orientation and phase; a cell's place here is its number."""
+        return tuple(cell for cells in self.cells for cell in cells)
+
+    def number(self, cell: Cell) -> int:
+        """The number of a cell."""
+        return self._first_numbers[cell.orientation] + cell.position
 
     def tilt_deg(self, orientation: int) -> tuple[float, float]:
         """Roll and pitch of an orientation."""
@@ -148,19 +154,36 @@ class CellMap:
         """The tilts that lead from an orientation to those beside it in the grid, and to which."""
         return self._neighbours[orientation]
 
-    def overlaps(self, cell: Cell, orientation: int) -> list[Overlap]:
-        """How the cells of another orientation cover a cell, in order of growing phase."""
-        starts, cells = self._starts[orientation], self.cells[orientation]
-        count = len(cells)
-        lap, place = divmod(bisect_right(starts, cell.start_deg) - 1, count)
-        low = cell.start_deg
-        found = []
-        while low < cell.end_deg:
-            next_lap, next_place = (lap, place + 1) if place + 1 < count else (lap + 1, 0)
-            high = min(starts[next_place] + CIRCLE_DEG * next_lap, cell.end_deg)
-            found.append(Overlap(cells[place], low, high, lap))
-            lap, place, low = next_lap, next_place, high
-        return found
+    @cached_property
+    def crossings(self) -> tuple[tuple[Crossing, ...], ...]:
+        """For every cell, by number, where tilts lead from it: by move, then in order of growing phase."""
+        return tuple(
+            tuple(
+                crossing
+                for move, beside in self._neighbours[cell.orientation]
+                for crossing in self._crossings(cell, move, beside)
+            )
+            for cell in self.all_cells
+        )
+
+    def _crossings(self, cell: Cell, move: Move, beside: int) -> Iterator[Crossing]:
+        starts, first = self._starts[beside], self._first_numbers[beside]
+        low, end = cell.start_deg, cell.end_deg
+        lap, place = 0, bisect_right(starts, low) - 1
+        if place < 0:
+            lap, place = -1, len(starts) - 1
+        while low < end:
+            target, target_lap = first + place, lap
+            place += 1
+            if place == len(starts):
+                lap, place = lap + 1, 0
+            high = min(starts[place] + CIRCLE_DEG * lap, end)
+            yield Crossing(move, target, low, high, target_lap)
+            low = high
+
+    @cached_property
+    def _first_numbers(self) -> list[int]:
+        return [0, *accumulate(len(cells) for cells in self.cells)]
 
     @cached_property
     def _starts(self) -> tuple[list[float], ...]:

@@ -137,7 +137,7 @@ def constraint_network(cell_map: CellMap) -> ConstraintNetwork:
         InvalidValueError: two formations have the same key.
     """
     cells = defaultdict(list)
-    for cell in cell_map:
+    for cell in cell_map.all_cells:
         cells[cell.formation].append(cell)
     nodes = tuple(_node(formation, tuple(cells[formation]), cell_map.total_deg) for formation in cell_map.formations)
 

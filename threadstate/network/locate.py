@@ -116,7 +116,7 @@ def locate(cell_map: CellMap, observation: Observation) -> Location:
     """The orientations and phases at which a state has all that was observed."""
     remaining = [[cell for cell in cells if observation.fits(cell)] for cells in cell_map.cells]
     width = fsum(cell.width_deg for cells in remaining for cell in cells)
-    undecided = fsum(cell.width_deg for cell in cell_map if cell.formation.state_class is None)
+    undecided = fsum(cell.width_deg for cell in cell_map.all_cells if cell.formation.state_class is None)
     stretches = tuple(stretch for cells in remaining for stretch in _stretches(cells))
     return Location(stretches, width / cell_map.total_deg, undecided / cell_map.total_deg)
 

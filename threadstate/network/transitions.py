@@ -40,7 +40,7 @@ class Transition:
 
 
 def transitions(cell_map: CellMap) -> tuple[Transition, ...]:
-    """All transitions: by orientation of the source, then turns, then tilts, each by phase.
+    """All transitions: by orientation of the source; first turns by phase, then tilts by source and move.
 
     Along phase every boundary between two cells is one in both senses, whether or not the formation changes. To an
     orientation beside it in the grid there is one for every stretch that two cells share and whose formations differ.
@@ -50,8 +50,8 @@ def transitions(cell_map: CellMap) -> tuple[Transition, ...]:
 
 def _from_orientation(cell_map: CellMap, number: int) -> Iterator[Transition]:
     yield from _turns(cell_map.cells[number])
-    for move, beside in cell_map.neighbours(number):
-        yield from _tilts(cell_map, number, move, beside)
+    for cell in cell_map.cells[number]:
+        yield from _tilts(cell_map, cell)
 
 
 def _turns(cells: tuple[Cell, ...]) -> Iterator[Transition]:
@@ -87,12 +87,12 @@ def _run_widths(cells: tuple[Cell, ...]) -> list[float]:
     return widths
 
 
-def _tilts(cell_map: CellMap, number: int, move: Move, beside: int) -> Iterator[Transition]:
-    for cell in cell_map.cells[number]:
-        for other, low, high, _ in cell_map.overlaps(cell, beside):
-            if other.formation != cell.formation:
-                shift = CIRCLE_DEG if low >= CIRCLE_DEG else 0.0
-                yield Transition(move, cell, other, low - shift, high - shift, high - low)
+def _tilts(cell_map: CellMap, cell: Cell) -> Iterator[Transition]:
+    for move, target, low, high, _ in cell_map.crossings[cell_map.number(cell)]:
+        other = cell_map.all_cells[target]
+        if other.formation is not cell.formation:
+            shift = CIRCLE_DEG if low >= CIRCLE_DEG else 0.0
+            yield Transition(move, cell, other, low - shift, high - shift, high - low)
 
 
 def with_move(found: Iterable[Transition], move: Move) -> tuple[Transition, ...]:
