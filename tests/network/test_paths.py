@@ -29,7 +29,7 @@ def value_of(path: Path | None) -> Value | None:
 
 
 def value_by_ticks(
-    cell_map: CellMap, start: Cell, tick: int, objective: Objective, tilts: frozenset[Move]
+    cell_map: CellMap, start: Cell, tick: int, objective: Objective, tilts: frozenset[Move], limit: int = 2 * TICKS
 ) -> Value | None:
     """The best value, found by going through all orientations tick by tick."""
 
@@ -43,7 +43,7 @@ def value_by_ticks(
 
     costs = {start.orientation: -(start.margin or 0.0) if objective is Objective.MARGIN else 0.0}
     found: list[Value] = []
-    for turned in range(2 * TICKS + 1):
+    for turned in range(limit + 1):
         at = tick + turned
         if turned:
             costs = {k: cost(c, cell_at(k, at - 1), cell_at(k, at)) for k, c in costs.items()}
@@ -90,6 +90,7 @@ def test_from_a_pose_no_way_is_better(
 ) -> None:
     number = data.draw(st.integers(0, cell_map.orientation_count - 1))
     tick = data.draw(st.integers(0, TICKS - 1))
+    limit = data.draw(st.integers(0, 2 * TICKS))
     start = cell_map.at_phase(number, TICK_DEG * tick)
     path = best_path(
         cell_map,
@@ -98,8 +99,9 @@ def test_from_a_pose_no_way_is_better(
         tilts | {Move.COUNTER_CLOCKWISE},
         orientation=number,
         phase_deg=TICK_DEG * tick,
+        limit_deg=TICK_DEG * limit,
     )
-    assert value_of(path) == value_by_ticks(cell_map, start, tick, objective, tilts)
+    assert value_of(path) == value_by_ticks(cell_map, start, tick, objective, tilts, limit)
     assert path is None or is_a_way(cell_map, path, tilts)
 
 
@@ -110,10 +112,11 @@ def test_from_a_formation_no_way_from_any_of_its_occurrences_is_better(
 ) -> None:
     formation = data.draw(st.sampled_from(cell_map.formations))
     path = best_path(cell_map, formation, objective, tilts | {Move.COUNTER_CLOCKWISE})
+    occurrences = [cell for cell in cell_map.all_cells if cell.formation == formation]
     values = [
         value_by_ticks(cell_map, cell, round(cell.start_deg / TICK_DEG), objective, tilts)
-        for cell in cell_map.all_cells
-        if cell.formation == formation
+        for cell in occurrences
+        if not cell.in_window or all(one.in_window for one in occurrences)
     ]
     assert value_of(path) == min((value for value in values if value is not None), default=None)
     assert path is None or is_a_way(cell_map, path, tilts)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 from itertools import zip_longest
 
 from threadstate.history.labels import ContactLabels
@@ -12,6 +13,9 @@ from threadstate.network.formation import Formation, class_text, contact_text, r
 from threadstate.state.model import StateClass
 
 STAGES = (1, 2, 3)
+
+CACHED = 2**15
+"""How many differences are kept: many transitions are between the same two formations."""
 
 
 class ChangeKind(StrEnum):
@@ -77,6 +81,7 @@ class FormationDifference:
         return "; ".join(texts)
 
 
+@lru_cache(maxsize=CACHED)
 def difference(before: Formation, after: Formation) -> FormationDifference:
     """How ``after`` differs from ``before``.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 from threadstate.history.labels import ContactLabels, Labels
 from threadstate.state.model import StateClass
@@ -43,7 +43,7 @@ class Formation:
         """The first ten hexadecimal digits of the SHA-256 of :attr:`canonical`."""
         return hashlib.sha256(self.canonical.encode()).hexdigest()[:KEY_DIGITS]
 
-    @property
+    @cached_property
     def text(self) -> str:
         """The formation in words: the class, then of every contact its stage, the bolt's region and the nut's."""
         contacts = "; ".join(f"{c.stage} {contact_text(c)}" for c in self.contacts)
@@ -63,11 +63,13 @@ def class_text(state_class: StateClass | None) -> str:
     return _CLASS_TEXTS[state_class]
 
 
+@cache
 def contact_text(contact: ContactLabels) -> str:
     """A contact in words, the bolt's region first."""
     return f"{region_text(contact.bolt_region)} on {region_text(contact.nut_region)} ({contact.features})"
 
 
+@cache
 def region_text(region: Region) -> str:
     """A region in words, as ``positive root fillet`` for ``root_fillet_pos``."""
     *names, last = region.value.split("_")

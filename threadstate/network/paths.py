@@ -63,8 +63,8 @@ def best_path(
 
     The bolt turns counter-clockwise and never back; a tilt, where ``moves`` allow it, is made at any phase at which
     both cells hold, and costs no turning. Without ``phase_deg`` a path begins at the start of a cell: its turning is
-    the most that is needed from anywhere in it. Without ``orientation`` all occurrences compete. No path is better:
-    :class:`threadstate.network.search.Search` says why.
+    the most that is needed from anywhere in it; cells in the window are no start then, unless there are no others.
+    Without ``orientation`` all occurrences compete. Why no path is better: :class:`threadstate.network.search.Search`.
 
     Raises:
         InvalidValueError: moves that are empty, turn clockwise or do not turn at all; a formation that does not hold
@@ -102,7 +102,8 @@ def _starts(
                 starts.append((cell, cell.start_deg + ahead))
     if not starts:
         raise InvalidValueError("formation", formation.key, "one that holds at the orientation and phase asked for")
-    return starts
+    outside = [(cell, phase) for cell, phase in starts if not cell.in_window]
+    return outside if outside and phase_deg is None else starts
 
 
 def _steps(cell_map: CellMap, last: Label) -> list[Step]:
