@@ -5,6 +5,7 @@ from __future__ import annotations
 from alembic import context
 from sqlalchemy import Connection
 
+import threadstate.library.history_tables  # noqa: F401 - its tables belong to the schema
 from threadstate.library.engine import writer_engine
 from threadstate.library.tables import metadata
 from threadstate.settings import read_settings

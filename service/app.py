@@ -9,14 +9,17 @@ from fastapi import Depends, FastAPI
 
 import service.docs.endpoints
 import service.health.endpoints
+import service.histories.computed
 import service.histories.endpoints
 import service.libraries.endpoints
+import service.network.endpoints
 import service.solve.endpoints
 import service.states.endpoints
 import service.undecided.endpoints
 import threadstate
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
 from service.middleware import BodyLimit, EncodedSlashes, HeadAsGet, SecurityHeaders
+from service.network.store import NetworkStore
 from service.parameters import refuse_unknown_parameters
 from service.problems import install_problem_handlers
 from threadstate.library.engine import reader_engine
@@ -54,17 +57,20 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         responses=PROBLEM_RESPONSES,
     )
     app.state.engine = engine
+    app.state.networks = NetworkStore()
     install_problem_handlers(app)
     for part in (
         service.libraries,
         service.states,
         service.histories,
         service.undecided,
+        service.network,
         service.solve,
         service.health,
         service.docs,
     ):
         app.include_router(part.endpoints.router)
+    app.include_router(service.histories.computed.router)
     app.add_middleware(BodyLimit, largest_bytes=LARGEST_BODY_BYTES)
     for middleware in (HeadAsGet, EncodedSlashes, SecurityHeaders):
         app.add_middleware(middleware)

@@ -11,13 +11,20 @@ import typer
 from typer.exceptions import TyperException
 
 from threadstate.errors import ThreadstateError
+from worker.commands.formation import formation
+from worker.commands.history import history
+from worker.commands.locate import locate
 from worker.commands.mesh import mesh
 from worker.commands.migrate import migrate
+from worker.commands.network import network
+from worker.commands.path import path
 from worker.commands.rebuild import rebuild
 from worker.commands.run import run
 from worker.commands.serve import serve
 from worker.commands.solve import solve
 from worker.commands.summary import summary
+from worker.commands.transitions import transitions
+from worker.commands.windows import windows
 from worker.exit_codes import ExitCode, exit_code_of
 from worker.garbage import collect_rarely
 
@@ -32,7 +39,24 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-for command in (solve, rebuild, summary, mesh, migrate, serve, run):
+COMMANDS = (
+    solve,
+    rebuild,
+    summary,
+    history,
+    windows,
+    transitions,
+    network,
+    formation,
+    path,
+    locate,
+    mesh,
+    migrate,
+    serve,
+    run,
+)
+
+for command in COMMANDS:
     # In a raw docstring the mark that keeps lines apart is two characters; typer wants the one that they stand for.
     app.command(help=inspect.cleandoc(command.__doc__ or "").replace("\\b", "\b"))(command)
 

@@ -5,16 +5,24 @@ from __future__ import annotations
 import signal
 from multiprocessing.connection import Connection
 
+from threadstate.archive.rows import history_rows
+from threadstate.history.build import histories_of
+from threadstate.history.window import windows_of
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.rows import ChunkRows, chunk_rows
+from threadstate.library.rows import chunk_rows
 from worker.answers import answers
-from worker.messages import Failure, Ready
+from worker.messages import Chunk, Failure, Ready
 
 
-def compute_chunk(inputs: LibraryInputs, index: int) -> ChunkRows:
-    """The answers for all poses of an orientation, as rows."""
+def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
+    """The answers for all poses of an orientation and, by the exact method, its history, as rows."""
     grid = inputs.grid
-    return chunk_rows(grid.orientation(index), grid.first_ordinal(index), answers(inputs, grid.poses(index)))
+    orientation = grid.orientation(index)
+    rows = chunk_rows(orientation, grid.first_ordinal(index), answers(inputs, grid.poses(index)))
+    if inputs.mesh is not None:
+        return Chunk(rows, None)
+    (history,) = histories_of(inputs.pair, [(orientation.roll_deg, orientation.pitch_deg)], inputs.options)
+    return Chunk(rows, history_rows(history, windows_of(inputs.pair, history)))
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:

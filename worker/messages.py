@@ -1,13 +1,24 @@
-"""What a computing process tells its parent, besides the chunks themselves."""
+"""What a computing process tells its parent."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from threadstate.library.history_rows import HistoryRows
+from threadstate.library.rows import ChunkRows
+
 
 @dataclass(frozen=True, slots=True)
 class Ready:
     """The kernels are loaded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """An orientation is computed; meshes give no history."""
+
+    rows: ChunkRows
+    history: HistoryRows | None
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,11 @@ def print_json(value: object) -> None:
     print_line(json.dumps(value, separators=(",", ":"), allow_nan=False))
 
 
+def print_text(text: bytes) -> None:
+    """Text that is whole lines already, in UTF-8."""
+    sys.stdout.write(text.decode())
+
+
 def tell(line: str) -> None:
     """A line for whoever is watching."""
     sys.stderr.write(f"{line}\n")

@@ -14,9 +14,8 @@ from multiprocessing.process import BaseProcess
 
 from threadstate.errors import ThreadstateError
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.rows import ChunkRows
 from worker.forkserver import running_forkserver
-from worker.messages import Failure, Ready
+from worker.messages import Chunk, Failure, Ready
 
 ASKED_AHEAD = 2
 """How many chunks a process is asked for at a time: it computes on while one waits to be written."""
@@ -58,7 +57,7 @@ class ComputingProcesses:
         self._inputs = inputs
         self._computers = [self._start() for _ in range(count)]
 
-    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[ChunkRows]:
+    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
         """The chunks of these orientations, in the order in which they are finished.
 
         Args:
@@ -89,7 +88,7 @@ class ComputingProcesses:
                 while asked[connection] < ASKED_AHEAD and (index := next(waiting, None)) is not None:
                     by_connection[connection].ask(index)
                     asked[connection] += 1
-                if isinstance(message, ChunkRows):
+                if isinstance(message, Chunk):
                     yield message
 
     @property

@@ -70,10 +70,10 @@ def rebuild(engine: Engine, inputs: LibraryInputs, workers: int, progress: Progr
     computed = 0
     if missing:
         with computing_processes(inputs, min(workers, len(missing))) as processes:
-            for rows in processes.chunks(missing, progress.ready):
-                if write_chunk(engine, library_id, rows):
-                    computed += rows.pose_count
-                progress.advance(rows.pose_count)
+            for chunk in processes.chunks(missing, progress.ready):
+                if write_chunk(engine, library_id, chunk.rows, chunk.history):
+                    computed += chunk.rows.pose_count
+                progress.advance(chunk.rows.pose_count)
     publish(engine, library_id, grid)
     made = _published(engine, inputs)
     assert made is not None

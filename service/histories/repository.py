@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection
 
-from threadstate.errors import NotFoundError
-from threadstate.library.read import LibraryRecord, states_between, undecided_between
+from threadstate.library.read import LibraryRecord, not_on_the_grid, states_between, undecided_between
 from threadstate.state.model import ContactState, UndecidedPose
 
 
@@ -27,10 +26,7 @@ def history(connection: Connection, library: LibraryRecord, roll_deg: float, pit
     """
     grid = library.grid
     if roll_deg not in grid.tilts_deg or pitch_deg not in grid.tilts_deg:
-        raise NotFoundError(
-            f"library {library.id} has no orientation of roll {roll_deg:g}, pitch {pitch_deg:g} deg; "
-            f"its grid: -{grid.tilt_max_deg:g} to {grid.tilt_max_deg:g} deg in steps of {grid.tilt_step_deg:g}"
-        )
+        raise not_on_the_grid(library, roll_deg, pitch_deg)
     orientation = grid.tilts_deg.index(roll_deg) * grid.tilt_count + grid.tilts_deg.index(pitch_deg)
     first = grid.first_ordinal(orientation)
     last = first + grid.phase_count - 1

@@ -70,6 +70,11 @@ def answers_sha256(answers: Iterable[Answer]) -> str:
     return digest.hexdigest()
 
 
+def chunk_sha256(answers_hash: str, history_hash: str) -> str:
+    """SHA-256, in hexadecimal, of the hashes of an orientation's answers and of its history: a chunk's content hash."""
+    return hashlib.sha256(f"{answers_hash}\n{history_hash}".encode()).hexdigest()
+
+
 def library_sha256(chunk_hashes: Sequence[str]) -> str:
     """SHA-256, in hexadecimal, of the chunks' hashes in the order of their orientations: a library's content hash."""
     return hashlib.sha256("\n".join(chunk_hashes).encode()).hexdigest()

@@ -157,6 +157,15 @@ def undecided_reasons(connection: Connection, library_id: int) -> list[tuple[str
     return sorted(((row[0], row[1]) for row in rows), key=lambda row: (-row[1], row[0]))
 
 
+def not_on_the_grid(library: LibraryRecord, roll_deg: float, pitch_deg: float) -> NotFoundError:
+    """The error for an orientation (degrees) that is none of a library's grid."""
+    grid = library.grid
+    return NotFoundError(
+        f"library {library.id} has no orientation of roll {roll_deg:g}, pitch {pitch_deg:g} deg; "
+        f"its grid: -{grid.tilt_max_deg:g} to {grid.tilt_max_deg:g} deg in steps of {grid.tilt_step_deg:g}"
+    )
+
+
 def counts(connection: Connection, library_id: int) -> Counts:
     """How many states have each class and each flag."""
     classes = {row[0]: row[1] for row in _grouped(connection, state, "state_class", library_id)}

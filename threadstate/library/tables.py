@@ -42,11 +42,12 @@ metadata = MetaData(
     }
 )
 
-_NAME_LENGTH = 32
+NAME_LENGTH = 32
 _SHA256_LENGTH = 64
 
 
-def _one_of(column: str, names: Iterable[StrEnum]) -> CheckConstraint:
+def one_of(column: str, names: Iterable[StrEnum]) -> CheckConstraint:
+    """The constraint that a column holds one of these names."""
     # Not IN (...): SQLite builds that list anew for every row, which made up a third of the time of writing a library.
     either = " OR ".join(f"{column} = '{name.value}'" for name in names)
     return CheckConstraint(either, name=f"{column}_known")
@@ -61,9 +62,9 @@ library = Table(
     # What was computed: the SHA-256 of all inputs, and the inputs themselves as canonical JSON.
     Column("input_sha256", String(_SHA256_LENGTH), nullable=False),
     Column("pair", Text, nullable=False),
-    Column("method", String(_NAME_LENGTH), nullable=False),
+    Column("method", String(NAME_LENGTH), nullable=False),
     Column("options", Text, nullable=False),
-    Column("code_version", String(_NAME_LENGTH), nullable=False),
+    Column("code_version", String(NAME_LENGTH), nullable=False),
     # The grid: roll and pitch are -tilt_max .. tilt_max, phase 0 .. 360 without the end.
     Column("tilt_max_deg", Double, nullable=False),
     Column("tilt_step_deg", Double, nullable=False),
@@ -81,7 +82,7 @@ library = Table(
     PrimaryKeyConstraint("id"),
     # Serves: is this very library here already? (worker, before it computes)
     UniqueConstraint("input_sha256"),
-    _one_of("length_unit", LengthUnit),
+    one_of("length_unit", LengthUnit),
     CheckConstraint("tilt_count > 0 AND phase_count > 0", name="grid_not_empty"),
     CheckConstraint("state_count = tilt_count * tilt_count * phase_count", name="state_count_of_grid"),
     CheckConstraint("(content_sha256 IS NULL) = (published_at IS NULL)", name="published_with_content"),
@@ -117,7 +118,7 @@ state = Table(
     Column("roll_deg", Double, nullable=False),
     Column("pitch_deg", Double, nullable=False),
     Column("phase_deg", Double, nullable=False),
-    Column("state_class", String(_NAME_LENGTH), nullable=False),
+    Column("state_class", String(NAME_LENGTH), nullable=False),
     Column("lambda_deg", Double),
     Column("mu_deg", Double),
     Column("drop", Double),
@@ -131,7 +132,7 @@ state = Table(
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),
     # Serves: one state by its pose; filters roll, and roll with pitch, in the default order.
     UniqueConstraint("library_id", "roll_deg", "pitch_deg", "phase_deg"),
-    _one_of("state_class", StateClass),
+    one_of("state_class", StateClass),
     CheckConstraint("ordinal >= 0", name="ordinal_not_negative"),
     CheckConstraint("phase_deg >= 0 AND phase_deg < 360", name="phase_in_turn"),
     # Serves: filter pitch (without roll) in the default order; sort=pitch.
@@ -178,9 +179,9 @@ contact = Table(
     *(Column(f"point_{axis}", Double, nullable=False) for axis in "xyz"),
     *(Column(f"point_bolt_{axis}", Double, nullable=False) for axis in "xyz"),
     *(Column(f"normal_{axis}", Double, nullable=False) for axis in "xyz"),
-    Column("bolt_region", String(_NAME_LENGTH), nullable=False),
-    Column("nut_region", String(_NAME_LENGTH), nullable=False),
-    Column("features", String(_NAME_LENGTH), nullable=False),
+    Column("bolt_region", String(NAME_LENGTH), nullable=False),
+    Column("nut_region", String(NAME_LENGTH), nullable=False),
+    Column("features", String(NAME_LENGTH), nullable=False),
     Column("bolt_margin", Double, nullable=False),
     Column("nut_margin", Double, nullable=False),
     # Serves: the contacts of a state or of a range of states, in order.
@@ -188,9 +189,9 @@ contact = Table(
     ForeignKeyConstraint(_OF_STATE, ["state.library_id", "state.ordinal"], ondelete="CASCADE"),
     CheckConstraint("stage BETWEEN 1 AND 3", name="stage_known"),
     CheckConstraint("position >= 0", name="position_not_negative"),
-    _one_of("bolt_region", BOLT_REGIONS),
-    _one_of("nut_region", NUT_REGIONS),
-    _one_of("features", FeaturePair),
+    one_of("bolt_region", BOLT_REGIONS),
+    one_of("nut_region", NUT_REGIONS),
+    one_of("features", FeaturePair),
     # Serve: filters bolt_region and nut_region (any contact of the state), in the default order.
     Index(None, "library_id", "bolt_region", "ordinal"),
     Index(None, "library_id", "nut_region", "ordinal"),
@@ -204,14 +205,14 @@ state_flag = Table(
     Column("library_id", Integer, nullable=False),
     Column("ordinal", Integer, nullable=False),
     Column("position", Integer, nullable=False),
-    Column("flag", String(_NAME_LENGTH), nullable=False),
+    Column("flag", String(NAME_LENGTH), nullable=False),
     # Serves: the flags of a state or of a range of states, in order.
     PrimaryKeyConstraint("library_id", "ordinal", "position"),
     ForeignKeyConstraint(_OF_STATE, ["state.library_id", "state.ordinal"], ondelete="CASCADE"),
     # Serves: filter flag in the default order; the counts of the summary. Unique: a state has a flag once.
     UniqueConstraint("library_id", "flag", "ordinal"),
     CheckConstraint("position >= 0", name="position_not_negative"),
-    _one_of("flag", Flag),
+    one_of("flag", Flag),
     sqlite_with_rowid=False,
 )
 """A flag of a state; ``position`` is its place, from 0, among the state's flags."""

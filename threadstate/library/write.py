@@ -9,8 +9,10 @@ from functools import lru_cache
 from sqlalchemy import Connection, Dialect, Engine, Table, func, insert, select, update
 
 from threadstate.errors import ThreadstateError
-from threadstate.library.fingerprint import library_sha256
+from threadstate.library.fingerprint import chunk_sha256, library_sha256
 from threadstate.library.grid import Grid
+from threadstate.library.history_rows import HistoryRows
+from threadstate.library.history_tables import formation, formation_contact
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, Row
 from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag, undecided
@@ -56,8 +58,8 @@ def committed_orientations(engine: Engine, library_id: int) -> frozenset[int]:
         return frozenset(connection.scalars(select(chunk.c.orientation).where(chunk.c.library_id == library_id)))
 
 
-def write_chunk(engine: Engine, library_id: int, rows: ChunkRows) -> bool:
-    """Write a chunk in one transaction; a chunk that is there already is left as it is.
+def write_chunk(engine: Engine, library_id: int, rows: ChunkRows, history: HistoryRows | None = None) -> bool:
+    """Write a chunk, with its history if it has one, in one transaction; one that is there is left as it is.
 
     Returns:
         Whether it was written.
@@ -86,10 +88,14 @@ def write_chunk(engine: Engine, library_id: int, rows: ChunkRows) -> bool:
                     orientation.roll_deg,
                     orientation.pitch_deg,
                     rows.pose_count,
-                    rows.content_sha256,
+                    rows.content_sha256
+                    if history is None
+                    else chunk_sha256(rows.content_sha256, history.content_sha256),
                 )
             ],
         )
+        if history is not None:
+            _write_history(connection, library_id, orientation.index, history)
     return True
 
 
@@ -127,6 +133,15 @@ def publish(engine: Engine, library_id: int, grid: Grid) -> str:
             .values(content_sha256=content_sha256, published_at=datetime.now(UTC), undecided_count=left_undecided)
         )
     return content_sha256
+
+
+def _write_history(connection: Connection, library_id: int, orientation: int, rows: HistoryRows) -> None:
+    there = set(connection.scalars(select(formation.c.formation).where(formation.c.library_id == library_id)))
+    new = [one for one in rows.formations if one.key not in there]
+    _insert(connection, formation, library_id, [one.formation for one in new])
+    _insert(connection, formation_contact, library_id, [row for one in new for row in one.contacts])
+    for table, of_table in rows.of_orientation():
+        _insert(connection, table, library_id, [(orientation, *row) for row in of_table])
 
 
 def _count(connection: Connection, table: Table, library_id: int) -> int:

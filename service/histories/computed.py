@@ -1,0 +1,35 @@
+"""``/v1/histories/{roll}/{pitch}/intervals``: the intervals of any orientation."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Response
+
+from service.angles import PitchPath, RollPath
+from service.network.schemas import ComputedIntervals
+from service.representation import JSON
+from service.units import UNIT_HEADER, UnitQuery
+from threadstate.answer.histories import computed_history, history_document
+from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+from threadstate.units import conversion_factor
+
+router = APIRouter(prefix="/v1/histories", tags=["histories"])
+
+
+@router.get("/{roll}/{pitch}/intervals", summary="The intervals of any orientation", response_model=ComputedIntervals)
+def get_computed_intervals(
+    roll: RollPath,
+    pitch: PitchPath,
+    designation: Annotated[str, Query(max_length=100, description="designation of the pair")] = DEFAULT_DESIGNATION,
+    unit: UnitQuery = None,
+) -> Response:
+    """As the intervals of a library's orientation, for any roll and pitch, computed now."""
+    pair = pair_by_designation(designation)
+    shown = unit or pair.unit
+    history = history_document(
+        computed_history(pair, roll, pitch), roll, pitch, pair.thread_pitch, conversion_factor(pair.unit, shown)
+    )
+    answer = ComputedIntervals(designation=pair.designation, unit=shown, history=history)
+    headers = {UNIT_HEADER: shown.value, "Cache-Control": "no-store"}
+    return Response(answer.model_dump_json(by_alias=True), headers=headers, media_type=JSON)

@@ -1,0 +1,1 @@
+"""The constraint network of a library: transitions, windows, formations, paths, locations."""

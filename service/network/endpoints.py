@@ -1,0 +1,205 @@
+"""What is asked of a library's histories and its constraint network."""
+
+from __future__ import annotations
+
+from typing import Annotated
+from urllib.parse import urlencode
+
+from fastapi import APIRouter, Path, Query, Request, Response
+
+from service.angles import PhaseQuery, PitchPath, PitchQuery, RollPath, RollQuery
+from service.network.parameters import (
+    MovesQuery,
+    NetworkFormat,
+    ObjectiveQuery,
+    ObservationQuery,
+    RequiredKey,
+    TransitionQuery,
+)
+from service.network.schemas import (
+    IntervalsAnswer,
+    LocationAnswer,
+    NetworkSummary,
+    NodeAnswer,
+    PathAnswer,
+    TransitionsPage,
+    WindowsAnswer,
+)
+from service.network.store import RequestedNetwork
+from service.representation import JSON, NOT_MODIFIED, json_response, representation
+from service.units import UNIT_HEADER, UnitQuery
+from threadstate.answer.histories import history_document
+from threadstate.answer.library_network import LibraryNetwork
+from threadstate.answer.networks import location_document, node_document, path_document
+from threadstate.answer.select import selected
+from threadstate.answer.transitions import transition_documents
+from threadstate.answer.windows import windows_of_histories
+from threadstate.errors import InvalidValueError
+from threadstate.network.formation import KEY_DIGITS
+from threadstate.network.locate import locate
+from threadstate.network.paths import best_path
+from threadstate.network.search import Objective
+from threadstate.units import LengthUnit, conversion_factor
+
+router = APIRouter(prefix="/v1/libraries/{id}", tags=["network"])
+
+LARGEST_LIMIT = 100
+LARGEST_OFFSET = 10_000_000
+GRAPHML = "application/graphml+xml"
+DOT = "text/vnd.graphviz"
+
+KeyPath = Annotated[str, Path(min_length=KEY_DIGITS, max_length=KEY_DIGITS, description="key of a formation")]
+
+
+def _unit(network: LibraryNetwork, unit: LengthUnit | None) -> tuple[LengthUnit, float]:
+    stored = network.library.length_unit
+    shown = unit or stored
+    return shown, conversion_factor(stored, shown)
+
+
+@router.get(
+    "/histories/{roll}/{pitch}/intervals",
+    summary="The intervals of an orientation",
+    response_model=IntervalsAnswer,
+    responses=NOT_MODIFIED,
+)
+def get_intervals(
+    request: Request, network: RequestedNetwork, roll: RollPath, pitch: PitchPath, unit: UnitQuery = None
+) -> Response:
+    """The phase circle of an orientation, cut where any label changes or a height jumps, each boundary solved."""
+    shown, factor = _unit(network, unit)
+    stored = network.histories.orientations[network.orientation(roll, pitch)]
+    history = history_document(stored, roll, pitch, network.pair.thread_pitch, factor)
+    answer = IntervalsAnswer(library=network.library.id, unit=shown, history=history)
+    return _json(request, answer, shown)
+
+
+@router.get("/transitions", summary="Transitions", response_model=TransitionsPage, responses=NOT_MODIFIED)
+def list_transitions(
+    request: Request,
+    network: RequestedNetwork,
+    which: TransitionQuery,
+    limit: Annotated[int, Query(ge=1, le=LARGEST_LIMIT, description="how many a page has at most")] = 50,
+    after: Annotated[int, Query(ge=0, le=LARGEST_OFFSET, description="from the `next` link of the page before")] = 0,
+    unit: UnitQuery = None,
+) -> Response:
+    """From which interval to which, along phase and to the orientations beside; all filters hold at once.
+
+    Heights and normals along phase are stored ones. Those of tilts are solved for the page, half way through the
+    stretch over which the tilt can be made, unless that is shorter than 0.001 deg.
+    """
+    shown, factor = _unit(network, unit)
+    found = selected(network, which)
+    page = found[after : after + limit]
+    following = None
+    headers = {}
+    if after + limit < len(found):
+        query = urlencode({**request.query_params, "after": after + limit})
+        following = f"{request.scope.get('root_path', '')}/v1/libraries/{network.library.id}/transitions?{query}"
+        headers["Link"] = f'<{following}>; rel="next"'
+    answer = TransitionsPage(
+        library=network.library.id,
+        unit=shown,
+        count=len(found),
+        transitions=transition_documents(page, network.histories, network.pair, factor),
+        next=following,
+    )
+    return _json(request, answer, shown, headers)
+
+
+@router.get("/windows", summary="Clearance windows", response_model=WindowsAnswer, responses=NOT_MODIFIED)
+def list_windows(
+    request: Request,
+    network: RequestedNetwork,
+    roll: RollQuery = None,
+    pitch: PitchQuery = None,
+    unit: UnitQuery = None,
+) -> Response:
+    """Where a bolt turned counter-clockwise falls into the nut, how far, how it climbs again and where it leaves."""
+    shown, factor = _unit(network, unit)
+    windows = windows_of_histories(network.histories, roll, pitch, network.pair.thread_pitch, factor)
+    return _json(request, WindowsAnswer(library=network.library.id, unit=shown, windows=windows), shown)
+
+
+@router.get(
+    "/network",
+    summary="The constraint network",
+    response_model=NetworkSummary,
+    responses={
+        200: {"content": {GRAPHML: {"schema": {"type": "string"}}, DOT: {"schema": {"type": "string"}}}},
+        **NOT_MODIFIED,
+    },
+)
+def get_network(
+    request: Request,
+    network: RequestedNetwork,
+    format: Annotated[  # noqa: A002 - the parameter's name in the address
+        NetworkFormat, Query(description="`summary` is its size and what holds it together; the others are all of it")
+    ] = NetworkFormat.SUMMARY,
+) -> Response:
+    """Formations and what leads from one to another: its size, or all of it as node-link JSON, GraphML or DOT."""
+    match format:
+        case NetworkFormat.NODE_LINK:
+            return representation(request, network.node_link, JSON)
+        case NetworkFormat.GRAPHML:
+            return representation(request, network.graphml, GRAPHML)
+        case NetworkFormat.DOT:
+            return representation(request, network.dot, DOT)
+        case NetworkFormat.SUMMARY:
+            answer = NetworkSummary(library=network.library.id, network=network.summary)
+            return json_response(request, answer.model_dump(mode="json", by_alias=True))
+
+
+@router.get("/network/formations/{key}", summary="One formation", response_model=NodeAnswer, responses=NOT_MODIFIED)
+def get_formation(request: Request, network: RequestedNetwork, key: KeyPath, unit: UnitQuery = None) -> Response:
+    """Where a formation occurs, what can follow it, and how far it is to the snap."""
+    shown, factor = _unit(network, unit)
+    node = node_document(network.network, key, factor)
+    return _json(request, NodeAnswer(library=network.library.id, unit=shown, node=node), shown)
+
+
+@router.get("/network/paths", summary="The best path to the window", response_model=PathAnswer, responses=NOT_MODIFIED)
+def get_path(
+    request: Request,
+    network: RequestedNetwork,
+    start: RequiredKey,
+    moves: MovesQuery,
+    objective: ObjectiveQuery = Objective.TURNING,
+    roll: RollQuery = None,
+    pitch: PitchQuery = None,
+    phase: PhaseQuery = None,
+    unit: UnitQuery = None,
+) -> Response:
+    """From a formation, at any orientation or at one, to the clearance window, by the moves allowed."""
+    shown, factor = _unit(network, unit)
+    if (roll is None) != (pitch is None) or (phase is not None and roll is None):
+        raise InvalidValueError("roll, pitch, phase", (roll, pitch, phase), "none, roll and pitch, or all three")
+    orientation = None if roll is None or pitch is None else network.orientation(roll, pitch)
+    path = best_path(
+        network.cell_map,
+        network.network.node(start).formation,
+        objective,
+        moves,
+        orientation=orientation,
+        phase_deg=phase,
+    )
+    document = None if path is None else path_document(path, network.cell_map, factor)
+    return _json(request, PathAnswer(library=network.library.id, unit=shown, path=document), shown)
+
+
+@router.get("/network/locate", summary="What remains", response_model=LocationAnswer, responses=NOT_MODIFIED)
+def get_location(request: Request, network: RequestedNetwork, observed: ObservationQuery) -> Response:
+    """The orientations and phases at which a state can have all that was observed, and their share of all."""
+    location = location_document(locate(network.cell_map, observed), network.cell_map)
+    answer = LocationAnswer(library=network.library.id, location=location)
+    return json_response(request, answer.model_dump(mode="json", by_alias=True))
+
+
+def _json(
+    request: Request,
+    answer: IntervalsAnswer | TransitionsPage | WindowsAnswer | NodeAnswer | PathAnswer,
+    unit: LengthUnit,
+    headers: dict[str, str] | None = None,
+) -> Response:
+    document = answer.model_dump(mode="json", by_alias=True)
+    return json_response(request, document, {UNIT_HEADER: unit.value, **(headers or {})})

@@ -1,0 +1,109 @@
+"""The query parameters of a library's transitions, paths and locations."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+from fastapi import Depends, Query
+
+from service.angles import PhaseMaxQuery, PhaseMinQuery, PitchQuery, RollQuery
+from threadstate.answer.observed import contact_observations, named_moves
+from threadstate.answer.select import TransitionFilter
+from threadstate.network.changes import ChangeKind
+from threadstate.network.formation import KEY_DIGITS
+from threadstate.network.locate import Observation
+from threadstate.network.moves import Move
+from threadstate.network.search import Objective
+from threadstate.state.model import Flag, StateClass
+
+_LONGEST_MOVES = len(",".join(Move))
+_LONGEST_CONTACT = 80
+MOST_CONTACTS = 8
+
+KeyQuery = Annotated[str | None, Query(min_length=KEY_DIGITS, max_length=KEY_DIGITS, description="key of a formation")]
+RequiredKey = Annotated[
+    str,
+    Query(alias="from", min_length=KEY_DIGITS, max_length=KEY_DIGITS, description="key of the formation to start from"),
+]
+ObjectiveQuery = Annotated[
+    Objective, Query(description="what makes a path the best: least turning, fewest transitions, largest worst margin")
+]
+
+
+class NetworkFormat(StrEnum):
+    """The formats of a network."""
+
+    SUMMARY = "summary"
+    NODE_LINK = "node-link"
+    GRAPHML = "graphml"
+    DOT = "dot"
+
+
+def transition_filter(
+    move: Annotated[Move | None, Query(description="the move")] = None,
+    roll: RollQuery = None,
+    pitch: PitchQuery = None,
+    phase_min: PhaseMinQuery = None,
+    phase_max: PhaseMaxQuery = None,
+    source: Annotated[KeyQuery, Query(alias="from")] = None,
+    target: Annotated[KeyQuery, Query(alias="to")] = None,
+    change: Annotated[ChangeKind | None, Query(description="what changes")] = None,
+    state_class: Annotated[StateClass | None, Query(alias="class", description="the class it begins with")] = None,
+) -> TransitionFilter:
+    """The filter that a query asks for.
+
+    Raises:
+        InvalidValueError: ``phase_min`` is above ``phase_max``.
+    """
+    return TransitionFilter(move, roll, pitch, phase_min, phase_max, source, target, change, state_class)
+
+
+def path_moves(
+    moves: Annotated[
+        str,
+        Query(max_length=_LONGEST_MOVES, description=f"moves allowed, separated by commas: {', '.join(Move)}"),
+    ] = Move.COUNTER_CLOCKWISE.value,
+) -> frozenset[Move]:
+    """The moves that a query allows; a plus sign may have come as the space that it stands for in an address.
+
+    Raises:
+        UnknownNameError: no such move.
+    """
+    return named_moves(moves.replace(" ", "+"))
+
+
+def observation(
+    state_class: Annotated[StateClass | None, Query(alias="class", description="the class observed")] = None,
+    contacts: Annotated[int | None, Query(ge=1, le=MOST_CONTACTS, description="how many contacts there are")] = None,
+    flag: Annotated[Flag | None, Query(description="a flag observed")] = None,
+    contact: Annotated[
+        str | None,
+        Query(
+            max_length=MOST_CONTACTS * _LONGEST_CONTACT,
+            description="what was observed of contacts, separated by commas; of each stage, bolt region, nut region "
+            "and features, separated by colons, `*` or nothing where not observed",
+            examples=["1:crest:crest:edge-edge,2:*:flank_pos"],
+        ),
+    ] = None,
+    ordered: Annotated[
+        bool,
+        Query(
+            description="whether the contacts are the first ones in their order",
+            json_schema_extra={"enum": [True, False]},
+        ),
+    ] = False,
+) -> Observation:
+    """What a query observed.
+
+    Raises:
+        InvalidValueError: a contact that cannot be read, or more contacts than there are.
+        UnknownNameError: a region or a pair of features that does not exist.
+    """
+    flags = frozenset() if flag is None else frozenset({flag})
+    return Observation(state_class, contacts, flags, contact_observations(contact or ""), ordered)
+
+
+TransitionQuery = Annotated[TransitionFilter, Depends(transition_filter)]
+MovesQuery = Annotated[frozenset[Move], Depends(path_moves)]
+ObservationQuery = Annotated[Observation, Depends(observation)]

@@ -1,0 +1,75 @@
+"""The shapes of answers about a library's histories and network."""
+
+from __future__ import annotations
+
+from pydantic import BaseModel, Field
+
+from threadstate.answer.documents import (
+    LocationDocument,
+    NetworkSummaryDocument,
+    NodeDocument,
+    OrientationHistoryDocument,
+    PathDocument,
+    TransitionDocument,
+    WindowDocument,
+)
+from threadstate.units import LengthUnit
+
+
+class _OfLibrary(BaseModel):
+    library: int = Field(description="number of the library")
+    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+
+
+class IntervalsAnswer(_OfLibrary):
+    """The intervals of an orientation's phase circle, the boundaries between them, and its clearance windows."""
+
+    history: OrientationHistoryDocument
+
+
+class ComputedIntervals(BaseModel):
+    """The same of any orientation, computed when it is asked for."""
+
+    designation: str
+    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    history: OrientationHistoryDocument
+
+
+class TransitionsPage(_OfLibrary):
+    """Transitions in order: by orientation of the source, turns before tilts, each by phase."""
+
+    count: int = Field(description="how many there are under the filters")
+    transitions: list[TransitionDocument]
+    next: str | None = Field(description="address of the next page; null on the last")
+
+
+class WindowsAnswer(_OfLibrary):
+    """Clearance windows by orientation and phase."""
+
+    windows: list[WindowDocument]
+
+
+class NetworkSummary(BaseModel):
+    """The size of a library's network."""
+
+    library: int = Field(description="number of the library")
+    network: NetworkSummaryDocument
+
+
+class NodeAnswer(_OfLibrary):
+    """A formation in the network."""
+
+    node: NodeDocument
+
+
+class PathAnswer(_OfLibrary):
+    """The best path, or null where the moves allowed lead to no window."""
+
+    path: PathDocument | None
+
+
+class LocationAnswer(BaseModel):
+    """Where a state with all that was observed can be."""
+
+    library: int = Field(description="number of the library")
+    location: LocationDocument

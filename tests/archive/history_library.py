@@ -1,0 +1,38 @@
+"""A published library with real histories."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from threadstate.archive.rows import history_rows
+from threadstate.history.build import histories_of
+from threadstate.history.model import History
+from threadstate.history.window import windows_of
+from threadstate.library.engine import writer_engine
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.rows import chunk_rows
+from threadstate.library.write import open_library, publish, write_chunk
+from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.migrate import migrate
+
+
+def histories_of_grid(grid: Grid) -> list[History]:
+    """The histories of all orientations of a grid, in order."""
+    return histories_of(quarter_twenty_unc(), [(roll, pitch) for roll in grid.tilts_deg for pitch in grid.tilts_deg])
+
+
+def store_histories(database: str, grid: Grid, histories: Sequence[History]) -> None:
+    """Publish the library of a grid with its histories in a new database; chunks are written last to first."""
+    pair = quarter_twenty_unc()
+    engine = writer_engine(database)
+    migrate(engine)
+    library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions()))
+    for index in reversed(range(grid.orientation_count)):
+        rows = chunk_rows(grid.orientation(index), grid.first_ordinal(index), solve_poses(pair, grid.poses(index)))
+        history = history_rows(histories[index], windows_of(pair, histories[index]))
+        assert write_chunk(engine, library_id, rows, history)
+        assert not write_chunk(engine, library_id, rows, history)
+    publish(engine, library_id, grid)
+    engine.dispose()

@@ -1,0 +1,219 @@
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from pydantic import BaseModel
+
+from service.network.schemas import (
+    ComputedIntervals,
+    IntervalsAnswer,
+    LocationAnswer,
+    NetworkSummary,
+    NodeAnswer,
+    PathAnswer,
+    TransitionsPage,
+    WindowsAnswer,
+)
+from tests.archive.history_library import histories_of_grid, store_histories
+from tests.service.conftest import client_of
+from threadstate.library.grid import Grid
+from threadstate.state.solve import solve_pose
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+LIBRARY = "/v1/libraries/latest"
+GRID = Grid(4.0, 4.0, 180.0)
+PAIR = quarter_twenty_unc()
+
+
+@pytest.fixture(scope="module")
+def network_client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    database = f"sqlite:///{tmp_path_factory.mktemp('network') / 'threads.sqlite3'}"
+    store_histories(database, GRID, histories_of_grid(GRID))
+    with client_of(database) as client:
+        yield client
+
+
+def _json(client: TestClient, path: str) -> Any:
+    response = client.get(path)
+    assert response.status_code == 200, response.text
+    return response.json()
+
+
+def _intervals(client: TestClient) -> list[Any]:
+    found: list[Any] = _json(client, f"{LIBRARY}/histories/0/-4/intervals")["history"]["intervals"]
+    return found
+
+
+def _key(client: TestClient) -> str:
+    """The key of a decided formation that occurs outside the window."""
+    found = (one for one in _intervals(client) if not one["in_window"] and one["formation"]["class"] is not None)
+    return str(next(found)["formation"]["key"])
+
+
+def test_answers_have_the_documented_shape(network_client: TestClient) -> None:
+    key = _key(network_client)
+    answers: list[tuple[str, type[BaseModel]]] = [
+        (f"{LIBRARY}/histories/0/-4/intervals", IntervalsAnswer),
+        ("/v1/histories/1.5/-0.5/intervals", ComputedIntervals),
+        (f"{LIBRARY}/windows", WindowsAnswer),
+        (f"{LIBRARY}/transitions", TransitionsPage),
+        (f"{LIBRARY}/network", NetworkSummary),
+        (f"{LIBRARY}/network/formations/{key}", NodeAnswer),
+        (f"{LIBRARY}/network/paths?from={key}", PathAnswer),
+        (f"{LIBRARY}/network/locate?contacts=3", LocationAnswer),
+    ]
+    for path, schema in answers:
+        document = _json(network_client, path)
+        assert schema.model_validate(document).model_dump(mode="json", by_alias=True) == document, path
+
+
+def test_states_have_the_labels_of_their_interval(network_client: TestClient) -> None:
+    for interval in _intervals(network_client):
+        if interval["formation"]["class"] is None or interval["end"] - interval["start"] < 1e-3:
+            continue
+        state = solve_pose(PAIR, 0.0, -4.0, 0.5 * (interval["start"] + interval["end"]) % 360.0)
+        assert state.state_class == interval["formation"]["class"]
+        assert [contact.features for contact in state.contacts] == [
+            contact["features"] for contact in interval["formation"]["contacts"]
+        ]
+        assert state.poses[0].translation[2] == interval["first_height"]
+
+
+def test_the_snap_of_pitch_minus_four(network_client: TestClient) -> None:
+    answer = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4")
+    (window,) = answer["windows"]
+    snap = window["snap"]
+    assert 357.0 < snap["phase"] < 358.0
+    assert snap["phase_uncertainty"] <= 5e-7
+    assert window["drop"] >= snap["fall"] > 0.005
+    millimetres = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4&unit=mm")["windows"][0]
+    assert millimetres["drop"] == pytest.approx(25.4 * window["drop"], rel=1e-12)
+    assert millimetres["enter"] == window["enter"]
+
+
+def test_pages_of_transitions_hold_each_once(network_client: TestClient) -> None:
+    path = f"{LIBRARY}/transitions?roll=0&pitch=-4&limit=17"
+    walked: list[Any] = []
+    while path:
+        page = _json(network_client, path)
+        walked += page["transitions"]
+        path = page["next"]
+    assert len(walked) == page["count"]
+    assert len({json.dumps(one) for one in walked}) == len(walked)
+    turns = [one for one in walked if one["move"] == "ccw"]
+    boundaries = _json(network_client, f"{LIBRARY}/histories/0/-4/intervals")["history"]["boundaries"]
+    assert [one["phase"] for one in turns] == pytest.approx([one["phase"] for one in boundaries], abs=1e-9)
+    assert [one["first_height"] for one in turns] == [one["first_height"] for one in boundaries]
+
+
+def test_a_turn_back_is_the_turn_reversed(network_client: TestClient) -> None:
+    forth, back = (
+        _json(network_client, f"{LIBRARY}/transitions?roll=0&pitch=-4&limit=100&move={move}")["transitions"]
+        for move in ("ccw", "cw")
+    )
+    by_phase = {one["phase"]: one for one in back}
+    for one in forth:
+        other = by_phase[one["phase"]]
+        assert (other["source"], other["target"]) == (one["target"], one["source"])
+        assert other["first_height"] == one["first_height"][::-1]
+        assert [(c["before"], c["after"]) for c in other["changes"]] == [
+            (c["after"], c["before"]) for c in one["changes"]
+        ]
+
+
+def test_filters_of_transitions_keep_what_they_say(network_client: TestClient) -> None:
+    for query, holds in (
+        ("move=roll%2B", lambda one: one["move"] == "roll+"),
+        ("roll=4", lambda one: one["source"]["roll"] == 4.0),
+        ("class=stable_three_point", lambda one: one["source"]["class"] == "stable_three_point"),
+        ("change=lost", lambda one: "lost" in one["text"]),
+        ("move=ccw&phase_min=100&phase_max=200", lambda one: 100.0 <= one["phase"] <= 200.0),
+    ):
+        page = _json(network_client, f"{LIBRARY}/transitions?limit=100&{query}")
+        assert page["transitions"], query
+        assert all(holds(one) for one in page["transitions"]), query
+
+
+def test_a_tilt_has_heights_and_normals_on_both_sides(network_client: TestClient) -> None:
+    page = _json(network_client, f"{LIBRARY}/transitions?move=pitch%2B&change=class&limit=20")
+    told = [one for one in page["transitions"] if one["phase_end"] - one["phase"] > 0.1]
+    assert told
+    for one in told:
+        middle = 0.5 * (one["phase"] + one["phase_end"]) % 360.0
+        for place, height in zip((one["source"], one["target"]), one["first_height"], strict=True):
+            assert height == solve_pose(PAIR, place["roll"], place["pitch"], middle).poses[0].translation[2]
+        assert any(change["before"] and change["after"] for change in one["changes"]) or one["changes"]
+
+
+def test_the_network_is_exported_whole(network_client: TestClient) -> None:
+    summary = _json(network_client, f"{LIBRARY}/network")["network"]
+    node_link = _json(network_client, f"{LIBRARY}/network?format=node-link")
+    assert (len(node_link["nodes"]), len(node_link["edges"])) == (summary["formations"], summary["edges"])
+    graphml = network_client.get(f"{LIBRARY}/network?format=graphml")
+    assert graphml.headers["Content-Type"] == "application/graphml+xml"
+    space = "{http://graphml.graphdrawing.org/xmlns}"
+    assert len(list(ET.fromstring(graphml.text).iter(f"{space}node"))) == summary["formations"]
+    dot = network_client.get(f"{LIBRARY}/network?format=dot").text
+    assert dot.count(" -> ") == summary["edges"]
+
+
+def test_a_formation_a_path_and_a_location_belong_together(network_client: TestClient) -> None:
+    key = _key(network_client)
+    node = _json(network_client, f"{LIBRARY}/network/formations/{key}")["node"]
+    assert sum(one["end"] - one["start"] for one in node["occurrences"]) == pytest.approx(node["cover"])
+    path = _json(network_client, f"{LIBRARY}/network/paths?from={key}&roll=0&pitch=-4")["path"]
+    assert path["steps"][0]["formation"] == key
+    assert path["steps"][-1]["in_window"]
+    assert all(one["move"] == "ccw" for one in path["steps"][1:])
+    first = node["formation"]["contacts"][0]
+    seen = f"1:{first['bolt_region']}:{first['nut_region']}:{first['features']}"
+    location = _json(network_client, f"{LIBRARY}/network/locate?contact={seen}&class={node['formation']['class']}")
+    stretches = location["location"]["stretches"]
+    for one in node["occurrences"]:
+        assert any(
+            (left["roll"], left["pitch"]) == (one["roll"], one["pitch"])
+            and any(left["start"] <= one["start"] + turn and one["end"] + turn <= left["end"] for turn in (0.0, 360.0))
+            for left in stretches
+        )
+
+
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [
+        (f"{LIBRARY}/histories/1/0/intervals", 404),
+        (f"{LIBRARY}/network/formations/0123456789", 404),
+        (f"{LIBRARY}/network/formations/short", 400),
+        (f"{LIBRARY}/network/paths", 400),
+        (f"{LIBRARY}/network/paths?from=0123456789", 404),
+        (f"{LIBRARY}/network/paths?from=0123456789&moves=sideways", 400),
+        (f"{LIBRARY}/network/locate?contact=5", 400),
+        (f"{LIBRARY}/network/locate?contact=1:valley", 400),
+        (f"{LIBRARY}/transitions?phase_min=2&phase_max=1", 400),
+        (f"{LIBRARY}/transitions?limit=101", 400),
+        (f"{LIBRARY}/transitions?colour=red", 400),
+        ("/v1/histories/11/0/intervals", 400),
+        ("/v1/histories/1/0/intervals?designation=M99", 400),
+    ],
+)
+def test_what_is_wrong_is_said(network_client: TestClient, path: str, status: int) -> None:
+    response = network_client.get(path)
+    assert response.status_code == status, response.text
+    assert response.headers["Content-Type"] == "application/problem+json"
+
+
+def test_a_path_needs_both_angles_of_an_orientation(network_client: TestClient) -> None:
+    key = _key(network_client)
+    response = network_client.get(f"{LIBRARY}/network/paths?from={key}&roll=0")
+    assert response.status_code == 400
+    assert "roll and pitch" in response.text
+
+
+def test_a_library_without_histories_says_so(client: TestClient) -> None:
+    response = client.get(f"{LIBRARY}/windows")
+    assert response.status_code == 404
+    assert "no histories" in response.text

@@ -1,0 +1,1 @@
+"""Histories in the tables, and back."""

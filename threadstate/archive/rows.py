@@ -1,0 +1,92 @@
+"""Histories as rows of the tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from threadstate.archive.stored import StoredContactChange, stored_changes
+from threadstate.history.labels import ContactLabels
+from threadstate.history.model import Boundary, History, Interval
+from threadstate.history.window import Window
+from threadstate.library.history_rows import FormationRows, HistoryRows
+from threadstate.library.rows import Row
+from threadstate.network.formation import Formation, formation_of
+from threadstate.network.margin import smallest_margin
+from threadstate.state.model import ContactState, Vector
+
+_NOTHING = (None,) * 6
+
+
+def history_rows(history: History, windows: Sequence[Window]) -> HistoryRows:
+    """The rows of an orientation's history and of its clearance windows."""
+    formations = sorted({formation_of(one.labels) for one in history.intervals}, key=lambda one: one.key)
+    boundaries = list(enumerate(history.boundaries))
+    return HistoryRows(
+        formations=tuple(_formation(one) for one in formations),
+        intervals=tuple(_interval(i, one, windows) for i, one in enumerate(history.intervals)),
+        boundaries=tuple(_boundary(i, one) for i, one in boundaries),
+        boundary_contacts=tuple(
+            _change(i, change) for i, one in boundaries for change in stored_changes(one.changes, one.before, one.after)
+        ),
+        windows=tuple(_window(i, one) for i, one in enumerate(windows)),
+        window_courses=tuple(
+            (i, place, course.features.value, course.start_deg, course.end_deg, course.start_height, course.end_height)
+            for i, one in enumerate(windows)
+            for place, course in enumerate(one.courses)
+        ),
+    )
+
+
+def _formation(one: Formation) -> FormationRows:
+    contacts = tuple(
+        (one.key, position, contact.stage, contact.bolt_region.value, contact.nut_region.value, contact.features.value)
+        for position, contact in enumerate(one.contacts)
+    )
+    return FormationRows(one.key, (one.key, one.state_class and one.state_class.value), contacts)
+
+
+def _interval(position: int, one: Interval, windows: Sequence[Window]) -> Row:
+    first, last = _heights(one.state)
+    margin = smallest_margin(one.state)
+    flags = " ".join(one.labels.flags)
+    key = formation_of(one.labels).key
+    return position, one.start_deg, one.end_deg, key, flags, margin, first, last, _in_window(one, windows)
+
+
+def _in_window(one: Interval, windows: Sequence[Window]) -> bool:
+    middles = (one.middle_deg, one.middle_deg + 360.0)
+    return any(window.enter_deg <= phase <= window.leave_deg for window in windows for phase in middles)
+
+
+def _boundary(position: int, one: Boundary) -> Row:
+    (first_before, last_before), (first_after, last_after) = _heights(one.before), _heights(one.after)
+    between = sorted({flag.value for labels in one.through for flag in labels.flags})
+    heights = (first_before, first_after, last_before, last_after)
+    return position, one.low_deg, one.high_deg, *heights, " ".join(between)
+
+
+def _heights(state: ContactState | None) -> tuple[float | None, float | None]:
+    if state is None:
+        return None, None
+    return state.poses[0].translation[2] + 0.0, state.poses[-1].translation[2] + 0.0
+
+
+def _change(position: int, change: StoredContactChange) -> Row:
+    before = _side(change.before, change.normal_before)
+    after = _side(change.after, change.normal_after)
+    return position, change.stage, change.place, *before, *after, change.moved
+
+
+def _side(labels: ContactLabels | None, normal: Vector | None) -> Row:
+    if labels is None or normal is None:
+        return _NOTHING
+    components = (component + 0.0 for component in normal)
+    return labels.bolt_region.value, labels.nut_region.value, labels.features.value, *components
+
+
+def _window(position: int, one: Window) -> Row:
+    snap: Row = (None,) * 4
+    if one.snap is not None:
+        snap = (one.snap.phase_deg, one.snap.width_deg, one.snap.height_before, one.snap.height_after)
+    heights = (one.enter_height, one.leave_height, one.lowest_deg, one.lowest_height)
+    return position, one.enter_deg, one.leave_deg, *heights, *snap

@@ -1,0 +1,56 @@
+"""``threadstate path``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from threadstate.errors import InvalidValueError
+from threadstate.network.moves import Move
+from threadstate.network.search import Objective
+from worker.options import Database, Json
+from worker.output import print_json
+
+
+def path(
+    source: Annotated[str, typer.Option("--from", metavar="KEY", help="Key of the formation to start from.")],
+    objective: Annotated[
+        Objective, typer.Option("--objective", help="What makes a path the best.")
+    ] = Objective.TURNING,
+    moves: Annotated[
+        str, typer.Option("--moves", metavar="NAMES", help=f"Moves allowed, with commas: {', '.join(Move)}.")
+    ] = Move.COUNTER_CLOCKWISE.value,
+    roll: Annotated[float | None, typer.Option("--roll", metavar="DEG", help="Only from this roll.")] = None,
+    pitch: Annotated[float | None, typer.Option("--pitch", metavar="DEG", help="Only from this pitch.")] = None,
+    phase: Annotated[float | None, typer.Option("--phase", metavar="DEG", help="Only from this phase.")] = None,
+    database: Database = None,
+    as_json: Json = False,
+) -> None:
+    r"""Print the best path from a contact formation to the clearance window, by the moves allowed.
+
+    \b
+    Examples:
+      threadstate path --from 14c84cf806
+      threadstate path --from 14c84cf806 --objective margin --moves ccw,roll+,roll-,pitch+,pitch-
+      threadstate path --from 14c84cf806 --roll 4 --pitch 0 --phase 200
+    """
+    if (roll is None) != (pitch is None) or (phase is not None and roll is None):
+        raise InvalidValueError("--roll, --pitch, --phase", (roll, pitch, phase), "none, roll and pitch, or all three")
+
+    from threadstate.answer.networks import path_document
+    from threadstate.answer.observed import named_moves
+    from threadstate.network.paths import best_path
+    from worker.history_table import print_path
+    from worker.stored_network import stored_network
+
+    allowed = named_moves(moves)
+    found = stored_network(database)
+    orientation = None if roll is None or pitch is None else found.orientation(roll, pitch)
+    start = found.network.node(source).formation
+    best = best_path(found.cell_map, start, objective, allowed, orientation=orientation, phase_deg=phase)
+    document = None if best is None else path_document(best, found.cell_map, 1.0)
+    if as_json:
+        print_json(None if document is None else document.model_dump(mode="json", by_alias=True))
+        return
+    print_path(document, found.pair.unit)

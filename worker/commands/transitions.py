@@ -1,0 +1,53 @@
+"""``threadstate transitions``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from threadstate.network.changes import ChangeKind
+from threadstate.network.moves import Move
+from threadstate.state.model import StateClass
+from worker.options import Database, Json
+from worker.output import print_json, tell
+
+
+def transitions(
+    move: Annotated[Move | None, typer.Option("--move", help="Only by this move.")] = None,
+    roll: Annotated[float | None, typer.Option("--roll", metavar="DEG", help="Only from this roll.")] = None,
+    pitch: Annotated[float | None, typer.Option("--pitch", metavar="DEG", help="Only from this pitch.")] = None,
+    phase_min: Annotated[float | None, typer.Option("--phase-min", metavar="DEG", help="Smallest phase.")] = None,
+    phase_max: Annotated[float | None, typer.Option("--phase-max", metavar="DEG", help="Largest phase.")] = None,
+    source: Annotated[str | None, typer.Option("--from", metavar="KEY", help="Only from this formation.")] = None,
+    target: Annotated[str | None, typer.Option("--to", metavar="KEY", help="Only to this formation.")] = None,
+    change: Annotated[ChangeKind | None, typer.Option("--change", help="Only where this changes.")] = None,
+    state_class: Annotated[StateClass | None, typer.Option("--class", help="Only from this class.")] = None,
+    limit: Annotated[int, typer.Option("--limit", metavar="N", min=1, help="How many at most.")] = 50,
+    database: Database = None,
+    as_json: Json = False,
+) -> None:
+    r"""Print transitions of the latest library: along phase, and to the orientations beside at the same phase.
+
+    \b
+    Examples:
+      threadstate transitions --roll 0 --pitch -4 --move ccw
+      threadstate transitions --change class --move roll+ --limit 10
+      threadstate transitions --roll 0 --pitch -4 --phase-min 357 --phase-max 358 --json
+    """
+    from threadstate.answer.select import TransitionFilter, selected
+    from threadstate.answer.transitions import transition_documents
+    from worker.history_table import print_transitions
+    from worker.stored_network import stored_network
+
+    which = TransitionFilter(move, roll, pitch, phase_min, phase_max, source, target, change, state_class)
+    network = stored_network(database)
+    found = selected(network, which)
+    documents = transition_documents(found[:limit], network.histories, network.pair, 1.0)
+    if as_json:
+        for one in documents:
+            print_json(one.model_dump(mode="json", by_alias=True))
+    else:
+        print_transitions(documents, network.pair.unit)
+    if len(found) > limit:
+        tell(f"{limit} of {len(found)} transitions; --limit shows more")

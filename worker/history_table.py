@@ -1,0 +1,135 @@
+"""Histories, transitions, windows and networks as tables for people."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from threadstate.answer.documents import (
+    LocationDocument,
+    NetworkSummaryDocument,
+    NodeDocument,
+    OrientationHistoryDocument,
+    PathDocument,
+    TransitionDocument,
+    WindowDocument,
+)
+from threadstate.units import LengthUnit
+from worker.output import print_line
+from worker.tables import angle, console, length, table
+
+
+def print_history(history: OrientationHistoryDocument, unit: LengthUnit) -> None:
+    """One row an interval, and what changes where it begins; then the windows."""
+    rows = table("from", "to", "formation", f"height ({unit})", "in window", "begins with", "contacts")
+    for i, interval in enumerate(history.intervals):
+        begins = history.boundaries[i] if history.boundaries else None
+        rows.add_row(
+            angle(interval.start),
+            angle(interval.end),
+            interval.formation.key,
+            length(interval.first_height),
+            "yes" if interval.in_window else "",
+            "" if begins is None else ", ".join(sorted({kind for one in begins.changes for kind in one.kinds})),
+            interval.formation.text,
+        )
+    console().print(rows)
+    print_windows(history.windows, unit)
+
+
+def print_windows(windows: Sequence[WindowDocument], unit: LengthUnit) -> None:
+    """One row a window."""
+    rows = table("roll", "pitch", "enter", "leave", "width", f"drop ({unit})", "climb", "snap at", "falls by")
+    for one in windows:
+        rows.add_row(
+            f"{one.roll:g}",
+            f"{one.pitch:g}",
+            angle(one.enter),
+            angle(one.leave),
+            f"{one.width:.3f}",
+            length(one.drop),
+            length(one.climb),
+            angle(None if one.snap is None else one.snap.phase),
+            length(None if one.snap is None else one.snap.fall),
+        )
+    console().print(rows)
+
+
+def print_transitions(transitions: Sequence[TransitionDocument], unit: LengthUnit) -> None:
+    """One row a transition."""
+    rows = table("move", "roll", "pitch", "phase", "to", "from", "to", f"height changes by ({unit})", "what changes")
+    for one in transitions:
+        before, after = one.first_height
+        rows.add_row(
+            one.move.value,
+            f"{one.source.roll:g}",
+            f"{one.source.pitch:g}",
+            angle(one.phase),
+            angle(one.phase_end) if one.phase_end != one.phase else "",
+            one.source.formation,
+            one.target.formation,
+            "-" if before is None or after is None else f"{after - before:+.9f}",
+            one.text,
+        )
+    console().print(rows)
+
+
+def print_summary(summary: NetworkSummaryDocument) -> None:
+    """The size of a network, a line each."""
+    for name, value in (
+        ("formations", summary.formations),
+        ("edges", summary.edges),
+        ("intervals", summary.intervals),
+        ("orientations", summary.orientations),
+        ("windows", summary.windows),
+        ("strongly connected parts", len(summary.strong_parts)),
+        ("dead ends, counter-clockwise", len(summary.dead_ends)),
+        ("cut formations", len(summary.cut_formations)),
+        ("formations of one orientation", len(summary.telling_formations)),
+    ):
+        print_line(f"{name:<32}{value:>8}")
+
+
+def print_node(node: NodeDocument) -> None:
+    """A formation: what it is, where it occurs, what follows."""
+    reach = node.to_window
+    print_line(f"{node.formation.key}  {node.formation.text}")
+    print_line(f"{100.0 * node.share:.3f} % of all phases, at {node.orientations} orientations")
+    print_line(
+        f"counter-clockwise: {reach.reaching} of {reach.occurrences} intervals lead to a window, "
+        f"after {angle(reach.least)} to {angle(reach.most)} deg"
+    )
+    rows = table("move", "next formation", "share")
+    for one in node.following:
+        rows.add_row(one.move.value, one.formation, f"{100.0 * one.share:.2f} %")
+    console().print(rows)
+
+
+def print_path(path: PathDocument | None, unit: LengthUnit) -> None:
+    """One row a step."""
+    if path is None:
+        print_line("no path: the moves allowed lead to no window")
+        return
+    margin = f"worst margin {length(path.worst_margin)} {unit}"
+    print_line(f"{path.turning:.6f} deg of turning, {path.transitions} transitions, {margin}")
+    rows = table("move", "roll", "pitch", "phase", "turned", "margin", "formation", "contacts")
+    for step in path.steps:
+        rows.add_row(
+            "" if step.move is None else step.move.value,
+            f"{step.roll:g}",
+            f"{step.pitch:g}",
+            angle(step.phase),
+            angle(step.turning),
+            length(step.margin),
+            step.formation,
+            step.text,
+        )
+    console().print(rows)
+
+
+def print_location(location: LocationDocument) -> None:
+    """What remains, one row a stretch."""
+    print_line(f"{100.0 * location.share:.3f} % of all phases remain, at {location.orientations} orientations")
+    rows = table("roll", "pitch", "from", "to")
+    for one in location.stretches:
+        rows.add_row(f"{one.roll:g}", f"{one.pitch:g}", angle(one.start), angle(one.end))
+    console().print(rows)

@@ -1,0 +1,22 @@
+"""The network of the latest library, for the commands that ask about it."""
+
+from __future__ import annotations
+
+from threadstate.answer.library_network import LibraryNetwork, library_network
+from threadstate.library.engine import reader_engine
+from threadstate.library.read import latest_library
+from threadstate.library.schema import check_schema
+from threadstate.settings import read_settings
+
+
+def stored_network(database: str | None) -> LibraryNetwork:
+    """The histories and the network of the latest library by the exact method.
+
+    Raises:
+        SchemaError: the database is at another revision.
+        NotFoundError: no library is published.
+    """
+    engine = reader_engine(database or read_settings().database)
+    check_schema(engine)
+    with engine.connect() as connection:
+        return library_network(connection, latest_library(connection))
