@@ -5,6 +5,7 @@
 # make paper   put the paper's statements to the test, write docs/paper-claims.md
 # make chart   measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make docs    compute the answers shown in the documentation anew
+# make designer  the designer's session of the README and the table of windows, from the latest library
 # make lock    renew the lock files after a change of dependencies (needs uv)
 
 PYTHON ?= python3
@@ -13,7 +14,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart docs lock
+.PHONY: setup run test bench paper chart docs lock designer
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -38,6 +39,10 @@ chart: setup
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py
+
+designer: setup
+	$(BIN)/threadstate rebuild
+	$(BIN)/python scripts/write_designer.py
 
 $(VENV)/.created:
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)

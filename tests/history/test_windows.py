@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 from threadstate.history.build import histories_of, history_of
-from threadstate.history.window import deepest_window
+from threadstate.history.labels import UNDECIDED
+from threadstate.history.window import deepest_window, windows_of
 from threadstate.history.window_table import window_table
 from threadstate.state.model import FeaturePair
 from threadstate.state.solve import solve_pose, solve_poses
@@ -72,3 +76,26 @@ def test_the_table_has_a_row_for_every_history() -> None:
     rows = window_table(PAIR, histories_of(PAIR, orientations))
     assert [(row.roll_deg, row.pitch_deg) for row in rows] == orientations
     assert rows[0].window == deepest_window(PAIR, history_of(PAIR, 0.0, -4.0))
+
+
+def test_an_undecided_stretch_within_a_window_belongs_to_it() -> None:
+    history = history_of(PAIR, 0.0, -4.0)
+    (window,) = windows_of(PAIR, history)
+    i = next(
+        i
+        for i, one in enumerate(history.intervals)
+        if window.enter_deg < one.start_deg + 360.0 and one.end_deg + 360.0 < window.leave_deg
+    )
+    whole = history.intervals[i]
+    cuts = (whole.start_deg, whole.start_deg + 1e-3, whole.start_deg + 2e-3, whole.end_deg)
+    parts = [replace(whole, start_deg=start, end_deg=end) for start, end in pairwise(cuts)]
+    parts[1] = replace(parts[1], labels=UNDECIDED, state=None)
+    opening = history.boundaries[i]
+    made = [replace(opening, low_deg=cut, high_deg=cut, before=None, after=None, changes=()) for cut in cuts[1:-1]]
+    undecided = replace(
+        history,
+        intervals=(*history.intervals[:i], *parts, *history.intervals[i + 1 :]),
+        boundaries=(*history.boundaries[: i + 1], *made, *history.boundaries[i + 1 :]),
+    )
+    (bridged,) = windows_of(PAIR, undecided)
+    assert replace(bridged, courses=()) == replace(window, courses=())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from threadstate.history.codes import HEIGHT_JUMP
@@ -95,9 +96,9 @@ class Window:
 def windows_of(pair: Pair, history: History) -> tuple[Window, ...]:
     """The clearance windows of a history in order of their entries; none where a thread is never touched first.
 
-    An undecided stretch ends a window.
+    An undecided stretch between two parts of a window belongs to it.
     """
-    inside = [_within_thread(interval) for interval in history.intervals]
+    inside = _inside(history.intervals)
     if all(inside) or not any(inside):
         return ()
     count = len(inside)
@@ -119,6 +120,15 @@ def deepest_window(pair: Pair, history: History) -> Window | None:
     """
     least = HEIGHT_JUMP * pair.thread_pitch
     return max(windows_of(pair, history), key=lambda window: (window.drop // least, window.width_deg), default=None)
+
+
+def _inside(intervals: Sequence[Interval]) -> list[bool]:
+    """Whether each interval is part of a window."""
+    decided = [_within_thread(interval) for interval in intervals]
+    count = len(decided)
+    return [
+        decided[i] or (intervals[i].state is None and decided[i - 1] and decided[(i + 1) % count]) for i in range(count)
+    ]
 
 
 def _within_thread(interval: Interval) -> bool:
