@@ -78,9 +78,9 @@ def _asked(question: Question) -> str:
     with contextlib.redirect_stdout(printed):
         code = run_command_line(shlex.split(question.command)[1:])
     assert code == 0, question.command
-    lines = printed.getvalue().splitlines()
+    lines = [line.rstrip() for line in printed.getvalue().splitlines()]
     width = next((line.index(LEFT_OUT) for line in lines if line.endswith(LEFT_OUT)), None)
-    lines = [line[:width].rstrip() for line in (line.rstrip() for line in lines) if line[:width].strip()]
+    lines = [line[:width].rstrip() for line in lines if line[:width].strip()]
     if len(lines) > question.first + question.last:
         lines = [*lines[: question.first], "...", *lines[len(lines) - question.last :]]
     return f"{question.words}\n\n```\n$ {question.command}\n" + "\n".join(lines) + "\n```\n"
