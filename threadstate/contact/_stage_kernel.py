@@ -24,7 +24,7 @@ from threadstate.contact._birth_kernel import (
 )
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point
-from threadstate.contact._sweep_kernel import OVERFLOW, overlaps, sweep
+from threadstate.contact._sweep_kernel import EPS_PUNCTURE, OVERFLOW, overlaps, sweep
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -159,16 +159,43 @@ def new_work() -> Work:
 
 
 @njit(cache=True, error_model="numpy")
-def set_marks(known: Array, known_count: int, bolt_marks: Array, nut_marks: Array) -> tuple[int, int]:
-    """Azimuths in [0, 2 pi) of contacts on the bolt's and on the nut's edge curve, and their numbers."""
+def on_bolt_edge(contact: Array, pose: Array, bolt: Array) -> bool:
+    """Whether a contact of the bolt's thread or base is at the bolt's edge, too, as far as azimuths are told apart."""
+    near = EPS_PUNCTURE * bolt[pk.R_MAJOR]
+    x, y, z = contact[K_X] - pose[9], contact[K_Y] - pose[10], contact[K_Z] - pose[11]
+    if int(contact[K_PAIR]) != BASE_EDGE:
+        return abs(pose[2] * x + pose[5] * y + pose[8] * z) < near
+    r = math.hypot(pose[0] * x + pose[3] * y + pose[6] * z, pose[1] * x + pose[4] * y + pose[7] * z)
+    return abs(r - pk.radius(-bolt[pk.P] / TWO_PI * contact[K_BOLT], bolt)) < near
+
+
+@njit(cache=True, error_model="numpy")
+def on_nut_edge(contact: Array, nut: Array) -> bool:
+    """Whether a contact of the nut's thread or surface is at the nut's edge, too, as far as azimuths are told apart."""
+    near = EPS_PUNCTURE * nut[pk.R_MAJOR]
+    if int(contact[K_PAIR]) != EDGE_SURFACE:
+        return abs(contact[K_Z]) < near
+    r = math.hypot(contact[K_X], contact[K_Y])
+    return abs(r - pk.radius(-nut[pk.P] / TWO_PI * contact[K_NUT], nut)) < near
+
+
+@njit(cache=True, error_model="numpy")
+def set_marks(
+    known: Array, known_count: int, pose: Array, bolt: Array, nut: Array, bolt_marks: Array, nut_marks: Array
+) -> tuple[int, int]:
+    """Azimuths in [0, 2 pi) of a pose's contacts on the bolt's and on the nut's edge curve, and their numbers.
+
+    Where a contact changes from a part's edge to its thread or its flat face it is on both, as far as azimuths are
+    told apart: then its edge must not be taken for another contact.
+    """
     on_bolt = 0
     on_nut = 0
     for i in range(known_count):
         pair = int(known[i, K_PAIR])
-        if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD:
+        if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD or on_bolt_edge(known[i], pose, bolt):
             bolt_marks[on_bolt] = known[i, K_BOLT] - TWO_PI * math.floor(known[i, K_BOLT] / TWO_PI)
             on_bolt += 1
-        if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
+        if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE or on_nut_edge(known[i], nut):
             nut_marks[on_nut] = known[i, K_NUT] - TWO_PI * math.floor(known[i, K_NUT] / TWO_PI)
             on_nut += 1
     return on_bolt, on_nut
@@ -212,7 +239,7 @@ def earliest(
     boxes, others, found_b, found_n, bolt_walks, nut_walks, rects, tangent = work
     bolt_marks = np.empty(2)
     nut_marks = np.empty(2)
-    bolt_mark_count, nut_mark_count = set_marks(known, known_count, bolt_marks, nut_marks)
+    bolt_mark_count, nut_mark_count = set_marks(known, known_count, pose, bolt, nut, bolt_marks, nut_marks)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, bolt_walks, nut_walks)
     any_birth = not is_turn
@@ -317,7 +344,7 @@ def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Ar
     boxes, others, _, _, bolt_walks, nut_walks, _, _ = work
     bolt_marks = np.empty(count)
     nut_marks = np.empty(count)
-    bolt_mark_count, nut_mark_count = set_marks(contacts, count, bolt_marks, nut_marks)
+    bolt_mark_count, nut_mark_count = set_marks(contacts, count, pose, bolt, nut, bolt_marks, nut_marks)
     down = np.array([0.0, 0.0, -1.0])
     set_motions(pose, False, False, down, down, bolt_walks, nut_walks)
     return overlaps(bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, boxes, others) or overlaps(

@@ -58,6 +58,9 @@ BESIDE = 1e-2
 REACH = 16.0
 """How near to an earlier contact, in its half-widths, a box is looked at together with it."""
 
+AROUND = 8.0
+"""How much larger the box is in which the birth is looked for that a narrow box may have, but has not."""
+
 NOISE = 1e-14
 """Round-off of a distance from a surface, in thread pitches."""
 
@@ -65,6 +68,9 @@ NARROW = 1e-7
 """Half-width (rad) of an overlap that is not told apart from a contact."""
 
 MOST_BOXES = 4_000
+
+PIN_COST = 24
+"""How many boxes are looked at in the time that Newton's method takes to find nothing in a box."""
 
 SHALLOW = 1e-10
 """Depth (thread pitches) up to which an edge counts as touching."""
@@ -172,6 +178,33 @@ def arches(
 
 
 @njit(cache=True, error_model="numpy")
+def only_outside(
+    verdict: int,
+    theta: float,
+    half: float,
+    start: float,
+    end: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    spare: Array,
+    path: Array,
+    jet: Array,
+) -> bool:
+    """Whether a larger box has at most one birth, too, and has it outside of this one."""
+    span = end - start
+    spare[X_THETA] = theta
+    spare[X_HALF] = half * AROUND
+    spare[X_START] = start - AROUND * span
+    spare[X_END] = end + AROUND * span
+    judge_boxes(1, motion, row_c, row_s, spare)
+    if spare[X_VERDICT] != verdict:
+        return spare[X_VERDICT] <= CLOSED
+    inside, _, _ = pin(verdict, theta, half * AROUND, spare[X_START], spare[X_END], motion, row_c, row_s, path, jet)
+    return inside
+
+
+@njit(cache=True, error_model="numpy")
 def joined(
     theta: float,
     tau: float,
@@ -271,8 +304,12 @@ def sweep(
                         count = add_candidate(tau, verdict, t, math.atan2(y, x), x, y, z, count, found)
                     if contact or any_birth:
                         best = min(best, tau)
-                if inside:
+                if inside or (
+                    half < EPS_PUNCTURE
+                    and only_outside(verdict, theta, half, start, end, motion, row_c, row_s, others, path, jet)
+                ):
                     continue
+                looked += PIN_COST if half < EPS_PUNCTURE else 0
             by_time = verdict == BY_TIME or (verdict < BY_THETA and end - start > half)
             m = keep_open(i, min(end, best + slack), by_time, m, boxes)
         if 2 * m + LANES > CAPACITY or looked > MOST_BOXES:
