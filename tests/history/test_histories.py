@@ -8,13 +8,18 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from threadstate.history import records
 from threadstate.history.build import POINT_DEG, RESOLUTION, histories_of, history_of
 from threadstate.history.heights import heights_of
 from threadstate.history.labels import Labels, labels_of
 from threadstate.history.model import Boundary, History, Interval
+from threadstate.history.records import SolvedPoses
 from threadstate.history.window import deepest_window
+from threadstate.state.options import SolveOptions
+from threadstate.state.records import solve_records
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.pair import Pair
 
 PAIR = quarter_twenty_unc()
 BESIDE_DEG = 1e-5
@@ -107,3 +112,20 @@ def test_ten_times_the_density_finds_nothing_new(histories: list[History]) -> No
     assert len(dense_phases) > 30
     for phase in dense_phases:
         assert np.abs(phases - phase).min() <= BESIDE_DEG
+
+
+def test_known_records_are_taken_and_change_nothing(histories: list[History], monkeypatch: pytest.MonkeyPatch) -> None:
+    roll, pitch = ORIENTATIONS[1]
+    poses = np.column_stack([np.full((360, 2), (roll, pitch)), np.arange(360.0)])
+    known = SolvedPoses(poses, solve_records(PAIR, SolveOptions(), poses))
+    solved: list[np.ndarray] = []
+
+    def recorded(pair: Pair, options: SolveOptions, poses_deg: np.ndarray) -> np.ndarray:
+        solved.extend(poses_deg)
+        return solve_records(pair, options, poses_deg)
+
+    monkeypatch.setattr(records, "solve_records", recorded)
+    assert histories_of(PAIR, [(roll, pitch)], solved=known) == [histories[1]]
+    phases = [phase for _, _, phase in np.array(solved).tolist()]
+    assert len(phases) == len(set(phases))
+    assert not set(phases) & set(range(360))

@@ -13,18 +13,21 @@ from threadstate.history.codes import LabelCodes
 from threadstate.history.differences import contact_changes
 from threadstate.history.labels import labels_of
 from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
-from threadstate.history.records import records_of
+from threadstate.history.records import RecordStore, SolvedPoses
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
 
-RESOLUTION = Resolution(step=0.2, width=2.5e-7, jump_width=1e-11, no_answer_width=1e-3)
-"""In degrees. Within 1e-7 deg of a tie a pose can take seconds; what a denser start finds is in decision 7."""
+RESOLUTION = Resolution(step=1.0, width=5e-7, jump_width=1e-11, no_answer_width=1e-3)
+"""In degrees; what a denser start finds is in decision 7."""
 
 POINT_DEG = 1e-6
 """Labels that hold over less phase than this belong to a boundary: they are those of a point, a tie for instance."""
+
+TOGETHER = 8
+"""Orientations that are searched together: so many keep their poses' records in some 20 MB."""
 
 UNDECIDED_GAP_DEG = 0.02
 """Undecided stretches no farther apart than this are one: where the search ends early is no property of the parts."""
@@ -51,31 +54,43 @@ def histories_of(
     orientations_deg: Sequence[tuple[float, float]],
     options: SolveOptions | None = None,
     resolution: Resolution = RESOLUTION,
+    solved: SolvedPoses | None = None,
 ) -> list[History]:
     """The histories of orientations, (roll, pitch) in degrees, in their order; ``resolution`` in degrees.
 
-    The same orientation gives the same bits whatever the others are.
+    The same orientation gives the same bits whatever the others are, and whatever poses are known as ``solved``.
 
     Raises:
         InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
     """
     options = options or SolveOptions()
     orientations = checked_poses([(roll, pitch, 0.0) for roll, pitch in orientations_deg])[:, :2]
-    codes = LabelCodes(pair, options)
+    histories: list[History] = []
+    for first in range(0, len(orientations), TOGETHER):
+        store = RecordStore(pair, options, solved)
+        histories += _histories(pair, options, orientations[first : first + TOGETHER], resolution, store)
+    return histories
+
+
+def _histories(
+    pair: Pair, options: SolveOptions, orientations_deg: Floats, resolution: Resolution, store: RecordStore
+) -> list[History]:
+    """The histories of orientations of shape (n, 2) whose poses are all kept in one store."""
+    codes = LabelCodes(pair, options, store)
 
     def sample(line: Integers, phases: Floats) -> Samples:
-        return codes.samples(np.column_stack([orientations[line], phases]))
+        return codes.samples(np.column_stack([orientations_deg[line], phases]))
 
-    changes = changes_on_circles(sample, len(orientations), CIRCLE_DEG, resolution)
-    brackets = [_brackets(changes, line) for line in range(len(orientations))]
-    wanted = [(*orientations[line], phase) for line, found in enumerate(brackets) for phase in _phases(found)]
-    states = iter(_states(pair, options, np.array(wanted)))
+    changes = changes_on_circles(sample, len(orientations_deg), CIRCLE_DEG, resolution)
+    brackets = [_brackets(changes, line) for line in range(len(orientations_deg))]
+    wanted = [(*orientations_deg[line], phase) for line, found in enumerate(brackets) for phase in _phases(found)]
+    states = iter(_states(pair, options, np.array(wanted), store))
     histories = []
     for (roll, pitch), found, count in zip(
-        orientations.tolist(), brackets, changes.sample_counts.tolist(), strict=True
+        orientations_deg.tolist(), brackets, changes.sample_counts.tolist(), strict=True
     ):
         boundaries, intervals = _cut(found, [next(states) for _ in _phases(found)])
-        histories.append(History(roll, pitch, tuple(intervals), tuple(boundaries), count + len(_phases(found))))
+        histories.append(History(roll, pitch, tuple(intervals), tuple(boundaries), count))
     return histories
 
 
@@ -153,9 +168,9 @@ def _cut(brackets: list[_Bracket], states: list[ContactState | None]) -> tuple[l
     return boundaries, intervals
 
 
-def _states(pair: Pair, options: SolveOptions, poses_deg: Floats) -> list[ContactState | None]:
+def _states(pair: Pair, options: SolveOptions, poses_deg: Floats, store: RecordStore) -> list[ContactState | None]:
     """The states of poses; None where undecided."""
-    records = records_of(pair, options, poses_deg)
+    records = store.records(poses_deg)
     decided = records[:, rk.O_STATUS] == 0.0
     states: list[ContactState | None] = [None] * len(poses_deg)
     found = decoded_states(pair, options, poses_deg[decided], records[decided])

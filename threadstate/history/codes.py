@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._stage_kernel import FLUSH
 from threadstate.history.changes import NO_ANSWER, Samples
-from threadstate.history.records import Floats, Integers, records_of
+from threadstate.history.records import Floats, Integers, RecordStore
 from threadstate.state.classify import classify
 from threadstate.state.model import StateClass
 from threadstate.state.options import SolveOptions
@@ -40,8 +40,9 @@ class LabelCodes:
     Codes differ between two objects of this class, whether two of them are equal does not.
     """
 
-    def __init__(self, pair: Pair, options: SolveOptions) -> None:
+    def __init__(self, pair: Pair, options: SolveOptions, store: RecordStore) -> None:
         self._pair = pair
+        self._store = store
         self._options = options
         self._codes: dict[bytes, int] = {}
 
@@ -56,7 +57,7 @@ class LabelCodes:
         return Samples(np.concatenate([p.codes for p in parts]), np.concatenate([p.values for p in parts]))
 
     def _batch(self, poses_deg: Floats) -> Samples:
-        records = records_of(self._pair, self._options, poses_deg)
+        records = self._store.records(poses_deg)
         undecided = records[:, rk.O_STATUS] != 0.0
         contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MOST_CONTACTS, rk.POINT_SIZE)
         used = np.arange(rk.MOST_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
 from threadstate.history.model import CIRCLE_DEG, History
-from threadstate.history.records import records_of
 from threadstate.state.options import SolveOptions
+from threadstate.state.records import solve_records
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -37,7 +37,7 @@ def heights_of(pair: Pair, history: History, step_deg: float, options: SolveOpti
     sides = [phase % CIRCLE_DEG for b in history.boundaries for phase in (b.low_deg, b.high_deg)]
     phases = np.unique(np.concatenate([even, sides]))
     poses = np.column_stack([np.full((len(phases), 2), (history.roll_deg, history.pitch_deg)), phases])
-    records = records_of(pair, options or SolveOptions(), poses)
+    records = solve_records(pair, options or SolveOptions(), poses)
     heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
     last = heights[np.arange(len(heights)), np.maximum(records[:, rk.O_POSES].astype(np.intp) - 1, 0)]
     undecided = records[:, rk.O_STATUS] != 0.0

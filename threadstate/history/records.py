@@ -1,34 +1,59 @@
-"""The kernels' records of poses, which say that a pose is undecided instead of raising an error."""
+"""Records of poses that are asked for more than once, each solved once."""
 
 from __future__ import annotations
 
-import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
-from threadstate.contact import _solve_kernel as sk
-from threadstate.contact.level import solve_level
-from threadstate.state.solve import LEVEL_TILT_DEG, SolveOptions, _packed
+from threadstate.state.options import SolveOptions
+from threadstate.state.records import solve_records
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-def records_of(pair: Pair, options: SolveOptions, poses_deg: Floats) -> Floats:
-    """Records of shape (n, RECORD_SIZE) of valid poses of shape (n, 3): roll, pitch, phase in degrees.
+@dataclass(frozen=True, slots=True)
+class SolvedPoses:
+    """Poses of shape (n, 3), roll, pitch, phase in degrees, and their records of shape (n, RECORD_SIZE).
 
-    The same pose gives the same bits whatever the others are, those of ``threadstate.state.solve.solve_poses``.
+    The records are those of ``threadstate.state.records.solve_records`` for the same pair and options.
     """
-    records = np.empty((len(poses_deg), rk.RECORD_SIZE))
-    level = (np.abs(poses_deg[:, 0]) < LEVEL_TILT_DEG) & (np.abs(poses_deg[:, 1]) < LEVEL_TILT_DEG)
-    if not level.any():
-        sk.solve_rows(poses_deg * (math.pi / 180.0), _packed(pair, options), pair.bolt.row, pair.nut.row, records)
+
+    poses_deg: Floats
+    records: Floats
+
+
+class RecordStore:
+    """The records of one pair's poses; those in ``solved`` are taken from there."""
+
+    def __init__(self, pair: Pair, options: SolveOptions, solved: SolvedPoses | None = None) -> None:
+        self._pair = pair
+        self._options = options
+        self._rows: dict[bytes, Floats] = {}
+        if solved is not None:
+            self._rows.update(zip(_keys(solved.poses_deg), solved.records, strict=True))
+
+    def records(self, poses_deg: Floats) -> Floats:
+        """Records of shape (n, RECORD_SIZE) of valid poses of shape (n, 3)."""
+        keys = _keys(poses_deg)
+        new = {key: i for i, key in enumerate(keys) if key not in self._rows}
+        if new:
+            found = solve_records(self._pair, self._options, poses_deg[list(new.values())])
+            if len(new) == len(keys):
+                self._rows.update(zip(keys, found, strict=True))
+                return found
+            self._rows.update(zip(new, found, strict=True))
+        records = np.empty((len(keys), rk.RECORD_SIZE))
+        for i, key in enumerate(keys):
+            records[i] = self._rows[key]
         return records
-    if not level.all():
-        records[~level] = records_of(pair, options, poses_deg[~level])
-    for i in np.flatnonzero(level):
-        solve_level(pair, math.radians(poses_deg[i, 2]), records[i])
-    return records
+
+
+def _keys(poses_deg: Floats) -> list[bytes]:
+    """One key for every pose, the same where the bits are."""
+    rows = np.ascontiguousarray(poses_deg)
+    return [key.tobytes() for key in rows.view(np.dtype((np.void, rows.itemsize * 3))).ravel()]

@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
-import math
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from threadstate.contact import _record_kernel as rk
-from threadstate.contact import _solve_kernel as sk
-from threadstate.contact.level import solve_level
 from threadstate.errors import InvalidValueError
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
 from threadstate.state.options import TILT_LIMIT_DEG, SolveOptions
-from threadstate.thread.outline import outline_is_convex
+from threadstate.state.records import solve_records
 from threadstate.thread.pair import Pair
 
 __all__ = ["SolveOptions", "solve_pose", "solve_poses"]
-
-LEVEL_TILT_DEG = 1e-9
-"""Below this roll and pitch a pose is level: its contact is a patch to the last digits of a double."""
 
 
 def solve_pose(
@@ -48,17 +39,7 @@ def solve_poses(pair: Pair, poses: ArrayLike, options: SolveOptions | None = Non
     """
     options = options or SolveOptions()
     wanted = checked_poses(poses)
-    rows = np.empty((len(wanted), rk.RECORD_SIZE))
-    level = (np.abs(wanted[:, 0]) < LEVEL_TILT_DEG) & (np.abs(wanted[:, 1]) < LEVEL_TILT_DEG)
-    tilted = np.flatnonzero(~level)
-    if len(tilted):
-        found = np.empty((len(tilted), rk.RECORD_SIZE))
-        radians = wanted[tilted] * (math.pi / 180.0)
-        sk.solve_rows(radians, _packed(pair, options), pair.bolt.row, pair.nut.row, found)
-        rows[tilted] = found
-    for i in np.flatnonzero(level):
-        solve_level(pair, math.radians(wanted[i, 2]), rows[i])
-    return decoded_states(pair, options, wanted, rows)
+    return decoded_states(pair, options, wanted, solve_records(pair, options, wanted))
 
 
 def checked_poses(poses: ArrayLike) -> NDArray[np.float64]:
@@ -77,14 +58,3 @@ def checked_poses(poses: ArrayLike) -> NDArray[np.float64]:
     if bad.any():
         raise InvalidValueError("phase", float(wanted[np.flatnonzero(bad)[0], 2]), "a finite angle in deg")
     return wanted
-
-
-@lru_cache(maxsize=64)
-def _packed(pair: Pair, options: SolveOptions) -> NDArray[np.float64]:
-    convex = outline_is_convex(pair.bolt) and outline_is_convex(pair.nut)
-    packed = np.zeros(4)
-    packed[sk.S_TURN_LIMIT] = math.radians(options.turn_limit_deg)
-    packed[sk.S_TIE] = options.tie_tolerance * pair.thread_pitch
-    packed[sk.S_CONVEX] = float(convex)
-    packed.setflags(write=False)
-    return packed
