@@ -43,6 +43,10 @@ class SchemaError(ThreadstateError):
     """The database's schema is not the one this code expects; the message names the mending command."""
 
 
+SEARCH_ENDED = "the search ended before all its cells were closed"
+"""Why the exact method leaves a pose undecided."""
+
+
 class UnresolvedPoseError(ThreadstateError):
     """A pose could not be decided within the limits of the search; the message names the pose in degrees."""
 
@@ -51,7 +55,7 @@ class UnresolvedPoseError(ThreadstateError):
         roll_deg: float,
         pitch_deg: float,
         phase_deg: float,
-        reason: str = "the search ended before all its cells were closed",
+        reason: str = SEARCH_ENDED,
     ) -> None:
         super().__init__(
             f"no certain contact state for roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg: {reason}"

@@ -2,34 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
+
+import numpy as np
 
 from threadstate.errors import UnresolvedPoseError
-from threadstate.library.identity import LibraryInputs
-from threadstate.state.model import Answer, ContactState, UndecidedPose
-from threadstate.state.solve import solve_poses
+from threadstate.history.records import SolvedPoses
+from threadstate.mesh.options import MeshOptions
+from threadstate.state.decode import decoded_answers
+from threadstate.state.model import Answer, UndecidedPose
+from threadstate.state.options import SolveOptions
+from threadstate.state.records import solve_records
+from threadstate.state.solve import checked_poses
+from threadstate.thread.pair import Pair
 
 PoseDeg = tuple[float, float, float]
 
 
-def answers(inputs: LibraryInputs, poses: Sequence[PoseDeg]) -> list[Answer]:
-    """The state of each pose, or why the method cannot decide it; in the order of the poses (degrees)."""
-    if inputs.mesh is None:
-        exact = partial(solve_poses, inputs.pair, options=inputs.options)
-        try:
-            return [*exact(poses)]
-        except UnresolvedPoseError:
-            return [_answer(exact, pose) for pose in poses]
-    # Its collision library takes a while to load, and the exact method needs none.
+def exact_answers(pair: Pair, options: SolveOptions, poses: Sequence[PoseDeg]) -> tuple[list[Answer], SolvedPoses]:
+    """The state of each pose (degrees), or that the exact method cannot decide it; and the records that say so."""
+    wanted = checked_poses(np.array(poses))
+    solved = SolvedPoses(wanted, solve_records(pair, options, wanted))
+    return decoded_answers(pair, options, wanted, solved.records), solved
+
+
+def mesh_answers(pair: Pair, options: SolveOptions, mesh: MeshOptions, poses: Sequence[PoseDeg]) -> list[Answer]:
+    """The state of each pose (degrees) by meshes, or why these cannot decide it."""
+    # The collision library takes a while to load, and the exact method needs none.
     from threadstate.mesh.solve import solve_poses_by_mesh
 
-    by_mesh = partial(solve_poses_by_mesh, inputs.pair, mesh=inputs.mesh, options=inputs.options)
-    return [_answer(by_mesh, pose) for pose in poses]
+    def answer(pose: PoseDeg) -> Answer:
+        try:
+            return solve_poses_by_mesh(pair, [pose], mesh, options)[0]
+        except UnresolvedPoseError as error:
+            return UndecidedPose(*pose, error.reason)
 
-
-def _answer(solve: Callable[[list[PoseDeg]], list[ContactState]], pose: PoseDeg) -> Answer:
-    try:
-        return solve([pose])[0]
-    except UnresolvedPoseError as error:
-        return UndecidedPose(*pose, error.reason)
+    return [answer(pose) for pose in poses]

@@ -10,19 +10,22 @@ from threadstate.history.build import histories_of
 from threadstate.history.window import windows_of
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
-from worker.answers import answers
+from threadstate.state.solve import solve_poses
+from worker.answers import exact_answers, mesh_answers
 from worker.messages import Chunk, Failure, Ready
 
 
 def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
     """The answers for all poses of an orientation and, by the exact method, its history, as rows."""
-    grid = inputs.grid
-    orientation = grid.orientation(index)
-    rows = chunk_rows(orientation, grid.first_ordinal(index), answers(inputs, grid.poses(index)))
+    grid, pair = inputs.grid, inputs.pair
+    orientation, poses = grid.orientation(index), grid.poses(index)
+    first = grid.first_ordinal(index)
     if inputs.mesh is not None:
-        return Chunk(rows, None)
-    (history,) = histories_of(inputs.pair, [(orientation.roll_deg, orientation.pitch_deg)], inputs.options)
-    return Chunk(rows, history_rows(history, windows_of(inputs.pair, history)))
+        return Chunk(chunk_rows(orientation, first, mesh_answers(pair, inputs.options, inputs.mesh, poses)), None)
+    answers, solved = exact_answers(pair, inputs.options, poses)
+    tilt = (orientation.roll_deg, orientation.pitch_deg)
+    (history,) = histories_of(pair, [tilt], inputs.options, solved=solved)
+    return Chunk(chunk_rows(orientation, first, answers), history_rows(history, windows_of(pair, history)))
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
@@ -34,7 +37,7 @@ def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         try:
-            answers(inputs, inputs.grid.poses(0)[:1])
+            solve_poses(inputs.pair, inputs.grid.poses(0)[:1], inputs.options)
             connection.send(Ready())
             while True:
                 connection.send(compute_chunk(inputs, connection.recv()))

@@ -4,17 +4,16 @@ import json
 
 from tests.worker.conftest import CommandLine
 from threadstate.library.engine import reader_engine
-from threadstate.library.grid import Grid
-from threadstate.library.identity import LibraryInputs
 from threadstate.library.method import Method
 from threadstate.library.read import latest_library, state_of_pose, undecided_between
 from threadstate.mesh.options import MeshOptions
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.solve import solve_poses_by_mesh
-from threadstate.state.model import ContactState, UndecidedPose
+from threadstate.state.model import UndecidedPose
 from threadstate.state.options import SolveOptions
+from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.answers import answers
+from worker.answers import exact_answers
 
 GRID = ["--tilt-max", "2", "--tilt-step", "2", "--phase-step", "180"]
 BY_MESH = ["--method", "mesh", "--preset", "coarse", "--final-step", "10uin", "--unchecked"]
@@ -57,11 +56,10 @@ def test_a_setting_of_meshes_needs_their_method(command_line: CommandLine) -> No
 def test_the_exact_method_names_the_poses_that_it_cannot_decide() -> None:
     """Nearly level and in phase, where its search may run out of boxes; the poses beside one keep their states."""
     poses = [(1.0, 2.0, 30.0), *((1e-6 * i, 2e-6 * i, 0.01 * i) for i in range(1, 60)), (3.0, -2.0, 200.0)]
-    found = answers(LibraryInputs(quarter_twenty_unc(), Grid(), SolveOptions()), poses)
+    found, _ = exact_answers(quarter_twenty_unc(), SolveOptions(), poses)
     undecided = [answer for answer in found if isinstance(answer, UndecidedPose)]
     assert undecided
     assert all((one.roll_deg, one.pitch_deg, one.phase_deg) in poses and one.reason for one in undecided)
     for answer, pose in zip(found, poses, strict=True):
         assert (answer.roll_deg, answer.pitch_deg, answer.phase_deg) == pose
-    assert isinstance(found[0], ContactState)
-    assert isinstance(found[-1], ContactState)
+    assert [found[0], found[-1]] == solve_poses(quarter_twenty_unc(), [poses[0], poses[-1]])

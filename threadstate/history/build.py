@@ -7,14 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from threadstate.contact import _record_kernel as rk
 from threadstate.history.changes import NO_ANSWER, Changes, Floats, Integers, Resolution, Samples, changes_on_circles
 from threadstate.history.codes import LabelCodes
 from threadstate.history.differences import contact_changes
 from threadstate.history.labels import labels_of
 from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
 from threadstate.history.records import RecordStore, SolvedPoses
-from threadstate.state.decode import decoded_states
+from threadstate.state.decode import decoded_answers
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
@@ -170,10 +169,5 @@ def _cut(brackets: list[_Bracket], states: list[ContactState | None]) -> tuple[l
 
 def _states(pair: Pair, options: SolveOptions, poses_deg: Floats, store: RecordStore) -> list[ContactState | None]:
     """The states of poses; None where undecided."""
-    records = store.records(poses_deg)
-    decided = records[:, rk.O_STATUS] == 0.0
-    states: list[ContactState | None] = [None] * len(poses_deg)
-    found = decoded_states(pair, options, poses_deg[decided], records[decided])
-    for i, state in zip(np.flatnonzero(decided).tolist(), found, strict=True):
-        states[i] = state
-    return states
+    answers = decoded_answers(pair, options, poses_deg, store.records(poses_deg))
+    return [answer if isinstance(answer, ContactState) else None for answer in answers]

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
-from threadstate.errors import UnresolvedPoseError
+from threadstate.errors import SEARCH_ENDED, UnresolvedPoseError
 from threadstate.state.classify import classify
-from threadstate.state.model import Contact, ContactState, FeaturePair, Flag, StagePose, Vector
+from threadstate.state.model import Answer, Contact, ContactState, FeaturePair, Flag, StagePose, UndecidedPose, Vector
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
@@ -33,6 +33,16 @@ _FLAG_BITS = (
 )
 _FLAGS = tuple(tuple(flag for bit, flag in _FLAG_BITS if bits & bit) for bits in range(1 << len(_FLAG_BITS)))
 """The flags of a state by the sum of their bits."""
+
+
+def decoded_answers(pair: Pair, options: SolveOptions, poses_deg: Array, records: Array) -> list[Answer]:
+    """The states of poses of shape (n, 3), in degrees, from their records; an undecided one has its reason instead."""
+    decided = records[:, rk.O_STATUS] == 0.0
+    states = iter(decoded_states(pair, options, poses_deg[decided], records[decided]))
+    return [
+        next(states) if known else UndecidedPose(roll, pitch, phase, SEARCH_ENDED)
+        for (roll, pitch, phase), known in zip(poses_deg.tolist(), decided.tolist(), strict=True)
+    ]
 
 
 def decoded_states(pair: Pair, options: SolveOptions, poses_deg: Array, records: Array) -> list[ContactState]:
