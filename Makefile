@@ -1,12 +1,13 @@
-# make setup   everything that run, test and bench stand on; instant the second time
-# make run     migrate, compute the library if this very one is not published yet, serve it
-# make test    format, lint, types, tests
-# make bench   poses per second, beside a mesh collision library
-# make paper   put the paper's statements to the test, write docs/paper-claims.md
-# make chart   measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
-# make docs    compute the answers shown in the documentation anew
-# make designer  the designer's session of the README and the table of windows, from the latest library
-# make lock    renew the lock files after a change of dependencies (needs uv)
+# make setup      everything that run, test and bench stand on; instant the second time
+# make run        migrate, compute the library if this very one is not published yet, serve it
+# make test       format, lint, types, tests
+# make bench      poses per second, beside a mesh collision library
+# make paper      put the paper's statements to the test, write docs/paper-claims.md
+# make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
+# make stability  put the methods to hard places, write docs/stability.md, its maps and lists
+# make designer   write the designer's session of the README and the table of windows, from the latest library
+# make docs       compute the answers shown in the documentation anew
+# make lock       renew the lock files after a change of dependencies (needs uv)
 
 PYTHON ?= python3
 VENV := .venv
@@ -14,7 +15,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart docs lock designer
+.PHONY: setup run test bench paper chart stability docs lock designer
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -36,6 +37,9 @@ paper: setup
 
 chart: setup
 	$(BIN)/python -m studies.chart
+
+stability: setup
+	$(BIN)/python -m studies.stability
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py

@@ -1,0 +1,145 @@
+"""The whole study: hard places under perturbation, the grid, the descents, and what is shown of each trap."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from studies.methods.case import Case
+from studies.methods.mesh import MeshStates
+from studies.methods.method import Method
+from studies.stability.demonstrations import Shown, demonstrations, shown
+from studies.stability.descent_study import DESCENTS, DescentRow, descent_row
+from studies.stability.events import Event, events_along, phase_line
+from studies.stability.grid_study import GridRow, grid_row
+from studies.stability.mesh_traps import MeshTraps, mesh_traps
+from studies.stability.parallel import in_order, workers
+from studies.stability.place_study import study
+from studies.stability.places import Place, lines, places, spread
+from studies.stability.rival_study import RivalChunk, study_rival, thinned
+from studies.stability.rival_tally import RivalTally
+from studies.stability.tally import Tally
+from studies.stability.tangent_study import BesideAxis, beside_axes
+from threadstate.library.grid import Grid
+from threadstate.mesh.options import Descent
+from threadstate.mesh.presets import Preset
+from threadstate.thread.pair import Pair
+
+
+@dataclass(frozen=True)
+class RivalExtent:
+    """A slower method, and how many centres of a place and trials of each it is given; whether it is demonstrated."""
+
+    method: MeshStates
+    centres: int
+    trials: int
+    demonstrated: bool = False
+
+
+RIVALS = (
+    RivalExtent(MeshStates(Preset.COARSE, Descent.SAFE), 1, 13),
+    RivalExtent(MeshStates(Preset.COARSE, Descent.DECADES), 1, 13),
+    RivalExtent(MeshStates(Preset.MEDIUM, Descent.SAFE), 1, 2, demonstrated=True),
+    RivalExtent(MeshStates(Preset.MEDIUM, Descent.DECADES), 1, 2, demonstrated=True),
+)
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much is done: lines along which events are sought, degrees of each, centres of a place, the grid.
+
+    ``rivals`` and ``descents`` are slower methods, ``trapped`` poses whose colliding pairs are looked at.
+    """
+
+    lines: int
+    degrees: int
+    centres: int
+    grid: Grid
+    rivals: tuple[RivalExtent, ...] = RIVALS
+    descents: tuple[MeshStates, ...] = DESCENTS
+    trapped: int = 200
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What was found; ``tallies`` are in the order of the places, ``rivals`` by method and then likewise."""
+
+    extent: Extent
+    places: tuple[Place, ...]
+    tallies: tuple[Tally, ...]
+    rows: tuple[GridRow, ...]
+    axes: tuple[BesideAxis, ...]
+    rivals: Mapping[str, tuple[RivalTally, ...]]
+    descents: tuple[DescentRow, ...]
+    shown: tuple[Shown, ...]
+    traps: MeshTraps
+
+    @property
+    def total(self) -> Tally:
+        """All places together."""
+        total = Tally()
+        for tally in self.tallies:
+            total.add(tally)
+        return total
+
+
+def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findings:
+    """Do the study, with bars on stderr."""
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("ETA"),
+        TimeRemainingColumn(),
+    )
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, refresh_per_second=2) as progress, workers(processes) as pool:
+        along = partial(_events, exact, extent.degrees)
+        found = in_order(pool, along, lines(pair, extent.lines), progress, "seeking events")
+        hard = places(pair, [event for events in found for event in events], extent.centres)
+        chunks = [chunk for place in hard for chunk in place.chunks()]
+        tallies = {place.name: Tally() for place in hard}
+        results = in_order(pool, partial(study, exact), chunks, progress, "perturbing hard places")
+        for chunk, tally in zip(chunks, results, strict=True):
+            tallies[chunk.place].add(tally)
+        orientations = range(extent.grid.orientation_count)
+        row = partial(grid_row, exact, pair, extent.grid)
+        rows = tuple(in_order(pool, row, orientations, progress, "mapping the grid"))
+        descend = partial(descent_row, exact, extent.descents, pair, extent.grid)
+        descents = tuple(in_order(pool, descend, orientations, progress, "descending by meshes"))
+        asked = [chunk for rival in extent.rivals for place in hard for chunk in _rival_chunks(rival, place)]
+        rivals = {rival.method.name: {place.name: RivalTally() for place in hard} for rival in extent.rivals}
+        replies = in_order(pool, partial(study_rival, exact), asked, progress, "asking the meshes")
+        for rival_chunk, rival_tally in zip(asked, replies, strict=True):
+            rivals[rival_chunk.method.name][rival_chunk.place].add(rival_tally)
+        others = [rival.method for rival in extent.rivals if rival.demonstrated]
+        show = partial(shown, exact, others)
+        demonstrated = tuple(in_order(pool, show, demonstrations(pair, hard), progress, "demonstrating"))
+        (traps,) = in_order(pool, partial(mesh_traps, others[0], extent.trapped), [pair], progress, "setting traps")
+    return Findings(
+        extent,
+        tuple(hard),
+        tuple(tallies.values()),
+        rows,
+        tuple(beside_axes()),
+        {name: tuple(by_place.values()) for name, by_place in rivals.items()},
+        descents,
+        demonstrated,
+        traps,
+    )
+
+
+def _events(method: Method, degrees: int, start: Case) -> list[Event]:
+    return events_along(method, phase_line(start, degrees + 1))
+
+
+def _rival_chunks(rival: RivalExtent, place: Place) -> list[RivalChunk]:
+    return [
+        RivalChunk(rival.method, place.name, centre, thinned(place.trials_of([centre], number), rival.trials))
+        for number, centre in enumerate(spread(list(place.centres), rival.centres))
+    ]

@@ -1,0 +1,168 @@
+"""What the brute force of the tests says of two states where answers jump, and of states by themselves.
+
+It knows nothing of the solver: first heights by columns, components by rays, lifts by samples (``tests/oracle``). Its
+tolerances are inches on a 1/4-20.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import StrEnum
+
+import numpy as np
+
+from studies.stability.change import Answered, allowed, change_between, leading_contacts, pivot_lever
+from studies.stability.first_height_near import first_height_near
+from tests.contact.turns import Turn, earlier_appearance, turns_of
+from tests.oracle.first_height import first_height
+from tests.oracle.lift import least_lift
+from tests.oracle.overlap import excluded_rows, free_component
+from tests.oracle.profile import bolt_profile, nut_profile
+from threadstate.state.model import ContactState, Flag
+
+HEIGHT_TOLERANCE_INCH = 1e-9
+LIFT_TOLERANCE_INCH = 1e-8
+"""The brute force's lift is good to 1e-10 thread pitches where it is not zero, and a touch may be 1e-8 p deep."""
+PARTED_INCH = 1e-6
+"""A component that is deeper when it is first seen, to 1e-5 deg, has parted from an overlap and was not born."""
+LOOKS_DEG = (1e-3, 1e-2, 5e-2)
+"""How far behind the shorter turn the longer one is looked at."""
+SHORT_OF_END_DEG = 1e-4
+LIMIT_DEG = 45.0
+STEPS = 14
+"""Instants of a turn at which it is looked at as a whole."""
+
+
+class Event(StrEnum):
+    """What explains a jump between two poses that are next to each other."""
+
+    FLAGGED = "flagged (tie, balanced, patch)"
+    FIRST_TAKEN_OVER = "first contact taken over at equal height"
+    FIRST_LOST = "first contact lost (snap)"
+    LATER_TAKEN_OVER = "later contact taken over at equal turn"
+    LATER_LOST = "later contact born, lost or merged"
+    PARTED = "an overlap parts: not a birth by decision 1"
+    BALANCED = "the origin passes over the pivot axis: the third turn changes its sense"
+    EMBEDMENT = "embedment jumps as the brute force says"
+    STEEP = "steep, but continuous"
+
+
+class Fault(StrEnum):
+    """A silent failure."""
+
+    MISSED_FIRST = "a higher first contact is missed"
+    MISSED_LATER = "an earlier second or third contact is missed"
+    WRONG_EMBEDMENT = "embedment is not the least lift"
+    LAW = "a law is broken"
+    UNEXPLAINED = "a jump that nothing explains"
+    CLASS = "the class flips though its margins exceed the change"
+
+
+Verdict = Event | Fault
+
+
+def explanation(one: Answered, other: Answered) -> Verdict:
+    """Why the answers to two cases that are next to each other differ."""
+    a, b = one.state, other.state
+    height_allowed, rest_allowed = allowed(one.case, other.case)
+    height_allowed += HEIGHT_TOLERANCE_INCH
+    if abs(a.poses[0].translation[2] - b.poses[0].translation[2]) > height_allowed:
+        upper, lower = sorted((one, other), key=lambda side: side.state.poses[0].translation[2], reverse=True)
+        missed = missed_first(upper) or missed_first(lower) or _missed_beside(lower, upper)
+        return Fault.MISSED_FIRST if missed else Event.FIRST_LOST
+    if any(flag in state.flags for state in (a, b) for flag in (Flag.TIE, Flag.BALANCED)):
+        return Event.FLAGGED
+    here, there = leading_contacts(a), leading_contacts(b)
+    if 1 not in here or 1 not in there:
+        return Event.FLAGGED
+    slack = rest_allowed + 1e-7
+    if math.dist(here[1].point, there[1].point) > slack:
+        return Event.FIRST_TAKEN_OVER
+    for stage, turn, turn_too in ((2, a.lambda_deg, b.lambda_deg), (3, a.mu_deg, b.mu_deg)):
+        longer = one if (turn or LIMIT_DEG) > (turn_too or LIMIT_DEG) else other
+        short_turn = min(turn or LIMIT_DEG, turn_too or LIMIT_DEG)
+        if turn is None and turn_too is None:
+            break
+        if stage == 3 and _passes_over(a, b, slack):
+            return Event.BALANCED
+        if turn is None or turn_too is None or math.radians(abs(turn - turn_too)) * one.case.reach > slack:
+            return _later(longer, stage, short_turn)
+        if (stage in here) != (stage in there):
+            return Event.LATER_TAKEN_OVER
+        if stage in here and math.dist(here[stage].point, there[stage].point) > slack:
+            return Event.LATER_TAKEN_OVER
+    change = change_between(one, other)
+    if change is not None and change.number > slack:
+        return Fault.WRONG_EMBEDMENT if wrong_embedment(one) or wrong_embedment(other) else Event.EMBEDMENT
+    return Fault.UNEXPLAINED
+
+
+def _passes_over(a: ContactState, b: ContactState, slack: float) -> bool:
+    """Whether the origin is on the pivot axis between two states, to within the most that the axis may move."""
+    lever, lever_too = pivot_lever(a), pivot_lever(b)
+    return lever is not None and lever_too is not None and lever * lever_too <= 0.0 and abs(lever) <= slack
+
+
+def _later(longer: Answered, stage: int, short_turn: float) -> Verdict:
+    """Why one turn goes on where its neighbour's ends: the brute force looks whether it goes past a component."""
+    turn = turns_of(longer.case.pair, longer.state)[stage - 2]
+    end = turn.end_deg(LIMIT_DEG)
+    looks = [short_turn + look for look in LOOKS_DEG] + [0.5 * (short_turn + end)]
+    if not any(_is_free(longer, turn, look) for look in looks if look < end - SHORT_OF_END_DEG):
+        return Event.LATER_LOST
+    return Fault.MISSED_LATER if _goes_past_a_birth(longer, turn) else Event.PARTED
+
+
+def _is_free(answered: Answered, turn: Turn, turn_deg: float) -> bool:
+    rotation, translation = turn.pose_after(turn_deg)
+    rotation = np.ascontiguousarray(rotation)
+    excluded = excluded_rows(rotation, translation, turn.known)
+    pair = answered.case.pair
+    return free_component(rotation, translation, bolt_profile(pair), nut_profile(pair), excluded)[0] > 0.0
+
+
+def _goes_past_a_birth(answered: Answered, turn: Turn) -> bool:
+    seen = earlier_appearance(answered.case.pair, turn, LIMIT_DEG, STEPS)
+    return seen is not None and seen.depth < PARTED_INCH
+
+
+def missed_first(answered: Answered) -> bool:
+    """Whether the bolt touches the nut before it has come down to the height told.
+
+    A height too great needs no look: the laws have the contact told lie in both solids there.
+    """
+    told = answered.state.poses[0].translation[2]
+    return first_height(answered.case.pair, *answered.case.pose_deg).height > told + HEIGHT_TOLERANCE_INCH
+
+
+def _missed_beside(lower: Answered, upper: Answered) -> bool:
+    """Whether the lower of two neighbours still touches where the upper one does, before it has come down."""
+    told = lower.state.poses[0].translation[2]
+    held = leading_contacts(upper.state)
+    if 1 not in held:
+        return False
+    return first_height_near(lower.case.pair, lower.case.pose_deg, held[1]) > told + HEIGHT_TOLERANCE_INCH
+
+
+def missed_later(answered: Answered) -> bool:
+    """Whether the second or the third turn goes past a birth."""
+    if not _turns(answered.state):
+        return False
+    return any(_goes_past_a_birth(answered, turn) for turn in turns_of(answered.case.pair, answered.state))
+
+
+def wrong_embedment(answered: Answered) -> str:
+    """What is wrong with the embedment, in words: it is not the least lift that frees the third pose; else empty."""
+    state = answered.state
+    if state.embedment is None or len(state.poses) < 3:
+        return ""
+    pose = state.poses[2]
+    lift = least_lift(answered.case.pair, np.array(pose.rotation), np.array(pose.translation))
+    if abs(lift - state.embedment) <= LIFT_TOLERANCE_INCH:
+        return ""
+    return f"embedment {state.embedment:.3g} in, least lift {lift:.3g} in, drop {state.drop or 0.0:.3g} in"
+
+
+def _turns(state: ContactState) -> bool:
+    """Whether the state begins with one contact about which the bolt then turns."""
+    return 1 in leading_contacts(state) and Flag.TIE not in state.flags and Flag.BALANCED not in state.flags

@@ -1,0 +1,207 @@
+"""Maps over the grid: a row for each of the 81 orientations, a column for each of the 360 phases."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Generic, Protocol, TypeVar
+
+from studies.stability.agreement import Outcome
+from studies.stability.grid_study import DECADES, GridPose, logarithm
+from studies.stability.svg import FAINT, box, document, line, runs, text
+from studies.stability.tangent_study import WRONG_DEG
+from threadstate.state.model import StateClass
+
+COLUMN, ROW, GAP = 2.75, 6.0, 5.0
+LEFT, TOP, RIGHT, BELOW = 86.0, 64.0, 22.0, 84.0
+PHASE_TICK_DEG = 30
+
+
+Seen = TypeVar("Seen")
+SeenThere = TypeVar("SeenThere", covariant=True)
+
+
+class Row(Protocol[SeenThere]):
+    """An orientation of the grid with what was seen at each phase."""
+
+    @property
+    def roll_deg(self) -> float:
+        """Of all poses."""
+
+    @property
+    def pitch_deg(self) -> float:
+        """Of all poses."""
+
+    @property
+    def poses(self) -> Sequence[SeenThere]:
+        """By phase, from 0 on."""
+
+
+@dataclass(frozen=True)
+class Shade:
+    """A colour and what it stands for."""
+
+    colour: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Map(Generic[Seen]):
+    """A map: its file's name, its title, what it shows in a sentence, its shades, and which of them a pose has."""
+
+    name: str
+    title: str
+    caption: str
+    shades: tuple[Shade, ...]
+    shade_of: Callable[[Seen], int]
+
+
+_CLASSES = (StateClass.STABLE_THREE_POINT, StateClass.QUASI_STABLE_TWO_POINT, StateClass.UNSTABLE_TWO_POINT)
+_SLOPES = (0.0, 1.0, 2.0, 3.0, 4.0)
+_ERRORS_DEG = (WRONG_DEG, 1.0, 30.0, 90.0, 180.1)
+
+
+def _class_shade(pose: GridPose) -> int:
+    return len(_CLASSES) if pose.state_class is None else _CLASSES.index(pose.state_class)
+
+
+def _event_shade(pose: GridPose) -> int:
+    if pose.state_class is None:
+        return len(DECADES) + 1
+    return len(DECADES) if pose.event_decade is None else DECADES.index(pose.event_decade)
+
+
+def _slope_shade(pose: GridPose) -> int:
+    value = logarithm(pose.slope)
+    if value is None:
+        return len(_SLOPES) + 1
+    return sum(value >= limit for limit in _SLOPES)
+
+
+def _tangent_shade(pose: GridPose) -> int:
+    error = pose.directions.nut_tangent
+    if error is None:
+        return len(_ERRORS_DEG) + 1
+    if math.isnan(error):
+        return len(_ERRORS_DEG)
+    return sum(error >= limit for limit in _ERRORS_DEG[:-1])
+
+
+# Colours of Okabe and Ito for kinds; a ramp of one hue from light to dark for sizes.
+MAPS: tuple[Map[GridPose], ...] = (
+    Map(
+        "classes",
+        "Class of the state",
+        "Every border between two colours is a place where a class may flip.",
+        (
+            Shade("#0072b2", "stable three-point"),
+            Shade("#f0c808", "quasi-stable two-point"),
+            Shade("#d55e00", "unstable two-point"),
+            Shade("#000000", "refused"),
+        ),
+        _class_shade,
+    ),
+    Map(
+        "events",
+        "The smallest change of pose after which other contacts take over",
+        "Dark poses sit on an event: a tie, a lost contact, a birth. Changes in two directions at four sizes.",
+        (
+            Shade("#3b0f70", "1e-12 deg"),
+            Shade("#8c2981", "1e-9 deg"),
+            Shade("#de4968", "1e-6 deg"),
+            Shade("#fe9f6d", "1e-3 deg"),
+            Shade("#f4f1ea", "none of these"),
+            Shade("#000000", "refused"),
+        ),
+        _event_shade,
+    ),
+    Map(
+        "slopes",
+        "Change of a turn or of a contact point per change of the pose",
+        "Largest of both turns (times the bolt's reach) and of all contact points, over the farthest way of a point of "
+        "the bolt; by changes of 1e-6 deg.",
+        (
+            Shade("#edf4f7", "below 1"),
+            Shade("#bcd9e6", "1 to 10"),
+            Shade("#7db4d0", "10 to 100"),
+            Shade("#3d84b0", "100 to 1,000"),
+            Shade("#175582", "1,000 to 10,000"),
+            Shade("#04233f", "above 10,000"),
+            Shade("#e69f00", "no slope: level, other contacts, or refused"),
+        ),
+        _slope_shade,
+    ),
+    Map(
+        "tangents",
+        "Error of the tangent's direction by the printed Eq. 7",
+        "The acos of Eq. 7 loses the sign of the tangent's y part; atan2 is right in every pose.",
+        (
+            Shade("#e8f1ee", "right to 1e-6 deg"),
+            Shade("#b5d8cb", "below 1 deg"),
+            Shade("#6db59c", "1 to 30 deg"),
+            Shade("#1e8a6c", "30 to 90 deg"),
+            Shade("#00493a", "90 to 180 deg"),
+            Shade("#d55e00", "no number"),
+            Shade("#999999", "level: no tangent"),
+        ),
+        _tangent_shade,
+    ),
+)
+
+
+_OUTCOMES = (Outcome.RIGHT, Outcome.HEIGHT, Outcome.REFUSED)
+
+DECADE_MAP: Map[Outcome] = Map(
+    "decades",
+    "Where the descent in decades ends",
+    "A wrong height is off by more than the meshes' edges deviate and the final step together.",
+    (Shade("#e8f1ee", "at the first contact"), Shade("#d55e00", "wrong height"), Shade("#000000", "refused")),
+    _OUTCOMES.index,
+)
+
+
+def drawn(chart: Map[Seen], rows: Sequence[Row[Seen]]) -> str:
+    """The map as SVG; rows in the order of the grid."""
+    width = LEFT + 360.0 * COLUMN + RIGHT
+    groups = [list(group) for _, group in groupby(rows, key=lambda row: row.roll_deg)]
+    middles: list[tuple[Row[Seen], float]] = []
+    elements = [text(LEFT, 24, chart.title, size=17), text(LEFT, 43, chart.caption, size=11.5, colour=FAINT)]
+    y = TOP
+    for group in groups:
+        height = ROW * len(group)
+        elements.append(text(LEFT - 40, y + height / 2 + 4, f"roll {group[0].roll_deg:g}", size=12, anchor="end"))
+        for k in sorted({0, len(group) // 2, len(group) - 1}):
+            label = f"{group[k].pitch_deg:g}"
+            elements.append(text(LEFT - 6, y + ROW * (k + 0.5) + 3, label, size=8.5, anchor="end", colour=FAINT))
+        middles += [(row, y + ROW * (k + 0.5)) for k, row in enumerate(group)]
+        y += height + GAP
+    bottom = y - GAP
+    bars: list[list[tuple[float, float, float]]] = [[] for _ in chart.shades]
+    for row, middle in middles:
+        # A grid with a larger step of phase has wider columns.
+        column = 360.0 * COLUMN / len(row.poses)
+        start = 0
+        for shade, run in groupby(row.poses, key=chart.shade_of):
+            length = len(list(run))
+            bars[shade].append((LEFT + column * start, middle, column * length))
+            start += length
+    elements += [runs(shade.colour, ROW, bar) for shade, bar in zip(chart.shades, bars, strict=True) if bar]
+    elements.append(text(LEFT - 6, TOP - 6, "pitch", size=8.5, anchor="end", colour=FAINT))
+    for phase in range(0, 361, PHASE_TICK_DEG):
+        x = LEFT + COLUMN * phase
+        elements += [line(x, bottom, x, bottom + 5), text(x, bottom + 18, f"{phase}", size=11, anchor="middle")]
+    elements.append(
+        text(LEFT + 180 * COLUMN, bottom + 35, "phase (deg); roll and pitch in deg", size=11.5, anchor="middle")
+    )
+    elements += _legend(chart, bottom + 52)
+    return document(width, bottom + BELOW, chart.title, chart.caption, elements)
+
+
+def _legend(chart: Map[Seen], y: float) -> list[str]:
+    elements, x = [], LEFT
+    for shade in chart.shades:
+        elements += [box(x, y, 15, 12, shade.colour, FAINT), text(x + 20, y + 10.5, shade.meaning, size=11.5)]
+        x += 42 + 6.1 * len(shade.meaning)
+    return elements

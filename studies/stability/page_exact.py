@@ -1,0 +1,134 @@
+"""What the page says of the exact method in the hard places."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+
+from studies.stability.findings import Findings
+from studies.stability.judge import Event
+from studies.stability.table import table
+from studies.stability.tally import Failure, Steepest, Tally
+from studies.stability.trials import DECADES
+
+SHOWN_FAILURES = 4
+"""Of one kind in one place; all are in the table beside the maps."""
+
+
+def places_table(found: Findings) -> str:
+    """The hard places, and how their centres are made."""
+    return table(
+        ("place", "how its centres are made", "centres"),
+        [(place.name, place.how, f"{len(place.centres)}") for place in found.places],
+    )
+
+
+def answers_text(found: Findings) -> str:
+    """What the counts mean."""
+    total = found.total
+    return (
+        "Each centre is perturbed by 1e-12 to 1e-3 (degrees; thread pitches) in six directions of the pose and three "
+        "of the dimensions. Kept: the contacts are the centre's. Taken over: others, after the events of the next "
+        f"table. Alone: judged by the brute force without following the way ({total.judged_alone:,}). Without: the "
+        f"centre itself is refused, so that laws alone are checked ({total.without_centre:,})."
+    )
+
+
+def answers_table(found: Findings) -> str:
+    """What the method does at each place."""
+    flips = ("class flips by margin", "class flips at events")
+    head = ("place", "perturbed", "refused", "kept", "taken over", "alone", "without", *flips, "silent failures")
+    rows = [(place.name, *_counts(tally)) for place, tally in zip(found.places, found.tallies, strict=True)]
+    return table(head, [*rows, ("**all**", *_counts(found.total))])
+
+
+def _counts(tally: Tally) -> tuple[str, ...]:
+    numbers = (
+        tally.trials,
+        tally.refused,
+        tally.kept,
+        tally.replaced,
+        tally.judged_alone,
+        tally.without_centre,
+        tally.flips_by_margin,
+        tally.flips_at_events,
+        len(tally.failures),
+    )
+    return tuple(f"{number:,}" for number in numbers)
+
+
+def events_table(found: Findings) -> str:
+    """What explains the jumps between neighbours."""
+    total = found.total
+    rows = [(event.value, f"{total.events[event]:,}") for event in Event if total.events[event]]
+    compared = (
+        f"Put to the brute force besides: {total.compared_heights:,} heights, {total.compared_turns:,} states' turns, "
+        f"{total.compared_lifts:,} embedments."
+    )
+    return table(("what explains the jump", "neighbours"), rows) + f"\n\n{compared}"
+
+
+def failures(found: Findings) -> str:
+    """The silent failures, some of each kind."""
+    rows: list[tuple[str, ...]] = []
+    for place, tally in zip(found.places, found.tallies, strict=True):
+        seen: Counter[str] = Counter()
+        for failure in tally.failures:
+            seen[failure.fault] += 1
+            if seen[failure.fault] <= SHOWN_FAILURES:
+                changed = " (dimensions changed)" if failure.dimensions else ""
+                rows.append((place.name, failure.fault.value, failure.pose + changed, failure.detail))
+        rows += [
+            (place.name, fault, f"and {count - SHOWN_FAILURES} more", "")
+            for fault, count in seen.items()
+            if count > SHOWN_FAILURES
+        ]
+    for row in found.rows:
+        rows += [("the grid", "a law is broken", broken, "") for broken in row.broken[:SHOWN_FAILURES]]
+    if not rows:
+        return "None."
+    return table(("place", "what is wrong", "pose (deg)", "in detail"), rows)
+
+
+def failures_csv(found: Findings) -> str:
+    """Every silent failure, one a line."""
+    lines = ["place,fault,pose_deg,dimensions,detail"]
+    for place, tally in zip(found.places, found.tallies, strict=True):
+        lines += [_csv_line(place.name, failure) for failure in tally.failures]
+    lines += [f'"the grid","a law is broken","{broken}","",""' for row in found.rows for broken in row.broken]
+    return "\n".join(lines) + "\n"
+
+
+def _csv_line(place: str, failure: Failure) -> str:
+    return ",".join(
+        f'"{value}"' for value in (place, failure.fault.value, failure.pose, failure.dimensions, failure.detail)
+    )
+
+
+def steep_table(found: Findings) -> str:
+    """The steepest slopes."""
+    head = ("place", "height", "turn", "point", "steepest point about")
+    return table(
+        head,
+        [
+            (place.name, _ratio(tally.height), _ratio(tally.turn), _ratio(tally.point), tally.point.where)
+            for place, tally in zip(found.places, found.tallies, strict=True)
+            if tally.largest
+        ],
+    )
+
+
+def _ratio(steepest: Steepest) -> str:
+    return f"{steepest.ratio:.2g}"
+
+
+def decade_tables(found: Findings) -> Iterable[str]:
+    """The largest changes by the size of the perturbation."""
+    for index, name in enumerate(("height of the first contact", "turn times the bolt's reach", "contact point")):
+        rows = [
+            (place.name, *(f"{tally.largest[d][index]:.0e}" if d in tally.largest else "" for d in DECADES))
+            for place, tally in zip(found.places, found.tallies, strict=True)
+            if tally.largest
+        ]
+        yield f"Largest change of a {name} (in) by the size of the perturbation, where the contacts stay:"
+        yield table(("place", *(f"1e{decade}" for decade in DECADES)), rows)

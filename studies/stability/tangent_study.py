@@ -1,0 +1,97 @@
+"""Where the paper's angles fail: beside the axes, and along the tangents and pivot axes of states."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from studies.stability.change import Answered, leading_contacts
+from studies.stability.tangent_angles import error_deg, frame_along, printed_angles, two_argument_angles
+from tests.contact.geometry import Floats
+from tests.contact.turns import first_tangent
+
+OFFSETS = (0.0, 1e-16, 1e-12, 1e-8, 1e-4, 1e-2)
+"""Angles (rad) between a direction and the axis that it is beside."""
+AROUND = 16
+"""Directions at each angle."""
+WRONG_DEG = 1e-6
+"""An angle that is off by more is wrong."""
+
+
+@dataclass(frozen=True)
+class BesideAxis:
+    """One axis: how many of the directions beside it have no angles as printed, and the largest errors in degrees."""
+
+    axis: str
+    directions: int
+    without_number: int
+    wrong: int
+    printed_deg: float
+    two_argument_deg: float
+
+
+@dataclass(frozen=True)
+class DirectionErrors:
+    """The printed formula's errors in degrees for one state: Eqs. 7, 9 and 11; NaN where it gives no number.
+
+    None where the state has no such direction.
+    """
+
+    nut_tangent: float | None
+    bolt_tangent: float | None
+    pivot_axis: float | None
+
+
+def beside_axes() -> list[BesideAxis]:
+    """Both formulas beside the six axes."""
+    found = []
+    for name, along, across in (("x", 0, 1), ("y", 1, 2), ("z", 2, 0)):
+        for sign, mark in ((1.0, "+"), (-1.0, "-")):
+            directions = [_beside(sign, along, across, k, offset) for offset in OFFSETS for k in range(AROUND)]
+            printed = [error_deg(printed_angles(one), one) for one in directions]
+            numbers = [error for error in printed if not math.isnan(error)]
+            found.append(
+                BesideAxis(
+                    axis=mark + name,
+                    directions=len(directions),
+                    without_number=len(printed) - len(numbers),
+                    wrong=sum(error > WRONG_DEG for error in numbers),
+                    printed_deg=max(numbers, default=math.nan),
+                    two_argument_deg=max(error_deg(two_argument_angles(one), one) for one in directions),
+                )
+            )
+    return found
+
+
+def _beside(sign: float, along: int, across: int, k: int, offset: float) -> Floats:
+    around = 2.0 * math.pi * (k + 0.5) / AROUND
+    direction = np.zeros(3)
+    direction[along] = sign
+    direction[across] = offset * math.cos(around)
+    direction[3 - along - across] = offset * math.sin(around)
+    return np.asarray(direction / np.linalg.norm(direction))
+
+
+def direction_errors(answered: Answered) -> DirectionErrors:
+    """The printed formula along the tangent at CP0, in the nut's and the bolt's frame, and along CP0-CP1."""
+    state = answered.state
+    held = leading_contacts(state)
+    if 1 not in held:
+        return DirectionErrors(None, None, None)
+    tangent = first_tangent(answered.case.pair, state)
+    in_bolt = np.array(state.poses[0].rotation).T @ tangent
+    pivot = None
+    if 2 in held:
+        axis = np.array(held[2].point) - np.array(held[1].point)
+        in_contact_frame = frame_along(tangent).T @ (axis / np.linalg.norm(axis))
+        pivot = error_deg(printed_angles(in_contact_frame), in_contact_frame)
+    return DirectionErrors(
+        error_deg(printed_angles(tangent), tangent), error_deg(printed_angles(in_bolt), in_bolt), pivot
+    )
+
+
+def is_wrong(error: float | None) -> bool:
+    """Whether the printed formula is off, or gives no number."""
+    return error is not None and not error <= WRONG_DEG

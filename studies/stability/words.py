@@ -1,0 +1,60 @@
+"""The prose of the page that no number changes."""
+
+CRITERIA = """\
+An answer fails silently where something that knows nothing of the solver says that it is wrong:
+
+- **Laws.** Numbers are finite; the first pose is the one asked for; both points of a contact are one, to 1e-9 in on
+  the surfaces that its features name and in both closed solids; normals and regions are right; a turn keeps its
+  contacts and has the angle told; drop, pivot offset and class follow from the rest. Checked for every answer.
+- **Continuity.** Every perturbed answer is joined to its centre's by steps in which nothing happens. Where there is no
+  such way the two are halved until doubles end or the method refuses, and the two neighbours are put to the brute
+  force of `tests/oracle`: a height may fall only where columns, dense about the contact lost, find no higher one, a
+  turn may go past a neighbour's contact only where rays find no component born on the way, an embedment may jump only
+  as the lift does.
+- **Margins.** A class that flips while the contacts stay must have a margin that changes its sign and is no larger
+  than the perturbation can change it.
+- **Brute force alone.** Heights and embedments of all centres, turns of one in eight, and a sample of the perturbed
+  poses; so are answers whose way from the centre crosses more events than are followed.
+- **The same input.** Another size of all lengths, whole turns of phase and other tolerances must change nothing but
+  what they are about."""
+
+RIVALS = """\
+Wrong / refused / asked. The exact method's answers are judged as the section on it says. A mesh's answer is right
+where it agrees with the exact answer to its case, or to one of fourteen poses so near that no point of the bolt moves
+much farther than the error that the mesh method declares itself: how far the edges of both meshes deviate, and the
+final step. So a mesh that resolves 5e-4 in may take either side of an event that is nearer than that. Agreeing is:
+heights within the declared error; each stage ends alike (in a patch, in nothing, in a contact) with turn and place
+within a tenth of a thread pitch at most, less where the tilt bounds what the error can do; the same class."""
+
+WRONG = """\
+What is wrong is told by the first stage that is: later ones follow from it. A class that flips between right answers
+flips within margins where one of them is no larger than the declared error can make it."""
+
+CHANGES = """\
+The exact method's numbers are of all hard places together, as those of the meshes, which follow a perturbation only in
+steps of their final step and facets: below that size their change per change of the input has no bound."""
+
+DESCENTS = """\
+Every pose of the grid, the height of first contact by both descents of the mesh method. A height is wrong where it
+differs from the exact one by more than the declared error."""
+
+EVENTS = """\
+Each pair of neighbours was looked at once for its centre. Two contacts at one height, or at one turn, are taken over
+from one pose to the next with no change of that number; a snap and a birth change it at once."""
+
+STEEPNESS = """\
+The largest change of an answer per change of its input, where the contacts stay: a height, a turn times the bolt's
+reach (0.134 in) or a contact point, over the farthest way of a point of the bolt or profile. These are ratios of
+lengths, so that no unit matters; they are taken from changes of 1e-7 and more. Contact points and turns follow the
+direction of the tilt, so that they are as steep as the tilt is small."""
+
+LEFT_OUT = """\
+- Feature changes (an edge that comes to meet an edge instead of a thread) are approached to 1e-7 deg. Nearer, the exact
+  method's search can take longer in proportion to one over the distance, and end in a refusal: roll
+  1.5075738445675206, pitch -0.8886286081671697, phase 2.661266877535354 takes tens of seconds to be refused.
+- The brute force resolves components deeper than 1e-7 in and turns to 1e-4 deg; it looks at tilts of up to 25 deg.
+- Perturbations are of roll, pitch, phase, the six diameters and the thread pitch; the form's angle and fillets stay.
+- A tangent along +z or -z does not occur: both parts' edges are cut across their axes. Those directions are looked at
+  in the table of the angles alone.
+- The meshes are given few centres of each place, and the coarse preset most of them: a pose takes them 0.1 to 15 s.
+- Changes of a turn or point below 1e-8 in, and jumps below 1e-6 in, count as none."""

@@ -1,0 +1,26 @@
+"""Exact answers for the tests of the studies."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from studies.methods.case import Case
+from studies.methods.exact import ExactMethod
+from studies.stability.change import Answered
+from threadstate.state.model import ContactState
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+PAIR = quarter_twenty_unc()
+EXACT = ExactMethod()
+
+THREE_POINT = (1.0, -2.0, 10.0)
+FLUSH = (4.0, 0.0, 185.0)
+
+
+@cache
+def answered(pose_deg: tuple[float, float, float]) -> Answered:
+    """The exact answer for a pose of 1/4-20 UNC."""
+    case = Case(PAIR, pose_deg)
+    (state,) = EXACT.answers([case])
+    assert isinstance(state, ContactState)
+    return Answered(case, state)
