@@ -17,7 +17,10 @@ from threadstate.thread.pair import Pair
 
 @dataclass(frozen=True)
 class MeshStates:
-    """States by meshes of a preset, stepped safely or in decades to a final step in thread pitches (decision 4)."""
+    """States by meshes of a preset, stepped to a final step in thread pitches (decision 4).
+
+    A safe descent is checked by a second tessellation; decades are not, as the paper has no such check.
+    """
 
     preset: Preset
     descent: Descent
@@ -31,7 +34,8 @@ class MeshStates:
     @property
     def options(self) -> MeshOptions:
         """Its settings."""
-        return MeshOptions(self.preset.tessellation, self.descent, self.final_step)
+        checked = self.descent is Descent.SAFE
+        return MeshOptions(self.preset.tessellation, self.descent, self.final_step, checked=checked)
 
     def declared_error(self, pair: Pair) -> float:
         """How far both meshes' edges are off the true ones, and the final step."""

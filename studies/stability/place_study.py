@@ -17,7 +17,7 @@ from threadstate.state.model import ContactState
 
 RATIO_FROM_DECADE = -7
 """Smaller changes of the input show round-off and no slope."""
-TRIALS_A_SAMPLE = 240
+TRIALS_A_SAMPLE = 480
 """One perturbed answer in so many is put to the brute force whatever it is: its height and its embedment."""
 CENTRES_A_SAMPLE = 8
 """Every centre's height and embedment are put to it, and the turns of one in so many."""
