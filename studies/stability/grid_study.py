@@ -19,7 +19,7 @@ from threadstate.thread.pair import Pair
 
 DECADES = (-12, -9, -6, -3)
 """Exponents of ten of the neighbours' distances, in degrees of their largest angle."""
-DIRECTIONS = np.array([[1.0, 0.61803398875, -0.41421356237], [-0.73205080757, 1.0, 0.23606797750]])
+DIRECTIONS = np.array([[1.0, 0.61803398875, -0.41421356237]])
 SLOPE_DECADE = -6
 """The distance at which slopes are measured."""
 

@@ -106,7 +106,7 @@ MAPS: tuple[Map[GridPose], ...] = (
     Map(
         "events",
         "The smallest change of pose after which other contacts take over",
-        "Dark poses sit on an event: a tie, a lost contact, a birth. Changes in two directions at four sizes.",
+        "Dark poses sit on an event: a tie, a lost contact, a birth. Changes in one direction at four sizes.",
         (
             Shade("#3b0f70", "1e-12 deg"),
             Shade("#8c2981", "1e-9 deg"),

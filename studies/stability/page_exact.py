@@ -27,7 +27,7 @@ def answers_text(found: Findings) -> str:
     """What the counts mean."""
     total = found.total
     return (
-        "Each centre is perturbed by 1e-12 to 1e-3 (degrees; thread pitches) in six directions of the pose and three "
+        "Each centre is perturbed by 1e-12 to 1e-3 (degrees; thread pitches) in nine directions of the pose and three "
         "of the dimensions. Kept: the contacts are the centre's. Taken over: others, after the events of the next "
         f"table. Alone: judged by the brute force without following the way ({total.judged_alone:,}). Without: the "
         f"centre itself is refused, so that laws alone are checked ({total.without_centre:,})."

@@ -25,7 +25,7 @@ def grid_text(found: Findings) -> str:
     )
     refused = sum(row.refused for row in found.rows)
     return (
-        f"Of {len(poses):,} poses {named}, {classes[None]:,} refused. Each was changed in two directions by 1e-12, "
+        f"Of {len(poses):,} poses {named}, {classes[None]:,} refused. Each was changed in one direction by 1e-12, "
         f"1e-9, 1e-6 and 1e-3 deg; {refused:,} of these neighbours were refused. Other contacts take over: "
         f"{near or 'nowhere'}. In each map a row is an orientation; within a band of one roll, pitch grows downwards."
     )

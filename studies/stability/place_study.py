@@ -19,7 +19,7 @@ RATIO_FROM_DECADE = -7
 """Smaller changes of the input show round-off and no slope."""
 TRIALS_A_SAMPLE = 480
 """One perturbed answer in so many is put to the brute force whatever it is: its height and its embedment."""
-CENTRES_A_SAMPLE = 8
+CENTRES_A_SAMPLE = 24
 """Every centre's height and embedment are put to it, and the turns of one in so many."""
 ALONE_A_SAMPLE = 16
 """Of the answers whose way from the centre is not followed: the height and embedment of each, the turns of one."""
@@ -27,9 +27,10 @@ ALONE_A_SAMPLE = 16
 
 @dataclass(frozen=True)
 class Chunk:
-    """A few centres of one place with their trials."""
+    """A few centres of one place with their trials; ``first`` is the first one's number there."""
 
     place: str
+    first: int
     centres: tuple[Case, ...]
     trials: tuple[Trial, ...]
 
@@ -42,7 +43,7 @@ def study(method: Method, chunk: Chunk) -> Tally:
         if isinstance(answer, ContactState):
             centre = Answered(case, answer)
             _check_laws(method, centre, tally)
-            _compare(centre, tally, turns=len(around) % CENTRES_A_SAMPLE == 0)
+            _compare(centre, tally, turns=(chunk.first + len(around)) % CENTRES_A_SAMPLE == 0)
             around.append(Surroundings(method, centre))
         else:
             tally.centres_refused += 1

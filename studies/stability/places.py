@@ -34,7 +34,7 @@ class Place:
         found = []
         for start in range(0, len(self.centres), CENTRES_A_CHUNK):
             centres = list(self.centres[start : start + CENTRES_A_CHUNK])
-            found.append(Chunk(self.name, tuple(centres), tuple(self.trials_of(centres, start))))
+            found.append(Chunk(self.name, start, tuple(centres), tuple(self.trials_of(centres, start))))
         return found
 
 

@@ -13,7 +13,7 @@ An answer fails silently where something that knows nothing of the solver says t
   as the lift does.
 - **Margins.** A class that flips while the contacts stay must have a margin that changes its sign and is no larger
   than the perturbation can change it.
-- **Brute force alone.** Heights and embedments of all centres, turns of one in eight, and a sample of the perturbed
+- **Brute force alone.** Heights and embedments of all centres, turns of one in twenty-four, and a sample of the perturbed
   poses; so are answers whose way from the centre crosses more events than are followed.
 - **The same input.** Another size of all lengths, whole turns of phase and other tolerances must change nothing but
   what they are about."""
