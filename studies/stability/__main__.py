@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from studies.methods.exact import ExactMethod
-from studies.stability.findings import Extent, findings
+from studies.stability.findings import Extent, Findings, findings
 from studies.stability.maps import DECADE_MAP, MAPS, drawn
 from studies.stability.page import FOLDER, page
 from studies.stability.page_exact import failures_csv
@@ -32,9 +32,14 @@ def main() -> None:
     grid = Grid(tilt_max_deg=chosen.tilt_max, phase_step_deg=chosen.phase_step)
     extent = Extent(chosen.lines, chosen.degrees, chosen.centres, grid)
     found = findings(ExactMethod(), quarter_twenty_unc(), extent, chosen.processes)
-    folder = chosen.into / FOLDER
+    write(found, chosen.into)
+
+
+def write(found: Findings, into: Path) -> None:
+    """The page, its maps and its lists."""
+    folder = into / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
-    (chosen.into / "stability.md").write_text(page(found))
+    (into / "stability.md").write_text(page(found))
     (folder / "failures.csv").write_text(failures_csv(found))
     (folder / "wrong-meshes.csv").write_text(wrong_csv(found))
     (folder / "descents.csv").write_text(descents_csv(found))

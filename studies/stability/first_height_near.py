@@ -16,8 +16,8 @@ from tests.oracle.profile import Floats, bolt_profile, nut_profile
 from threadstate.state.model import Contact
 from threadstate.thread.pair import Pair
 
-HALF_WIDTH_DEG = 0.5
-SAMPLES = 100_001
+HALF_WIDTH_DEG = 0.1
+SAMPLES = 20_001
 """1e-5 deg apart."""
 
 _height, _zoom_curve = oracle._height, oracle._zoom_curve

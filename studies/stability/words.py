@@ -13,8 +13,8 @@ An answer fails silently where something that knows nothing of the solver says t
   as the lift does.
 - **Margins.** A class that flips while the contacts stay must have a margin that changes its sign and is no larger
   than the perturbation can change it.
-- **Brute force alone.** Heights and embedments of all centres, turns of one in twenty-four, and a sample of the perturbed
-  poses; so are answers whose way from the centre crosses more events than are followed.
+- **Brute force alone.** Heights and embedments of all centres, turns of one in twenty-four, and a sample of the
+  perturbed poses; so are answers whose way from the centre crosses more events than are followed.
 - **The same input.** Another size of all lengths, whole turns of phase and other tolerances must change nothing but
   what they are about."""
 
@@ -56,5 +56,6 @@ LEFT_OUT = """\
 - Perturbations are of roll, pitch, phase, the six diameters and the thread pitch; the form's angle and fillets stay.
 - A tangent along +z or -z does not occur: both parts' edges are cut across their axes. Those directions are looked at
   in the table of the angles alone.
+- A height told too great is left to the laws: the contact told lies in both solids there.
 - The meshes are given few centres of each place, and the coarse preset most of them: a pose takes them 0.1 to 15 s.
 - Changes of a turn or point below 1e-8 in, and jumps below 1e-6 in, count as none."""
