@@ -61,6 +61,9 @@ class Surroundings:
             if is_steady(here, answered, factor):
                 return route
             near, far = self._halved(here, answered, factor) if divisible else (here, answered)
+            if near is far:
+                here = far
+                continue
             if not has_jumped(near, far):
                 return None
             verdict = self._verdict(near, far)
@@ -81,7 +84,10 @@ class Surroundings:
         return verdict
 
     def _halved(self, near: Answered, far: Answered, factor: float) -> tuple[Answered, Answered]:
-        """The first two neighbours between which the answer is not steady; as near as doubles or refusals let them."""
+        """The first two neighbours between which the answer is not steady; as near as doubles or refusals let them.
+
+        Twice the same where two steady steps lead on that are too much for one.
+        """
         while True:
             case = between(near.case, far.case)
             if same_input(case, near.case) or same_input(case, far.case):
@@ -95,4 +101,4 @@ class Surroundings:
             elif not is_steady(middle, far, factor):
                 near = middle
             else:
-                return near, far
+                return far, far

@@ -25,7 +25,10 @@ def broken_laws(method: Method, answered: Answered) -> list[str]:
     state = answered.state
     if not _all_finite(state):
         return ["a number that is not finite"]
-    tolerance = method.declared_error(answered.case.pair)
+    case = answered.case
+    tolerance = method.declared_error(case.pair)
+    if Flag.TIE in state.flags:
+        tolerance += case.options.tie_tolerance * case.pair.thread_pitch
     return [
         *_pose_faults(answered, tolerance),
         *_contact_faults(answered, tolerance),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 
-from studies.methods.case import FIT_DIAMETERS, Case
+from studies.methods.case import FIT_DIAMETERS, USUAL, Case
 from studies.stability.judge import Event, Fault
 from threadstate.thread.catalogue import pair_by_designation
 
@@ -14,7 +14,7 @@ from threadstate.thread.catalogue import pair_by_designation
 class Failure:
     """A silent failure: what is wrong, in which case (in words that reproduce it), and in detail.
 
-    ``pose`` is in degrees; ``dimensions``, in inches, are those that are not 1/4-20 UNC's.
+    ``pose`` is in degrees; ``dimensions``, in inches, are those that are not 1/4-20 UNC's, or the other input changed.
     """
 
     fault: Fault
@@ -84,7 +84,7 @@ class Tally:
 
     def fail(self, fault: Fault, case: Case, detail: str) -> None:
         """Note a silent failure, once for each case and fault."""
-        failure = Failure(fault, _pose(case), _changed_dimensions(case), detail)
+        failure = Failure(fault, _pose(case), _changed_input(case), detail)
         if all(
             (known.fault, known.pose, known.dimensions) != (fault, failure.pose, failure.dimensions)
             for known in self.failures
@@ -111,7 +111,7 @@ _COUNTS = (
 
 def described(case: Case) -> str:
     """A case in words that reproduce it."""
-    return ", ".join(filter(None, (_pose(case), _changed_dimensions(case))))
+    return ", ".join(filter(None, (_pose(case), _changed_input(case))))
 
 
 def _pose(case: Case) -> str:
@@ -119,7 +119,10 @@ def _pose(case: Case) -> str:
     return f"roll {roll!r}, pitch {pitch!r}, phase {phase!r}"
 
 
-def _changed_dimensions(case: Case) -> str:
+def _changed_input(case: Case) -> str:
+    if case.options != USUAL:
+        options = case.options
+        return f"tie tolerance {options.tie_tolerance:g}, embedment tolerance {options.embedment_tolerance:g}"
     if case.scale != 1.0:
         return f"all lengths times {case.scale:g}"
     pair = case.pair

@@ -7,6 +7,7 @@ import io
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -190,3 +191,12 @@ def test_lists_hold_every_pose_that_is_not_right(found: Findings) -> None:
     assert len(listed) == sum(len(tally.wrong) for tallies in found.rivals.values() for tally in tallies)
     failures = list(csv.DictReader(io.StringIO(page_exact.failures_csv(found))))
     assert len(failures) == len(found.total.failures) + sum(len(row.broken) for row in found.rows)
+
+
+def test_the_page_of_the_documentation_is_of_the_whole_study(repository_root: Path) -> None:
+    text = (repository_root / "docs" / "stability.md").read_text()
+    assert "29,160" in text
+    for kind in (EventKind.TIE, EventKind.SNAP, EventKind.DOUBLE_ROOT, EventKind.FLUSH, EventKind.DROP):
+        assert f"| {kind.value} |" in text
+    for name in ("failures.csv", "descents.csv", "wrong-meshes.csv"):
+        assert (repository_root / "docs" / "stability" / name).is_file()
