@@ -41,8 +41,8 @@ class RivalExtent:
 
 
 RIVALS = (
-    RivalExtent(MeshStates(Preset.COARSE, Descent.SAFE), 1, 10),
-    RivalExtent(MeshStates(Preset.COARSE, Descent.DECADES), 1, 10),
+    RivalExtent(MeshStates(Preset.COARSE, Descent.SAFE), 1, 6),
+    RivalExtent(MeshStates(Preset.COARSE, Descent.DECADES), 1, 6),
     RivalExtent(MeshStates(Preset.MEDIUM, Descent.SAFE), 1, 1, demonstrated=True),
     RivalExtent(MeshStates(Preset.MEDIUM, Descent.DECADES), 1, 1, demonstrated=True),
 )
