@@ -59,7 +59,7 @@ def jet(theta: float, z: float, tau: float, bolt: Profile, nut: Profile) -> Floa
 
 
 @compiled
-def slopes_at(theta: float, z: float, standing: Floats, bolt: Floats, nut: Floats) -> tuple[float, float]:
+def slopes_at(theta: float, z: float, standing: Floats, bolt: Floats, nut: Floats) -> tuple[float, float, float]:
     k = bolt[0] / TWO_PI
     r, slope, _ = lk.radius_and_slope(z - k * theta, lk.profile_numbers(bolt))
     c, s = math.cos(theta), math.sin(theta)
@@ -105,5 +105,5 @@ def test_slopes_without_branches_are_the_same(bolt: Profile, nut: Profile) -> No
     for theta, z in places():
         exact = jet(theta, z, TAU, bolt, nut)
         assert slopes_at(theta, z, standing, bolt.row, nut.row) == pytest.approx(
-            (exact[tk.J_A], exact[tk.J_B]), abs=1e-8
+            (exact[tk.J_PHI], exact[tk.J_A], exact[tk.J_B]), abs=1e-8
         )

@@ -16,11 +16,12 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 PAIR = quarter_twenty_unc()
 LENGTHS = [record.O_POSE + 11, record.O_LAMBDA, record.O_MU]
 FIRST_PAIR = record.O_CONTACT + record.P_PAIR
+THIRD_PAIR = FIRST_PAIR + 2 * record.POINT_SIZE
 
 
-def rows(poses: Floats, *, rectangles: bool) -> Floats:
+def rows(poses: Floats, *, rectangles: bool, turn_limit_deg: float = 4.0) -> Floats:
     options = np.zeros(4)
-    options[S_TURN_LIMIT] = math.radians(4.0)
+    options[S_TURN_LIMIT] = math.radians(turn_limit_deg)
     options[S_TIE] = 2e-11 * PAIR.thread_pitch
     options[S_CONVEX] = 1.0
     options[S_PROVE] = float(rectangles)
@@ -52,3 +53,14 @@ def test_where_threads_meet_first_rectangles_say_so_too() -> None:
     assert (by_rectangles[:, FIRST_PAIR] == THREAD_THREAD).all()
     heights = by_ridges[by_ridges[:, FIRST_PAIR] == THREAD_THREAD][:, LENGTHS]
     assert heights == pytest.approx(by_rectangles[:, LENGTHS], abs=1e-10, nan_ok=True)
+
+
+@pytest.mark.parametrize(("roll", "pitch", "first", "last"), [(3.0, 0.0, 358.05, 360.45), (4.0, 1.0, 358.8, 360.5)])
+def test_a_maximum_beside_a_higher_one_is_not_missed(roll: float, pitch: float, first: float, last: float) -> None:
+    """After turns of some 42 deg a narrow maximum of phi touches first; a higher one is 0.07 pitches from it."""
+    phases = np.arange(first, last, 0.02)
+    found = rows(
+        np.column_stack([np.full((len(phases), 2), (roll, pitch)), phases]), rectangles=False, turn_limit_deg=45.0
+    )
+    assert (found[:, THIRD_PAIR] == THREAD_THREAD).all()
+    assert np.abs(np.diff(np.degrees(found[:, record.O_MU]), 2)).max() < 1e-3

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 LANES = 8
 """Columns are done in groups of so many."""
 MOST_AZIMUTHS = 32
-MOST_PIECES = 10
+MOST_PIECES = 16
 STRIDE = 2 * MOST_AZIMUTHS + LANES
 """Columns go round more than twice, so that any part of the circumference lies in one piece."""
 
@@ -44,7 +44,7 @@ BATCH = 2 * LANES
 MOST_CROSSINGS = MOST_RIDGES * (MOST_AZIMUTHS + 1) + BATCH
 
 # Where ridges cross azimuths: a block for each of theta, its cosine and sine, the column, z and the slope A there; then
-# the z between which it lies with the slopes B (lessened where the end has stayed) and the side of the last step.
+# the z between which it lies with the slopes B (lessened where the end has stayed), the side of the last step, and phi.
 C_THETA = 0
 C_COS = MOST_CROSSINGS
 C_SIN = 2 * MOST_CROSSINGS
@@ -56,7 +56,8 @@ C_HIGH = 7 * MOST_CROSSINGS
 C_B_LOW = 8 * MOST_CROSSINGS
 C_B_HIGH = 9 * MOST_CROSSINGS
 C_SIDE = 10 * MOST_CROSSINGS
-CROSSINGS_SIZE = 11 * MOST_CROSSINGS
+C_PHI = 11 * MOST_CROSSINGS
+CROSSINGS_SIZE = 12 * MOST_CROSSINGS
 MOST_STEPS = 16
 NARROW = 1e-4
 """A crossing is known to this part of a pitch, or B is less than ``FLAT`` there."""
@@ -123,7 +124,7 @@ def set_slopes(
             sin = view[G_SIN + j]
             z = part * view[G_TOP + j]
             r, slope, _ = radius_and_slope(z - lead * (first + j), bolt_numbers)
-            _, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)
+            _, _, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)
             row[G_B + j] = b
 
 
@@ -184,12 +185,13 @@ def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossing
                 r, slope, _ = radius_and_slope(z - k * batch[C_THETA + j], bolt_numbers)
                 cos = batch[C_COS + j]
                 sin = batch[C_SIN + j]
-                a, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)
+                phi, a, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)
                 up = b > 0.0
                 left = 1.0 - b / (b_low if up else b_high)
                 left = left if left > 0.0 else 0.5
                 batch[C_Z + j] = z
                 batch[C_A + j] = a
+                batch[C_PHI + j] = phi
                 batch[C_LOW + j] = z if up else low
                 batch[C_HIGH + j] = high if up else z
                 kept_low = left * b_low if side > 0.0 else b_low
@@ -204,11 +206,14 @@ def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossing
 
 
 @njit(cache=True, error_model="numpy")
-def list_maxima(count: int, lead: float, apart: float, crossings: Array, maxima: Array) -> int:
+def list_maxima(
+    count: int, lead: float, step: float, apart: float, aloft: float, crossings: Array, maxima: Array
+) -> int:
     """About where (theta, z) phi is highest along the ridges, from their crossings; returns how many places.
 
-    ``lead`` is how far the helix climbs from a column to the next; crossings of the two columns that are more than
-    ``apart`` from that belong to two ridges. A maximum lies between two columns, or between a column and a ridge's end.
+    Columns are ``step`` (rad) apart, over which the helix climbs by ``lead``. Crossings of neighbouring columns that
+    are more than ``apart`` from that, or in which phi differs by more than ``aloft`` and its slope, belong to two
+    ridges. A maximum lies between two columns, or between a column and a ridge's end.
     """
     places = 0
     before = 0
@@ -227,8 +232,11 @@ def list_maxima(count: int, lead: float, apart: float, crossings: Array, maxima:
             i, j = before, after
             if is_before and is_after:
                 climb = crossings[C_Z + j] - crossings[C_Z + i] - lead
-                is_before = climb > -apart
-                is_after = climb < apart
+                rise = abs(crossings[C_PHI + j] - crossings[C_PHI + i])
+                slope = 0.5 * (abs(crossings[C_A + i]) + abs(crossings[C_A + j]))
+                near = apart if rise < aloft + slope * step else 0.0
+                is_before = climb > -near or (near == 0.0 and climb == 0.0)
+                is_after = climb < near
             before += 1 if is_before else 0
             after += 1 if is_after else 0
             if (is_before and not crossings[C_A + i] > 0.0) or (is_after and not crossings[C_A + j] < 0.0):

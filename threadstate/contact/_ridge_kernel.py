@@ -54,6 +54,8 @@ SLICE = math.radians(1.5)
 FOLLOW = math.radians(0.5)
 APART = 0.06
 """Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
+ALOFT = 0.1
+"""The same where phi differs by more than this part of a pitch, beyond what its slopes explain."""
 WORTH = 3.0 * SLICE
 """A maximum of phi that by its rate is farther than this (rad) from zero is left to the slices nearer to it."""
 
@@ -175,7 +177,16 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
         if listed == 0:
             continue
         set_crossings(listed, standing, bolt, nut, crossings)
-        for j in range(list_maxima(listed, bolt[pk.P] / azimuths, APART * bolt[pk.P], crossings, maxima)):
+        places = list_maxima(
+            listed,
+            bolt[pk.P] / azimuths,
+            TWO_PI / azimuths,
+            APART * bolt[pk.P],
+            ALOFT * bolt[pk.P],
+            crossings,
+            maxima,
+        )
+        for j in range(places):
             theta = maxima[j, 0]
             if theta >= TWO_PI:
                 theta -= TWO_PI

@@ -1,4 +1,4 @@
-"""The slopes A and B of phi without a branch or a call of a library, for loops that the compiler can vectorise."""
+"""Phi and its slopes A and B without a branch or a call of a library, for loops that the compiler can vectorise."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def standing_numbers(standing: Array) -> Numbers:
 @njit(cache=True, error_model="numpy", forceinline=True)
 def slopes(
     bx: float, by: float, z: float, dx: float, dy: float, k: float, place: Numbers, numbers: Numbers
-) -> tuple[float, float]:
-    """A and B at a point of the bolt.
+) -> tuple[float, float, float]:
+    """Phi, A and B at a point of the bolt.
 
     (dx, dy, 1) is its derivative along the axis, ``place`` the ``standing_numbers`` and ``numbers`` the nut's.
     """
@@ -53,10 +53,10 @@ def slopes(
     az = zx * dx + zy * dy + zz
     r = math.sqrt(x * x + y * y)
     per_r = 1.0 / r
-    _, slope, _ = radius_and_slope(height - k * azimuth(x, y, r), numbers)
+    radius, slope, _ = radius_and_slope(height - k * azimuth(x, y, r), numbers)
     x *= per_r
     y *= per_r
     k_r = k * per_r
     a = x * ux + y * uy - slope * (uz - k_r * (x * uy - y * ux))
     b = x * ax + y * ay - slope * (az - k_r * (x * ay - y * ax))
-    return a, b
+    return r - radius, a, b
