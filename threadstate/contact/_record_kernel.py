@@ -60,6 +60,8 @@ POINT_SIZE = 15
 MOST_CONTACTS = 12
 RECORD_SIZE = O_CONTACT + MOST_CONTACTS * POINT_SIZE
 
+POSITIVE_FLANK = 2
+"""Index of the flank on which the radius grows with z, of both parts."""
 FLAT_FACE = 8
 """Index of the ninth region (base or surface)."""
 
@@ -197,12 +199,18 @@ def put_flush(stage: int, theta: float, corner: bool, x: float, y: float, bolt: 
 
 @njit(cache=True, error_model="numpy")
 def put_strip(contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
-    """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage."""
+    """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage.
+
+    It is where the flank of one part ends, so that round-off would choose its region.
+    """
     n = int(row[O_CONTACTS])
     strip = contact.copy()
     strip[K_PAIR] = THREAD_THREAD
     put_contact(1, strip, pose, bolt, nut, row)
-    row[O_CONTACT + POINT_SIZE * n + P_PAIR] = FLUSH
+    c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
+    c[P_PAIR] = FLUSH
+    c[P_BOLT_REGION] = POSITIVE_FLANK
+    c[P_NUT_REGION] = POSITIVE_FLANK
 
 
 @njit(cache=True, error_model="numpy")

@@ -21,7 +21,6 @@ BATCH = 4096
 
 _CLASSES = tuple(StateClass)
 _LABEL_COLUMNS = (rk.P_STAGE, rk.P_PAIR, rk.P_BOLT_REGION, rk.P_NUT_REGION)
-_CORNER = 15.0
 _MOST_NUMBERS = 3 + 3 * rk.MOST_CONTACTS
 
 HEIGHT_JUMP = 2e-4
@@ -66,8 +65,7 @@ class LabelCodes:
         labels[:, 0] = self._classes(records)
         labels[:, 1] = records[:, rk.O_FLAGS]
         labels[:, 2] = records[:, rk.O_CONTACTS]
-        named = contacts[:, :, _LABEL_COLUMNS].copy()
-        named[_on_strip_corners(contacts), 2:] = _CORNER
+        named = contacts[:, :, _LABEL_COLUMNS]
         labels[:, 3:] = np.where(used[..., np.newaxis], named, 0.0).reshape(len(records), -1)
 
         values = np.full((len(records), _MOST_NUMBERS), np.nan)
@@ -122,16 +120,6 @@ class LabelCodes:
         kinds, which = np.unique(keys, return_inverse=True)
         numbers = [self._codes.setdefault(kind.tobytes(), len(self._codes)) for kind in kinds]
         return np.array(numbers, dtype=np.int64)[which.ravel()]
-
-
-def _on_strip_corners(contacts: Floats) -> NDArray[np.bool_]:
-    """Which contacts are corners of the strip of flank on which a level bolt rests.
-
-    They lie where a region ends, so that round-off chooses the region that the records name.
-    """
-    on_thread = (contacts[:, :, rk.P_NUT_REGION] != rk.FLAT_FACE) & (contacts[:, :, rk.P_BOLT_REGION] != rk.FLAT_FACE)
-    flat = contacts[:, :, rk.P_NORMAL + 2] == 1.0
-    return (contacts[:, :, rk.P_STAGE] == 1.0) & (contacts[:, :, rk.P_PAIR] == FLUSH) & on_thread & ~flat
 
 
 def _sign(values: Floats) -> Integers:
