@@ -7,11 +7,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import StrEnum
+from functools import lru_cache
 
-from studies.methods.case import Case
+from studies.methods.case import Case, with_dimensions
 from studies.methods.method import Answer, Method
 from studies.stability.change import STEEPNESS, Answered, leading_contacts
 from threadstate.state.model import Contact, ContactState, FeaturePair
+from threadstate.thread.pair import Pair
 
 ONE_CONTACT_PITCHES = 0.1
 """Contacts, or turns times the bolt's reach, that are farther apart are never one."""
@@ -39,16 +41,26 @@ _AGREEING_FARTHER = (Outcome.HEIGHT, Outcome.FIRST, Outcome.SECOND, Outcome.THIR
 
 
 def about(case: Case, error: float) -> list[Case]:
-    """The case, and poses about it by which no point of the bolt moves much farther than ``error``."""
+    """The case, poses about it by which no point of the bolt moves much farther than ``error``, and bolts off by it.
+
+    The last two are the case's own pose with the bolt's surface nearer to the nut's by that much, and farther.
+    """
     size = math.degrees(error / case.reach)
     corners = itertools.product((-1.0, 1.0), repeat=3)
     axes = [tuple(sign if i == j else 0.0 for j in range(3)) for i in range(3) for sign in (-1.0, 1.0)]
     ways = [(0.0, 0.0, 0.0), *axes, *corners]
-    return [
+    poses = [
         replace(case, pose_deg=(roll + size * a, pitch + size * b, phase + size * c))
         for roll, pitch, phase in (case.pose_deg,)
         for a, b, c in ways
     ]
+    return [*poses, *(replace(case, pair=_grown(case.pair, off)) for off in (error, -error))]
+
+
+@lru_cache(maxsize=64)
+def _grown(pair: Pair, off: float) -> Pair:
+    """The pair with every radius of the bolt larger by ``off``."""
+    return with_dimensions(pair, (2.0 * off, 2.0 * off, 2.0 * off, 0.0, 0.0, 0.0, 0.0))
 
 
 def truths(exact: Method, case: Case, error: float) -> list[Answered]:

@@ -24,6 +24,7 @@ from studies.stability.rival_study import RivalChunk, study_rival, thinned
 from studies.stability.rival_tally import RivalTally
 from studies.stability.tally import Tally
 from studies.stability.tangent_study import BesideAxis, beside_axes
+from studies.stability.wrong_height import SecondLook, second_look, wrong_heights
 from threadstate.library.grid import Grid
 from threadstate.mesh.options import Descent
 from threadstate.mesh.presets import Preset
@@ -75,6 +76,7 @@ class Findings:
     axes: tuple[BesideAxis, ...]
     rivals: Mapping[str, tuple[RivalTally, ...]]
     descents: tuple[DescentRow, ...]
+    looks: tuple[SecondLook, ...]
     shown: tuple[Shown, ...]
     traps: MeshTraps
 
@@ -112,6 +114,8 @@ def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findi
         rows = tuple(in_order(pool, row, orientations, progress, "mapping the grid"))
         descend = partial(descent_row, exact, extent.descents, pair, extent.grid)
         descents = tuple(in_order(pool, descend, orientations, progress, "descending by meshes"))
+        again = list(wrong_heights(extent.descents, pair, descents))
+        looks = tuple(in_order(pool, partial(second_look, exact), again, progress, "looking again"))
         asked = [chunk for rival in extent.rivals for place in hard for chunk in _rival_chunks(rival, place)]
         rivals = {rival.method.name: {place.name: RivalTally() for place in hard} for rival in extent.rivals}
         replies = in_order(pool, partial(study_rival, exact), asked, progress, "asking the meshes")
@@ -129,6 +133,7 @@ def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findi
         tuple(beside_axes()),
         {name: tuple(by_place.values()) for name, by_place in rivals.items()},
         descents,
+        looks,
         demonstrated,
         traps,
     )

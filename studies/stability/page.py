@@ -91,9 +91,11 @@ def _opening(found: Findings) -> str:
         )
     for number, method in enumerate(found.extent.descents):
         outcomes = [one for row in found.descents for one in row.outcomes(number)]
+        beside = sum(look.beside_event for look in found.looks if look.wrong.method == method)
+        tunnelled = outcomes.count(Outcome.HEIGHT) - beside
         lines.append(
             f"- **First heights of {method.name}** over the grid: {outcomes.count(Outcome.HEIGHT):,} of "
-            f"{len(outcomes):,} wrong, {outcomes.count(Outcome.REFUSED):,} refused "
-            f"([descents.csv]({FOLDER}/descents.csv))."
+            f"{len(outcomes):,} wrong, {tunnelled:,} of them tunnelled and {beside:,} beside a snap that the meshes "
+            f"have elsewhere; {outcomes.count(Outcome.REFUSED):,} refused ([descents.csv]({FOLDER}/descents.csv))."
         )
     return "\n".join(lines)

@@ -9,6 +9,7 @@ from studies.stability.agreement import Outcome
 from studies.stability.descent_study import OutcomeRow
 from studies.stability.findings import Findings
 from studies.stability.table import table
+from studies.stability.wrong_height import FINER
 from threadstate.mesh.options import Descent
 from threadstate.state.model import StateClass
 
@@ -37,9 +38,9 @@ def descents_text(found: Findings) -> str:
     for number, method in enumerate(found.extent.descents):
         rows = found.descents
         counts = Counter(one for row in rows for one in row.outcomes(number))
-        off = sorted(abs(told - true) for _, told, true in _ended(found, number))
-        wrong = [true - told for outcome, told, true in _ended(found, number) if outcome is Outcome.HEIGHT]
-        low, high = sum(fall > 0.0 for fall in wrong), sum(fall < 0.0 for fall in wrong)
+        off = sorted(_errors(found, number))
+        looks = [look for look in found.looks if look.wrong.method == method]
+        low = sum(look.wrong.height < look.wrong.exact for look in looks)
         lines.append(
             (
                 method.name,
@@ -47,22 +48,25 @@ def descents_text(found: Findings) -> str:
                 f"{counts[Outcome.RIGHT]:,}",
                 f"{counts[Outcome.REFUSED]:,}",
                 f"{counts[Outcome.HEIGHT]:,}",
-                f"{low:,} too low, {high:,} too high" if wrong else "",
+                f"{low:,} / {len(looks) - low:,}",
+                f"{sum(look.beside_event for look in looks):,}",
+                f"{sum(look.finer is Outcome.HEIGHT for look in looks):,}",
                 f"{rows[0].errors[number]:.2g}",
                 f"{off[len(off) // 2]:.1g}",
                 f"{off[-1]:.2g}",
             )
         )
-    head = ("descent", "poses", "right", "refused", "wrong", "which way", "declared error (in)")
-    return table((*head, "median error (in)", "largest error (in)"), lines)
+    head = ("descent", "poses", "right", "refused", "wrong", "too low / too high", "beside a snap")
+    errors = ("declared error (in)", "median error (in)", "largest error (in)")
+    return table((*head, f"wrong by {FINER} meshes as well", *errors), lines)
 
 
-def _ended(found: Findings, number: int) -> Iterator[tuple[Outcome, float, float]]:
-    """Outcome, height and exact height of every pose in which a descent ends."""
+def _errors(found: Findings, number: int) -> Iterator[float]:
+    """How far each height in which a descent ends is from the exact one."""
     for row in found.descents:
-        for outcome, height, exact in zip(row.outcomes(number), row.heights[number], row.exact, strict=True):
+        for height, exact in zip(row.heights[number], row.exact, strict=True):
             if height.height is not None and exact is not None:
-                yield outcome, height.height, exact
+                yield abs(height.height - exact)
 
 
 def refusals_text(found: Findings) -> str:
@@ -81,7 +85,10 @@ def refusals_text(found: Findings) -> str:
 
 def descents_csv(found: Findings) -> str:
     """Every pose that a descent gets wrong or refuses, one a line; heights in inches."""
-    lines = ["method,roll_deg,pitch_deg,phase_deg,outcome,height_in,exact_height_in,reason"]
+    looks = {(look.wrong.method.name, look.wrong.case.pose_deg): look for look in found.looks}
+    lines = [
+        "method,roll_deg,pitch_deg,phase_deg,outcome,height_in,exact_height_in,beside_event,by_finer_meshes,reason"
+    ]
     for number, method in enumerate(found.extent.descents):
         for row in found.descents:
             for pose, outcome, height, exact in zip(
@@ -91,7 +98,9 @@ def descents_csv(found: Findings) -> str:
                     angles = ",".join(f"{angle:g}" for angle in pose)
                     told = "" if height.height is None else f"{height.height:.9f}"
                     true = "" if exact is None else f"{exact:.9f}"
-                    lines.append(f'"{method.name}",{angles},{outcome.value},{told},{true},"{height.reason}"')
+                    look = looks.get((method.name, pose))
+                    seen = "," if look is None else f"{'yes' if look.beside_event else 'no'},{look.finer.value}"
+                    lines.append(f'"{method.name}",{angles},{outcome.value},{told},{true},{seen},"{height.reason}"')
     return "\n".join(lines) + "\n"
 
 

@@ -20,11 +20,13 @@ An answer fails silently where something that knows nothing of the solver says t
 
 RIVALS = """\
 Wrong / refused / asked. The exact method's answers are judged as the section on it says. A mesh's answer is right
-where it agrees with the exact answer to its case, or to one of fourteen poses so near that no point of the bolt moves
-much farther than the error that the mesh method declares itself: how far the edges of both meshes deviate, and the
-final step. So a mesh that resolves 5e-4 in may take either side of an event that is nearer than that. Agreeing is:
-heights within the declared error; each stage ends alike (in a patch, in nothing, in a contact) with turn and place
-within a tenth of a thread pitch at most, less where the tilt bounds what the error can do; the same class."""
+where it agrees with the exact answer to its case, to one of fourteen poses so near that no point of the bolt moves
+much farther than the error that the mesh method declares itself (how far the edges of both meshes deviate, and the
+final step), or to a bolt whose surface is off by that error. So a mesh that resolves 5e-4 in may take either side of
+an event that is nearer than that. Agreeing is: heights within the declared error; each stage ends alike (in a patch,
+in nothing, in a contact) with turn and place within a tenth of a thread pitch at most, less where the tilt bounds what
+the error can do; the same class. Safe meshes are checked by a second tessellation, which refuses what the two do not
+agree on; decades are as printed, unchecked."""
 
 WRONG = """\
 What is wrong is told by the first stage that is: later ones follow from it. A class that flips between right answers
@@ -36,7 +38,11 @@ steps of their final step and facets: below that size their change per change of
 
 DESCENTS = """\
 Every pose of the grid, the height of first contact by both descents of the mesh method. A height is wrong where it
-differs from the exact one by more than the declared error."""
+differs from the exact one by more than the declared error. A wrong height is beside a snap where it lies between the
+exact heights of poses and of bolts' surfaces that are off by no more than that error: there heights are steep, and
+the meshes lose their highest contact up to a degree of phase earlier or later than the threads do, as any model does
+that is off by as much; no step of a descent can mend it. The others are tunnelled where they are too low: the contact
+is there, and a step has gone past it. Wrong heights are descended to again with finer meshes."""
 
 EVENTS = """\
 Each pair of neighbours was looked at once for its centre. Two contacts at one height, or at one turn, are taken over

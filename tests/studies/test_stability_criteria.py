@@ -137,6 +137,8 @@ def test_poses_about_a_case_are_as_far_as_the_error_moves_the_bolt() -> None:
     poses = [one.pose_deg for one in about(case, ERROR)]
     assert poses[0] == THREE_POINT
     assert len(set(poses)) == 15
+    wider, narrower = (one.pair.fit.bolt_pitch_diameter for one in about(case, ERROR)[-2:])
+    assert (wider - narrower) / 4.0 == pytest.approx(ERROR)
     largest = max(abs(a - b) for pose in poses for a, b in zip(pose, THREE_POINT, strict=True))
     assert math.radians(largest) * case.reach == pytest.approx(ERROR)
 

@@ -27,6 +27,7 @@ from studies.stability.rival_tally import RivalTally, Wrong
 from studies.stability.tally import Tally, described
 from studies.stability.tangent_angles import error_deg, printed_angles, two_argument_angles
 from studies.stability.trials import DECADES, SCALES, Kind, perturbations, rescaled, turned_on, with_tolerances
+from studies.stability.wrong_height import WrongHeight, second_look
 from tests.studies.states import EXACT, PAIR, THREE_POINT, answered
 from threadstate.library.grid import Grid
 from threadstate.mesh.options import Descent
@@ -163,11 +164,26 @@ def test_the_study_finds_the_hard_places_and_judges_every_pose(found: Findings) 
     assert sum(len(row.poses) for row in found.rows) == EXTENT.grid.state_count
     outcomes = [one for row in found.descents for one in row.outcomes(0)]
     assert len(outcomes) == EXTENT.grid.state_count
-    assert Outcome.HEIGHT in outcomes
+    assert outcomes.count(Outcome.HEIGHT) == len(found.looks) > 0
     (tallies,) = found.rivals.values()
     assert sum(tally.asked for tally in tallies) == 2 * len(found.places)
     assert found.traps.averaged_off > 0.05
     assert found.traps.flush_met < found.traps.flush_pairs
+
+
+def test_a_second_look_tells_tunnelling_from_a_snap_that_meshes_have_elsewhere() -> None:
+    exact = answered(TUNNEL.pose_deg).state.poses[0].translation[2]
+    told = first_height(DECADES_DOWN, TUNNEL).height
+    assert told is not None
+    look = second_look(EXACT, WrongHeight(DECADES_DOWN, TUNNEL, told, exact))
+    assert not look.beside_event
+    behind = Case(PAIR, (0.0, -4.0, 358.0))
+    told = first_height(SAFE, behind).height
+    assert told is not None
+    exact = answered(behind.pose_deg).state.poses[0].translation[2]
+    assert judged(exact, told, SAFE.declared_error(PAIR)) is Outcome.HEIGHT
+    look = second_look(EXACT, WrongHeight(SAFE, behind, told, exact))
+    assert look.finer is Outcome.RIGHT
 
 
 def test_the_page_says_what_was_found(found: Findings) -> None:
