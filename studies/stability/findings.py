@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from rich.console import Console
@@ -40,6 +40,9 @@ class RivalExtent:
     trials: int
     demonstrated: bool = False
 
+
+RIVAL_TURN_LIMIT_DEG = 10.0
+"""Where turns end for the slower methods and the exact one beside them: on the way to 45 deg meshes take seconds."""
 
 RIVALS = (
     RivalExtent(MeshStates(Preset.COARSE, Descent.SAFE), 1, 6),
@@ -144,7 +147,12 @@ def _events(method: Method, degrees: int, start: Case) -> list[Event]:
 
 
 def _rival_chunks(rival: RivalExtent, place: Place) -> list[RivalChunk]:
+    centres = [_with_short_turns(centre) for centre in spread(list(place.centres), rival.centres)]
     return [
         RivalChunk(rival.method, place.name, centre, thinned(place.trials_of([centre], number), rival.trials))
-        for number, centre in enumerate(spread(list(place.centres), rival.centres))
+        for number, centre in enumerate(centres)
     ]
+
+
+def _with_short_turns(case: Case) -> Case:
+    return replace(case, options=replace(case.options, turn_limit_deg=RIVAL_TURN_LIMIT_DEG))

@@ -64,4 +64,5 @@ LEFT_OUT = """\
   in the table of the angles alone.
 - A height told too great is left to the laws: the contact told lies in both solids there.
 - The meshes are given few centres of each place, and the coarse preset most of them: a pose takes them 0.1 to 15 s.
+  Turns end at 10 deg for them, and for the exact answers that theirs are held against.
 - Changes of a turn or point below 1e-8 in, and jumps below 1e-6 in, count as none."""
