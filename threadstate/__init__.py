@@ -3,7 +3,7 @@
 The rooms, in the order in which data flows: ``thread`` (solids), ``contact`` (where they touch),
 ``state`` (what a pose comes to), ``mesh`` (the same by the collision of triangle meshes), ``library`` (all states of
 a pair, stored), ``history`` (phase circles cut where a label changes), ``network`` (which formation of contacts leads
-to which).
+to which), ``archive`` (histories in the tables, and back), ``answer`` (what is told of histories and networks).
 """
 
 from threadstate._numba_cache import choose_numba_cache

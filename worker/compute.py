@@ -10,7 +10,6 @@ from threadstate.history.build import histories_of
 from threadstate.history.window import windows_of
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
-from threadstate.state.solve import solve_poses
 from worker.answers import exact_answers, mesh_answers
 from worker.messages import Chunk, Failure, Ready
 
@@ -37,7 +36,7 @@ def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         try:
-            solve_poses(inputs.pair, inputs.grid.poses(0)[:1], inputs.options)
+            exact_answers(inputs.pair, inputs.options, inputs.grid.poses(0)[:1])
             connection.send(Ready())
             while True:
                 connection.send(compute_chunk(inputs, connection.recv()))

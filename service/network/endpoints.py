@@ -21,6 +21,7 @@ from service.network.schemas import (
     LocationAnswer,
     NetworkSummary,
     NodeAnswer,
+    NodeLinkNetwork,
     PathAnswer,
     TransitionsPage,
     WindowsAnswer,
@@ -124,7 +125,7 @@ def list_windows(
 @router.get(
     "/network",
     summary="The constraint network",
-    response_model=NetworkSummary,
+    response_model=NetworkSummary | NodeLinkNetwork,
     responses={
         200: {"content": {GRAPHML: {"schema": {"type": "string"}}, DOT: {"schema": {"type": "string"}}}},
         **NOT_MODIFIED,

@@ -56,6 +56,16 @@ class NetworkSummary(BaseModel):
     network: NetworkSummaryDocument
 
 
+class NodeLinkNetwork(BaseModel):
+    """A whole network as networkx writes it: formations are nodes with their key as `id`, edges have the move."""
+
+    directed: bool
+    multigraph: bool
+    graph: dict[str, str]
+    nodes: list[dict[str, float | str]]
+    edges: list[dict[str, float | str]]
+
+
 class NodeAnswer(_OfLibrary):
     """A formation in the network."""
 

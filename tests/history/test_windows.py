@@ -8,10 +8,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from threadstate.history.build import histories_of, history_of
+from threadstate.history.build import history_of
 from threadstate.history.labels import UNDECIDED
 from threadstate.history.window import deepest_window, windows_of
-from threadstate.history.window_table import window_table
 from threadstate.state.model import FeaturePair
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -69,13 +68,6 @@ def test_a_level_bolt_drops_by_its_play_and_climbs_by_the_lead() -> None:
     assert window.enter_deg == pytest.approx(360.0 * (1.0 - play / PAIR.thread_pitch), abs=3e-7)
     assert window.width_deg == pytest.approx(720.0 * play / PAIR.thread_pitch, abs=3e-7)
     assert [c.rate_per_lead(PAIR.thread_pitch) for c in window.courses] == pytest.approx([1.0], abs=1e-6)
-
-
-def test_the_table_has_a_row_for_every_history() -> None:
-    orientations = [(0.0, -4.0), (0.0, 0.0)]
-    rows = window_table(PAIR, histories_of(PAIR, orientations))
-    assert [(row.roll_deg, row.pitch_deg) for row in rows] == orientations
-    assert rows[0].window == deepest_window(PAIR, history_of(PAIR, 0.0, -4.0))
 
 
 def test_an_undecided_stretch_within_a_window_belongs_to_it() -> None:

@@ -81,11 +81,6 @@ class LibraryNetwork:
             raise not_on_the_grid(self.library, roll_deg, pitch_deg)
         return self.cell_map.orientation(roll_deg, pitch_deg)
 
-    def prepare(self) -> None:
-        """Make now what a first request would wait for."""
-        for made in (self.pair, self.transitions, self.summary, self.node_link, self.graphml, self.dot):
-            assert made
-
 
 def library_network(connection: Connection, library: LibraryRecord) -> LibraryNetwork:
     """The network of a published library.

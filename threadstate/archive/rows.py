@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 from threadstate.archive.stored import StoredContactChange, stored_changes
 from threadstate.history.labels import ContactLabels
-from threadstate.history.model import Boundary, History, Interval
+from threadstate.history.model import Boundary, History
 from threadstate.history.window import Window
 from threadstate.library.history_rows import FormationRows, HistoryRows
 from threadstate.library.rows import Row
-from threadstate.network.formation import Formation, formation_of
-from threadstate.network.margin import smallest_margin
+from threadstate.network.cells import Cell
+from threadstate.network.formation import Formation
+from threadstate.network.from_history import cells_of
 from threadstate.state.model import ContactState, Vector
 
 _NOTHING = (None,) * 6
@@ -19,11 +20,13 @@ _NOTHING = (None,) * 6
 
 def history_rows(history: History, windows: Sequence[Window]) -> HistoryRows:
     """The rows of an orientation's history and of its clearance windows."""
-    formations = sorted({formation_of(one.labels) for one in history.intervals}, key=lambda one: one.key)
+    # The number of the orientation is in none of the rows.
+    cells = cells_of(0, history, [(window.enter_deg, window.leave_deg) for window in windows])
+    formations = sorted({cell.formation for cell in cells}, key=lambda one: one.key)
     boundaries = list(enumerate(history.boundaries))
     return HistoryRows(
         formations=tuple(_formation(one) for one in formations),
-        intervals=tuple(_interval(i, one, windows) for i, one in enumerate(history.intervals)),
+        intervals=tuple(_interval(cell, one.state) for cell, one in zip(cells, history.intervals, strict=True)),
         boundaries=tuple(_boundary(i, one) for i, one in boundaries),
         boundary_contacts=tuple(
             _change(i, change) for i, one in boundaries for change in stored_changes(one.changes, one.before, one.after)
@@ -45,17 +48,10 @@ def _formation(one: Formation) -> FormationRows:
     return FormationRows(one.key, (one.key, one.state_class and one.state_class.value), contacts)
 
 
-def _interval(position: int, one: Interval, windows: Sequence[Window]) -> Row:
-    first, last = _heights(one.state)
-    margin = smallest_margin(one.state)
-    flags = " ".join(one.labels.flags)
-    key = formation_of(one.labels).key
-    return position, one.start_deg, one.end_deg, key, flags, margin, first, last, _in_window(one, windows)
-
-
-def _in_window(one: Interval, windows: Sequence[Window]) -> bool:
-    middles = (one.middle_deg, one.middle_deg + 360.0)
-    return any(window.enter_deg <= phase <= window.leave_deg for window in windows for phase in middles)
+def _interval(cell: Cell, state: ContactState | None) -> Row:
+    flags = " ".join(cell.flags)
+    labels = (cell.formation.key, flags, cell.margin)
+    return cell.position, cell.start_deg, cell.end_deg, *labels, *_heights(state), cell.in_window
 
 
 def _boundary(position: int, one: Boundary) -> Row:
