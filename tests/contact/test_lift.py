@@ -92,3 +92,44 @@ def test_a_third_pose_along_which_the_edge_nearly_lies_has_an_embedment() -> Non
     """So many boxes along the edge stay open that they are more than are kept: the lift itself has to say."""
     (state,) = solve_poses(PAIR, [(-1.0, 4.0, 3.297539792023599)])
     assert state.embedment == pytest.approx(oracle_lift(state), abs=LIFT_TOLERANCE_INCH)
+
+
+def test_a_bolt_that_would_meet_the_thread_again_higher_up_is_free_before() -> None:
+    """Beside the clearance window a bolt is free between the nut's flanks; the last touch is that of a greater lift."""
+    rng = np.random.default_rng(47)
+    beside = -2.2863369352595844 + rng.uniform(1e-3, 0.05, 150) * rng.choice([-1.0, 1.0], 150)
+    poses = np.column_stack([rng.uniform(-0.2, 0.2, (150, 2)), beside])
+    pressed_again = (0.020245637584444028, 0.018515298030596795, -2.2863369352595844)
+    third = [state for state in solve_poses(PAIR, np.vstack([pressed_again, poses])) if state.embedment]
+    assert len(third) >= 10
+    for state in third:
+        assert state.embedment == pytest.approx(oracle_lift(state), abs=LIFT_TOLERANCE_INCH), state.poses[2]
+    assert third[0].embedment == pytest.approx(1.5e-8, abs=1e-9), "not the 1.74e-4 in of the last touch"
+
+
+def test_an_overlap_too_thin_to_be_climbed_is_followed_by_its_touches() -> None:
+    """Two edges cross and pass along each other, 5e-9 in deep, for 1.4e-4 in of lift."""
+    (state,) = solve_poses(PAIR, [(0.17933066017060556, -0.024903597967867203, -2.2863369352595844)])
+    assert state.embedment == pytest.approx(2.02e-4, abs=1e-6)
+    for share in np.linspace(0.3, 0.99, 12):
+        assert 0.0 < deepest_edge_point(state, share * state.embedment) < 1e-8
+    for share in np.linspace(1.0 + 1e-6, 1.5, 6):
+        assert deepest_edge_point(state, share * state.embedment) < 0.0
+
+
+def deepest_edge_point(state: ContactState, lift_inch: float) -> float:
+    """How far inside the nut the deepest point of the bolt's edge is, found by sampling ever more closely."""
+    rotation = np.array(state.poses[2].rotation)
+    origin = np.array(state.poses[2].translation) + np.array([0.0, 0.0, lift_inch])
+    bolt_radius, nut_radius = np.vectorize(PAIR.bolt.radius), np.vectorize(PAIR.nut.radius)
+    turn = 2.0 * np.pi / PAIR.thread_pitch
+    low, high = 0.0, 2.0 * np.pi
+    depth = np.zeros(1)
+    for samples in (40001, 4001, 4001, 4001):
+        theta = np.linspace(low, high, samples)
+        r = bolt_radius(-theta / turn)
+        x, y, z = rotation @ np.array([r * np.cos(theta), r * np.sin(theta), 0.0 * r]) + origin[:, None]
+        depth = np.minimum(np.hypot(x, y) - nut_radius(z - np.arctan2(y, x) / turn), -z)
+        middle, width = theta[np.argmax(depth)], 4.0 * (high - low) / samples
+        low, high = middle - width, middle + width
+    return float(depth.max())

@@ -56,6 +56,8 @@ APART = 0.06
 """Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
 ALOFT = 0.1
 """The same where phi differs by more than this part of a pitch, beyond what its slopes explain."""
+ALONG = 24
+"""Points of an azimuth, beside its ends, at which the bolt's thread is looked at for overlaps that go on beyond it."""
 WORTH = 3.0 * SLICE
 """A maximum of phi that by its rate is farther than this (rad) from zero is left to the slices nearer to it."""
 
@@ -148,6 +150,74 @@ def columns_below(standing: Array, azimuths: int, bolt: Array) -> tuple[int, int
 
 
 @njit(cache=True, error_model="numpy")
+def highest_places(
+    azimuths: int, standing: Array, bolt: Array, nut: Array, grid: Array, crossings: Array, maxima: Array
+) -> int:
+    """Where phi is highest along its ridges, as (theta, z), where the bolt stands; returns the number of ``maxima``."""
+    first, columns = columns_below(standing, azimuths, bolt)
+    if columns == 0:
+        return 0
+    lanes = (columns + LANES - 1) // LANES * LANES
+    highest = set_tops(first, lanes, standing, bolt, grid)
+    pieces = min(1 + int(highest / bolt[pk.P] * MOST_PIECES), MOST_PIECES)
+    set_slopes(pieces, first, lanes, azimuths, standing, bolt, nut, grid)
+    listed = list_crossings(first, columns, pieces, azimuths, grid, crossings)
+    if listed == 0:
+        return 0
+    set_crossings(listed, standing, bolt, nut, crossings)
+    places = list_maxima(
+        listed,
+        bolt[pk.P] / azimuths,
+        TWO_PI / azimuths,
+        APART * bolt[pk.P],
+        ALOFT * bolt[pk.P],
+        crossings,
+        maxima,
+    )
+    for j in range(places):
+        if maxima[j, 0] >= TWO_PI:
+            maxima[j, 0] -= TWO_PI
+    return places
+
+
+@njit(cache=True, error_model="numpy")
+def thread_inside(
+    motion: Array, shallow: float, azimuths: int, bolt: Array, nut: Array
+) -> tuple[bool, float, float, float]:
+    """A point of the bolt's thread, in its frame, that is inside the nut by more than ``shallow`` before a motion.
+
+    The highest points of phi are looked at and, as an overlap may go on beyond the bolt's top or the nut's bottom,
+    points all over the thread.
+    """
+    grid = np.empty(GRID_SIZE)
+    standing = np.empty(STANDING_SIZE)
+    jet = np.empty(JET_SIZE)
+    crossings = np.empty(CROSSINGS_SIZE)
+    maxima = np.empty((MOST_CROSSINGS, 2))
+    set_columns(azimuths, bolt, grid)
+    set_standing(motion, 0.0, standing)
+    p = bolt[pk.P]
+    deepest, at_theta, at_z = shallow, 0.0, 0.0
+    for i in range(2 * azimuths):
+        for j in range(ALONG + 1):
+            theta, z = math.pi * i / azimuths, p * j / ALONG
+            set_jet(theta, z, standing, bolt, nut, jet)
+            depth = min(jet[J_PHI], -jet[J_Z], p + jet[J_Z])
+            if depth > deepest:
+                deepest, at_theta, at_z = depth, theta, z
+    if deepest == shallow:
+        for j in range(highest_places(azimuths, standing, bolt, nut, grid, crossings, maxima)):
+            theta, z, settled = settle(maxima[j, 0], maxima[j, 1], standing, bolt, nut, jet)
+            depth = min(jet[J_PHI], -jet[J_Z], p + jet[J_Z])
+            if settled and depth > deepest and 0.0 <= z <= p:
+                deepest, at_theta, at_z = depth, theta, z
+    if deepest == shallow:
+        return False, 0.0, 0.0, 0.0
+    r = pk.radius(at_z - p / TWO_PI * at_theta, bolt)
+    return True, r * math.cos(at_theta), r * math.sin(at_theta), at_z
+
+
+@njit(cache=True, error_model="numpy")
 def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
     """Contacts of thread with thread along a motion before ``limit``, earliest first; returns their number.
 
@@ -166,29 +236,7 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
     for i in range(slices):
         tau = limit * (i + 1) / slices
         set_standing(motion, tau, standing)
-        first, columns = columns_below(standing, azimuths, bolt)
-        if columns == 0:
-            continue
-        lanes = (columns + LANES - 1) // LANES * LANES
-        highest = set_tops(first, lanes, standing, bolt, grid)
-        pieces = min(1 + int(highest / bolt[pk.P] * MOST_PIECES), MOST_PIECES)
-        set_slopes(pieces, first, lanes, azimuths, standing, bolt, nut, grid)
-        listed = list_crossings(first, columns, pieces, azimuths, grid, crossings)
-        if listed == 0:
-            continue
-        set_crossings(listed, standing, bolt, nut, crossings)
-        places = list_maxima(
-            listed,
-            bolt[pk.P] / azimuths,
-            TWO_PI / azimuths,
-            APART * bolt[pk.P],
-            ALOFT * bolt[pk.P],
-            crossings,
-            maxima,
-        )
-        for j in range(places):
-            theta = maxima[j, 0]
-            if theta >= TWO_PI:
-                theta -= TWO_PI
-            count = follow(theta, maxima[j, 1], tau, limit, motion, bolt, nut, standing, moved, jet, found, count)
+        for j in range(highest_places(azimuths, standing, bolt, nut, grid, crossings, maxima)):
+            theta, z = maxima[j, 0], maxima[j, 1]
+            count = follow(theta, z, tau, limit, motion, bolt, nut, standing, moved, jet, found, count)
     return count

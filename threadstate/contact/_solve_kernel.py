@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point
+from threadstate.contact._lift_kernel import least_lift
 from threadstate.contact._rest_kernel import rests_on_surface, start_height
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
@@ -27,7 +28,6 @@ from threadstate.contact._stage_kernel import (
     PROVED,
     RESOLVED,
     RIDGES,
-    RIDGES_ONLY,
     THREAD_EDGE,
     THREAD_THREAD,
     UNRESOLVED,
@@ -355,24 +355,6 @@ def threads_touch(contacts: Array) -> bool:
         if int(contacts[i, K_PAIR]) == THREAD_THREAD:
             return True
     return False
-
-
-@njit(cache=True, error_model="numpy")
-def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, found: Array) -> tuple[float, int]:
-    """The lift after which the solids of an overlapping pose are free of each other, and a status."""
-    high = start_height(pose, bolt)
-    if pose[11] >= high:
-        return 0.0, RESOLVED
-    raised = pose.copy()
-    raised[11] = high
-    down = np.array([0.0, 0.0, -1.0])
-    count, status, best = earliest(
-        raised, False, down, down, found, 0, high - pose[11], slack, bolt, nut, RIDGES_ONLY, work, found
-    )
-    first = min(best, found[0, K_TIME]) if count > 0 else best
-    if first >= high - pose[11] - 1e-8 * bolt[pk.P]:
-        return 0.0, status
-    return high - pose[11] - first, status
 
 
 @njit(cache=True, error_model="numpy")

@@ -1,4 +1,4 @@
-"""The three stages of one pose, and the lift that frees the third (method, sections 4 and 5)."""
+"""The search of one stage: the earliest contacts of a motion (method, section 4)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from threadstate.contact._birth_kernel import (
 )
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point
-from threadstate.contact._sweep_kernel import EPS_PUNCTURE, OVERFLOW, overlaps, sweep
+from threadstate.contact._sweep_kernel import EPS_PUNCTURE, OUTSIDE, OVERFLOW, inside_at, sweep
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -48,6 +48,9 @@ FIRST_SPAN_TURN = math.radians(2.0)
 FIRST_SPAN_HEIGHT = 0.05
 LONGER = 1.25
 """A motion is searched span by span: the first one (rad, thread pitches), and how much longer each next one is."""
+
+SHALLOW = 1e-10
+"""Depth (thread pitches) up to which an edge counts as touching."""
 
 SHORTER = 0.25
 SHORTEST_SPAN = 1e-9
@@ -340,13 +343,14 @@ def earliest(
 
 @njit(cache=True, error_model="numpy")
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
-    """Whether an edge curve of one part is inside the other at a pose, beyond the ``contacts`` on it."""
+    """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
     boxes, others, _, _, bolt_walks, nut_walks, _, _ = work
     bolt_marks = np.empty(count)
     nut_marks = np.empty(count)
     bolt_mark_count, nut_mark_count = set_marks(contacts, count, pose, bolt, nut, bolt_marks, nut_marks)
     down = np.array([0.0, 0.0, -1.0])
     set_motions(pose, False, False, down, down, bolt_walks, nut_walks)
-    return overlaps(bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, boxes, others) or overlaps(
-        nut_walks, nut, bolt, nut_marks, nut_mark_count, boxes, others
-    )
+    said, _ = inside_at(bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, SHALLOW, boxes, others)
+    if said == OUTSIDE:
+        said, _ = inside_at(nut_walks, nut, bolt, nut_marks, nut_mark_count, SHALLOW, boxes, others)
+    return said != OUTSIDE

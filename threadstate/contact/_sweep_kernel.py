@@ -72,11 +72,10 @@ MOST_BOXES = 4_000
 PIN_COST = 24
 """How many boxes are looked at in the time that Newton's method takes to find nothing in a box."""
 
-SHALLOW = 1e-10
-"""Depth (thread pitches) up to which an edge counts as touching."""
-
 OVERFLOW = -1
 LANES = 8
+
+OUTSIDE, INSIDE, NOT_DECIDED = range(3)
 
 
 @njit(cache=True, error_model="numpy")
@@ -320,29 +319,42 @@ def sweep(
 
 
 @njit(cache=True, error_model="numpy")
-def overlaps(
-    motion: Array, row_c: Array, row_s: Array, marks: Array, mark_count: int, boxes: Array, others: Array
-) -> bool:
-    """Whether the edge curve is inside the other solid at the start of a motion, beyond its contacts ``marks``."""
+def inside_at(
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    marks: Array,
+    mark_count: int,
+    shallow: float,
+    boxes: Array,
+    others: Array,
+) -> tuple[int, float]:
+    """Whether the edge curve is inside the other solid at the start of a motion, beyond its contacts ``marks``.
+
+    INSIDE and the azimuth of a point that is; OUTSIDE: nowhere by more than ``shallow`` thread pitches over more than
+    ``NARROW``; NOT_DECIDED: too many boxes.
+    """
     n = begin(0.0, 0.0, boxes)
     while n > 0:
         n = fill(n, boxes)
         judge_boxes(n, motion, row_c, row_s, boxes)
         m = 0
+        deepest, azimuth = shallow * row_s[pk.P], 0.0
         for i in range(n):
             verdict = int(boxes[X_VERDICT + i])
             half = boxes[X_HALF + i]
             if verdict == EMPTY or half < NARROW:
                 continue
-            theta = boxes[X_THETA + i]
-            if boxes[X_DEPTH + i] > SHALLOW * row_s[pk.P]:
-                return True
+            theta, depth = boxes[X_THETA + i], boxes[X_DEPTH + i]
+            if depth > deepest:
+                deepest, azimuth = depth, theta
             if (verdict == ONE_EDGE or verdict == PEAK_EDGE) and mark_distance(theta, marks, mark_count) <= half:
                 continue
             m = keep_open(i, 0.0, False, m, boxes)
+        if deepest > shallow * row_s[pk.P]:
+            return INSIDE, azimuth
         if 2 * m + LANES > CAPACITY:
-            # Not decided: the lift that is then searched for is right either way.
-            return True
+            return NOT_DECIDED, 0.0
         n = split(m, boxes, others)
         boxes, others = others, boxes
-    return False
+    return OUTSIDE, 0.0
