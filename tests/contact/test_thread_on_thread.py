@@ -10,12 +10,13 @@ import pytest
 from tests.contact.samples import Floats, random_poses
 from threadstate.contact import _record_kernel as record
 from threadstate.contact._solve_kernel import S_CONVEX, S_PROVE, S_TIE, S_TURN_LIMIT, solve_rows
-from threadstate.contact._stage_kernel import THREAD_THREAD
+from threadstate.contact._stage_kernel import THREAD_EDGE, THREAD_THREAD
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()
 LENGTHS = [record.O_POSE + 11, record.O_LAMBDA, record.O_MU]
 FIRST_PAIR = record.O_CONTACT + record.P_PAIR
+SECOND_PAIR = FIRST_PAIR + record.POINT_SIZE
 THIRD_PAIR = FIRST_PAIR + 2 * record.POINT_SIZE
 
 
@@ -64,3 +65,25 @@ def test_a_maximum_beside_a_higher_one_is_not_missed(roll: float, pitch: float, 
     )
     assert (found[:, THIRD_PAIR] == THREAD_THREAD).all()
     assert np.abs(np.diff(np.degrees(found[:, record.O_MU]), 2)).max() < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("roll", "pitch", "phase"),
+    [
+        (2.3765554300164116, -0.2565203772502024, 355.6896841092687),
+        (1.7366872342489938, 1.0369774627216508, 351.5573062807184),
+        (0.1523313873954289, -0.07175096633291825, -2.2865809436061966),
+        (0.1522945109811422, -0.07177827029429122, -2.2866524262213623),
+    ],
+)
+def test_a_contact_that_leaves_the_edge_of_the_nut_goes_on_below_it(roll: float, pitch: float, phase: float) -> None:
+    """The second contact passes from the nut's edge to its thread there: the turn up to it stays continuous."""
+    offsets = np.array([-1e-3, -1e-5, -1e-9, 0.0, 1e-9, 1e-5, 1e-3])
+    poses = np.column_stack([np.full(len(offsets), roll), pitch + offsets, np.full(len(offsets), phase)])
+    found = rows(poses, rectangles=False, turn_limit_deg=45.0)
+    assert {THREAD_THREAD} <= set(found[:, SECOND_PAIR]) <= {THREAD_THREAD, THREAD_EDGE}
+    turns = np.degrees(found[:, record.O_LAMBDA])
+    assert np.abs(np.diff(turns)).max() < 3e-3
+    assert rows(poses, rectangles=True, turn_limit_deg=3.0)[:, record.O_LAMBDA] == pytest.approx(
+        found[:, record.O_LAMBDA], abs=1e-10
+    )

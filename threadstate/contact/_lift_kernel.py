@@ -161,7 +161,7 @@ def walker_until(
 @njit(cache=True, error_model="numpy")
 def witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array, work: Work) -> tuple[int, float]:
     """Whether a point overlaps at ``lift`` (INSIDE, OUTSIDE or NOT_DECIDED), and the lift up to which it does."""
-    boxes, others, _, _, bolt_walks, nut_walks, _, _ = work
+    boxes, others, _, _, bolt_walks, nut_walks, _, _, _ = work
     bounds = np.empty(BOUNDS_SIZE)
     path = np.empty(PATH_SIZE)
     none = np.empty(0)
@@ -218,7 +218,7 @@ def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, f
         return 0.0, status
     enough = last
     if count > 0 and height - found[0, K_TIME] >= last:
-        _, _, _, _, bolt_walks, nut_walks, _, _ = work
+        _, _, _, _, bolt_walks, nut_walks, _, _, _ = work
         up = np.array([0.0, 0.0, 1.0])
         set_motions(pose, False, False, up, up, bolt_walks, nut_walks)
         enough = overlaps_from(

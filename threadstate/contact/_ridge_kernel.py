@@ -27,6 +27,7 @@ from threadstate.contact._ridge_grid_kernel import (
     set_slopes,
     set_tops,
 )
+from threadstate.contact._sweep_kernel import E_THETA, E_TIME, E_Z
 from threadstate.contact._tangency_kernel import (
     J_A,
     J_B,
@@ -239,4 +240,27 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
         for j in range(highest_places(azimuths, standing, bolt, nut, grid, crossings, maxima)):
             theta, z = maxima[j, 0], maxima[j, 1]
             count = follow(theta, z, tau, limit, motion, bolt, nut, standing, moved, jet, found, count)
+    return count
+
+
+@njit(cache=True, error_model="numpy")
+def followed_back(
+    entries: Array, limit: float, motion: Array, bolt: Array, nut: Array, found: Array, count: int
+) -> int:
+    """Adds the contacts from which overlaps have grown that edges come into; returns the number of contacts then.
+
+    Where an edge is born inside, and is no contact, an overlap of the threads is open beside it: its deepest point is
+    followed to the time at which it began. One that has grown from an earlier contact leads to none.
+    """
+    standing = np.empty(STANDING_SIZE)
+    moved = np.empty(STANDING_SIZE)
+    jet = np.empty(JET_SIZE)
+    for i in range(1, int(entries[0, 0]) + 1):
+        tau = entries[i, E_TIME]
+        if tau > limit:
+            continue
+        set_standing(motion, tau, standing)
+        count = follow(
+            entries[i, E_THETA], entries[i, E_Z], tau, limit, motion, bolt, nut, standing, moved, jet, found, count
+        )
     return count

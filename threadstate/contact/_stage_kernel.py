@@ -24,11 +24,11 @@ from threadstate.contact._birth_kernel import (
 )
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point
-from threadstate.contact._sweep_kernel import EPS_PUNCTURE, OUTSIDE, OVERFLOW, inside_at, sweep
+from threadstate.contact._sweep_kernel import ENTRY_SIZE, EPS_PUNCTURE, MAX_ENTRIES, OUTSIDE, OVERFLOW, inside_at, sweep
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array]
+Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array]
 
 # Pairs of features, in the order of ``FeaturePair``.
 EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, FLUSH = range(7)
@@ -158,6 +158,7 @@ def new_work() -> Work:
         np.empty(MOTION_SIZE),
         np.empty((rect.MAX_RECTANGLES, rect.RECTANGLE_SIZE)),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
+        np.zeros((1 + MAX_ENTRIES, ENTRY_SIZE)),
     )
 
 
@@ -239,13 +240,14 @@ def earliest(
     which an edge enters (of a translation) or touches (of a turn). ``threads`` says how thread on thread is searched:
     RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
-    boxes, others, found_b, found_n, bolt_walks, nut_walks, rects, tangent = work
+    boxes, others, found_b, found_n, bolt_walks, nut_walks, rects, tangent, entries = work
     bolt_marks = np.empty(2)
     nut_marks = np.empty(2)
     bolt_mark_count, nut_mark_count = set_marks(known, known_count, pose, bolt, nut, bolt_marks, nut_marks)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, bolt_walks, nut_walks)
     any_birth = not is_turn
+    entries[0, 0] = 0.0
     count_b = 0
     count_n = 0
     used = 0
@@ -269,6 +271,7 @@ def earliest(
             others,
             count_b,
             found_b,
+            entries,
         )
         count_n, used_n, best = sweep(
             since,
@@ -285,6 +288,7 @@ def earliest(
             others,
             count_n,
             found_n,
+            entries,
         )
         if used_b == OVERFLOW or used_n == OVERFLOW:
             span *= SHORTER
@@ -300,6 +304,8 @@ def earliest(
     count_t = 0
     if threads != PROVED:
         count_t = ridge.ridges(bolt_walks, bolt, nut, reach, RIDGE_AZIMUTHS, tangent)
+        if is_turn:
+            count_t = ridge.followed_back(entries, reach, bolt_walks, bolt, nut, tangent, count_t)
     if threads == PROVED or (threads == RIDGES and unexplained and count_t == 0):
         # Where no edge contact explains the earliest entry, the threads must have met before it.
         count_t, used = rect.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
@@ -344,7 +350,7 @@ def earliest(
 @njit(cache=True, error_model="numpy")
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
-    boxes, others, _, _, bolt_walks, nut_walks, _, _ = work
+    boxes, others, _, _, bolt_walks, nut_walks, _, _, _ = work
     bolt_marks = np.empty(count)
     nut_marks = np.empty(count)
     bolt_mark_count, nut_mark_count = set_marks(contacts, count, pose, bolt, nut, bolt_marks, nut_marks)

@@ -41,7 +41,7 @@ from threadstate.contact._box_kernel import (
     X_VERDICT,
     judge_boxes,
 )
-from threadstate.contact._geometry_kernel import PATH_SIZE, TWO_PI
+from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, TWO_PI
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -76,6 +76,11 @@ OVERFLOW = -1
 LANES = 8
 
 OUTSIDE, INSIDE, NOT_DECIDED = range(3)
+
+# A list of entries: their number in the first row; then time, azimuth and place along the axis on the bolt's thread.
+E_TIME, E_THETA, E_Z = range(3)
+ENTRY_SIZE = 3
+MAX_ENTRIES = 16
 
 
 @njit(cache=True, error_model="numpy")
@@ -235,6 +240,19 @@ def joined(
 
 
 @njit(cache=True, error_model="numpy")
+def add_entry(tau: float, theta: float, motion: Array, jet: Array, entries: Array) -> None:
+    """Notes where on the bolt's thread an edge comes into an overlap that is open already."""
+    count = int(entries[0, 0])
+    if count + 1 == entries.shape[0]:
+        return
+    bolt_walks = motion[M_SIGMA] > 0.0
+    entries[count + 1, E_TIME] = tau
+    entries[count + 1, E_THETA] = theta if bolt_walks else math.atan2(jet[J_Y], jet[J_X])
+    entries[count + 1, E_Z] = 0.0 if bolt_walks else jet[J_Z]
+    entries[0, 0] = count + 1.0
+
+
+@njit(cache=True, error_model="numpy")
 def sweep(
     since: float,
     until: float,
@@ -250,13 +268,14 @@ def sweep(
     others: Array,
     count: int,
     found: Array,
+    entries: Array,
 ) -> tuple[int, int, float]:
     """Contacts of the edge curve of ``row_c`` with the solid of ``row_s`` from ``since`` to ``until``.
 
     ``marks`` are the azimuths of earlier contacts on this curve, ``best`` the earliest time known; nothing later than
     ``slack`` after it is looked for. With ``any_birth`` a birth that is no contact ends the search, too. Returns the
     number of candidates in ``found`` (earliest first), the number of boxes looked at (OVERFLOW: too many), the
-    earliest time.
+    earliest time. Births that are no contacts are added to ``entries``: there the edge comes into an open overlap.
     """
     path = np.empty(PATH_SIZE)
     jet = np.empty(JET_SIZE)
@@ -301,6 +320,8 @@ def sweep(
                     if contact:
                         x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
                         count = add_candidate(tau, verdict, t, math.atan2(y, x), x, y, z, count, found)
+                    else:
+                        add_entry(tau, t, motion, jet, entries)
                     if contact or any_birth:
                         best = min(best, tau)
                 if inside or (
