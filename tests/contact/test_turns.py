@@ -134,3 +134,27 @@ def test_every_way_a_turn_can_end_is_among_the_sets(turns: dict[str, list[tuple[
     }
     assert {(2, "flush"), (2, "edge-edge"), (2, "edge-thread"), (2, "thread-edge")} <= ends
     assert {(3, "edge-edge"), (3, "edge-thread"), (3, "thread-edge")} <= ends
+
+
+@pytest.mark.parametrize(
+    ("roll", "pitch", "phases", "place"),
+    [
+        (-3.2083, 3.8903, np.linspace(1.51, 1.54, 13), (0.084008, 0.055526)),
+        (-2.8166, 3.4257, np.linspace(1.62, 1.621, 6), (0.084008, 0.055526)),
+    ],
+)
+def test_a_contact_where_flank_meets_fillet_beside_an_earlier_one_is_not_missed(
+    roll: float, pitch: float, phases: Floats, place: tuple[float, float]
+) -> None:
+    """The nut's edge touches within 1e-6 rad of where its crest fillet begins: the curvature jumps there."""
+    poses = np.column_stack([np.full((len(phases), 2), (roll, pitch)), phases])
+    for state in solve_poses(PAIR, poses):
+        second = state.contacts[1]
+        assert second.features is FeaturePair.THREAD_EDGE
+        assert second.point[:2] == pytest.approx(place, abs=1e-5)
+        turn = turns_of(PAIR, state)[0]
+        assert turn.turn_deg is not None
+        before, after = (
+            deepest_near(PAIR, turn, turn.turn_deg + d, np.array(second.point), 5e-6) for d in (-1e-3, 1e-3)
+        )
+        assert before < 0.0 < after

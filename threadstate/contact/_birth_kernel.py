@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from threadstate.contact._box_kernel import ONE_EDGE, ONE_THREAD
+from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._geometry_kernel import (
     M_COPLANAR,
     M_KIND,
@@ -138,6 +138,91 @@ def pin(
             return inside, t, tau
         before = size
     return False, t, tau
+
+
+@njit(cache=True, error_model="numpy")
+def peak(
+    low: float, high: float, tau: float, motion: Array, row_c: Array, row_s: Array, path: Array, jet: Array
+) -> tuple[bool, int, float]:
+    """A local maximum over theta of min(g, phi) between two azimuths, by halving: whether, of what kind and where.
+
+    Second derivatives are not needed: they jump where a flank meets its fillet, and Newton's method may not end there.
+    """
+    set_jet(low, tau, motion, row_c, row_s, path, jet)
+    on_edge = jet[J_G] < jet[J_PHI]
+    if (jet[J_G_THETA] if on_edge else jet[J_PHI_THETA]) <= 0.0:
+        return False, 0, low
+    set_jet(high, tau, motion, row_c, row_s, path, jet)
+    over_edge = jet[J_G] < jet[J_PHI]
+    if (jet[J_G_THETA] if over_edge else jet[J_PHI_THETA]) >= 0.0:
+        return False, 0, high
+    while True:
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            break
+        set_jet(middle, tau, motion, row_c, row_s, path, jet)
+        plane = jet[J_G] < jet[J_PHI]
+        if (jet[J_G_THETA] if plane else jet[J_PHI_THETA]) > 0.0:
+            low, on_edge = middle, plane
+        else:
+            high, over_edge = middle, plane
+    set_jet(low, tau, motion, row_c, row_s, path, jet)
+    if on_edge != over_edge:
+        return True, int(ONE_EDGE), low
+    return True, int(ONE_PLANE if on_edge else ONE_THREAD), low
+
+
+@njit(cache=True, error_model="numpy")
+def pin_narrow(
+    theta: float,
+    half: float,
+    start: float,
+    end: float,
+    motion: Array,
+    row_c: Array,
+    row_s: Array,
+    path: Array,
+    jet: Array,
+) -> tuple[bool, int, float, float]:
+    """A birth in a box too narrow for azimuths to be told apart: whether there is one, its kind, azimuth and time.
+
+    The peak of min(g, phi) rises from below zero to above it there; its time by regula falsi (Illinois).
+    """
+    low, high = theta - half, theta + half
+    early, late = start, end
+    found, kind, t = peak(low, high, early, motion, row_c, row_s, path, jet)
+    before = min(jet[J_G], jet[J_PHI])
+    if not found or before > 0.0:
+        return False, kind, t, early
+    found, kind, t = peak(low, high, late, motion, row_c, row_s, path, jet)
+    after = min(jet[J_G], jet[J_PHI])
+    if not found or after < 0.0:
+        return False, kind, t, late
+    tau = late
+    side = 0
+    for _ in range(100):
+        if after == before:
+            break
+        tau = (early * after - late * before) / (after - before)
+        if not early < tau < late:
+            break
+        found, kind, t = peak(low, high, tau, motion, row_c, row_s, path, jet)
+        if not found:
+            return False, kind, t, tau
+        value = min(jet[J_G], jet[J_PHI])
+        if value < 0.0:
+            early, before = tau, value
+            if side == -1:
+                after *= 0.5
+            side = -1
+        else:
+            late, after = tau, value
+            if side == 1:
+                before *= 0.5
+            side = 1
+        if value == 0.0:
+            break
+    return True, kind, t, tau
 
 
 @njit(cache=True, error_model="numpy")

@@ -18,6 +18,7 @@ from threadstate.contact._birth_kernel import (
     add_candidate,
     is_contact,
     pin,
+    pin_narrow,
     rises,
     set_jet,
 )
@@ -305,25 +306,37 @@ def sweep(
                 and arches(theta, half, start, end, motion, row_c, row_s, marks, mark_count, others)
             ):
                 continue
-            if gap < BESIDE and half < EPS_PUNCTURE and abs(boxes[X_DEPTH + i]) < NOISE * row_s[pk.P]:
+            touches = gap < BESIDE and half < EPS_PUNCTURE and abs(boxes[X_DEPTH + i]) < NOISE * row_s[pk.P]
+            if touches and joined(theta, 0.5 * (start + end), motion, row_c, row_s, marks, mark_count, path, jet):
                 continue
-            if verdict <= ONE_PLANE:
-                inside, t, tau = pin(verdict, theta, half, start, end, motion, row_c, row_s, path, jet)
+            if touches or verdict <= ONE_PLANE:
+                kind = verdict
+                if touches:
+                    wide, span = AROUND * half, AROUND * (end - start)
+                    inside, kind, t, tau = pin_narrow(
+                        theta, wide, start - span, end + span, motion, row_c, row_s, path, jet
+                    )
+                else:
+                    inside, t, tau = pin(verdict, theta, half, start, end, motion, row_c, row_s, path, jet)
+                if inside:
+                    set_jet(t, tau, motion, row_c, row_s, path, jet)
                 if (
                     inside
                     and tau <= best + slack
-                    and rises(verdict, jet)
+                    and rises(kind, jet)
                     and not joined(t, tau, motion, row_c, row_s, marks, mark_count, path, jet)
                 ):
                     set_jet(t, tau, motion, row_c, row_s, path, jet)
-                    contact = is_contact(verdict, t, tau, motion, row_c, row_s, jet, w)
+                    contact = is_contact(kind, t, tau, motion, row_c, row_s, jet, w)
                     if contact:
                         x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
-                        count = add_candidate(tau, verdict, t, math.atan2(y, x), x, y, z, count, found)
+                        count = add_candidate(tau, kind, t, math.atan2(y, x), x, y, z, count, found)
                     else:
                         add_entry(tau, t, motion, jet, entries)
                     if contact or any_birth:
                         best = min(best, tau)
+                if touches:
+                    continue
                 if inside or (
                     half < EPS_PUNCTURE
                     and only_outside(verdict, theta, half, start, end, motion, row_c, row_s, others, path, jet)

@@ -244,7 +244,9 @@ def polish(
         if abs(found[i, T_X] - jet[J_X]) + abs(found[i, T_Y] - jet[J_Y]) < 1e-6 * bolt[pk.P]:
             return count
     if count == MAX_TANGENCIES:
-        return count
+        if tau >= found[count - 1, T_TIME]:
+            return count
+        count -= 1
     i = count
     while i > 0 and found[i - 1, T_TIME] > tau:
         found[i] = found[i - 1]
