@@ -12,6 +12,7 @@ from typer.exceptions import TyperException
 
 from threadstate.errors import ThreadstateError
 from worker.commands.formation import formation
+from worker.commands.heights import heights
 from worker.commands.history import history
 from worker.commands.locate import locate
 from worker.commands.mesh import mesh
@@ -44,6 +45,7 @@ COMMANDS = (
     rebuild,
     summary,
     history,
+    heights,
     windows,
     transitions,
     network,

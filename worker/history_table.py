@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from threadstate.answer.documents import (
+    HeightsDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
@@ -34,6 +35,14 @@ def print_history(history: OrientationHistoryDocument, unit: LengthUnit) -> None
         )
     console().print(rows)
     print_windows(history.windows, unit)
+
+
+def print_heights(heights: HeightsDocument, unit: LengthUnit) -> None:
+    """One row a phase."""
+    rows = table("phase", f"first contact ({unit})", "last pose")
+    for phase, first, last in zip(heights.phases, heights.first_heights, heights.last_heights, strict=True):
+        rows.add_row(f"{phase:.9f}", length(first), length(last))
+    console().print(rows)
 
 
 def print_windows(windows: Sequence[WindowDocument], unit: LengthUnit) -> None:

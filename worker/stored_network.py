@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from sqlalchemy import Connection
+
 from threadstate.answer.library_network import LibraryNetwork, library_network
 from threadstate.library.engine import reader_engine
 from threadstate.library.read import latest_library
@@ -16,7 +21,14 @@ def stored_network(database: str | None) -> LibraryNetwork:
         SchemaError: the database is at another revision.
         NotFoundError: no library is published.
     """
+    with connected_network(database) as (_, network):
+        return network
+
+
+@contextmanager
+def connected_network(database: str | None) -> Iterator[tuple[Connection, LibraryNetwork]]:
+    """As :func:`stored_network`, with the connection that it was read by."""
     engine = reader_engine(database or read_settings().database)
     check_schema(engine)
     with engine.connect() as connection:
-        return library_network(connection, latest_library(connection))
+        yield connection, library_network(connection, latest_library(connection))

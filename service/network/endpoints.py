@@ -8,6 +8,7 @@ from urllib.parse import urlencode
 from fastapi import APIRouter, Path, Query, Request, Response
 
 from service.angles import PhaseQuery, PitchPath, PitchQuery, RollPath, RollQuery
+from service.database import ReadConnection
 from service.network.parameters import (
     MovesQuery,
     NetworkFormat,
@@ -17,6 +18,7 @@ from service.network.parameters import (
     TransitionQuery,
 )
 from service.network.schemas import (
+    HeightsAnswer,
     IntervalsAnswer,
     LocationAnswer,
     NetworkSummary,
@@ -29,6 +31,7 @@ from service.network.schemas import (
 from service.network.store import RequestedNetwork
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
 from service.units import UNIT_HEADER, UnitQuery
+from threadstate.answer.heights import heights_document, stored_heights
 from threadstate.answer.histories import history_document
 from threadstate.answer.library_network import LibraryNetwork
 from threadstate.answer.networks import location_document, node_document, path_document
@@ -73,6 +76,27 @@ def get_intervals(
     history = history_document(stored, roll, pitch, network.pair.thread_pitch, factor)
     answer = IntervalsAnswer(library=network.library.id, unit=shown, history=history)
     return _json(request, answer, shown)
+
+
+@router.get(
+    "/histories/{roll}/{pitch}/heights",
+    summary="Height against phase",
+    response_model=HeightsAnswer,
+    responses=NOT_MODIFIED,
+)
+def get_heights(
+    request: Request,
+    connection: ReadConnection,
+    network: RequestedNetwork,
+    roll: RollPath,
+    pitch: PitchPath,
+    unit: UnitQuery = None,
+) -> Response:
+    """The height of the bolt's origin at as many phases as straight lines between them need to be right."""
+    shown, factor = _unit(network, unit)
+    found = stored_heights(connection, network, roll, pitch)
+    heights = heights_document(found, roll, pitch, network.pair.thread_pitch, factor)
+    return _json(request, HeightsAnswer(library=network.library.id, unit=shown, heights=heights), shown)
 
 
 @router.get("/transitions", summary="Transitions", response_model=TransitionsPage, responses=NOT_MODIFIED)
@@ -198,7 +222,7 @@ def get_location(request: Request, network: RequestedNetwork, observed: Observat
 
 def _json(
     request: Request,
-    answer: IntervalsAnswer | TransitionsPage | WindowsAnswer | NodeAnswer | PathAnswer,
+    answer: IntervalsAnswer | HeightsAnswer | TransitionsPage | WindowsAnswer | NodeAnswer | PathAnswer,
     unit: LengthUnit,
     headers: dict[str, str] | None = None,
 ) -> Response:

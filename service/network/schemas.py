@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import BaseModel, Field
 
 from threadstate.answer.documents import (
+    HeightsDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
@@ -33,6 +34,20 @@ class ComputedIntervals(BaseModel):
     designation: str
     unit: LengthUnit = Field(description="unit of all lengths in this answer")
     history: OrientationHistoryDocument
+
+
+class HeightsAnswer(_OfLibrary):
+    """The height of the bolt's origin against phase."""
+
+    heights: HeightsDocument
+
+
+class ComputedHeights(BaseModel):
+    """The same of any orientation, computed when it is asked for."""
+
+    designation: str
+    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    heights: HeightsDocument
 
 
 class TransitionsPage(_OfLibrary):

@@ -10,11 +10,9 @@ import pytest
 
 from threadstate.history import records
 from threadstate.history.build import POINT_DEG, RESOLUTION, histories_of, history_of
-from threadstate.history.heights import heights_of
 from threadstate.history.labels import Labels, labels_of
 from threadstate.history.model import Boundary, History, Interval
 from threadstate.history.records import SolvedPoses
-from threadstate.history.window import deepest_window
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.state.solve import solve_pose, solve_poses
@@ -92,17 +90,6 @@ def test_labels_agree_within_intervals(histories: list[History]) -> None:
 def test_a_history_has_the_same_bits_alone_and_beside_others(histories: list[History]) -> None:
     roll, pitch = ORIENTATIONS[1]
     assert history_of(PAIR, roll, pitch) == histories[1]
-
-
-def test_heights_hold_both_sides_of_the_snap(histories: list[History]) -> None:
-    heights = heights_of(PAIR, histories[0], 0.5)
-    window = deepest_window(PAIR, histories[0])
-    assert window is not None
-    assert window.snap is not None
-    falls = heights.first[:-1] - heights.first[1:]
-    assert np.nanmax(falls) == window.snap.fall
-    assert heights.phases_deg[:-1][np.nanargmax(falls)] == pytest.approx(window.snap.phase_deg, abs=1e-6)
-    assert (np.isnan(heights.first) == np.isnan(heights.last)).all()
 
 
 def test_ten_times_the_density_finds_nothing_new(histories: list[History]) -> None:

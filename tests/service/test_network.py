@@ -10,7 +10,9 @@ from fastapi.testclient import TestClient
 from pydantic import BaseModel
 
 from service.network.schemas import (
+    ComputedHeights,
     ComputedIntervals,
+    HeightsAnswer,
     IntervalsAnswer,
     LocationAnswer,
     NetworkSummary,
@@ -60,7 +62,9 @@ def test_answers_have_the_documented_shape(network_client: TestClient) -> None:
     key = _key(network_client)
     answers: list[tuple[str, type[BaseModel]]] = [
         (f"{LIBRARY}/histories/0/-4/intervals", IntervalsAnswer),
+        (f"{LIBRARY}/histories/0/-4/heights", HeightsAnswer),
         ("/v1/histories/1.5/-0.5/intervals", ComputedIntervals),
+        ("/v1/histories/1.5/-0.5/heights", ComputedHeights),
         (f"{LIBRARY}/windows", WindowsAnswer),
         (f"{LIBRARY}/transitions", TransitionsPage),
         (f"{LIBRARY}/network", NetworkSummary),
@@ -84,6 +88,20 @@ def test_states_have_the_labels_of_their_interval(network_client: TestClient) ->
             contact["features"] for contact in interval["formation"]["contacts"]
         ]
         assert state.poses[0].translation[2] == interval["first_height"]
+
+
+def test_heights_stored_and_solved_are_those_computed(network_client: TestClient) -> None:
+    stored = _json(network_client, f"{LIBRARY}/histories/0/-4/heights")["heights"]
+    assert stored == _json(network_client, "/v1/histories/0/-4/heights")["heights"]
+    by_phase = dict(
+        zip(stored["phases"], zip(stored["first_heights"], stored["last_heights"], strict=True), strict=True)
+    )
+    for boundary in _json(network_client, f"{LIBRARY}/histories/0/-4/intervals")["history"]["boundaries"]:
+        for phase, side in ((boundary["low"], 0), (boundary["high"], 1)):
+            assert by_phase[phase] == (boundary["first_height"][side], boundary["last_height"][side])
+    millimetres = _json(network_client, f"{LIBRARY}/histories/0/-4/heights?unit=mm")["heights"]
+    assert millimetres["last_heights"] == [25.4 * height for height in stored["last_heights"]]
+    assert millimetres["tolerance"] == pytest.approx(25.4 * stored["tolerance"], rel=1e-12)
 
 
 def test_the_snap_of_pitch_minus_four(network_client: TestClient) -> None:
@@ -189,6 +207,7 @@ def test_a_formation_a_path_and_a_location_belong_together(network_client: TestC
     ("path", "status"),
     [
         (f"{LIBRARY}/histories/1/0/intervals", 404),
+        (f"{LIBRARY}/histories/1/0/heights", 404),
         (f"{LIBRARY}/network/formations/0123456789", 404),
         (f"{LIBRARY}/network/formations/short", 400),
         (f"{LIBRARY}/network/paths", 400),

@@ -41,6 +41,15 @@ def test_a_history_stored_is_the_one_computed(ask: Callable[..., str]) -> None:
     assert json.loads(ask("history", *orientation, "--stored")) == json.loads(ask("history", *orientation))
 
 
+def test_heights_stored_are_those_computed(ask: Callable[..., str]) -> None:
+    orientation = ("--roll", "0", "--pitch", "-2")
+    heights = json.loads(ask("heights", *orientation, "--stored", "--json"))
+    assert heights == json.loads(ask("heights", *orientation, "--json"))
+    lines = ask("heights", *orientation, "--stored").splitlines()
+    assert len(lines) == 1 + len(heights["phases"])
+    assert f"{heights['first_heights'][0]:.9f}" in lines[1]
+
+
 def test_tables_name_what_the_objects_hold(ask: Callable[..., str]) -> None:
     history = json.loads(ask("history", "--roll", "0", "--pitch", "-2", "--stored", "--json"))
     shown = ask("history", "--roll", "0", "--pitch", "-2", "--stored")

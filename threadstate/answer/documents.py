@@ -137,6 +137,17 @@ class OrientationHistoryDocument(_Document):
     windows: list[WindowDocument]
 
 
+class HeightsDocument(_Document):
+    """The height of the bolt's origin against phase: arrays of one length, null where the solver does not decide."""
+
+    roll: float
+    pitch: float
+    tolerance: float = Field(description="how far a straight line between two neighbours is off, at most")
+    phases: list[float] = Field(description="ascending from 0 to 360; a jump is between two that all but coincide")
+    first_heights: list[float | None] = Field(description="at first contact")
+    last_heights: list[float | None] = Field(description="in the last pose")
+
+
 class PlaceDocument(_Document):
     """One end of a transition."""
 

@@ -1,24 +1,37 @@
-"""The height of the bolt against its phase, exact at every phase (the paper's figures 7 to 10)."""
+"""The height of the bolt against its phase, as exact as is asked for at every phase (the paper's figures 7 to 10)."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
-from threadstate.history.model import CIRCLE_DEG, History
+from threadstate.history.model import CIRCLE_DEG
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 
+START_DEG = 5.0
+"""Phases at which a curve begins to be made, beside those of its boundaries."""
+
+WHOLE_DEG = 1.0
+"""While steps are longer than this they end at multiples of it, where a library has its states."""
+
+NARROW_DEG = 1e-3
+"""Within a stretch of this width a height is taken to rise or to fall throughout."""
+
+LEAST_DEG = 1e-6
+"""Narrower stretches are halved no more: boundaries, and the foot of a fall as a root."""
+
 
 @dataclass(frozen=True, slots=True)
 class Heights:
-    """Arrays of shape (n,), read-only: phases in degrees, ascending, and heights of the bolt's origin there.
+    """Arrays of shape (n,), read-only: phases in degrees, strictly ascending, and heights of the bolt's origin there.
 
     ``first`` is the height at first contact, ``last`` that in the last pose, in the pair's unit; NaN where undecided.
     """
@@ -28,20 +41,77 @@ class Heights:
     last: Floats
 
 
-def heights_of(pair: Pair, history: History, step_deg: float, options: SolveOptions | None = None) -> Heights:
-    """Heights at even steps from 0 to 360 deg and at both sides of every boundary of the pair's history.
+Solved = tuple[float, float]
+"""Height at first contact and in the last pose."""
 
-    A jump shows as two heights at phases as near each other as the boundary's bracket is narrow.
+KnownHeights = dict[float, Solved]
+"""Heights by their phases in [0, 360)."""
+
+
+def heights_of(
+    pair: Pair,
+    roll_deg: float,
+    pitch_deg: float,
+    boundaries_deg: Iterable[float],
+    tolerance: float,
+    known: KnownHeights | None = None,
+) -> Heights:
+    """Heights from phase 0 to 360 between which straight lines are right.
+
+    Stretches are halved until their middles lie no farther than ``tolerance``, a length in the pair's unit, from the
+    line between their ends, so that a curve that bends evenly is within a quarter of it; where it ends as a root does
+    the last stretch is LEAST_DEG wide or within the tolerance. ``boundaries_deg`` are both phases of every boundary of
+    the orientation's history: a jump shows as two heights that near each other. What is ``known`` is not solved again.
     """
-    even = np.linspace(0.0, CIRCLE_DEG, 1 + round(CIRCLE_DEG / step_deg))
-    sides = [phase % CIRCLE_DEG for b in history.boundaries for phase in (b.low_deg, b.high_deg)]
-    phases = np.unique(np.concatenate([even, sides]))
-    poses = np.column_stack([np.full((len(phases), 2), (history.roll_deg, history.pitch_deg)), phases])
-    records = solve_records(pair, options or SolveOptions(), poses)
-    heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
-    last = heights[np.arange(len(heights)), np.maximum(records[:, rk.O_POSES].astype(np.intp) - 1, 0)]
-    undecided = records[:, rk.O_STATUS] != 0.0
-    columns = phases, np.where(undecided, np.nan, heights[:, 0]), np.where(undecided, np.nan, last)
+    found = dict(known or {})
+
+    def heights(phases_deg: Floats) -> Floats:
+        unknown = sorted({phase for phase in (phases_deg % CIRCLE_DEG).tolist() if phase not in found})
+        if unknown:
+            poses = np.column_stack([np.full((len(unknown), 2), (roll_deg, pitch_deg)), unknown])
+            found.update(zip(unknown, _solved(pair, poses), strict=True))
+        return np.array([found[phase] for phase in (phases_deg % CIRCLE_DEG).tolist()]).reshape(-1, 2)
+
+    even = np.linspace(0.0, CIRCLE_DEG, 1 + round(CIRCLE_DEG / START_DEG))
+    sides = np.array(list(boundaries_deg), dtype=np.float64) % CIRCLE_DEG
+    phases = _bent(heights, np.unique(np.concatenate([even, sides])), tolerance)
+    columns = phases, *heights(phases).T.copy()
     for column in columns:
         column.setflags(write=False)
     return Heights(*columns)
+
+
+def _bent(heights: Callable[[Floats], Floats], phases: Floats, tolerance: float) -> Floats:
+    """The phases, and those at which a line between two neighbours has to bend, in order."""
+    kept = [phases]
+    low, high = phases[:-1], phases[1:]
+    while len(low):
+        at_low, at_high = heights(low), heights(high)
+        rises = (np.abs(at_high - at_low) > tolerance).any(axis=1)
+        unsure = (high - low > NARROW_DEG) | (rises & (high - low > LEAST_DEG))
+        low, high, at_low, at_high = low[unsure], high[unsure], at_low[unsure], at_high[unsure]
+        middle = _middles(low, high)
+        share = ((middle - low) / (high - low))[:, np.newaxis]
+        at_middle = heights(middle)
+        bends = (np.abs(at_middle - (1.0 - share) * at_low - share * at_high) > tolerance).any(axis=1)
+        bends |= np.isnan(at_middle).any(axis=1) & ~np.isnan(at_low + at_high).any(axis=1)
+        kept.append(middle)
+        low, high = np.concatenate([low[bends], middle[bends]]), np.concatenate([middle[bends], high[bends]])
+    return np.sort(np.concatenate(kept))
+
+
+def _middles(low: Floats, high: Floats) -> Floats:
+    """Phases about half way between others: multiples of WHOLE_DEG where there are any in between."""
+    middle = 0.5 * (low + high)
+    whole = np.round(middle / WHOLE_DEG) * WHOLE_DEG
+    return np.where((low < whole) & (whole < high), whole, middle)
+
+
+def _solved(pair: Pair, poses_deg: Floats) -> list[Solved]:
+    """The heights of poses of shape (n, 3); NaN where undecided."""
+    records = solve_records(pair, SolveOptions(), poses_deg)
+    heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
+    last = heights[np.arange(len(heights)), np.maximum(records[:, rk.O_POSES].astype(np.intp) - 1, 0)]
+    both = np.column_stack([heights[:, 0], last])
+    both[records[:, rk.O_STATUS] != 0.0] = np.nan
+    return [(first, last) for first, last in both.tolist()]

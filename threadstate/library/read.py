@@ -113,6 +113,22 @@ def states_between(connection: Connection, library_id: int, first: int, last: in
     return list(states.values())
 
 
+def heights_between(connection: Connection, library_id: int, first: int, last: int) -> dict[int, tuple[float, float]]:
+    """Heights of the bolt's origin at first contact and in the last pose, of states with ordinals in that range.
+
+    By ordinal, ``first`` and ``last`` included; in the library's unit.
+    """
+    query = (
+        select(stage_pose.c.ordinal, stage_pose.c.tz)
+        .where(stage_pose.c.library_id == library_id, stage_pose.c.ordinal.between(first, last))
+        .order_by(stage_pose.c.ordinal, stage_pose.c.stage)
+    )
+    found: dict[int, tuple[float, float]] = {}
+    for ordinal, height in connection.execute(query):
+        found[ordinal] = (found[ordinal][0] if ordinal in found else height, height)
+    return found
+
+
 def state_of_pose(
     connection: Connection, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float
 ) -> ContactState:

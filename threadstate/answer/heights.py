@@ -1,0 +1,79 @@
+"""Curves of height against phase, of a library's orientations or of any."""
+
+from __future__ import annotations
+
+import math
+
+from sqlalchemy import Connection
+
+from threadstate.answer.documents import HeightsDocument
+from threadstate.answer.library_network import LibraryNetwork
+from threadstate.archive.stored import OrientationHistory
+from threadstate.history.build import history_of
+from threadstate.history.heights import Floats, Heights, KnownHeights, heights_of
+from threadstate.library.read import heights_between
+from threadstate.thread.pair import Pair
+
+TOLERANCE = 2e-4
+"""How far a line between two heights may be off, in thread pitches: a third of a pixel on a screen's height."""
+
+_UNDECIDED = (math.nan, math.nan)
+
+
+def stored_heights(connection: Connection, network: LibraryNetwork, roll_deg: float, pitch_deg: float) -> Heights:
+    """The curve of an orientation of a library: what its tables lack is solved.
+
+    Raises:
+        NotFoundError: the orientation is none of the library's grid.
+    """
+    number = network.orientation(roll_deg, pitch_deg)
+    grid = network.library.grid
+    first = grid.first_ordinal(number)
+    on_grid = heights_between(connection, network.library.id, first, first + grid.phase_count - 1)
+    known = {phase: on_grid.get(first + i, _UNDECIDED) for i, phase in enumerate(grid.phases_deg)}
+    history = network.histories.orientations[number]
+    return heights_of(
+        network.pair, roll_deg, pitch_deg, _sides(history, known), TOLERANCE * network.pair.thread_pitch, known
+    )
+
+
+def computed_heights(pair: Pair, roll_deg: float, pitch_deg: float) -> Heights:
+    """The curve of any orientation.
+
+    Raises:
+        InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
+    """
+    boundaries = history_of(pair, roll_deg, pitch_deg).boundaries
+    sides = [phase for one in boundaries for phase in (one.low_deg, one.high_deg)]
+    return heights_of(pair, roll_deg, pitch_deg, sides, TOLERANCE * pair.thread_pitch)
+
+
+def heights_document(
+    heights: Heights, roll_deg: float, pitch_deg: float, thread_pitch: float, factor: float
+) -> HeightsDocument:
+    """The document of a curve, lengths multiplied by ``factor``; ``thread_pitch`` in the unit before that."""
+    return HeightsDocument(
+        roll=roll_deg + 0.0,
+        pitch=pitch_deg + 0.0,
+        tolerance=TOLERANCE * thread_pitch * factor,
+        phases=heights.phases_deg.tolist(),
+        first_heights=_scaled(heights.first, factor),
+        last_heights=_scaled(heights.last, factor),
+    )
+
+
+def _sides(history: OrientationHistory, known: KnownHeights) -> list[float]:
+    """Both phases of every boundary; their stored heights are added to those ``known``."""
+    sides = []
+    for one in history.boundaries:
+        for phase, first, last in (
+            (one.low_deg, one.first_height_before, one.last_height_before),
+            (one.high_deg, one.first_height_after, one.last_height_after),
+        ):
+            sides.append(phase)
+            known[phase % 360.0] = _UNDECIDED if first is None or last is None else (first, last)
+    return sides
+
+
+def _scaled(heights: Floats, factor: float) -> list[float | None]:
+    return [None if math.isnan(height) else height * factor for height in heights.tolist()]
