@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
-from threadstate.answer.documents import WindowDocument
+from threadstate.answer.documents import SnapDocument, WindowDocument
 from threadstate.answer.library_network import LibraryNetwork
 from threadstate.answer.windows import windows_of_histories
 from threadstate.library.engine import reader_engine
@@ -90,6 +90,7 @@ def _page(network: LibraryNetwork) -> str:
     unit = network.pair.unit
     rows = windows_of_histories(network.histories, None, None, network.pair.thread_pitch, 1.0)
     table = "\n".join(_row(one) for one in rows)
+    snaps = "\n".join(_snap_row(one.roll, one.pitch, one.snap) for one in rows if one.snap is not None)
     worst, compared = _mirrored(network)
     summary = network.summary
     return f"""# Clearance windows and snaps
@@ -103,6 +104,16 @@ largest fall of the bolt at one phase; where there is none, the bolt slides into
 | roll | pitch | enter | leave | width | drop | climb | snap at | falls by |
 |---|---|---|---|---|---|---|---|---|
 {table}
+
+## Heights of the snaps
+
+The bolt's height at first contact as its phase nears the snap from either side. Before it the height falls as the root
+of the phase that is left, up to where two contacts of edge on edge meet: phase and height there are solved for. Errors
+are estimates: of what round-off does, and of what the height changes within the bracket behind the snap.
+
+| roll | pitch | snap at | error | before | behind | error |
+|---|---|---|---|---|---|---|
+{snaps}
 
 ## Symmetries
 
@@ -130,6 +141,13 @@ def _row(one: WindowDocument) -> str:
     snap = ("", "") if one.snap is None else (f"{one.snap.phase:.6f}", f"{one.snap.fall:.6f}")
     phases = (f"{one.enter:.6f}", f"{one.leave:.6f}", f"{one.width:.3f}")
     cells = (f"{one.roll:g}", f"{one.pitch:g}", *phases, f"{abs(one.drop):.6f}", f"{abs(one.climb):.6f}", *snap)
+    return "| " + " | ".join(cells) + " |"
+
+
+def _snap_row(roll: float, pitch: float, snap: SnapDocument) -> str:
+    assert snap.height_uncertainty is not None
+    sides = (f"{snap.height_before:.12f}", f"{snap.height_after:.12f}", f"{snap.height_uncertainty:.0e}")
+    cells = (f"{roll:g}", f"{pitch:g}", f"{snap.phase:.10f}", f"{snap.phase_uncertainty:.0e}", *sides)
     return "| " + " | ".join(cells) + " |"
 
 

@@ -53,7 +53,8 @@ def test_a_curve_holds_both_sides_of_the_snap(history: History, heights: Heights
     assert window is not None
     assert window.snap is not None
     falls = heights.first[:-1] - heights.first[1:]
-    assert falls.max() == window.snap.fall
+    # Before the snap the height falls as the root of the phase that is left: 1e-8 in within the bracket.
+    assert falls.max() == pytest.approx(window.snap.fall, abs=5e-8)
     assert heights.phases_deg[falls.argmax()] == pytest.approx(window.snap.phase_deg, abs=LEAST_DEG)
 
 

@@ -95,6 +95,9 @@ class SnapDocument(_Document):
     phase_uncertainty: float = Field(description="half of the bracket in which the phase is certain to lie")
     height_before: float
     height_after: float
+    height_uncertainty: float | None = Field(
+        description="by how much either height may be wrong, an estimate; null in libraries of older versions"
+    )
     fall: float
 
 

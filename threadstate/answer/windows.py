@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from threadstate.answer.documents import CourseDocument, SnapDocument, WindowDocument
+from threadstate.answer.lengths import scaled
 from threadstate.archive.stored import StoredHistories
 from threadstate.history.window import Course, Snap, Window
 
@@ -46,6 +47,7 @@ def _snap(snap: Snap, factor: float) -> SnapDocument:
         phase_uncertainty=0.5 * snap.width_deg,
         height_before=snap.height_before * factor,
         height_after=snap.height_after * factor,
+        height_uncertainty=scaled(snap.height_error, factor),
         fall=snap.fall * factor,
     )
 

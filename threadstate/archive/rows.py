@@ -81,8 +81,9 @@ def _side(labels: ContactLabels | None, normal: Vector | None) -> Row:
 
 
 def _window(position: int, one: Window) -> Row:
-    snap: Row = (None,) * 4
+    snap: Row = (None,) * 5
     if one.snap is not None:
-        snap = (one.snap.phase_deg, one.snap.width_deg, one.snap.height_before, one.snap.height_after)
+        sides = (one.snap.height_before, one.snap.height_after)
+        snap = (one.snap.phase_deg, one.snap.width_deg, *sides, one.snap.height_error)
     heights = (one.enter_height, one.leave_height, one.lowest_deg, one.lowest_height)
     return position, one.enter_deg, one.leave_deg, *heights, *snap

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from threadstate.history.codes import HEIGHT_JUMP
+from threadstate.history.limits import limit_after, limit_before
 from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
 from threadstate.state.model import ContactState, FeaturePair
 from threadstate.thread.pair import Pair
@@ -18,13 +20,15 @@ WITHIN_THREAD = (FeaturePair.EDGE_THREAD, FeaturePair.THREAD_EDGE, FeaturePair.T
 class Snap:
     """A fall of the height of first contact at a single phase, turning counter-clockwise.
 
-    The phase is certain to half of ``width_deg``; heights, in the pair's unit, are those at the ends of that bracket.
+    The phase is certain to half of ``width_deg``. Heights, in the pair's unit, are the limits from both sides;
+    ``height_error`` estimates by how much either may be wrong, None where that was not stored.
     """
 
     phase_deg: float
     width_deg: float
     height_before: float
     height_after: float
+    height_error: float | None
 
     @property
     def fall(self) -> float:
@@ -105,11 +109,7 @@ def windows_of(pair: Pair, history: History) -> tuple[Window, ...]:
     windows = []
     for entry in (i for i in range(count) if inside[i] and not inside[i - 1]):
         length = next(n for n in range(1, count) if not inside[(entry + n) % count])
-        cut = [(entry + n) % count for n in range(length + 1)]
-        least_fall = HEIGHT_JUMP * pair.thread_pitch
-        windows.append(
-            _window([history.boundaries[i] for i in cut], [history.intervals[i] for i in cut[:-1]], least_fall)
-        )
+        windows.append(_window(pair, history, [(entry + n) % count for n in range(length + 1)]))
     return tuple(windows)
 
 
@@ -141,8 +141,10 @@ def _within_thread(interval: Interval) -> bool:
     return first.features in WITHIN_THREAD
 
 
-def _window(boundaries: list[Boundary], intervals: list[Interval], least_fall: float) -> Window:
-    """The window made of consecutive intervals, from the first to the last of the boundaries around them."""
+def _window(pair: Pair, history: History, cut: list[int]) -> Window:
+    """The window between the first and the last of consecutive boundaries, from their numbers."""
+    boundaries = [history.boundaries[i] for i in cut]
+    intervals = [history.intervals[i] for i in cut[:-1]]
     enter, leave = boundaries[0], boundaries[-1]
     start = enter.phase_deg
     within = [(boundary.high_deg, boundary.after) for boundary in boundaries[:-1]]
@@ -150,14 +152,15 @@ def _window(boundaries: list[Boundary], intervals: list[Interval], least_fall: f
     within += [(boundary.low_deg, boundary.before) for boundary in boundaries[1:]]
     heights = [(_height(state), _later(phase, start)) for phase, state in within if state is not None]
     lowest, lowest_deg = min(heights)
-    steepest = min(boundaries, key=lambda boundary: boundary.first_height_jump or 0.0)
-    snaps = -(steepest.first_height_jump or 0.0) > least_fall
+    least_fall = HEIGHT_JUMP * pair.thread_pitch
+    steepest = min(cut, key=lambda number: history.boundaries[number].first_height_jump or 0.0)
+    snaps = -(history.boundaries[steepest].first_height_jump or 0.0) > least_fall
     return Window(
         enter_deg=start,
         leave_deg=_later(leave.phase_deg, start),
-        enter_height=_height(_known(enter.before, enter.after)),
-        leave_height=_height(_known(leave.after, leave.before)),
-        snap=_snap(steepest) if snaps else None,
+        enter_height=_known(limit_before(pair, history, cut[0]), limit_after(pair, history, cut[0])).height,
+        leave_height=_known(limit_after(pair, history, cut[-1]), limit_before(pair, history, cut[-1])).height,
+        snap=_snap(pair, history, steepest) if snaps else None,
         lowest_deg=lowest_deg,
         lowest_height=lowest,
         courses=_courses(boundaries, intervals, start, least_fall),
@@ -191,14 +194,26 @@ def _courses(
     return tuple(courses)
 
 
-def _snap(boundary: Boundary) -> Snap:
-    before, after = _known(boundary.before, None), _known(boundary.after, None)
-    return Snap(boundary.phase_deg, boundary.width_deg, _height(before), _height(after))
+def _snap(pair: Pair, history: History, number: int) -> Snap:
+    """The fall at the boundary of that number, both sides of which are decided."""
+    boundary = history.boundaries[number]
+    before, after = _known(limit_before(pair, history, number), None), _known(limit_after(pair, history, number), None)
+    fold = before.fold or after.fold
+    return Snap(
+        boundary.phase_deg if fold is None else fold.phase_deg % CIRCLE_DEG,
+        boundary.width_deg if fold is None else 2.0 * fold.phase_error_deg,
+        before.height,
+        after.height,
+        max(before.error, after.error),
+    )
 
 
-def _known(state: ContactState | None, instead: ContactState | None) -> ContactState:
-    """The state, or the other one where it is undecided."""
-    known = state or instead
+Known = TypeVar("Known")
+
+
+def _known(side: Known | None, instead: Known | None) -> Known:
+    """What is known of a side of a boundary, or of the other one where it is undecided."""
+    known = side or instead
     assert known is not None, "both sides of a boundary are undecided"
     return known
 

@@ -149,8 +149,8 @@ clearance_window = Table(
     Column("position", Integer, nullable=False),
     *(Column(name, Double, nullable=False) for name in ("enter_deg", "leave_deg", "enter_height", "leave_height")),
     *(Column(name, Double, nullable=False) for name in ("lowest_deg", "lowest_height")),
-    # All null where no height jumps.
-    *(Column(f"snap_{name}", Double) for name in ("deg", "width_deg", "height_before", "height_after")),
+    # All null where no height jumps; the error is null, too, where an older threadstate computed the window.
+    *(Column(f"snap_{name}", Double) for name in ("deg", "width_deg", "height_before", "height_after", "height_error")),
     # Serves: the windows of an orientation, and of all, in order.
     PrimaryKeyConstraint(*_OF_WINDOW),
     ForeignKeyConstraint(_OF_CHUNK, ["chunk.library_id", "chunk.orientation"], ondelete="CASCADE"),

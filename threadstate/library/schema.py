@@ -9,7 +9,7 @@ from sqlalchemy.exc import DatabaseError
 
 from threadstate.errors import SchemaError
 
-SCHEMA_REVISION = "0003"
+SCHEMA_REVISION = "0004"
 """The newest migration, which the tables of ``threadstate.library.tables`` mirror."""
 
 MENDING_COMMAND = "threadstate migrate"
