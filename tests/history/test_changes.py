@@ -87,6 +87,17 @@ def test_a_steep_rise_is_no_jump() -> None:
     assert len(changes.line) == 0
 
 
+def test_a_root_is_no_jump_however_steep_and_a_step_upon_it_is_one() -> None:
+    def sample(line: Integers, place: Floats) -> Samples:
+        within = place < 8.0
+        root = 20_000.0 * np.sqrt(np.clip(place - 3.3, 0.0, 1e-3))
+        numbers = np.column_stack([np.zeros_like(place), within * (root + np.where(place > 3.4, 2.0, 0.0))])
+        return Samples(np.zeros(len(line), dtype=np.int64), numbers)
+
+    changes = changes_on_circles(sample, 1, PERIOD, Resolution(1.0, 1e-6, 1e-11, 1e-3))
+    assert changes.low == pytest.approx([3.4, 8.0], abs=1e-6)
+
+
 def test_a_denser_start_finds_what_comes_and_goes_within_a_step() -> None:
     edges, codes = [[0.0, 4.43, 4.56]], [[0, 1, 0]]
     assert len(found_in(edges, codes).line) == 0

@@ -22,6 +22,15 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+LASTING = 3
+"""Over so many halvings a jump has to stay in one half; a steep rise, as a root has where it begins, spreads.
+
+Of the rise of a root the steeper half has 0.71.
+"""
+
+LASTING_SHARE = 0.9
+"""The share of a rise that one half has to have."""
+
 NO_ANSWER = -1
 """The code of a place that has no code: where that begins and ends is narrowed less."""
 
@@ -71,7 +80,10 @@ class Changes:
 
 @dataclass(slots=True)
 class _Stretches:
-    """Stretches between two sampled places, and how the numbers rise beside them (NaN: not known)."""
+    """Stretches between two sampled places, and how the numbers rise beside them (NaN: not known).
+
+    ``lasting`` says over how many halvings in a row the rise has stayed in one half.
+    """
 
     line: Integers
     low: Floats
@@ -82,6 +94,7 @@ class _Stretches:
     high_value: Floats
     low_slope: Floats
     high_slope: Floats
+    lasting: Integers
 
     def __len__(self) -> int:
         return len(self.line)
@@ -127,6 +140,8 @@ def _narrowed(sample: Sampler, stretches: _Stretches, resolution: Resolution, co
         jumping = np.abs(stretches.high_value[:, 0] - stretches.low_value[:, 0]) > 1.0
         wanted = np.where(jumping, resolution.jump_width, resolution.width)
         wanted[~answered] = resolution.no_answer_width
+        spreads = (stretches.low_code == stretches.high_code) & (stretches.lasting < LASTING)
+        wanted[spreads] = resolution.jump_width
         narrow = stretches.high - stretches.low <= wanted
         found.append(stretches[changing & narrow])
         wide = stretches[changing & ~narrow]
@@ -158,6 +173,7 @@ def _unlike_their_middle(sample: Sampler, found: _Stretches, counts: Integers) -
         found.low_value[before],
         np.full_like(found.low_slope[after], np.nan),
         np.full_like(found.low_slope[after], np.nan),
+        np.zeros_like(found.lasting[after]),
     )
     middle = 0.5 * (whole.low + whole.high)
     counts += np.bincount(whole.line, minlength=len(counts))
@@ -188,6 +204,7 @@ def _start(sample: Sampler, line_count: int, period: float, step: float) -> _Str
         next_values.reshape(-1, width),
         np.roll(slope, 1, axis=1).reshape(-1, width),
         np.roll(slope, -1, axis=1).reshape(-1, width),
+        np.zeros_like(line),
     )
     # Beside a stretch of another code the slope is not that of this code's numbers.
     before, after = np.roll(codes, 1, axis=1).ravel(), np.roll(next_codes, -1, axis=1).ravel()
@@ -224,6 +241,7 @@ def _halved(whole: _Stretches, middle: Floats, samples: Samples) -> _Stretches:
         samples.values,
         whole.low_slope,
         above,
+        _lasting(whole, samples.values - whole.low_value),
     )
     second = _Stretches(
         whole.line,
@@ -235,5 +253,13 @@ def _halved(whole: _Stretches, middle: Floats, samples: Samples) -> _Stretches:
         whole.high_value,
         below,
         whole.high_slope,
+        _lasting(whole, whole.high_value - samples.values),
     )
     return _Stretches.joined([first, second])
+
+
+def _lasting(whole: _Stretches, rise: Floats) -> Integers:
+    """Over how many halvings the whole's rise has stayed in one half, if that is the one of this ``rise``."""
+    all_of_it = np.nan_to_num(np.abs(whole.high_value - whole.low_value)).max(axis=1)
+    stays = np.nan_to_num(np.abs(rise)).max(axis=1) >= LASTING_SHARE * all_of_it
+    return np.where(stays, whole.lasting + 1, 0)
