@@ -5,6 +5,7 @@
 # make paper      put the paper's statements to the test, write docs/paper-claims.md
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
+# make histories  look at the boundaries of random orientations' histories from outside
 # make designer   write the designer's session of the README and the table of windows, from the latest library
 # make docs       compute the answers shown in the documentation anew
 # make lock       renew the lock files after a change of dependencies (needs uv)
@@ -15,7 +16,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart stability docs lock designer
+.PHONY: setup run test bench paper chart stability docs lock designer histories
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -40,6 +41,9 @@ chart: setup
 
 stability: setup
 	$(BIN)/python -m studies.stability
+
+histories: setup
+	$(BIN)/python -m studies.history
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py

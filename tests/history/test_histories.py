@@ -8,10 +8,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from studies.history.boundaries import check_boundaries
 from threadstate.history import records
-from threadstate.history.build import POINT_DEG, RESOLUTION, histories_of, history_of
+from threadstate.history.build import RESOLUTION, histories_of, history_of
 from threadstate.history.labels import Labels, labels_of
-from threadstate.history.model import Boundary, History, Interval
+from threadstate.history.model import POINT_DEG, Boundary, History, Interval
 from threadstate.history.records import SolvedPoses
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
@@ -62,7 +63,7 @@ def test_every_boundary_is_narrow_and_bracketed_by_solved_states(histories: list
                 if state is not None:
                     assert state == solve_pose(PAIR, history.roll_deg, history.pitch_deg, phase % 360.0)
             if boundary.before is not None and boundary.after is not None:
-                assert boundary.width_deg <= POINT_DEG
+                assert boundary.flickers or boundary.width_deg <= POINT_DEG
 
 
 def test_labels_differ_across_a_boundary(histories: list[History]) -> None:
@@ -75,16 +76,25 @@ def test_labels_differ_across_a_boundary(histories: list[History]) -> None:
 def test_labels_agree_within_intervals(histories: list[History]) -> None:
     compared = 0
     for history in histories:
-        for interval in history.intervals:
-            if interval.width_deg > 100.0 * BESIDE_DEG and interval.labels.decided:
-                inside = [
-                    interval.start_deg + BESIDE_DEG,
-                    *np.linspace(interval.start_deg, interval.end_deg, 7)[1:-1].tolist(),
-                    interval.end_deg - BESIDE_DEG,
-                ]
+        opening = history.boundaries
+        closing = (*opening[1:], opening[0])
+        for interval, begins, ends in zip(history.intervals, opening, closing, strict=True):
+            start = interval.start_deg + 0.5 * begins.width_deg + BESIDE_DEG
+            end = interval.end_deg - 0.5 * ends.width_deg - BESIDE_DEG
+            if end - start > 100.0 * BESIDE_DEG and interval.labels.decided:
+                inside = [phase % 360.0 for phase in np.linspace(start, end, 7).tolist()]
                 assert set(labels_at(history, inside)) == {interval.labels}, (history.roll_deg, history.pitch_deg)
                 compared += 1
     assert compared > 60
+
+
+def test_boundaries_hold_from_outside(histories: list[History]) -> None:
+    check = check_boundaries(PAIR, histories)
+    assert check.boundaries == sum(len(history.boundaries) for history in histories)
+    assert check.sides > 1.9 * (check.boundaries - check.undecided)
+    assert check.alike == 0
+    assert check.failures == ()
+    assert check.flickering < 0.1 * check.boundaries
 
 
 def test_a_history_has_the_same_bits_alone_and_beside_others(histories: list[History]) -> None:
@@ -94,11 +104,12 @@ def test_a_history_has_the_same_bits_alone_and_beside_others(histories: list[His
 
 def test_ten_times_the_density_finds_nothing_new(histories: list[History]) -> None:
     dense = histories_of(PAIR, [ORIENTATIONS[0]], resolution=replace(RESOLUTION, step=RESOLUTION.step / 10.0))
-    phases = np.array([boundary.phase_deg for boundary in histories[0].boundaries])
-    dense_phases = [b.phase_deg for b in dense[0].boundaries if b.before is not None and b.after is not None]
-    assert len(dense_phases) > 30
-    for phase in dense_phases:
-        assert np.abs(phases - phase).min() <= BESIDE_DEG
+    found = histories[0].boundaries
+    decided = [boundary for boundary in dense[0].boundaries if boundary.decided]
+    assert len(decided) > 30
+    for boundary in decided:
+        apart = min(max(one.low_deg - boundary.high_deg, boundary.low_deg - one.high_deg) for one in found)
+        assert apart <= BESIDE_DEG
 
 
 def test_known_records_are_taken_and_change_nothing(histories: list[History], monkeypatch: pytest.MonkeyPatch) -> None:

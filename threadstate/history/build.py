@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 
-from threadstate.history.changes import NO_ANSWER, Changes, Floats, Integers, Resolution, Samples, changes_on_circles
+from threadstate.history.brackets import Bracket, brackets_of
+from threadstate.history.changes import (
+    NO_ANSWER,
+    Floats,
+    Integers,
+    Resolution,
+    Sampler,
+    Samples,
+    changes_on_circles,
+)
 from threadstate.history.codes import LabelCodes
 from threadstate.history.differences import contact_changes
+from threadstate.history.flicker import widened
 from threadstate.history.labels import labels_of
 from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
 from threadstate.history.records import RecordStore, SolvedPoses
@@ -22,25 +31,8 @@ from threadstate.thread.pair import Pair
 RESOLUTION = Resolution(step=1.0, width=5e-7, jump_width=1e-11, no_answer_width=1e-3)
 """In degrees; what a denser start finds is in decision 7."""
 
-POINT_DEG = 1e-6
-"""Labels that hold over less phase than this belong to a boundary: they are those of a point, a tie for instance."""
-
 TOGETHER = 8
 """Orientations that are searched together: so many keep their poses' records in some 20 MB."""
-
-UNDECIDED_GAP_DEG = 0.02
-"""Undecided stretches no farther apart than this are one: where the search ends early is no property of the parts."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Bracket:
-    """Two phases between which something changes, the codes at them, and places in between with codes of their own."""
-
-    low: float
-    high: float
-    low_code: int
-    high_code: int
-    through: tuple[float, ...] = ()
 
 
 def history_of(pair: Pair, roll_deg: float, pitch_deg: float, options: SolveOptions | None = None) -> History:
@@ -76,59 +68,46 @@ def _histories(
 ) -> list[History]:
     """The histories of orientations of shape (n, 2) whose poses are all kept in one store."""
     codes = LabelCodes(pair, options, store)
+    counts = np.zeros(len(orientations_deg), dtype=np.int64)
 
     def sample(line: Integers, phases: Floats) -> Samples:
+        counts[:] += np.bincount(line, minlength=len(counts))
         return codes.samples(np.column_stack([orientations_deg[line], phases]))
 
     changes = changes_on_circles(sample, len(orientations_deg), CIRCLE_DEG, resolution)
-    brackets = [_brackets(changes, line) for line in range(len(orientations_deg))]
+    brackets = [
+        _steady_brackets(codes, sample, orientation, line, brackets_of(changes, line))
+        for line, orientation in enumerate(orientations_deg)
+    ]
     wanted = [(*orientations_deg[line], phase) for line, found in enumerate(brackets) for phase in _phases(found)]
     states = iter(_states(pair, options, np.array(wanted), store))
     histories = []
-    for (roll, pitch), found, count in zip(
-        orientations_deg.tolist(), brackets, changes.sample_counts.tolist(), strict=True
-    ):
+    for (roll, pitch), found, count in zip(orientations_deg.tolist(), brackets, counts.tolist(), strict=True):
         boundaries, intervals = _cut(found, [next(states) for _ in _phases(found)])
         histories.append(History(roll, pitch, tuple(intervals), tuple(boundaries), count))
     return histories
 
 
-def _brackets(changes: Changes, line: int) -> list[_Bracket]:
-    """The brackets of a line in order, those joined that bound a point, those left out that part undecided phases."""
-    on_line = changes.line == line
-    columns = (changes.low, changes.high, changes.low_code, changes.high_code)
-    rows = zip(*(column[on_line].tolist() for column in columns), strict=True)
-    joined: list[_Bracket] = []
-    for bracket in (_Bracket(*row) for row in rows):
-        if joined and bracket.high - joined[-1].low < POINT_DEG:
-            joined[-1] = _joined(joined[-1], bracket)
-        else:
-            joined.append(bracket)
-    over_start = joined[0].high + CIRCLE_DEG - joined[-1].low if joined else CIRCLE_DEG
-    if len(joined) > 1 and over_start < POINT_DEG:
-        first = joined.pop(0)
-        later = tuple(phase + CIRCLE_DEG for phase in first.through)
-        once_more = replace(first, low=first.low + CIRCLE_DEG, high=first.high + CIRCLE_DEG, through=later)
-        joined[-1] = _joined(joined[-1], once_more)
-    kept: list[_Bracket] = []
-    for bracket in joined:
-        if (
-            kept
-            and kept[-1].low_code == bracket.high_code == NO_ANSWER
-            and bracket.low - kept[-1].high < UNDECIDED_GAP_DEG
-        ):
-            kept.pop()
-        else:
-            kept.append(bracket)
-    return kept
+def _steady_brackets(
+    codes: LabelCodes, sample: Sampler, orientation_deg: Floats, line: int, brackets: list[Bracket]
+) -> list[Bracket]:
+    """The brackets of a line, as wide as labels flicker where a contact is born beside an earlier one.
+
+    Where the height of first contact jumps that is the event, and the bracket stays as it is.
+    """
+    decided = [bracket for bracket in brackets if bracket.decided]
+    if not decided:
+        return brackets
+    ends = np.array([phase % CIRCLE_DEG for bracket in decided for phase in (bracket.low, bracket.high)])
+    poses = np.column_stack([np.tile(orientation_deg, (len(ends), 1)), ends])
+    beside = codes.born_beside(poses)
+    height = codes.samples(poses).values[:, 0]
+    unsure = (beside[0::2] | beside[1::2]) & (np.abs(height[1::2] - height[0::2]) <= 1.0)
+    doubtful = {bracket for bracket, doubt in zip(decided, unsure.tolist(), strict=True) if doubt}
+    return widened(sample, brackets, line, doubtful)
 
 
-def _joined(one: _Bracket, other: _Bracket) -> _Bracket:
-    through = (*one.through, 0.5 * (one.high + other.low), *other.through)
-    return _Bracket(one.low, other.high, one.low_code, other.high_code, through)
-
-
-def _phases(brackets: list[_Bracket]) -> list[float]:
+def _phases(brackets: list[Bracket]) -> list[float]:
     """The phases whose states are wanted: of every bracket its ends, what is in it, the middle after it."""
     if not brackets:
         return [0.5 * CIRCLE_DEG]
@@ -138,14 +117,14 @@ def _phases(brackets: list[_Bracket]) -> list[float]:
     return [phase % CIRCLE_DEG for phase in phases]
 
 
-def _with_intervals(brackets: list[_Bracket]) -> list[tuple[_Bracket, float, float]]:
+def _with_intervals(brackets: list[Bracket]) -> list[tuple[Bracket, float, float]]:
     """Every bracket with the start and the end of the interval after it."""
     starts = [0.5 * (bracket.low + bracket.high) for bracket in brackets]
     ends = [*starts[1:], starts[0] + CIRCLE_DEG]
     return list(zip(brackets, starts, ends, strict=True))
 
 
-def _cut(brackets: list[_Bracket], states: list[ContactState | None]) -> tuple[list[Boundary], list[Interval]]:
+def _cut(brackets: list[Bracket], states: list[ContactState | None]) -> tuple[list[Boundary], list[Interval]]:
     """Boundaries and intervals in order of phase, from the states at :func:`_phases`."""
     if not brackets:
         return [], [Interval(0.0, CIRCLE_DEG, labels_of(states[0]), states[0])]

@@ -33,6 +33,10 @@ Where edges graze, a contact runs along them so fast that shorter jumps cannot b
 """
 
 
+BESIDE = 1e-3
+"""How near to an earlier contact, in thread pitches, another one may be within round-off."""
+
+
 class LabelCodes:
     """Samples poses; a code is the place of its labels in the order in which they were met.
 
@@ -54,6 +58,18 @@ class LabelCodes:
         """
         parts = [self._batch(poses_deg[i : i + BATCH]) for i in range(0, len(poses_deg), BATCH)]
         return Samples(np.concatenate([p.codes for p in parts]), np.concatenate([p.values for p in parts]))
+
+    def born_beside(self, poses_deg: Floats) -> NDArray[np.bool_]:
+        """Whether poses of shape (n, 3) have a contact, not of a patch, nearer than BESIDE to an earlier one."""
+        records = self._store.records(poses_deg)
+        contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MOST_CONTACTS, rk.POINT_SIZE)
+        used = np.arange(rk.MOST_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
+        used &= contacts[:, :, rk.P_PAIR] != FLUSH
+        points = np.where(used[..., np.newaxis], contacts[:, :, rk.P_POINT : rk.P_POINT + 3], np.nan)
+        apart = np.linalg.norm(points[:, :, np.newaxis] - points[:, np.newaxis], axis=3)
+        of_two = np.triu(np.ones(apart.shape[1:], dtype=np.bool_), 1)
+        near: NDArray[np.bool_] = (of_two & (apart < BESIDE * self._pair.thread_pitch)).any(axis=(1, 2))
+        return near
 
     def _batch(self, poses_deg: Floats) -> Samples:
         records = self._store.records(poses_deg)

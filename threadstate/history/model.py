@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from threadstate.history.labels import ContactLabels, Labels
 from threadstate.state.model import ContactState
 
+POINT_DEG = 1e-6
+"""Labels that hold over less phase than this belong to a boundary: they are those of a point, a tie for instance."""
+
 CIRCLE_DEG = 360.0
 
 
@@ -57,6 +60,16 @@ class Boundary:
     def width_deg(self) -> float:
         """Width of the bracket: the phase is certain to half of it."""
         return self.high_deg - self.low_deg
+
+    @property
+    def decided(self) -> bool:
+        """Whether the states on both sides are known."""
+        return self.before is not None and self.after is not None
+
+    @property
+    def flickers(self) -> bool:
+        """Whether round-off decides the labels in the bracket, which is wider than any other between decided states."""
+        return self.decided and self.width_deg > POINT_DEG
 
     @property
     def first_height_jump(self) -> float | None:
