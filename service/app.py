@@ -7,17 +7,22 @@ from contextlib import asynccontextmanager
 
 from fastapi import Depends, FastAPI
 
+import service.building.endpoints
 import service.docs.endpoints
+import service.explorer.endpoints
 import service.health.endpoints
 import service.histories.computed
 import service.histories.endpoints
 import service.libraries.endpoints
+import service.meshes.endpoints
 import service.network.endpoints
+import service.orientations.endpoints
 import service.solve.endpoints
 import service.states.endpoints
 import service.undecided.endpoints
 import threadstate
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
+from service.explorer.unknown import install_unknown_page
 from service.middleware import BodyLimit, EncodedSlashes, HeadAsGet, SecurityHeaders
 from service.network.store import NetworkStore
 from service.parameters import refuse_unknown_parameters
@@ -59,15 +64,20 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.engine = engine
     app.state.networks = NetworkStore()
     install_problem_handlers(app)
+    install_unknown_page(app)
     for part in (
         service.libraries,
+        service.building,
         service.states,
+        service.orientations,
         service.histories,
         service.undecided,
         service.network,
+        service.meshes,
         service.solve,
         service.health,
         service.docs,
+        service.explorer,
     ):
         app.include_router(part.endpoints.router)
     app.include_router(service.histories.computed.router)

@@ -32,6 +32,25 @@ def representation(
     return Response(content, 200, all_headers, media_type)
 
 
+def zipped_representation(
+    request: Request, content: bytes, zipped: bytes, media_type: str, headers: dict[str, str] | None = None
+) -> Response:
+    """``content``, or to a client that takes gzip the same as ``zipped``; each has an ETag of its own."""
+    all_headers = {"Vary": "Accept-Encoding", **(headers or {})}
+    if _takes_gzip(request.headers.get("accept-encoding", "")):
+        return representation(request, zipped, media_type, {"Content-Encoding": "gzip", **all_headers})
+    return representation(request, content, media_type, all_headers)
+
+
+def _takes_gzip(accept_encoding: str) -> bool:
+    """Whether the header names gzip, or anything, and does not refuse it (``q=0``)."""
+    for coding in accept_encoding.lower().split(","):
+        name, _, weight = coding.replace(" ", "").partition(";q=")
+        if name in ("gzip", "*"):
+            return weight.strip("0.") != "" or weight == ""
+    return False
+
+
 def _matches(if_none_match: str, etag: str) -> bool:
     """Whether the header's list names ``etag``; for this header RFC 9110 has weak tags match as well."""
     tags = (tag.strip().removeprefix("W/") for tag in if_none_match.split(","))

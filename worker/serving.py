@@ -18,7 +18,7 @@ def become_service(database: str, host: str, port: int) -> NoReturn:
 
     What ``serve`` and ``run`` end with.
     """
-    tell(f"Open {address(host, port)}/docs in a browser, or ask {address(host, port)}/v1/libraries/latest.")
+    tell(f"Open {address(host, port)} in a browser, or ask {address(host, port)}/v1/libraries/latest.")
     arguments = [sys.executable, "-m", "uvicorn", SERVICE, "--factory", "--host", host, "--port", str(port)]
     os.execve(sys.executable, arguments, {**os.environ, DATABASE: database})
 

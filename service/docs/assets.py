@@ -5,15 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from threadstate.errors import NotFoundError
+from service.media_types import CSS, JAVASCRIPT, TEXT
+from service.third_party import third_party_file
 
+PACKAGE = "swagger-ui-dist"
 _HERE = Path(__file__).parent
-_IN_WHEEL = _HERE / "assets"
-_IN_SOURCE_TREE = _HERE.parent.parent / "node_modules" / "swagger-ui-dist"
-
-JAVASCRIPT = "text/javascript; charset=utf-8"
-CSS = "text/css; charset=utf-8"
-TEXT = "text/plain; charset=utf-8"
 
 
 @dataclass(frozen=True)
@@ -30,12 +26,7 @@ class Asset:
         Raises:
             NotFoundError: the third-party package was not fetched.
         """
-        if not self.third_party:
-            return (_HERE / self.name).read_bytes()
-        for folder in (_IN_WHEEL, _IN_SOURCE_TREE):
-            if (folder / self.name).is_file():
-                return (folder / self.name).read_bytes()
-        raise NotFoundError(f"{self.name} is not installed; run `make setup`")
+        return third_party_file(PACKAGE, self.name) if self.third_party else (_HERE / self.name).read_bytes()
 
 
 ASSETS = {

@@ -1,11 +1,11 @@
-"""``/docs``, ``/openapi.json`` and, for now, ``/``."""
+"""``/docs`` and ``/openapi.json``."""
 
 from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
-from fastapi.responses import RedirectResponse
 
 from service.docs.assets import ASSETS, PAGE
+from service.media_types import HTML
 from service.middleware import CONTENT_SECURITY_POLICY
 from service.representation import json_response, representation
 from threadstate.errors import NotFoundError
@@ -16,17 +16,11 @@ router = APIRouter(include_in_schema=False)
 _PAGE_POLICY = f"{CONTENT_SECURITY_POLICY}; style-src 'self' 'unsafe-inline'"
 
 
-@router.get("/")
-def root() -> Response:
-    """The interface's page is the entrance."""
-    return RedirectResponse("/docs")
-
-
 @router.get("/docs")
 def docs(request: Request) -> Response:
     """The interface, to be read and tried."""
     headers = {"Content-Security-Policy": _PAGE_POLICY}
-    return representation(request, PAGE.encode(), "text/html; charset=utf-8", headers)
+    return representation(request, PAGE.encode(), HTML, headers)
 
 
 @router.get("/docs/assets/{name}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 from threadstate.archive.rows import history_rows
 from threadstate.history.build import histories_of
@@ -19,8 +20,13 @@ from worker.migrate import migrate
 
 
 def histories_of_grid(grid: Grid) -> list[History]:
-    """The histories of all orientations of a grid, in order."""
-    return histories_of(quarter_twenty_unc(), [(roll, pitch) for roll in grid.tilts_deg for pitch in grid.tilts_deg])
+    """The histories of all orientations of a grid, in order; its phases do not matter."""
+    return list(_histories_of_tilts(grid.tilts_deg))
+
+
+@cache
+def _histories_of_tilts(tilts_deg: tuple[float, ...]) -> tuple[History, ...]:
+    return tuple(histories_of(quarter_twenty_unc(), [(roll, pitch) for roll in tilts_deg for pitch in tilts_deg]))
 
 
 def store_histories(database: str, grid: Grid, histories: Sequence[History]) -> None:

@@ -69,14 +69,19 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> StoredLibrary:
     return store_library(database, pair, Grid(4.0, 4.0, 36.0), lambda poses: solve_poses(pair, poses))
 
 
-@pytest.fixture(scope="session")
-def empty_database(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """A migrated database without a library."""
-    database = f"sqlite:///{tmp_path_factory.mktemp('empty') / 'library.sqlite3'}"
+def migrated_database(folder: Path) -> str:
+    """The URL of a new database in that folder, migrated and without a library."""
+    database = f"sqlite:///{folder / 'library.sqlite3'}"
     engine = writer_engine(database)
     migrate(engine)
     engine.dispose()
     return database
+
+
+@pytest.fixture(scope="session")
+def empty_database(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """A migrated database without a library."""
+    return migrated_database(tmp_path_factory.mktemp("empty"))
 
 
 def client_of(database: str) -> TestClient:

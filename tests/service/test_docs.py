@@ -14,9 +14,11 @@ from fastapi.testclient import TestClient
 from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
-from service.docs.assets import ASSETS
+from service.docs.assets import ASSETS, PACKAGE
+from service.explorer.files import THIRD_PARTY
 from service.histories.schemas import HistoryColumns, HistoryRows
 from service.libraries.schemas import LibraryDetail, LibraryList
+from service.media_types import JAVASCRIPT
 from service.problems import KINDS
 from service.solve.schemas import SolveAnswer
 from service.states.parameters import FIELDS
@@ -68,10 +70,6 @@ def test_other_files_are_not_served(client: TestClient) -> None:
         assert client.get(f"/docs/assets/{name}").status_code == 404
 
 
-def test_root_leads_to_the_page(client: TestClient) -> None:
-    assert client.get("/").url.path == "/docs"
-
-
 def test_files_that_are_no_python_are_in_a_built_wheel(tmp_path: Path, repository_root: Path) -> None:
     subprocess.run(
         [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)],
@@ -81,15 +79,18 @@ def test_files_that_are_no_python_are_in_a_built_wheel(tmp_path: Path, repositor
     )
     (wheel,) = tmp_path.glob("*.whl")
     names = zipfile.ZipFile(wheel).namelist()
-    third_party = [asset.name for asset in ASSETS.values() if asset.third_party]
-    for name in third_party:
-        assert f"service/docs/assets/{name}" in names
+    third_party = [f"{PACKAGE}/{asset.name}" for asset in ASSETS.values() if asset.third_party]
+    third_party += [f"{package}/{name}" for package, name, _ in THIRD_PARTY.values()]
+    assert {f"service/node_modules/{name}" for name in third_party} <= set(names)
     assert {"service/docs/start.js", "service/examples/state.json", "service/examples/solved_state.json"} <= set(names)
+    page = repository_root / "service" / "explorer" / "page"
+    assert {path.relative_to(repository_root).as_posix() for path in page.rglob("*.*")} <= set(names)
 
 
 def test_no_third_party_javascript_is_committed(repository_root: Path) -> None:
     tracked = subprocess.run(["git", "ls-files"], cwd=repository_root, check=True, capture_output=True, text=True)
     third_party = {asset.name for asset in ASSETS.values() if asset.third_party} - {"LICENSE", "NOTICE"}
+    third_party |= {Path(name).name for _, name, media_type in THIRD_PARTY.values() if media_type == JAVASCRIPT}
     assert not third_party & {Path(name).name for name in tracked.stdout.splitlines()}
 
 

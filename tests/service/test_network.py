@@ -239,3 +239,17 @@ def test_a_library_without_histories_says_so(client: TestClient) -> None:
     response = client.get(f"{LIBRARY}/windows")
     assert response.status_code == 404
     assert "no histories" in response.text
+
+
+def test_what_follows_is_told_by_its_class_and_by_what_changes(network_client: TestClient) -> None:
+    node = _json(network_client, f"{LIBRARY}/network/formations/{_key(network_client)}")["node"]
+    assert node["following"]
+    for one in node["following"]:
+        other = _json(network_client, f"{LIBRARY}/network/formations/{one['formation']}")["node"]["formation"]
+        assert one["class"] == other["class"]
+        same_class, same_contacts = (
+            other["class"] == node["formation"]["class"],
+            other["contacts"] == node["formation"]["contacts"],
+        )
+        assert ("contact" in one["change"]) is not same_contacts
+        assert (" to " in one["change"].partition(";")[0] and not one["change"].startswith("contact")) is not same_class

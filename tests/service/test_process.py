@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
-import os
-import re
-import subprocess
-import sys
 from collections.abc import Iterator
 
 import httpx2
 import pytest
 
 from tests.service.conftest import StoredLibrary
+from tests.service.running import running_service
 
 
 @pytest.fixture(scope="module")
 def address(made_up: StoredLibrary) -> Iterator[str]:
     """The address of a running service over the made-up library."""
-    command = [sys.executable, "-m", "uvicorn", "--factory", "service.app:create_app", "--port", "0"]
-    environment = {**os.environ, "THREADSTATE_DATABASE": made_up.database}
-    with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stderr is not None
-        for line in process.stderr:
-            if found := re.search(r"running on (http://\S+)", line):
-                yield found[1]
-                break
-        else:
-            pytest.fail("the service did not start")
-        process.terminate()
+    with running_service(made_up.database) as address:
+        yield address
 
 
 @pytest.mark.parametrize("name", ["latest", "1-4-20-unc", "1%2F4-20%20UNC"])

@@ -180,6 +180,8 @@ class FollowingDocument(_Document):
 
     move: Move
     formation: str = Field(description="its key")
+    state_class: StateClass | None = Field(serialization_alias="class", validation_alias=_CLASS)
+    change: str = Field(description="how it differs from the formation before, in words")
     cover: float
     share: float = Field(description="of the phase that the formation before covers")
 
@@ -226,6 +228,7 @@ class StepDocument(_Document):
     phase: float
     turning: float
     formation: str
+    state_class: StateClass | None = Field(serialization_alias="class", validation_alias=_CLASS)
     text: str
     margin: float | None
     in_window: bool

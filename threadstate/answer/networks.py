@@ -24,6 +24,7 @@ from threadstate.network.analysis import (
     telling_formations,
 )
 from threadstate.network.cells import Cell, CellMap
+from threadstate.network.changes import difference
 from threadstate.network.graph import ConstraintNetwork
 from threadstate.network.locate import Location
 from threadstate.network.paths import Path
@@ -62,7 +63,14 @@ def node_document(network: ConstraintNetwork, key: str, factor: float) -> NodeDo
             occurrences=reach.count, reaching=reach.reaching, least=reach.least_deg, most=reach.most_deg
         ),
         following=[
-            FollowingDocument(move=one.move, formation=one.formation.key, cover=one.cover_deg, share=one.share)
+            FollowingDocument(
+                move=one.move,
+                formation=one.formation.key,
+                state_class=one.formation.state_class,
+                change=difference(node.formation, one.formation).text,
+                cover=one.cover_deg,
+                share=one.share,
+            )
             for one in following(network, key)
         ],
         occurrences=[_occurrence(cell, network.cell_map, factor) for cell in node.cells],
@@ -82,6 +90,7 @@ def path_document(path: Path, cell_map: CellMap, factor: float) -> PathDocument:
                 phase=step.phase_deg,
                 turning=step.turning_deg,
                 formation=step.cell.formation.key,
+                state_class=step.cell.formation.state_class,
                 text=step.cell.formation.text,
                 margin=scaled(step.cell.margin, factor),
                 in_window=step.cell.in_window,

@@ -1,0 +1,77 @@
+"""Takes the pictures of the explorer, docs/explorer/*.png, from the running page (``make screenshots``).
+
+The service runs over the database of the settings, whose latest library has to be that of the default grid.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from selenium import webdriver
+
+from tests.explorer.browser import Explorer, resize, start_chromium
+from tests.service.running import running_service
+from threadstate.settings import read_settings
+
+FOLDER = Path(__file__).parent.parent / "docs" / "explorer"
+LAPTOP, DESKTOP = (1280, 800), (1920, 1080)
+DRAWN = (
+    "#map .cell",
+    "#depth .curve",
+    "#disks .disk",
+    "#state table",
+    "#network .card",
+    "#path .step",
+    "#scene canvas",
+)
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A picture: its file's name, the size of the page in pixels, the view as a fragment, the panel at its top."""
+
+    name: str
+    size: tuple[int, int]
+    view: str
+    panel: str | None = None
+
+
+SHOTS = (
+    Shot("laptop-light", LAPTOP, "roll=0&pitch=-4&phase=10&theme=light"),
+    Shot("laptop-dark", LAPTOP, "roll=-4&pitch=0&phase=131&theme=dark&quantity=drop"),
+    Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light", ".panel.network"),
+    Shot("desktop-light", DESKTOP, "roll=0&pitch=-4&phase=10&theme=light&quantity=window_width&from=-16&span=64"),
+    Shot("desktop-dark", DESKTOP, "roll=1&pitch=-2&phase=10&theme=dark&quantity=pivot_offset&over=all&stage=2"),
+)
+
+
+def main() -> None:
+    """Take all pictures."""
+    FOLDER.mkdir(exist_ok=True)
+    chromium = start_chromium(*LAPTOP)
+    try:
+        with running_service(read_settings().database) as address:
+            explorer = Explorer(chromium, address)
+            for shot in SHOTS:
+                _take(explorer, chromium, shot)
+    finally:
+        chromium.quit()
+
+
+def _take(explorer: Explorer, chromium: webdriver.Chrome, shot: Shot) -> None:
+    resize(chromium, *shot.size)
+    explorer.open(f"/#{shot.view}")
+    for selector in DRAWN:
+        explorer.one(selector)
+    label = "return document.querySelector('#scene canvas').getAttribute('aria-label') ?? ''"
+    explorer.wait(lambda: "phase" in explorer.run(label), "the scene is not drawn")
+    if shot.panel is not None:
+        explorer.run("document.querySelector(arguments[0]).scrollIntoView()", shot.panel)
+    path = FOLDER / f"{shot.name}.png"
+    path.write_bytes(chromium.get_screenshot_as_png())
+    print(f"{path.relative_to(FOLDER.parent.parent)}: {path.stat().st_size} bytes")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""How far the libraries are that are still being computed."""

@@ -1,0 +1,1 @@
+"""The explorer: a page for people who look before they read."""

@@ -1,0 +1,111 @@
+// The regions in contact: a disk for each of the three contacts, with a ring for the nut and one for the bolt.
+
+import { REGION_COLOURS } from "./colours.js";
+import { STAGES, atPhase, laneRadii, phaseOf, sectorPath, sectors } from "./disks.js";
+import { picture, pointIn, put, svg } from "./svg.js";
+import { REGIONS, shortRegion } from "./terms.js";
+
+const WIDTH = 860;
+const HEIGHT = 346;
+const APART = 284;
+const MIDDLE = 142;
+const RINGS = { nut_region: [72, 100], bolt_region: [40, 68] };
+const EDGE = 104;
+const NAMES = ["first contact", "second contact", "third contact"];
+
+/** The picture in a frame; `choose` is called with a phase that was pointed at. */
+export class DisksView {
+  #frame;
+  #choose;
+  #cursors = [];
+  #texts = [];
+
+  constructor(frame, choose) {
+    this.#frame = frame;
+    this.#choose = choose;
+  }
+
+  /** Draws everything but the cursors. */
+  draw(intervals) {
+    const root = picture(WIDTH, HEIGHT, "Regions in contact around the phase", { class: "disks" });
+    this.#cursors = [];
+    this.#texts = [];
+    STAGES.forEach((stage, k) => {
+      const centre = [APART / 2 + 4 + k * APART, MIDDLE];
+      root.append(this.#disk(intervals?.history.intervals ?? [], stage, centre));
+    });
+    root.append(...legend());
+    put(this.#frame, root);
+  }
+
+  /** Moves the cursors to a phase, and says under each disk what touches there. */
+  moveCursor(interval, phase) {
+    this.#cursors.forEach(({ line, centre }) => {
+      const [[x1, y1], [x2, y2]] = [atPhase(centre, RINGS.bolt_region[0] - 6, phase), atPhase(centre, EDGE + 2, phase)];
+      for (const [name, value] of Object.entries({ x1, y1, x2, y2 })) line.setAttribute(name, value);
+    });
+    this.#texts.forEach(({ group, x, stage }) => {
+      const contacts = interval?.formation.contacts.filter((contact) => contact.stage === stage) ?? [];
+      const lines = contacts.map((one) => `${shortRegion(one.bolt_region)} on ${shortRegion(one.nut_region)}`);
+      const shown = lines.length > 0 ? lines : ["none"];
+      put(group, ...shown.map((line, k) => svg("text", { x, y: MIDDLE + EDGE + 30 + 14 * k, "text-anchor": "middle" }, line)));
+    });
+  }
+
+  #disk(intervals, stage, centre) {
+    const [x] = centre;
+    const group = svg("g", { class: "disk" }, svg("text", { x, y: 14, "text-anchor": "middle", class: "name" }, NAMES[stage - 1]));
+    for (const [part, [inner, outer]] of Object.entries(RINGS)) {
+      group.append(svg("path", { d: sectorPath(centre, inner, outer, 0, 360), class: "empty" }));
+      for (const { start, end, lane, lanes, region } of sectors(intervals, stage, part)) {
+        const [low, high] = laneRadii(inner, outer, lane, lanes);
+        const path = svg("path", { d: sectorPath(centre, low, high, start, end), fill: REGION_COLOURS[region] });
+        path.append(svg("title", {}, `${part === "nut_region" ? "nut" : "bolt"}: ${REGIONS[region]}`));
+        group.append(path);
+      }
+    }
+    ["outer: nut", "inner: bolt"].forEach((text, k) => {
+      group.append(svg("text", { x, y: MIDDLE - 2 + 14 * k, "text-anchor": "middle", class: "title" }, text));
+    });
+    for (const phase of [0, 90, 180, 270]) group.append(phaseLabel(centre, phase));
+    const line = svg("line", { class: "cursor" });
+    const texts = svg("g", { class: "at-cursor" });
+    group.append(line, texts);
+    this.#cursors.push({ line, centre });
+    this.#texts.push({ group: texts, x, stage });
+    this.#listen(group, centre);
+    return group;
+  }
+
+  #listen(group, centre) {
+    const choose = (event) => this.#choose(phaseOf(centre, pointIn(group.ownerSVGElement, event)));
+    group.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      group.setPointerCapture(event.pointerId);
+      choose(event);
+    });
+    group.addEventListener("pointermove", (event) => {
+      if (group.hasPointerCapture(event.pointerId)) choose(event);
+    });
+  }
+}
+
+function phaseLabel(centre, phase) {
+  const [x, y] = atPhase(centre, EDGE + 5, phase);
+  const anchor = { 0: "start", 180: "end" }[phase] ?? "middle";
+  const down = { 90: 0, 270: 8 }[phase] ?? 4;
+  return svg("text", { x, y: y + down, "text-anchor": anchor, class: "title" }, `${phase}`);
+}
+
+function legend() {
+  const shown = Object.keys(REGIONS).filter((region) => region !== "base");
+  const columns = 5;
+  return shown.flatMap((region, k) => {
+    const x = 8 + (k % columns) * 172;
+    const y = HEIGHT - 36 + Math.floor(k / columns) * 19;
+    return [
+      svg("rect", { x, y, width: 13, height: 13, fill: REGION_COLOURS[region], class: "swatch" }),
+      svg("text", { x: x + 19, y: y + 11 }, REGIONS[region]),
+    ];
+  });
+}

@@ -1,0 +1,37 @@
+// The poses that a library holds.
+
+import { inTurn } from "./units.js";
+
+/** The values of roll, and of pitch, of a grid: -tilt_max to tilt_max. */
+export function tilts(grid) {
+  const steps = Math.round(grid.tilt_max / grid.tilt_step);
+  return Array.from({ length: 2 * steps + 1 }, (_, k) => decimal((k - steps) * grid.tilt_step));
+}
+
+/** The phase of the grid nearest to a phase. */
+export function nearestPhase(grid, phase) {
+  return inTurn(decimal(Math.round(inTurn(phase) / grid.phase_step) * grid.phase_step));
+}
+
+/** The next phase of the grid in the sense of `steps`, so many steps on. */
+export function steppedPhase(grid, phase, steps) {
+  const at = phase / grid.phase_step;
+  const first = steps > 0 ? Math.floor(at + 1e-9) : Math.ceil(at - 1e-9);
+  return inTurn(decimal((first + steps) * grid.phase_step));
+}
+
+/** The tilt of the grid nearest to a tilt. */
+export function nearestTilt(grid, tilt) {
+  const bounded = Math.min(Math.max(tilt, -grid.tilt_max), grid.tilt_max);
+  return decimal(Math.round(bounded / grid.tilt_step) * grid.tilt_step);
+}
+
+/** A phase just behind another one, with six decimals: where a state changes no pose may be decided. */
+export function behind(phase) {
+  return inTurn((Math.ceil(phase * 1e6) + 1) / 1e6);
+}
+
+/** The decimal number that a reader would write: 0.3 and not 0.30000000000000004. */
+function decimal(value) {
+  return Number(value.toFixed(9)) + 0;
+}

@@ -1,0 +1,77 @@
+// What the map of orientations can show.
+
+import { angle, length, percent } from "./units.js";
+
+/** How near the class is to a threshold: the least distance of the three that the state has. */
+export function nearestThreshold(margins) {
+  const known = Object.values(margins).filter((margin) => margin !== null).map(Math.abs);
+  return known.length > 0 ? Math.min(...known) : null;
+}
+
+const ofWindows = (pick) => (orientation) => (orientation.windows.length > 0 ? pick(orientation.windows) : null);
+const greatest = (windows, pick) => Math.max(...windows.map(pick));
+
+/**
+ * A quantity: its name, a line of help, how it is written, and how it is read from a state (`ofState`) and from an
+ * orientation's summary with its windows (`ofAll`, named by `all`). Without `ofState` it belongs to the orientation.
+ */
+export const QUANTITIES = {
+  class: {
+    name: "class",
+    help: "whether the bolt can stay where it comes to rest",
+    all: "share of phases with a stable state",
+    ofState: (state) => state.class,
+    ofAll: (orientation) => stableShare(orientation.counts),
+    write: (value) => percent(value),
+  },
+  window_width: {
+    name: "window width",
+    help: "width of the clearance window: how far the bolt can turn while its edge is within the thread",
+    ofAll: ofWindows((windows) => windows.reduce((sum, window) => sum + window.width, 0)),
+    write: (value) => angle(value, 3),
+  },
+  snap: {
+    name: "fall at the snap",
+    help: "how far the bolt falls at one phase on entering the window",
+    ofAll: ofWindows((windows) => greatest(windows, (window) => window.snap?.fall ?? 0)),
+    write: length,
+  },
+  drop: {
+    name: "drop",
+    help: "how far the origin sinks from the second contact to the third",
+    all: "greatest drop",
+    ofState: (state) => state.drop,
+    ofAll: (orientation) => orientation.drop_most,
+    write: length,
+  },
+  pivot_offset: {
+    name: "pivot offset",
+    help: "distance of the bolt's origin from the axis through the first two contacts",
+    all: "least pivot offset",
+    ofState: (state) => state.pivot_offset,
+    ofAll: (orientation) => orientation.pivot_offset_least,
+    write: length,
+  },
+  embedment: {
+    name: "embedment",
+    help: "how far the bolt would have to be in the nut for a third contact",
+    all: "greatest embedment",
+    ofState: (state) => state.embedment,
+    ofAll: (orientation) => orientation.embedment_most,
+    write: length,
+  },
+  margin: {
+    name: "margin of the class",
+    help: "distance of the nearest of the class's numbers from its threshold",
+    all: "least margin of the class",
+    ofState: (state) => nearestThreshold(state.margins),
+    ofAll: (orientation) => orientation.margin_least,
+    write: length,
+  },
+};
+
+/** The share of an orientation's states that are stable. */
+export function stableShare(counts) {
+  const all = Object.values(counts).reduce((sum, count) => sum + count, 0);
+  return all > 0 ? counts.stable_three_point / all : null;
+}

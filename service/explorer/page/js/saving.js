@@ -1,0 +1,37 @@
+// The buttons that save each panel's picture and table.
+
+import { lastStage } from "./motion.js";
+import { html } from "./html.js";
+import { say } from "./messages.js";
+import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
+import { contactTable, depthTable, followingTable, intervalTable, mapTable } from "./tables.js";
+
+const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", network: "#network svg" };
+const TABLES = { map: mapTable, phase: depthTable, disks: intervalTable, network: followingTable, state: contactTable };
+const NAMES = { map: "orientations", phase: "depth", disks: "regions", network: "what-follows", scene: "bolt-and-nut", state: "contacts" };
+
+/** Fills every place for save buttons; `sceneOf` returns the scene, or null. */
+export function wireSaving(model, view, sceneOf) {
+  for (const place of document.querySelectorAll("[data-save]")) {
+    const panel = place.dataset.save;
+    const name = () => fileName(NAMES[panel], model, view.value);
+    const button = (kind, save) => {
+      const made = html("button", { type: "button", "data-kind": kind, "aria-label": `save ${NAMES[panel]} as ${kind}` }, kind);
+      made.addEventListener("click", () => Promise.resolve(save()).catch(() => say(`There is nothing to save as ${kind} yet.`)));
+      place.append(made);
+    };
+    const picture = () => document.querySelector(PICTURES[panel]);
+    if (PICTURES[panel]) {
+      button("SVG", async () => saveSvg(name(), picture()));
+      button("PNG", async () => savePng(name(), picture()));
+    }
+    if (panel === "scene") button("PNG", async () => saveFile(`${name()}.png`, await sceneOf().png(), "image/png"));
+    if (TABLES[panel]) button("CSV", async () => saveTable(name(), TABLES[panel](model, view.value)));
+  }
+}
+
+/** A name that tells library, orientation and phase. */
+function fileName(what, { library, state }, { roll, pitch, phase, stage }) {
+  const staged = what === NAMES.scene && state?.state ? `_stage${Math.min(stage, lastStage(state.state)).toFixed(1)}` : "";
+  return `${library.slug}_${what}_roll${roll}_pitch${pitch}_phase${phase}${staged}`;
+}

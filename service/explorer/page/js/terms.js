@@ -1,0 +1,57 @@
+// The field's words for what the service names in its answers.
+
+export const CLASSES = {
+  stable_three_point: { name: "stable three-point", letter: "S", help: "three contacts hold the bolt, or it lies flush" },
+  quasi_stable_two_point: {
+    name: "quasi-stable two-point",
+    letter: "Q",
+    help: "two contacts, and the pivot axis passes near the bolt's origin",
+  },
+  unstable_two_point: { name: "unstable two-point", letter: "U", help: "two contacts, about which the bolt goes on turning" },
+};
+
+export const REGIONS = {
+  root: "root",
+  root_fillet_pos: "positive root fillet",
+  flank_pos: "positive flank",
+  crest_fillet_pos: "positive crest fillet",
+  crest: "crest",
+  crest_fillet_neg: "negative crest fillet",
+  flank_neg: "negative flank",
+  root_fillet_neg: "negative root fillet",
+  surface: "surface",
+  base: "base",
+};
+
+const SHORT_REGIONS = {
+  root_fillet_pos: "root fillet +",
+  flank_pos: "flank +",
+  crest_fillet_pos: "crest fillet +",
+  crest_fillet_neg: "crest fillet −",
+  flank_neg: "flank −",
+  root_fillet_neg: "root fillet −",
+};
+
+export const FLAGS = {
+  flush: "flush: the bolt's base lies on the nut's surface",
+  tie: "tie: several contacts at once",
+  balanced: "balanced: the origin lies on the pivot axis, both senses were followed",
+  grazing: "grazing: surfaces touch without crossing",
+  no_second: "no second contact within 45 deg",
+  no_third: "no third contact within 45 deg",
+};
+
+/** A state in one line: its class, and its flags in a few words. */
+export function stateLine({ class: stateClass, flags }) {
+  return [className(stateClass), ...flags.map((flag) => FLAGS[flag].split(/:| within/)[0])].join(", ");
+}
+
+/** A region in a few letters. */
+export function shortRegion(region) {
+  return SHORT_REGIONS[region] ?? REGIONS[region];
+}
+
+/** The class in words, or "undecided" where there is none. */
+export function className(stateClass) {
+  return CLASSES[stateClass]?.name ?? "undecided";
+}

@@ -1,0 +1,54 @@
+// Numbers as a reader wants them.
+
+const MINUS = "−";
+
+/** Decimals with which lengths are shown, by unit: a ten-thousandth of a thread pitch or so. */
+const LENGTH_DECIMALS = { in: 6, mm: 5 };
+
+/** A number with so many decimals, with a true minus sign; "none" for null. */
+export function fixed(value, decimals) {
+  if (value === null || value === undefined) return "none";
+  const text = Math.abs(value).toFixed(decimals);
+  return value < 0 && Number(text) !== 0 ? MINUS + text : text;
+}
+
+/** A length with its unit. */
+export function length(value, unit) {
+  if (value === null || value === undefined) return "none";
+  return `${lengthNumber(value, unit)} ${unit}`;
+}
+
+/** A length without its unit; what would round to nothing is given as a power of ten. */
+export function lengthNumber(value, unit) {
+  const decimals = LENGTH_DECIMALS[unit];
+  if (value !== 0 && Math.abs(value) < 0.5 * 10 ** -decimals) return power(value);
+  return fixed(value, decimals);
+}
+
+/** An angle in degrees, with its unit; trailing zeros left out. */
+export function angle(value, decimals = 6) {
+  return value === null || value === undefined ? "none" : `${angleNumber(value, decimals)} deg`;
+}
+
+/** An angle without its unit; trailing zeros left out. */
+export function angleNumber(value, decimals = 6) {
+  const text = fixed(value, decimals);
+  return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+}
+
+/** A share as a percentage. */
+export function percent(share) {
+  const value = share * 100;
+  if (value > 0 && value < 0.1) return "< 0.1 %";
+  return `${value >= 10 ? value.toFixed(0) : value.toFixed(1)} %`;
+}
+
+function power(value) {
+  return value.toExponential(1).replaceAll("-", MINUS);
+}
+
+/** An angle brought to 0 <= angle < 360. */
+export function inTurn(degrees) {
+  const rest = degrees % 360;
+  return rest < 0 ? rest + 360 : rest + 0;
+}

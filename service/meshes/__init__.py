@@ -1,0 +1,1 @@
+"""Bolt and nut as meshes, to be looked at."""

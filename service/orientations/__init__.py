@@ -1,0 +1,1 @@
+"""The orientations of a library, summed up over all phases."""

@@ -1,0 +1,127 @@
+"""A headless Chromium that looks at one service, and what it noticed."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from typing import Any
+from urllib.parse import urlsplit
+
+from selenium import webdriver
+from selenium.common.exceptions import TimeoutException
+from selenium.webdriver.common.by import By
+from selenium.webdriver.remote.webelement import WebElement
+from selenium.webdriver.support.ui import WebDriverWait
+
+ARGUMENTS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--no-first-run",
+    "--enable-unsafe-swiftshader",
+    "--force-color-profile=srgb",
+)
+WAIT_S = 20.0
+
+
+def start_chromium(width: int, height: int) -> webdriver.Chrome:
+    """A Chromium with a viewport of that size."""
+    driver = shutil.which("chromedriver")
+    assert driver, "chromedriver is missing; on Debian: apt-get install chromium chromium-driver"
+    options = webdriver.ChromeOptions()
+    for argument in ARGUMENTS:
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    chromium = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    resize(chromium, width, height)
+    return chromium
+
+
+def resize(chromium: webdriver.Chrome, width: int, height: int) -> None:
+    """Give the viewport that size in pixels."""
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+    chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+
+
+class Explorer:
+    """The explorer's page in a browser."""
+
+    def __init__(self, chromium: webdriver.Chrome, address: str) -> None:
+        self.chromium = chromium
+        self.address = address
+
+    def open(self, path: str = "/") -> None:
+        """Load the page anew at that path or fragment."""
+        self.chromium.get("about:blank")
+        self.chromium.get(self.address + path)
+
+    def run(self, script: str, *arguments: object) -> Any:
+        """What a script returns."""
+        return self.chromium.execute_script(script, *arguments)
+
+    def fetched(self, path: str) -> Any:
+        """The JSON that the page's own fetch gets at a path."""
+        return self.chromium.execute_async_script(
+            "const [path, done] = arguments; fetch(path).then((answer) => answer.json()).then(done)", path
+        )
+
+    def one(self, selector: str) -> WebElement:
+        """The element that a selector names, when it is there."""
+        self.wait(lambda: bool(self.chromium.find_elements(By.CSS_SELECTOR, selector)), f"no {selector}")
+        return self.chromium.find_element(By.CSS_SELECTOR, selector)
+
+    def all(self, selector: str) -> list[WebElement]:
+        """The elements that a selector names now."""
+        return self.chromium.find_elements(By.CSS_SELECTOR, selector)
+
+    def click(self, selector: str) -> None:
+        """Bring an element into view and click it."""
+        element = self.one(selector)
+        self.run("arguments[0].scrollIntoView({block: 'center'})", element)
+        element.click()
+
+    def text(self, selector: str) -> str:
+        """The text of an element."""
+        return str(self.run("return document.querySelector(arguments[0])?.textContent ?? ''", selector))
+
+    def wait(self, happened: Callable[[], bool], message: str) -> None:
+        """Wait until something has happened."""
+        try:
+            WebDriverWait(self.chromium, WAIT_S, poll_frequency=0.03).until(lambda _: happened())
+        except TimeoutException:
+            raise AssertionError(message) from None
+
+    def wait_for_text(self, selector: str, text: str) -> None:
+        """Wait until an element's text holds ``text``."""
+        self.wait(lambda: text in self.text(selector), f"{selector} does not say {text!r}")
+
+    def choose(self, selector: str, value: str) -> None:
+        """Set a control as its user does: with an event that bubbles."""
+        self.one(selector)
+        self.run(
+            "const [selector, value] = arguments; const control = document.querySelector(selector);"
+            "control.value = value; control.dispatchEvent(new Event('input', {bubbles: true}));"
+            "control.dispatchEvent(new Event('change', {bubbles: true}))",
+            selector,
+            value,
+        )
+
+    def complaints(self) -> list[str]:
+        """All that the console holds since it was last read: errors, warnings, policy violations.
+
+        What the graphics driver says of its pace is no complaint of the page.
+        """
+        entries = self.chromium.get_log("browser")
+        return [f"{one['level']}: {one['message']}" for one in entries if one["source"] != "rendering"]
+
+    def addresses_asked(self) -> list[str]:
+        """The addresses of all requests since they were last read."""
+        messages = [json.loads(entry["message"])["message"] for entry in self.chromium.get_log("performance")]
+        return [one["params"]["request"]["url"] for one in messages if one["method"] == "Network.requestWillBeSent"]
+
+
+def hosts_of(addresses: list[str]) -> set[str]:
+    """The hosts of addresses that lead out of the page."""
+    return {urlsplit(url).netloc for url in addresses if urlsplit(url).scheme not in ("data", "blob", "about")}

@@ -1,0 +1,50 @@
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from selenium import webdriver
+
+from tests.archive.history_library import histories_of_grid, store_histories
+from tests.explorer.browser import Explorer, hosts_of, start_chromium
+from tests.service.running import running_service
+from threadstate.library.grid import Grid
+
+GRID = Grid(4.0, 4.0, 5.0)
+"""Tilts of -4, 0 and 4 deg, phases by 5 deg."""
+
+
+@pytest.fixture(scope="session")
+def library_database(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """A database with a real library and its histories."""
+    database = f"sqlite:///{tmp_path_factory.mktemp('explorer') / 'library.sqlite3'}"
+    store_histories(database, GRID, histories_of_grid(GRID))
+    return database
+
+
+@pytest.fixture(scope="session")
+def address(library_database: str) -> Iterator[str]:
+    """The address of a running service over the real library."""
+    with running_service(library_database) as address:
+        yield address
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[webdriver.Chrome]:
+    """A headless browser as wide as a laptop's screen."""
+    chromium = start_chromium(1280, 800)
+    yield chromium
+    chromium.quit()
+
+
+@pytest.fixture
+def explorer(chromium: webdriver.Chrome, address: str) -> Iterator[Explorer]:
+    """The explorer; nothing may be complained of and nobody else asked, whatever a test does."""
+    explorer = Explorer(chromium, address)
+    explorer.open()
+    explorer.one("#map .cell")
+    explorer.complaints()
+    explorer.addresses_asked()
+    yield explorer
+    assert explorer.complaints() == []
+    assert hosts_of(explorer.addresses_asked()) <= {address.removeprefix("http://")}

@@ -1,0 +1,45 @@
+"""What axe-core finds on the page: nothing serious, in light and in dark."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.explorer.browser import Explorer
+
+AXE = Path("node_modules/axe-core/axe.min.js")
+GRAVE = ("serious", "critical")
+
+
+def violations(explorer: Explorer, axe: str) -> list[str]:
+    """Each grave violation that axe-core finds on the page as it is now."""
+    explorer.chromium.execute_cdp_cmd("Runtime.evaluate", {"expression": axe})
+    found: dict[str, Any] = explorer.chromium.execute_async_script(
+        "axe.run(document, {resultTypes: ['violations']}).then(arguments[0])"
+    )
+    assert len(found["passes"]) > 10
+    return [
+        f"{one['id']} ({one['help']}): {', '.join(str(node['target']) for node in one['nodes'][:5])}"
+        for one in found["violations"]
+        if one["impact"] in GRAVE
+    ]
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_serious(explorer: Explorer, repository_root: Path, theme: str) -> None:
+    explorer.choose("#theme", theme)
+    for selector in ("#scene canvas", "#network .card", "#path .step", "#disks .disk", "#state table"):
+        explorer.one(selector)
+    assert violations(explorer, (repository_root / AXE).read_text()) == []
+
+
+@pytest.mark.parametrize("path", ["/nowhere", "licences"])
+def test_axe_finds_nothing_serious_on_plain_pages(explorer: Explorer, repository_root: Path, path: str) -> None:
+    links = explorer.run("return [...document.querySelectorAll('nav a')].map((link) => link.getAttribute('href'))")
+    (address,) = [link for link in [*links, "/nowhere"] if path in link]
+    explorer.open(address)
+    explorer.one("main h2")
+    explorer.complaints()
+    assert violations(explorer, (repository_root / AXE).read_text()) == []

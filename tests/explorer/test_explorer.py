@@ -1,0 +1,258 @@
+"""The explorer as its user meets it: in a browser, over a real library."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+
+from tests.explorer.browser import Explorer
+
+LIBRARY = "/v1/libraries/latest"
+CLASS_NAMES = {
+    "unstable_two_point": "unstable two-point",
+    "quasi_stable_two_point": "quasi-stable two-point",
+    "stable_three_point": "stable three-point",
+}
+MINUS = "\N{MINUS SIGN}"
+
+
+def shown_numbers(explorer: Explorer) -> dict[str, str]:
+    """The rows of the state panel's first table, by their heads."""
+    rows = explorer.run(
+        "return [...document.querySelector('#state table').rows]"
+        ".map((row) => [...row.cells].map((one) => one.textContent))"
+    )
+    return dict(rows)
+
+
+def length_shown(value: float, unit: str = "in") -> str:
+    decimals = {"in": 6, "mm": 5}[unit]
+    return f"{value:.{decimals}f} {unit}".replace("-", MINUS)
+
+
+def choose_pose(explorer: Explorer, roll: int, pitch: int, phase: int) -> None:
+    """Choose an orientation on the map and a phase by the slider, and wait for its state."""
+    explorer.click(f'#map .cell[data-roll="{roll}"][data-pitch="{pitch}"]')
+    explorer.choose("#phase-slider", str(phase))
+    explorer.wait_for_text("#state", f"roll {roll} deg, pitch {pitch} deg, phase {phase} deg".replace("-", MINUS))
+
+
+def canvas_content(explorer: Explorer) -> list[int]:
+    """The pixels of the scene as they are seen, 64 by 64 of them."""
+    canvas = explorer.one("#scene canvas")
+    explorer.run("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    seen = canvas.screenshot_as_base64
+    pixels: list[int] = explorer.chromium.execute_async_script(
+        "const [png, done] = arguments; const image = new Image(); image.src = `data:image/png;base64,${png}`;"
+        "const small = Object.assign(document.createElement('canvas'), {width: 64, height: 64});"
+        "const context = small.getContext('2d'); image.decode().then(() => {"
+        "context.drawImage(image, 0, 0, 64, 64); done([...context.getImageData(0, 0, 64, 64).data]) })",
+        seen,
+    )
+    return pixels
+
+
+def colours_of(pixels: list[int]) -> set[tuple[int, ...]]:
+    return {tuple(pixels[k : k + 4]) for k in range(0, len(pixels), 4)}
+
+
+def wait_for_scene(explorer: Explorer, told: str) -> None:
+    """Wait until the scene was drawn with what its label says then."""
+    explorer.one("#scene canvas")
+    drawn = "return document.querySelector('#scene canvas').getAttribute('aria-label') ?? ''"
+    explorer.wait(lambda: told in explorer.run(drawn), f"the scene does not show {told}")
+
+
+def wait_for_canvas(explorer: Explorer, pixels: list[int]) -> None:
+    explorer.wait(lambda: canvas_content(explorer) == pixels, "the canvas is not as it was")
+
+
+def wait_for_another_canvas(explorer: Explorer, pixels: list[int]) -> None:
+    explorer.wait(lambda: canvas_content(explorer) != pixels, "the canvas stays as it was")
+
+
+def test_an_orientation_and_a_phase_lead_to_the_numbers_that_the_interface_gives(explorer: Explorer) -> None:
+    choose_pose(explorer, -4, 0, 130)
+    state = explorer.fetched(f"{LIBRARY}/states/-4/0/130")
+    shown = shown_numbers(explorer)
+    assert shown["class"].startswith(CLASS_NAMES[state["class"]])
+    assert shown["first contact at"] == length_shown(state["poses"][0]["translation"][2])
+    assert shown["at rest at"] == length_shown(state["poses"][-1]["translation"][2])
+    assert shown["drop"].startswith(length_shown(state["drop"]))
+    assert explorer.text("#state-line").startswith(CLASS_NAMES[state["class"]])
+
+
+def test_every_contact_and_pose_of_a_state_is_shown(explorer: Explorer) -> None:
+    choose_pose(explorer, 4, -4, 90)
+    state = explorer.fetched(f"{LIBRARY}/states/4/-4/90")
+    captions = [caption.text for caption in explorer.all("#state caption")]
+    assert len([caption for caption in captions if caption.startswith("contact")]) == len(state["contacts"])
+    assert len([caption for caption in captions if caption.startswith("bolt's pose")]) == len(state["poses"])
+    point = f"{state['contacts'][0]['point'][0]:.6f}".replace("-", MINUS)
+    assert point in explorer.text("#state")
+
+
+def test_lengths_follow_the_unit(explorer: Explorer) -> None:
+    choose_pose(explorer, -4, 0, 130)
+    explorer.choose("#unit", "mm")
+    explorer.wait_for_text("#depth", "z (mm)")
+    explorer.wait_for_text("#state", " mm")
+    state = explorer.fetched(f"{LIBRARY}/states/-4/0/130?unit=mm")
+    assert shown_numbers(explorer)["at rest at"] == length_shown(state["poses"][-1]["translation"][2], "mm")
+
+
+def test_a_phase_beside_the_grid_is_solved(explorer: Explorer) -> None:
+    explorer.choose("#phase", "131.25")
+    explorer.wait_for_text("#state", "the exact solver, asked now")
+    body = {"poses": [{"roll": 0, "pitch": -4, "phase": 131.25}]}
+    solved = explorer.chromium.execute_async_script(
+        "const [body, done] = arguments; fetch('/v1/solve', {method: 'POST', body: JSON.stringify(body), "
+        "headers: {'Content-Type': 'application/json'}}).then((answer) => answer.json()).then(done)",
+        body,
+    )
+    assert shown_numbers(explorer)["first contact at"] == length_shown(
+        solved["states"][0]["poses"][0]["translation"][2]
+    )
+
+
+def test_map_shows_each_quantity_with_its_values(explorer: Explorer) -> None:
+    windows = explorer.fetched(f"{LIBRARY}/windows")["windows"]
+    (window,) = [one for one in windows if (one["roll"], one["pitch"]) == (0, -4)]
+    explorer.choose("#quantity", "window_width")
+    explorer.wait_for_text("#map-readout", f"{window['width']:.3f} deg")
+    explorer.choose("#quantity", "drop")
+    explorer.choose("#over", "all")
+    summary = explorer.fetched(f"{LIBRARY}/orientations")["orientations"]
+    (one,) = [one for one in summary if (one["roll"], one["pitch"]) == (0, -4)]
+    explorer.wait_for_text("#map-readout", f"greatest drop {length_shown(one['drop_most'])}")
+
+
+def test_history_is_fetched_once_however_the_phase_moves(explorer: Explorer) -> None:
+    choose_pose(explorer, 4, 4, 90)
+    explorer.addresses_asked()
+    for phase in range(0, 360, 15):
+        explorer.choose("#phase-slider", str(phase))
+    explorer.wait_for_text("#state", "phase 345 deg")
+    assert not [address for address in explorer.addresses_asked() if "/histories/" in address]
+
+
+def test_depth_shows_intervals_window_and_snap(explorer: Explorer) -> None:
+    explorer.wait_for_text("#depth", "snap at")
+    history = explorer.fetched(f"{LIBRARY}/histories/0/-4/intervals")["history"]
+    assert len(explorer.all("#depth .boundary")) == len(history["boundaries"])
+    snap = history["windows"][0]["snap"]
+    assert f"{snap['phase']:.3f} deg: falls {length_shown(snap['fall'])}" in explorer.text("#depth")
+    explorer.click("#to-snap")
+    explorer.wait_for_text("#depth-readout", "in the clearance window")
+
+
+def test_a_point_of_the_depth_and_of_a_disk_move_the_phase(explorer: Explorer) -> None:
+    picture = explorer.one("#depth svg")
+    ActionChains(explorer.chromium).move_to_element(picture).click().perform()
+    explorer.wait(lambda: 150 < phase_of(explorer) < 190, "the phase is not that of the middle of the picture")
+    disk = explorer.one("#disks .disk")
+    ActionChains(explorer.chromium).move_to_element_with_offset(disk, 0, -60).click().perform()
+    explorer.wait(lambda: 60 < phase_of(explorer) < 120, "the phase is not that of the top of the disk")
+
+
+def phase_of(explorer: Explorer) -> float:
+    return float(explorer.run("return document.querySelector('#phase').value"))
+
+
+def test_disks_say_what_touches_at_the_phase(explorer: Explorer) -> None:
+    choose_pose(explorer, 4, -4, 0)
+    state = explorer.fetched(f"{LIBRARY}/states/4/-4/0")
+    explorer.wait_for_text("#disks .at-cursor", " on ")
+    lines = [element.text for element in explorer.all("#disks .at-cursor text")]
+    assert len([line for line in lines if line != "none"]) == len(state["contacts"])
+
+
+def test_stages_are_played_and_the_scene_is_orbited(explorer: Explorer) -> None:
+    choose_pose(explorer, -4, 0, 130)
+    wait_for_scene(explorer, "roll -4, pitch 0, phase 130 deg, third contact")
+    at_rest = canvas_content(explorer)
+    assert len(colours_of(at_rest)) > 100
+    explorer.click("#play-stages")
+    wait_for_scene(explorer, "from first contact to second contact")
+    wait_for_another_canvas(explorer, at_rest)
+    wait_for_scene(explorer, "third contact")
+    wait_for_canvas(explorer, at_rest)
+    canvas = explorer.one("#scene canvas")
+    canvas.send_keys(Keys.ARROW_LEFT, Keys.ARROW_UP, "+")
+    wait_for_another_canvas(explorer, at_rest)
+    canvas.send_keys("0")
+    wait_for_canvas(explorer, at_rest)
+
+
+def test_turn_through_phase_is_played_until_it_is_stopped(explorer: Explorer) -> None:
+    explorer.one("#scene canvas")
+    first = phase_of(explorer)
+    explorer.click("#play-phase")
+    explorer.wait(lambda: phase_of(explorer) > first + 10, "the bolt does not turn")
+    explorer.click("#play-phase")
+    assert explorer.one("#play-phase").get_attribute("aria-pressed") == "false"
+
+
+def test_network_is_followed(explorer: Explorer) -> None:
+    choose_pose(explorer, 0, -4, 130)
+    key = explorer.one('#network .card.here[data-move="ccw"]').get_attribute("data-key")
+    explorer.click('#network .card.here[data-move="ccw"]')
+    explorer.wait(lambda: phase_of(explorer) != 130, "the phase stays")
+    intervals: list[Any] = explorer.fetched(f"{LIBRARY}/histories/0/-4/intervals")["history"]["intervals"]
+    phase = phase_of(explorer)
+    (here,) = [one for one in intervals if one["start"] <= phase < one["end"]]
+    assert here["formation"]["key"] == key
+
+
+def test_path_leads_to_the_window(explorer: Explorer) -> None:
+    choose_pose(explorer, 0, -4, 130)
+    explorer.click("#path .step.window")
+    explorer.wait_for_text("#depth-readout", "in the clearance window")
+
+
+def test_a_link_restores_exactly_the_view(explorer: Explorer) -> None:
+    choose_pose(explorer, 4, 0, 200)
+    for selector, value in (("#unit", "mm"), ("#quantity", "pivot_offset"), ("#over", "all"), ("#theme", "dark")):
+        explorer.choose(selector, value)
+    explorer.choose("#nut-look", "glass")
+    explorer.choose("#stage", "1.5")
+    explorer.one("#scene canvas").send_keys(Keys.ARROW_LEFT, "+")
+    explorer.click("#zoom-in")
+    fragment = "quantity=pivot_offset&over=all"
+    explorer.wait(lambda: fragment in explorer.chromium.current_url, "the address does not follow")
+    explorer.wait(lambda: "span=180" in explorer.chromium.current_url, "the address does not follow the zoom")
+    wait_for_scene(explorer, "from first contact to second contact")
+    link = explorer.chromium.current_url
+    shown = [explorer.text(one) for one in ("#state", "#depth", "#map", "#network", "#disks")]
+    pixels = canvas_content(explorer)
+    explorer.open("/" + link.removeprefix(explorer.address + "/"))
+    wait_for_scene(explorer, "from first contact to second contact")
+    explorer.wait(
+        lambda: [explorer.text(one) for one in ("#state", "#depth", "#map", "#network", "#disks")] == shown,
+        "the view is not the same",
+    )
+    assert explorer.chromium.current_url == link
+    wait_for_canvas(explorer, pixels)
+
+
+def test_keyboard_reaches_everything(explorer: Explorer) -> None:
+    explorer.one("#path .step")
+    explorer.one("#scene canvas")
+    interactive = explorer.run(
+        "return [...document.querySelectorAll('a, button, select, input, [tabindex=\"0\"]')]"
+        ".filter((one) => !one.disabled && one.checkVisibility()).length"
+    )
+    explorer.run("document.activeElement.blur()")
+    seen = []
+    for _ in range(interactive + 2):
+        ActionChains(explorer.chromium).send_keys(Keys.TAB).perform()
+        seen.append(explorer.chromium.switch_to.active_element.id)
+    assert len(set(seen)) >= interactive
+    explorer.one('#map .cell[aria-selected="true"]').send_keys(Keys.ARROW_UP)
+    explorer.wait_for_text("#state", "roll 0 deg, pitch 0 deg")
+    focused = explorer.chromium.switch_to.active_element
+    assert (focused.get_attribute("data-roll"), focused.get_attribute("data-pitch")) == ("0", "0")
+    explorer.one('#network .card[data-move="ccw"]').send_keys(Keys.ENTER)
+    explorer.wait(lambda: phase_of(explorer) != 10, "Enter does not follow")

@@ -1,0 +1,105 @@
+"""Pictures, tables and lines that are taken from the page."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import shlex
+import urllib.request
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.explorer.browser import Explorer
+from tests.explorer.test_explorer import choose_pose, wait_for_scene
+
+PNG = b"\x89PNG\r\n\x1a\n"
+Save = Callable[[str, str], bytes]
+
+
+@pytest.fixture
+def save(explorer: Explorer, tmp_path: Path) -> Save:
+    """Saves a panel's picture or table by its button; the bytes of the file."""
+    explorer.chromium.execute_cdp_cmd(
+        "Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)}
+    )
+    choose_pose(explorer, -4, 0, 130)
+    wait_for_scene(explorer, "roll -4, pitch 0, phase 130 deg")
+    explorer.one("#network .card")
+
+    def save(panel: str, kind: str) -> bytes:
+        explorer.click(f'[data-save="{panel}"] button[data-kind="{kind}"]')
+        pattern = f"1-4-20-unc_*_roll-4_pitch0_phase130*.{kind.lower()}"
+        explorer.wait(lambda: any(tmp_path.glob(pattern)), f"no {kind} of {panel} was saved")
+        (path,) = tmp_path.glob(pattern)
+        content = path.read_bytes()
+        path.unlink()
+        return content
+
+    return save
+
+
+def test_pictures_are_saved_as_svg_and_png(save: Save) -> None:
+    for panel in ("map", "phase", "disks", "network"):
+        root = ET.fromstring(save(panel, "SVG"))
+        elements = list(root.iter())
+        assert len(elements) > 20
+        assert not [one for one in elements if {"class", "style", "tabindex"} & set(one.attrib)]
+        assert all(one.attrib["font-family"] for one in elements if one.tag.endswith("}text"))
+        assert "var(" not in ET.tostring(root, encoding="unicode")
+        assert save(panel, "PNG").startswith(PNG)
+
+
+def test_solids_are_saved_as_png(save: Save) -> None:
+    content = save("scene", "PNG")
+    assert content.startswith(PNG)
+    assert len(content) > 5000
+
+
+def test_tables_are_saved_with_the_numbers_of_the_interface(save: Save, explorer: Explorer) -> None:
+    def rows(panel: str) -> list[list[str]]:
+        return list(csv.reader(io.StringIO(save(panel, "CSV").decode())))
+
+    library = "/v1/libraries/latest"
+    heights = explorer.fetched(f"{library}/histories/-4/0/heights")["heights"]
+    shown = [[float(cell) if cell else None for cell in row] for row in rows("phase")[1:]]
+    columns = (heights["phases"], heights["first_heights"], heights["last_heights"])
+    assert shown == [list(row) for row in zip(*columns, strict=True)]
+    classes = {
+        (one["roll"], one["pitch"]): one["class"] for one in explorer.fetched(f"{library}/states?phase=130")["states"]
+    }
+    assert {(float(roll), float(pitch)): name for roll, pitch, name in rows("map")[1:]} == classes
+    intervals = explorer.fetched(f"{library}/histories/-4/0/intervals")["history"]["intervals"]
+    assert [row[3] for row in rows("disks")[1:]] == [one["formation"]["key"] for one in intervals]
+    contacts = explorer.fetched(f"{library}/states/-4/0/130")["contacts"]
+    assert [[float(cell) for cell in row[4:7]] for row in rows("state")[1:]] == [one["point"] for one in contacts]
+    key = explorer.run("return document.querySelector('#network .card.here').dataset.key")
+    assert key in {row[1] for row in rows("network")[1:]}
+
+
+def copied(explorer: Explorer, button: str) -> str:
+    """What a button puts on the clipboard."""
+    explorer.chromium.execute_cdp_cmd(
+        "Browser.grantPermissions", {"permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"]}
+    )
+    explorer.click(button)
+    explorer.wait_for_text("#toast", "on the clipboard")
+    return str(explorer.chromium.execute_async_script("navigator.clipboard.readText().then(arguments[0])"))
+
+
+def test_copied_lines_fetch_the_state_that_is_shown(explorer: Explorer) -> None:
+    choose_pose(explorer, -4, 0, 130)
+    state = json.loads(copied(explorer, "#copy-json"))
+    assert state == explorer.fetched("/v1/libraries/latest/states/-4/0/130")
+    _curl, address = shlex.split(copied(explorer, "#copy-curl"))
+    with urllib.request.urlopen(address) as answer:
+        assert json.load(answer) == state
+    found: dict[str, object] = {}
+    exec(copied(explorer, "#copy-python"), found)
+    assert found["state"] == state
+    link = copied(explorer, "#copy-link")
+    assert "roll=-4&pitch=0&phase=130" in link
+    assert link.startswith(explorer.address)
