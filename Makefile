@@ -5,7 +5,7 @@
 # make paper      put the paper's statements to the test, write docs/paper-claims.md
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
-# make histories  look at the boundaries of random orientations' histories from outside
+# make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
 # make designer   write the designer's session of the README and the table of windows, from the latest library
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew
@@ -49,6 +49,7 @@ stability: setup
 
 histories: setup
 	$(BIN)/python -m studies.history
+	$(BIN)/python -m studies.history --times 10
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py

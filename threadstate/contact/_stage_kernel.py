@@ -128,7 +128,7 @@ def set_motions(
 def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z: float, count: int, out: Array) -> int:
     """Inserts a contact by time unless the same is there already (found from the other edge)."""
     for i in range(count):
-        if abs(out[i, K_X] - x) + abs(out[i, K_Y] - y) + abs(out[i, K_Z] - z) < 1e-7 * (abs(x) + abs(y)):
+        if abs(out[i, K_X] - x) + abs(out[i, K_Y] - y) + abs(out[i, K_Z] - z) < EPS_PUNCTURE * (abs(x) + abs(y)):
             return count
     if count == MAX_CONTACTS:
         return count

@@ -34,6 +34,9 @@ REACH_THETA = 0.12
 REACH_Z = 0.2
 """The same along the axis, in pitches."""
 
+NOISE = 4e-15
+"""Round-off of phi, in thread pitches: where it changes slowly with time no steps get smaller than this allows."""
+
 # Where a motion has brought the bolt: rotation by rows, offset, and its twist there; a point x moves by
 # ``turn x x + drift``.
 S_ROT = 0
@@ -222,7 +225,7 @@ def polish(
         set_standing(motion, tau, standing)
         set_jet(theta, z, standing, bolt, nut, jet)
         small = abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (1.0 + abs(tau))
-        if small or (abs(jet[J_PHI]) < 1e-17 and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]):
+        if small or (abs(jet[J_PHI]) < NOISE * bolt[pk.P] and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]):
             converged = True
             break
     # Both parts are one thread pitch long.
