@@ -117,6 +117,20 @@ def test_an_overlap_too_thin_to_be_climbed_is_followed_by_its_touches() -> None:
         assert deepest_edge_point(state, share * state.embedment) < 0.0
 
 
+def test_two_edges_that_cross_hold_the_bolt_though_they_overlap_by_less_than_a_nanoinch() -> None:
+    """The embedment jumps once, where the gap between two overlaps closes that are 1e-11 in deep there."""
+    phases = 356.2205 + np.arange(-10, 11) * 1e-5
+    states = solve_poses(PAIR, [(-3.0, -4.0, phase) for phase in phases])
+    lifts = np.array([state.embedment or 0.0 for state in states])
+    assert (np.diff(lifts) > 0.0).all()
+    (jump,) = np.flatnonzero(np.diff(lifts) > 1e-6)
+    for state, lift in zip(states[:jump], lifts[:jump], strict=True):
+        assert deepest_edge_point(state, lift + 1e-10) < 0.0
+    for state, lift in zip(states[jump + 2 :: 4], lifts[jump + 2 :: 4], strict=True):
+        for share in np.linspace(0.1, 0.9, 9):
+            assert deepest_edge_point(state, share * lift) > 0.0
+
+
 def deepest_edge_point(state: ContactState, lift_inch: float) -> float:
     """How far inside the nut the deepest point of the bolt's edge is, found by sampling ever more closely."""
     rotation = np.array(state.poses[2].rotation)

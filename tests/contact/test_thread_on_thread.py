@@ -67,6 +67,18 @@ def test_a_maximum_beside_a_higher_one_is_not_missed(roll: float, pitch: float, 
     assert np.abs(np.diff(np.degrees(found[:, record.O_MU]), 2)).max() < 1e-3
 
 
+def test_a_slope_that_is_zero_to_the_last_bit_loses_no_ridge() -> None:
+    """It becomes the end of an interval of regula falsi, and the next slope is divided by it."""
+    phases = np.concatenate([np.linspace(358.72, 358.73, 21), 358.725 + 1e-5 * np.arange(-9, 10)])
+    phases.sort()
+    found = rows(
+        np.column_stack([np.full((len(phases), 2), (4.0, 1.0)), phases]), rectangles=False, turn_limit_deg=45.0
+    )
+    assert (found[:, THIRD_PAIR] == THREAD_THREAD).all()
+    line = np.polynomial.Polynomial.fit(phases, np.degrees(found[:, record.O_MU]), 3)
+    assert np.abs(np.degrees(found[:, record.O_MU]) - line(phases)).max() < 1e-4
+
+
 @pytest.mark.parametrize(
     ("roll", "pitch", "phase"),
     [

@@ -60,6 +60,9 @@ FURTHER = 1e-7
 SHALLOW = 1e-12
 """Depth of a witness, in thread pitches."""
 
+NARROW = 1e-11
+"""Half-width (rad) of the narrowest overlap that has a witness: where two edges cross they are deep and narrow."""
+
 MOST_WITNESSES = 40
 MOST_STEPS = 4000
 
@@ -170,10 +173,10 @@ def witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array, work
     left = high - lift
     up = np.array([0.0, 0.0, 1.0])
     set_motions(raised, False, False, up, up, bolt_walks, nut_walks)
-    said, theta = inside_at(bolt_walks, bolt, nut, none, 0, SHALLOW, boxes, others)
+    said, theta = inside_at(bolt_walks, bolt, nut, none, 0, SHALLOW, NARROW, boxes, others)
     if said == INSIDE:
         return INSIDE, lift + walker_until(theta, left, bolt_walks, bolt, nut, bounds, path)
-    of_nut, theta = inside_at(nut_walks, nut, bolt, none, 0, SHALLOW, boxes, others)
+    of_nut, theta = inside_at(nut_walks, nut, bolt, none, 0, SHALLOW, NARROW, boxes, others)
     if of_nut == INSIDE:
         return INSIDE, lift + walker_until(theta, left, nut_walks, nut, bolt, bounds, path)
     if said == NOT_DECIDED or of_nut == NOT_DECIDED:

@@ -189,6 +189,8 @@ def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossing
                 up = b > 0.0
                 left = 1.0 - b / (b_low if up else b_high)
                 left = left if left > 0.0 else 0.5
+                # Where a slope was zero to the last bit the next one divides by it.
+                left = left if left <= 1.0 else 0.5
                 batch[C_Z + j] = z
                 batch[C_A + j] = a
                 batch[C_PHI + j] = phi

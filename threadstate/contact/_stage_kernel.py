@@ -52,6 +52,9 @@ LONGER = 1.25
 SHALLOW = 1e-10
 """Depth (thread pitches) up to which an edge counts as touching."""
 
+NARROW = 1e-7
+"""Half-width (rad) of an overlap that is not told apart from a contact."""
+
 SHORTER = 0.25
 SHORTEST_SPAN = 1e-9
 """How much shorter a span is made that has too many boxes, and where that ends (rad, or the pair's unit)."""
@@ -356,7 +359,7 @@ def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Ar
     bolt_mark_count, nut_mark_count = set_marks(contacts, count, pose, bolt, nut, bolt_marks, nut_marks)
     down = np.array([0.0, 0.0, -1.0])
     set_motions(pose, False, False, down, down, bolt_walks, nut_walks)
-    said, _ = inside_at(bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, SHALLOW, boxes, others)
+    said, _ = inside_at(bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, SHALLOW, NARROW, boxes, others)
     if said == OUTSIDE:
-        said, _ = inside_at(nut_walks, nut, bolt, nut_marks, nut_mark_count, SHALLOW, boxes, others)
+        said, _ = inside_at(nut_walks, nut, bolt, nut_marks, nut_mark_count, SHALLOW, NARROW, boxes, others)
     return said != OUTSIDE

@@ -65,9 +65,6 @@ AROUND = 8.0
 NOISE = 1e-14
 """Round-off of a distance from a surface, in thread pitches."""
 
-NARROW = 1e-7
-"""Half-width (rad) of an overlap that is not told apart from a contact."""
-
 MOST_BOXES = 4_000
 
 PIN_COST = 24
@@ -360,13 +357,14 @@ def inside_at(
     marks: Array,
     mark_count: int,
     shallow: float,
+    narrow: float,
     boxes: Array,
     others: Array,
 ) -> tuple[int, float]:
     """Whether the edge curve is inside the other solid at the start of a motion, beyond its contacts ``marks``.
 
     INSIDE and the azimuth of a point that is; OUTSIDE: nowhere by more than ``shallow`` thread pitches over more than
-    ``NARROW``; NOT_DECIDED: too many boxes.
+    ``narrow`` (rad); NOT_DECIDED: too many boxes.
     """
     n = begin(0.0, 0.0, boxes)
     while n > 0:
@@ -377,7 +375,7 @@ def inside_at(
         for i in range(n):
             verdict = int(boxes[X_VERDICT + i])
             half = boxes[X_HALF + i]
-            if verdict == EMPTY or half < NARROW:
+            if verdict == EMPTY or half < narrow:
                 continue
             theta, depth = boxes[X_THETA + i], boxes[X_DEPTH + i]
             if depth > deepest:
