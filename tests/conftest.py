@@ -1,15 +1,53 @@
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
+from tests.databases import KINDS, Databases, PostgresqlDatabases, SqliteDatabases
+from tests.postgresql_server import PostgresqlServer, running_server
+
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("repeatable")
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """A test on databases runs on each kind, unless it is marked as one of one kind alone."""
+    if "databases" in metafunc.fixturenames:
+        marked = {mark.name for mark in metafunc.definition.iter_markers()}
+        kinds = [kind for kind in KINDS if not marked & {f"{other}_alone" for other in KINDS if other != kind}]
+        metafunc.parametrize("databases", kinds, indirect=True, scope="session")
 
 
 @pytest.fixture(scope="session")
 def repository_root() -> Path:
     """The root of the source tree."""
     return Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="session")
+def postgresql_server() -> Iterator[PostgresqlServer]:
+    """A PostgreSQL server, which all tests share."""
+    with running_server() as server:
+        yield server
+
+
+@pytest.fixture(scope="session")
+def sqlite_databases(tmp_path_factory: pytest.TempPathFactory) -> Databases:
+    """Makes SQLite files."""
+    return SqliteDatabases(tmp_path_factory.mktemp("databases"))
+
+
+@pytest.fixture(scope="session")
+def postgresql_databases(postgresql_server: PostgresqlServer) -> Databases:
+    """Makes databases of the PostgreSQL server."""
+    return PostgresqlDatabases(postgresql_server)
+
+
+@pytest.fixture(scope="session")
+def databases(request: pytest.FixtureRequest) -> Databases:
+    """Makes databases of the kind that the test is at."""
+    made: Databases = request.getfixturevalue(f"{request.param}_databases")
+    return made

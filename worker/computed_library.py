@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from threadstate.library.engine import writer_engine
+from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.schema import check_schema, stored_revision
@@ -36,13 +36,10 @@ def computed_library(
     """
     pair = pair_by_designation(DEFAULT_DESIGNATION if designation is None else designation)
     inputs = LibraryInputs(pair, Grid(tilt_max_deg, tilt_step_deg, phase_step_deg), SolveOptions(), mesh)
-    engine = writer_engine(database)
-    try:
+    with writing(database) as engine:
         if stored_revision(engine) is None:
             running_forkserver()  # it loads the kernels meanwhile
             migrate(engine)
         check_schema(engine)
         with progress_bar() as progress:
             return rebuild(engine, inputs, workers, progress)
-    finally:
-        engine.dispose()

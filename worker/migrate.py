@@ -8,6 +8,7 @@ from pathlib import Path
 from sqlalchemy import Engine
 
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
+from threadstate.library.turns import Turn, take_turn
 
 
 @dataclass(frozen=True)
@@ -42,5 +43,6 @@ def _upgrade(engine: Engine) -> None:
     config = Config()
     config.set_main_option("script_location", str(Path(migrations.__file__).parent).replace("%", "%%"))
     with engine.begin() as connection:
+        take_turn(connection, Turn.MIGRATE)
         config.attributes["connection"] = connection
         command.upgrade(config, SCHEMA_REVISION)

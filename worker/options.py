@@ -14,7 +14,8 @@ Database = Annotated[
     typer.Option(
         "--database",
         metavar="URL",
-        help="A SQLite file, such as sqlite:////absolute/path/threadstate.sqlite3.",
+        help="A SQLite file (sqlite:////absolute/path/file.sqlite3) or a PostgreSQL database "
+        "(postgresql+psycopg://user@host/name).",
         show_default=f"{settings.DATABASE}, else a file in the data directory",
     ),
 ]

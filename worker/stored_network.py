@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from sqlalchemy import Connection
 
 from threadstate.answer.library_network import LibraryNetwork, library_network
-from threadstate.library.engine import reader_engine
+from threadstate.library.engine import reading
 from threadstate.library.read import latest_library
 from threadstate.library.schema import check_schema
 from threadstate.settings import read_settings
@@ -28,7 +28,7 @@ def stored_network(database: str | None) -> LibraryNetwork:
 @contextmanager
 def connected_network(database: str | None) -> Iterator[tuple[Connection, LibraryNetwork]]:
     """As :func:`stored_network`, with the connection that it was read by."""
-    engine = reader_engine(database or read_settings().database)
-    check_schema(engine)
-    with engine.connect() as connection:
-        yield connection, library_network(connection, latest_library(connection))
+    with reading(database or read_settings().database) as engine:
+        check_schema(engine)
+        with engine.connect() as connection:
+            yield connection, library_network(connection, latest_library(connection))

@@ -9,6 +9,8 @@ from __future__ import annotations
 import sqlalchemy as sa
 from alembic import op
 
+from migrations.text import bytewise_string, bytewise_text
+
 revision = "0001"
 down_revision = None
 branch_labels = None
@@ -20,13 +22,13 @@ def upgrade() -> None:
     op.create_table(
         "library",
         sa.Column("id", sa.Integer(), nullable=False),
-        sa.Column("designation", sa.String(length=100), nullable=False),
-        sa.Column("length_unit", sa.String(length=2), nullable=False),
-        sa.Column("input_sha256", sa.String(length=64), nullable=False),
-        sa.Column("pair", sa.Text(), nullable=False),
-        sa.Column("method", sa.String(length=32), nullable=False),
-        sa.Column("options", sa.Text(), nullable=False),
-        sa.Column("code_version", sa.String(length=32), nullable=False),
+        sa.Column("designation", bytewise_string(100), nullable=False),
+        sa.Column("length_unit", bytewise_string(2), nullable=False),
+        sa.Column("input_sha256", bytewise_string(64), nullable=False),
+        sa.Column("pair", bytewise_text(), nullable=False),
+        sa.Column("method", bytewise_string(32), nullable=False),
+        sa.Column("options", bytewise_text(), nullable=False),
+        sa.Column("code_version", bytewise_string(32), nullable=False),
         sa.Column("tilt_max_deg", sa.Double(), nullable=False),
         sa.Column("tilt_step_deg", sa.Double(), nullable=False),
         sa.Column("phase_step_deg", sa.Double(), nullable=False),
@@ -34,7 +36,7 @@ def upgrade() -> None:
         sa.Column("phase_count", sa.Integer(), nullable=False),
         sa.Column("state_count", sa.Integer(), nullable=False),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
-        sa.Column("content_sha256", sa.String(length=64), nullable=True),
+        sa.Column("content_sha256", bytewise_string(64), nullable=True),
         sa.Column("published_at", sa.DateTime(timezone=True), nullable=True),
         sa.CheckConstraint("length_unit = 'in' OR length_unit = 'mm'", name=op.f("ck_library_length_unit_known")),
         sa.CheckConstraint(
@@ -58,7 +60,7 @@ def upgrade() -> None:
         sa.Column("roll_deg", sa.Double(), nullable=False),
         sa.Column("pitch_deg", sa.Double(), nullable=False),
         sa.Column("state_count", sa.Integer(), nullable=False),
-        sa.Column("content_sha256", sa.String(length=64), nullable=False),
+        sa.Column("content_sha256", bytewise_string(64), nullable=False),
         sa.CheckConstraint("orientation >= 0", name=op.f("ck_chunk_orientation_not_negative")),
         sa.CheckConstraint("state_count > 0", name=op.f("ck_chunk_not_empty")),
         sa.ForeignKeyConstraint(["library_id"], ["library.id"], name=op.f("fk_chunk_library"), ondelete="CASCADE"),
@@ -72,7 +74,7 @@ def upgrade() -> None:
         sa.Column("roll_deg", sa.Double(), nullable=False),
         sa.Column("pitch_deg", sa.Double(), nullable=False),
         sa.Column("phase_deg", sa.Double(), nullable=False),
-        sa.Column("state_class", sa.String(length=32), nullable=False),
+        sa.Column("state_class", bytewise_string(32), nullable=False),
         sa.Column("lambda_deg", sa.Double(), nullable=True),
         sa.Column("mu_deg", sa.Double(), nullable=True),
         sa.Column("drop", sa.Double(), nullable=True),
@@ -139,9 +141,9 @@ def upgrade() -> None:
         sa.Column("normal_x", sa.Double(), nullable=False),
         sa.Column("normal_y", sa.Double(), nullable=False),
         sa.Column("normal_z", sa.Double(), nullable=False),
-        sa.Column("bolt_region", sa.String(length=32), nullable=False),
-        sa.Column("nut_region", sa.String(length=32), nullable=False),
-        sa.Column("features", sa.String(length=32), nullable=False),
+        sa.Column("bolt_region", bytewise_string(32), nullable=False),
+        sa.Column("nut_region", bytewise_string(32), nullable=False),
+        sa.Column("features", bytewise_string(32), nullable=False),
         sa.Column("bolt_margin", sa.Double(), nullable=False),
         sa.Column("nut_margin", sa.Double(), nullable=False),
         sa.CheckConstraint(
@@ -218,7 +220,7 @@ def upgrade() -> None:
         sa.Column("library_id", sa.Integer(), nullable=False),
         sa.Column("ordinal", sa.Integer(), nullable=False),
         sa.Column("position", sa.Integer(), nullable=False),
-        sa.Column("flag", sa.String(length=32), nullable=False),
+        sa.Column("flag", bytewise_string(32), nullable=False),
         sa.CheckConstraint(
             "flag = 'flush' OR flag = 'tie' OR flag = 'balanced' OR flag = 'grazing' OR "
             "flag = 'no_second' OR flag = 'no_third'",

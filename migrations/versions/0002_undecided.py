@@ -9,6 +9,8 @@ from __future__ import annotations
 import sqlalchemy as sa
 from alembic import op
 
+from migrations.text import bytewise_text
+
 revision = "0002"
 down_revision = "0001"
 branch_labels = None
@@ -25,7 +27,7 @@ def upgrade() -> None:
         sa.Column("roll_deg", sa.Double(), nullable=False),
         sa.Column("pitch_deg", sa.Double(), nullable=False),
         sa.Column("phase_deg", sa.Double(), nullable=False),
-        sa.Column("reason", sa.Text(), nullable=False),
+        sa.Column("reason", bytewise_text(), nullable=False),
         sa.CheckConstraint("ordinal >= 0", name=op.f("ck_undecided_ordinal_not_negative")),
         sa.ForeignKeyConstraint(["library_id"], ["library.id"], name=op.f("fk_undecided_library"), ondelete="CASCADE"),
         sa.PrimaryKeyConstraint("library_id", "ordinal", name=op.f("pk_undecided")),

@@ -9,6 +9,8 @@ from __future__ import annotations
 import sqlalchemy as sa
 from alembic import op
 
+from migrations.text import bytewise_string, bytewise_text
+
 revision = "0003"
 down_revision = "0002"
 branch_labels = None
@@ -61,8 +63,8 @@ def upgrade() -> None:
     op.create_table(
         "formation",
         sa.Column("library_id", sa.Integer(), nullable=False),
-        sa.Column("formation", sa.String(length=10), nullable=False),
-        sa.Column("state_class", sa.String(length=32), nullable=True),
+        sa.Column("formation", bytewise_string(10), nullable=False),
+        sa.Column("state_class", bytewise_string(32), nullable=True),
         sa.CheckConstraint(
             _one_of("state_class", _CLASSES),
             name=op.f("ck_formation_state_class_known"),
@@ -99,12 +101,12 @@ def upgrade() -> None:
     op.create_table(
         "formation_contact",
         sa.Column("library_id", sa.Integer(), nullable=False),
-        sa.Column("formation", sa.String(length=10), nullable=False),
+        sa.Column("formation", bytewise_string(10), nullable=False),
         sa.Column("position", sa.Integer(), nullable=False),
         sa.Column("stage", sa.Integer(), nullable=False),
-        sa.Column("bolt_region", sa.String(length=32), nullable=False),
-        sa.Column("nut_region", sa.String(length=32), nullable=False),
-        sa.Column("features", sa.String(length=32), nullable=False),
+        sa.Column("bolt_region", bytewise_string(32), nullable=False),
+        sa.Column("nut_region", bytewise_string(32), nullable=False),
+        sa.Column("features", bytewise_string(32), nullable=False),
         sa.CheckConstraint(
             _one_of("bolt_region", _BOLT_REGIONS),
             name=op.f("ck_formation_contact_bolt_region_known"),
@@ -138,7 +140,7 @@ def upgrade() -> None:
         sa.Column("first_height_after", sa.Double(), nullable=True),
         sa.Column("last_height_before", sa.Double(), nullable=True),
         sa.Column("last_height_after", sa.Double(), nullable=True),
-        sa.Column("flags_between", sa.Text(), nullable=False),
+        sa.Column("flags_between", bytewise_text(), nullable=False),
         sa.CheckConstraint("low_deg <= high_deg", name=op.f("ck_history_boundary_phases_in_order")),
         sa.ForeignKeyConstraint(
             ["library_id", "orientation"],
@@ -156,8 +158,8 @@ def upgrade() -> None:
         sa.Column("position", sa.Integer(), nullable=False),
         sa.Column("start_deg", sa.Double(), nullable=False),
         sa.Column("end_deg", sa.Double(), nullable=False),
-        sa.Column("formation", sa.String(length=10), nullable=False),
-        sa.Column("flags", sa.Text(), nullable=False),
+        sa.Column("formation", bytewise_string(10), nullable=False),
+        sa.Column("flags", bytewise_text(), nullable=False),
         sa.Column("margin", sa.Double(), nullable=True),
         sa.Column("first_height", sa.Double(), nullable=True),
         sa.Column("last_height", sa.Double(), nullable=True),
@@ -193,7 +195,7 @@ def upgrade() -> None:
         sa.Column("orientation", sa.Integer(), nullable=False),
         sa.Column("position", sa.Integer(), nullable=False),
         sa.Column("place", sa.Integer(), nullable=False),
-        sa.Column("features", sa.String(length=32), nullable=False),
+        sa.Column("features", bytewise_string(32), nullable=False),
         sa.Column("start_deg", sa.Double(), nullable=False),
         sa.Column("end_deg", sa.Double(), nullable=False),
         sa.Column("start_height", sa.Double(), nullable=False),
@@ -220,15 +222,15 @@ def upgrade() -> None:
         sa.Column("position", sa.Integer(), nullable=False),
         sa.Column("stage", sa.Integer(), nullable=False),
         sa.Column("place", sa.Integer(), nullable=False),
-        sa.Column("bolt_region_before", sa.String(length=32), nullable=True),
-        sa.Column("nut_region_before", sa.String(length=32), nullable=True),
-        sa.Column("features_before", sa.String(length=32), nullable=True),
+        sa.Column("bolt_region_before", bytewise_string(32), nullable=True),
+        sa.Column("nut_region_before", bytewise_string(32), nullable=True),
+        sa.Column("features_before", bytewise_string(32), nullable=True),
         sa.Column("normal_x_before", sa.Double(), nullable=True),
         sa.Column("normal_y_before", sa.Double(), nullable=True),
         sa.Column("normal_z_before", sa.Double(), nullable=True),
-        sa.Column("bolt_region_after", sa.String(length=32), nullable=True),
-        sa.Column("nut_region_after", sa.String(length=32), nullable=True),
-        sa.Column("features_after", sa.String(length=32), nullable=True),
+        sa.Column("bolt_region_after", bytewise_string(32), nullable=True),
+        sa.Column("nut_region_after", bytewise_string(32), nullable=True),
+        sa.Column("features_after", bytewise_string(32), nullable=True),
         sa.Column("normal_x_after", sa.Double(), nullable=True),
         sa.Column("normal_y_after", sa.Double(), nullable=True),
         sa.Column("normal_z_after", sa.Double(), nullable=True),

@@ -8,12 +8,12 @@ import hashlib
 import json
 import math
 
-from service.states.query import Place, Sort, StateFilter
+from service.states.query import Place, Sort, SortKey, StateFilter
 from threadstate.errors import InvalidValueError
+from threadstate.library.grid import LARGEST_STATE_COUNT
+from threadstate.state.model import StateClass
 
 LONGEST_CURSOR = 256
-_LARGEST_ORDINAL = 2**53
-_LONGEST_VALUE = 32
 
 
 def encode_cursor(place: Place, library_id: int, which: StateFilter, sort: Sort) -> str:
@@ -37,13 +37,17 @@ def decode_cursor(cursor: str, library_id: int, which: StateFilter, sort: Sort) 
             digest == _query_digest(library_id, which, sort)
             and not isinstance(value, bool)
             and not isinstance(ordinal, bool)
-            and 0 <= ordinal < _LARGEST_ORDINAL
+            and 0 <= ordinal < LARGEST_STATE_COUNT
+            and _can_be_of(sort.key, value)
         ):
-            if isinstance(value, str) and len(value) <= _LONGEST_VALUE:
-                return Place(value, ordinal)
-            if value is None or (isinstance(value, float) and math.isfinite(value)):
-                return Place(value, ordinal)
+            return Place(value, ordinal)
     raise _invalid(cursor)
+
+
+def _can_be_of(key: SortKey, value: str | float | None) -> bool:
+    if isinstance(value, str):
+        return key is SortKey.CLASS and value in set(StateClass)
+    return value is None or (key is not SortKey.CLASS and isinstance(value, float) and math.isfinite(value))
 
 
 def _query_digest(library_id: int, which: StateFilter, sort: Sort) -> str:

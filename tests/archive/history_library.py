@@ -16,7 +16,6 @@ from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.migrate import migrate
 
 
 def histories_of_grid(grid: Grid) -> list[History]:
@@ -30,10 +29,9 @@ def _histories_of_tilts(tilts_deg: tuple[float, ...]) -> tuple[History, ...]:
 
 
 def store_histories(database: str, grid: Grid, histories: Sequence[History]) -> None:
-    """Publish the library of a grid with its histories in a new database; chunks are written last to first."""
+    """Publish the library of a grid with its histories in a migrated database; chunks are written last to first."""
     pair = quarter_twenty_unc()
     engine = writer_engine(database)
-    migrate(engine)
     library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions()))
     for index in reversed(range(grid.orientation_count)):
         rows = chunk_rows(grid.orientation(index), grid.first_ordinal(index), solve_poses(pair, grid.poses(index)))

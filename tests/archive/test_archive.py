@@ -1,16 +1,14 @@
 from __future__ import annotations
 
 import math
-import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from sqlalchemy import func, select
 
 from tests.archive.history_library import histories_of_grid, store_histories
+from tests.databases import Databases
 from threadstate.archive.read import formations, orientation_history, stored_histories
 from threadstate.archive.rows import history_rows
 from threadstate.archive.stored import StoredHistories
@@ -26,21 +24,20 @@ from threadstate.network.formation import formation_of
 from threadstate.network.margin import smallest_margin
 from threadstate.state.solve import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.migrate import migrate
 
 PAIR = quarter_twenty_unc()
 GRID = Grid(3.0, 3.0, 180.0)
 INPUTS = LibraryInputs(PAIR, GRID, SolveOptions())
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def histories() -> list[History]:
     return histories_of_grid(GRID)
 
 
 @pytest.fixture(scope="module")
-def database(histories: list[History], tmp_path_factory: pytest.TempPathFactory) -> str:
-    url = f"sqlite:///{tmp_path_factory.mktemp('archive') / 'threads.sqlite3'}"
+def database(histories: list[History], databases: Databases) -> str:
+    url = databases.migrated()
     store_histories(url, GRID, histories)
     return url
 
@@ -122,22 +119,19 @@ def test_rows_alone_give_the_history(histories: list[History], stored: StoredHis
     assert orientation_history(2, rows, formations(rows.formations)) == stored.orientations[2]
 
 
-def test_a_library_without_histories_has_none(tmp_path: Path) -> None:
-    engine = writer_engine(f"sqlite:///{tmp_path / 'threads.sqlite3'}")
-    migrate(engine)
+def test_a_library_without_histories_has_none(databases: Databases) -> None:
+    engine = writer_engine(databases.migrated())
     library_id = open_library(engine, INPUTS)
     with engine.connect() as connection:
         assert stored_histories(connection, library_id, GRID) is None
     engine.dispose()
 
 
-def test_removing_a_library_removes_its_histories(database: str, tmp_path: Path) -> None:
-    copy = tmp_path / "copy.sqlite3"
-    with closing(sqlite3.connect(database.removeprefix("sqlite:///"))) as source, closing(sqlite3.connect(copy)) as to:
-        source.backup(to)
-    engine = writer_engine(f"sqlite:///{copy}")
-    with engine.begin() as connection:
+def test_removing_a_library_removes_its_histories(database: str) -> None:
+    engine = writer_engine(database)
+    with engine.connect() as connection:
         assert connection.scalar(select(func.count()).select_from(history_interval))
         connection.execute(library.delete())
         assert connection.scalar(select(func.count()).select_from(history_interval)) == 0
+        connection.rollback()
     engine.dispose()

@@ -6,6 +6,7 @@ import pytest
 from selenium import webdriver
 
 from tests.archive.history_library import histories_of_grid, store_histories
+from tests.databases import Databases
 from tests.explorer.browser import Explorer, hosts_of, start_chromium
 from tests.service.running import running_service
 from threadstate.library.grid import Grid
@@ -15,9 +16,9 @@ GRID = Grid(4.0, 4.0, 5.0)
 
 
 @pytest.fixture(scope="session")
-def library_database(tmp_path_factory: pytest.TempPathFactory) -> str:
+def library_database(sqlite_databases: Databases) -> str:
     """A database with a real library and its histories."""
-    database = f"sqlite:///{tmp_path_factory.mktemp('explorer') / 'library.sqlite3'}"
+    database = sqlite_databases.migrated()
     store_histories(database, GRID, histories_of_grid(GRID))
     return database
 

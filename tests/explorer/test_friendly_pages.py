@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from selenium import webdriver
 
 from tests.archive.history_library import histories_of_grid
+from tests.databases import Databases
 from tests.explorer.browser import Explorer
 from tests.explorer.conftest import GRID
-from tests.service.conftest import migrated_database
 from tests.service.running import running_service
 from threadstate.archive.rows import history_rows
 from threadstate.history.window import windows_of
@@ -26,8 +25,10 @@ def kind_of(explorer: Explorer) -> str:
     return str(explorer.run("return document.querySelector('#message:not([hidden])')?.dataset.kind ?? ''"))
 
 
-def test_page_tells_of_no_library_then_of_its_progress_and_goes_on(chromium: webdriver.Chrome, tmp_path: Path) -> None:
-    database = migrated_database(tmp_path)
+def test_page_tells_of_no_library_then_of_its_progress_and_goes_on(
+    chromium: webdriver.Chrome, sqlite_databases: Databases
+) -> None:
+    database = sqlite_databases.migrated()
     with running_service(database) as address:
         explorer = Explorer(chromium, address)
         explorer.open()

@@ -1,9 +1,10 @@
 from __future__ import annotations
 
 import sqlite3
-from dataclasses import replace
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import given
@@ -11,10 +12,11 @@ from hypothesis import strategies as st
 from sqlalchemy import Engine, func, select
 from sqlalchemy.exc import DBAPIError
 
+from tests.databases import Databases
 from tests.library.states import orientation_states, plain_state
 from threadstate.errors import NotFoundError
 from threadstate.library import read, write
-from threadstate.library.engine import reader_engine, writer_engine
+from threadstate.library.engine import reader_engine, writer_engine, writing
 from threadstate.library.fingerprint import answers_sha256, library_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -54,25 +56,40 @@ def _row_counts(engine: Engine) -> dict[str, int]:
         }
 
 
+@dataclass(frozen=True)
+class Bits:
+    writer: Engine
+    reader: Engine
+
+
+@pytest.fixture(scope="module")
+def bits(databases: Databases) -> Iterator[Bits]:
+    """Engines of a database that every example of a test leaves empty."""
+    database = databases.migrated()
+    engines = Bits(writer_engine(database), reader_engine(database))
+    yield engines
+    engines.writer.dispose()
+    engines.reader.dispose()
+
+
+def _remove_libraries(writer: Engine) -> None:
+    with writer.begin() as connection:
+        connection.execute(metadata.tables["library"].delete())
+
+
 @given(st.data())
-def test_states_are_read_back_bit_by_bit(data: st.DataObject) -> None:
+def test_states_are_read_back_bit_by_bit(bits: Bits, data: st.DataObject) -> None:
     grid = Grid(0.0, 1.0, 180.0)
     inputs = replace(INPUTS, grid=grid)
     states = data.draw(orientation_states(grid, 0))
-    with TemporaryDirectory() as folder:
-        url = f"sqlite:///{Path(folder) / 'threads.sqlite3'}"
-        engine = writer_engine(url)
-        metadata.create_all(engine)
-        library_id = write.open_library(engine, inputs)
-        rows = chunk_rows(grid.orientation(0), 0, states)
-        write.write_chunk(engine, library_id, rows)
-        content_sha256 = write.publish(engine, library_id, grid)
-        engine.dispose()
-        reading = reader_engine(url)
-        with reading.connect() as connection:
-            stored = read.states_between(connection, library_id, 0, grid.state_count - 1)
-            at_second = read.states_at(connection, library_id, [1, 0])
-        reading.dispose()
+    library_id = write.open_library(bits.writer, inputs)
+    rows = chunk_rows(grid.orientation(0), 0, states)
+    write.write_chunk(bits.writer, library_id, rows)
+    content_sha256 = write.publish(bits.writer, library_id, grid)
+    with bits.reader.connect() as connection:
+        stored = read.states_between(connection, library_id, 0, grid.state_count - 1)
+        at_second = read.states_at(connection, library_id, [1, 0])
+    _remove_libraries(bits.writer)
     assert stored == states
     # Equality is blind to the last bit of nothing but zeros; the hash looks at every bit.
     assert answers_sha256(stored) == rows.content_sha256
@@ -136,6 +153,19 @@ def test_everything_may_be_done_twice(writer: Engine) -> None:
     assert _row_counts(writer) == before
 
 
+def test_many_at_once_open_one_library_and_write_each_chunk_once(database: str) -> None:
+    def opened_and_written(order: int) -> tuple[int, int]:
+        with writing(database) as engine:
+            library_id = write.open_library(engine, INPUTS)
+            indexes = range(GRID.orientation_count)[::order]
+            return library_id, sum(write.write_chunk(engine, library_id, _chunk(index)) for index in indexes)
+
+    with ThreadPoolExecutor(4) as pool:
+        results = list(pool.map(opened_and_written, (1, -1, 1, -1)))
+    assert len({library_id for library_id, _ in results}) == 1
+    assert sum(written for _, written in results) == GRID.orientation_count
+
+
 def test_a_chunk_that_cannot_be_written_leaves_nothing_behind(writer: Engine) -> None:
     library_id = write.open_library(writer, INPUTS)
     before = _row_counts(writer)
@@ -181,7 +211,7 @@ def test_every_class_and_flag_is_counted(writer: Engine, reader: Engine) -> None
 
 
 def test_a_reader_cannot_write(reader: Engine) -> None:
-    with reader.connect() as connection, pytest.raises(DBAPIError, match="readonly"):
+    with reader.connect() as connection, pytest.raises(DBAPIError, match=r"read-?only"):
         connection.execute(state.delete())
 
 
@@ -193,6 +223,7 @@ def test_removing_a_library_removes_all_its_rows(writer: Engine) -> None:
     assert set(_row_counts(writer).values()) == {0}
 
 
+@pytest.mark.sqlite_alone
 def test_a_killed_writer_leaves_the_last_committed_chunk(database: str) -> None:
     """What was not committed when the file was copied, as after a power cut, is not there."""
     engine = writer_engine(database)

@@ -2,13 +2,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
 from sqlalchemy import Connection, Engine
 
 from service.app import create_app
+from tests.databases import Databases
 from tests.service.made_up_states import made_up_states
 from threadstate.library.engine import reader_engine, writer_engine
 from threadstate.library.grid import Grid
@@ -21,7 +21,6 @@ from threadstate.state.model import Answer, ContactState
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
-from worker.migrate import migrate
 
 Solve = Callable[[Sequence[tuple[float, float, float]]], Sequence[Answer]]
 
@@ -40,9 +39,8 @@ class StoredLibrary:
 def store_library(
     database: str, pair: Pair, grid: Grid, solve: Solve, mesh: MeshOptions | None = None
 ) -> StoredLibrary:
-    """Migrate the database and publish a library in it."""
+    """Publish a library in a migrated database."""
     engine = writer_engine(database)
-    migrate(engine)
     library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions(), mesh))
     states: list[ContactState] = []
     for index in range(grid.orientation_count):
@@ -55,33 +53,23 @@ def store_library(
 
 
 @pytest.fixture(scope="session")
-def made_up(tmp_path_factory: pytest.TempPathFactory) -> StoredLibrary:
+def made_up(databases: Databases) -> StoredLibrary:
     """A library of 108 made-up states, which have every class, flag, region and absence."""
-    database = f"sqlite:///{tmp_path_factory.mktemp('made_up') / 'library.sqlite3'}"
-    return store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)
+    return store_library(databases.migrated(), quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)
 
 
 @pytest.fixture(scope="session")
-def solved(tmp_path_factory: pytest.TempPathFactory) -> StoredLibrary:
+def solved(databases: Databases) -> StoredLibrary:
     """A library of 90 states found by the exact solver: tilts of 0 and 4 deg, ten phases."""
-    database = f"sqlite:///{tmp_path_factory.mktemp('solved') / 'library.sqlite3'}"
+    database = databases.migrated()
     pair = quarter_twenty_unc()
     return store_library(database, pair, Grid(4.0, 4.0, 36.0), lambda poses: solve_poses(pair, poses))
 
 
-def migrated_database(folder: Path) -> str:
-    """The URL of a new database in that folder, migrated and without a library."""
-    database = f"sqlite:///{folder / 'library.sqlite3'}"
-    engine = writer_engine(database)
-    migrate(engine)
-    engine.dispose()
-    return database
-
-
 @pytest.fixture(scope="session")
-def empty_database(tmp_path_factory: pytest.TempPathFactory) -> str:
+def empty_database(databases: Databases) -> str:
     """A migrated database without a library."""
-    return migrated_database(tmp_path_factory.mktemp("empty"))
+    return databases.migrated()
 
 
 def client_of(database: str) -> TestClient:
@@ -119,6 +107,6 @@ def connection(engine: Engine) -> Iterator[Connection]:
 
 
 @pytest.fixture
-def missing_database(tmp_path: Path) -> str:
-    """The URL of a database that does not exist."""
-    return f"sqlite:///{tmp_path / 'missing.sqlite3'}"
+def missing_database(databases: Databases) -> str:
+    """The URL of a database without a schema."""
+    return databases.new()

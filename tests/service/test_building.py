@@ -1,10 +1,9 @@
 from __future__ import annotations
 
-from pathlib import Path
-
 from fastapi.testclient import TestClient
 
-from tests.service.conftest import StoredLibrary, client_of, migrated_database
+from tests.databases import Databases
+from tests.service.conftest import StoredLibrary, client_of
 from tests.service.made_up_states import made_up_states
 from threadstate.library.engine import writer_engine
 from threadstate.library.grid import Grid
@@ -17,8 +16,8 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 GRID = Grid(1.0, 1.0, 90.0)
 
 
-def test_a_library_is_told_of_while_it_is_computed(tmp_path: Path) -> None:
-    database = migrated_database(tmp_path)
+def test_a_library_is_told_of_while_it_is_computed(databases: Databases) -> None:
+    database = databases.migrated()
     engine = writer_engine(database)
     with client_of(database) as client:
         assert client.get("/v1/building").json() == {"building": []}

@@ -27,6 +27,8 @@ from threadstate.state.document import state_document
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.sqlite_alone
+
 ELSEWHERE = re.compile(r"""(https?:)?//\w""")
 
 

@@ -6,6 +6,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 from service.libraries.identify import slug
+from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, client_of, store_library
 from tests.service.made_up_states import made_up_states
 from threadstate.library.engine import writer_engine
@@ -48,8 +49,8 @@ def test_library_says_what_it_is_and_counts_its_states(client: TestClient, made_
     assert document["counts"]["flags"] == Counter(flag.value for state in made_up.states for flag in state.flags)
 
 
-def test_list_has_published_libraries_alone_and_the_latest_first(tmp_path_factory: pytest.TempPathFactory) -> None:
-    database = f"sqlite:///{tmp_path_factory.mktemp('several') / 'library.sqlite3'}"
+def test_list_has_published_libraries_alone_and_the_latest_first(databases: Databases) -> None:
+    database = databases.migrated()
     grid = Grid(0.0, 1.0, 180.0)
     first = store_library(database, quarter_twenty_unc(), grid, made_up_states)
     second = store_library(database, quarter_twenty_unc(RootForm.NEWER), grid, made_up_states)

@@ -23,6 +23,7 @@ from service.network.schemas import (
     WindowsAnswer,
 )
 from tests.archive.history_library import histories_of_grid, store_histories
+from tests.databases import Databases
 from tests.service.conftest import client_of
 from threadstate.library.grid import Grid
 from threadstate.state.solve import solve_pose
@@ -34,8 +35,8 @@ PAIR = quarter_twenty_unc()
 
 
 @pytest.fixture(scope="module")
-def network_client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    database = f"sqlite:///{tmp_path_factory.mktemp('network') / 'threads.sqlite3'}"
+def network_client(databases: Databases) -> Iterator[TestClient]:
+    database = databases.migrated()
     store_histories(database, GRID, histories_of_grid(GRID))
     with client_of(database) as client:
         yield client

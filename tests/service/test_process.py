@@ -10,6 +10,8 @@ import pytest
 from tests.service.conftest import StoredLibrary
 from tests.service.running import running_service
 
+pytestmark = pytest.mark.sqlite_alone
+
 
 @pytest.fixture(scope="module")
 def address(made_up: StoredLibrary) -> Iterator[str]:

@@ -11,6 +11,8 @@ from tests.service.conftest import StoredLibrary
 from threadstate.state.model import Flag, StateClass
 from threadstate.thread.regions import Region
 
+pytestmark = pytest.mark.sqlite_alone
+
 STATE = "SEARCH state USING PRIMARY KEY (library_id=?"
 POSE = "SEARCH state USING INDEX sqlite_autoindex_state_2 (library_id=? AND roll_deg=?"
 PITCH = "SEARCH state USING COVERING INDEX ix_state_library_id_pitch_deg_ordinal (library_id=? AND pitch_deg=?"

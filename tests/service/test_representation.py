@@ -6,6 +6,8 @@ from fastapi.testclient import TestClient
 from tests.service.conftest import StoredLibrary
 from threadstate.units import MILLIMETRES_PER_INCH
 
+pytestmark = pytest.mark.sqlite_alone
+
 RESOURCES = (
     "/v1/libraries",
     "/v1/libraries/latest",

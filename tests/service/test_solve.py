@@ -15,6 +15,8 @@ from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 from threadstate.units import MILLIMETRES_PER_INCH
 
+pytestmark = pytest.mark.sqlite_alone
+
 POSES = ((2.5, -1.25, 77.7), (4.0, 0.0, 185.0), (-4.0, 0.0, 131.0), (0.0, 0.0, 0.0), (1.0, -2.0, -350.0))
 
 

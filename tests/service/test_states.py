@@ -102,6 +102,7 @@ def test_pages_have_each_state_once_and_in_order(
     assert found == [state_document(state) for state in expected(made_up, which, SORTS[sort])]
 
 
+@pytest.mark.sqlite_alone
 @pytest.mark.parametrize("sort", SORTS)
 def test_pages_of_one_state_walk_through_all(client: TestClient, made_up: StoredLibrary, sort: str) -> None:
     found = walk(client, {"sort": sort, "limit": 1, "fields": "roll,pitch,phase"})

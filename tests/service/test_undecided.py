@@ -6,6 +6,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 from service.undecided.schemas import UndecidedPage
+from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, client_of, store_library
 from tests.service.made_up_states import made_up_states
 from threadstate.library.grid import Grid
@@ -25,9 +26,8 @@ def _answers(poses: Sequence[tuple[float, float, float]]) -> list[Answer]:
 
 
 @pytest.fixture(scope="module")
-def with_undecided(tmp_path_factory: pytest.TempPathFactory) -> StoredLibrary:
-    database = f"sqlite:///{tmp_path_factory.mktemp('undecided') / 'library.sqlite3'}"
-    return store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), _answers, MeshOptions())
+def with_undecided(databases: Databases) -> StoredLibrary:
+    return store_library(databases.migrated(), quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), _answers, MeshOptions())
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.databases import Databases
 from threadstate.settings import DATABASE
 from worker.cli import run_command_line
 
@@ -63,16 +64,16 @@ def environment() -> Mapping[str, str]:
 
 
 @pytest.fixture
-def command_line_on(
-    environment: Mapping[str, str], capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> Callable[[str], CommandLine]:
-    """Makes command lines on databases by name."""
-    return lambda name: CommandLine(f"sqlite:///{tmp_path / name}.sqlite3", environment, capsys)
+def command_line_on(environment: Mapping[str, str], capsys: pytest.CaptureFixture[str]) -> Callable[[str], CommandLine]:
+    """Makes command lines on databases by their URLs."""
+    return lambda database: CommandLine(database, environment, capsys)
 
 
 @pytest.fixture
-def command_line(command_line_on: Callable[[str], CommandLine], monkeypatch: pytest.MonkeyPatch) -> CommandLine:
-    """A command line on a database that does not exist yet."""
-    command_line = command_line_on("threads")
+def command_line(
+    command_line_on: Callable[[str], CommandLine], databases: Databases, monkeypatch: pytest.MonkeyPatch
+) -> CommandLine:
+    """A command line on a database without a schema."""
+    command_line = command_line_on(databases.new())
     monkeypatch.setenv(DATABASE, command_line.database)
     return command_line

@@ -11,9 +11,8 @@ import pytest
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from tests.worker.conftest import COMMAND, SMALL_GRID, CommandLine
+from tests.worker.conftest import COMMAND, CommandLine
 from threadstate.errors import UnresolvedPoseError
-from threadstate.library.schema import SCHEMA_REVISION
 from threadstate.mesh.options import Descent, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
@@ -26,6 +25,8 @@ from threadstate.thread.pair import Pair
 from worker.cli import PROGRAM, app
 from worker.commands.solve import BATCH
 from worker.exit_codes import ExitCode
+
+pytestmark = pytest.mark.sqlite_alone
 
 POSE = ["--roll", "4", "--pitch", "0", "--phase", "185"]
 
@@ -184,21 +185,6 @@ def test_a_bad_value_ends_with_2_and_one_line(command_line: CommandLine, argumen
     assert len(err.splitlines()) == 1
 
 
-@pytest.mark.parametrize("name", ["summary", "serve"])
-def test_a_database_that_is_not_migrated_ends_with_3(command_line: CommandLine, name: str) -> None:
-    code, out, err = command_line.here(name)
-    assert (code, out) == (ExitCode.SCHEMA, "")
-    assert "run `threadstate migrate`" in err
-    assert len(err.splitlines()) == 1
-
-
-def test_nothing_published_ends_with_4(command_line: CommandLine) -> None:
-    assert command_line.here("migrate")[0] == 0
-    code, out, err = command_line.here("summary")
-    assert (code, out) == (ExitCode.NOT_FOUND, "")
-    assert "run `threadstate rebuild`" in err
-
-
 def test_a_pose_that_cannot_be_decided_ends_with_5(
     command_line: CommandLine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -217,30 +203,11 @@ def test_a_pose_that_cannot_be_decided_ends_with_5(
     assert len(err.splitlines()) == 1
 
 
-def test_migrate_says_what_it_did(command_line: CommandLine) -> None:
-    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": None, "after": SCHEMA_REVISION}
-    assert json.loads(command_line.here("migrate", "--json")[1]) == {
-        "before": SCHEMA_REVISION,
-        "after": SCHEMA_REVISION,
-    }
-    assert "already" in command_line.here("migrate")[1]
-
-
 def test_a_folder_that_cannot_be_made_is_a_bad_value(command_line: CommandLine, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     code, _, err = command_line.here("migrate", "--database", f"sqlite:///{tmp_path / 'file' / 'x.sqlite3'}")
     assert code == ExitCode.USAGE
     assert len(err.splitlines()) == 1
-
-
-def test_the_summary_counts_every_state_once(command_line: CommandLine) -> None:
-    command_line.out("rebuild", *SMALL_GRID)
-    summary = json.loads(command_line.here("summary", "--json")[1])
-    assert summary["states"] == 216
-    assert sum(summary["classes"].values()) == 216
-    readable = command_line.here("summary")[1]
-    for name, count in (summary["classes"] | summary["flags"]).items():
-        assert re.search(rf"^{name} +{count}$", readable, re.M)
 
 
 def test_a_reader_that_has_enough_is_no_traceback(environment: Mapping[str, str], tmp_path: Path) -> None:

@@ -13,6 +13,8 @@ from threadstate.mesh.presets import Preset
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.exit_codes import ExitCode
 
+pytestmark = pytest.mark.sqlite_alone
+
 PAIR = quarter_twenty_unc()
 
 

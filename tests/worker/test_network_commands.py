@@ -6,16 +6,19 @@ from collections.abc import Callable
 import pytest
 
 from tests.archive.history_library import histories_of_grid, store_histories
+from tests.databases import Databases
 from tests.worker.conftest import CommandLine
 from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE
 
 GRID = Grid(2.0, 2.0, 180.0)
 
+pytestmark = pytest.mark.sqlite_alone
+
 
 @pytest.fixture(scope="module")
-def database(tmp_path_factory: pytest.TempPathFactory) -> str:
-    url = f"sqlite:///{tmp_path_factory.mktemp('commands') / 'threads.sqlite3'}"
+def database(databases: Databases) -> str:
+    url = databases.migrated()
     store_histories(url, GRID, histories_of_grid(GRID))
     return url
 
@@ -26,7 +29,7 @@ def ask(
 ) -> Callable[..., str]:
     """What a command on the library prints."""
     monkeypatch.setenv(DATABASE, database)
-    command_line = command_line_on("unused")
+    command_line = command_line_on(database)
 
     def asked(*arguments: str) -> str:
         code, out, err = command_line.here(*arguments)
@@ -77,7 +80,7 @@ def test_what_cannot_be_asked_is_said(
     command_line_on: Callable[[str], CommandLine], database: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(DATABASE, database)
-    command_line = command_line_on("unused")
+    command_line = command_line_on(database)
     for arguments, code, words in (
         (("formation", "--key", "0123456789"), 4, "no formation 0123456789"),
         (("history", "--roll", "1", "--pitch", "0", "--stored"), 4, "no orientation of roll 1"),

@@ -110,6 +110,7 @@ def _kill(process: subprocess.Popen[str]) -> None:
     assert _wait_for(lambda: not _alive_in_group(process.pid)), "computing processes were left behind"
 
 
+@pytest.mark.sqlite_alone
 @pytest.mark.parametrize("workers", [1, 2, 3])
 def test_the_content_does_not_depend_on_the_number_of_workers(
     command_line: CommandLine, expected_content: str, workers: int
@@ -143,6 +144,7 @@ def test_what_is_stored_is_what_the_solver_says(
     assert library.input_sha256 == LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions()).sha256
 
 
+@pytest.mark.sqlite_alone
 def test_rebuilding_the_same_is_nothing_to_do(command_line: CommandLine) -> None:
     first = json.loads(command_line.out("rebuild", *SMALL_GRID, "--json"))
     path = Path(command_line.database.removeprefix("sqlite:///"))
@@ -155,6 +157,7 @@ def test_rebuilding_the_same_is_nothing_to_do(command_line: CommandLine) -> None
     assert path.read_bytes() == content
 
 
+@pytest.mark.sqlite_alone
 def test_another_grid_makes_another_library(command_line: CommandLine) -> None:
     first = json.loads(command_line.out("rebuild", *SMALL_GRID, "--json"))
     second = json.loads(command_line.out("rebuild", "--tilt-max", "0", "--phase-step", "90", "--json"))
@@ -163,6 +166,7 @@ def test_another_grid_makes_another_library(command_line: CommandLine) -> None:
     assert json.loads(command_line.out("summary", "--json"))["library"] == second["library"]
 
 
+@pytest.mark.sqlite_alone
 def test_killed_at_any_commit_it_goes_on_to_the_same_bits(command_line: CommandLine, expected_content: str) -> None:
     database = command_line.database
     for committed in (1, 3, 6, 8):
@@ -205,6 +209,7 @@ def test_two_rebuilds_at_once_make_one_library(command_line: CommandLine, expect
     assert sum(result["computed"] for result in results) == GRID.state_count
 
 
+@pytest.mark.sqlite_alone
 def test_interrupted_it_says_so_and_leaves_no_process(command_line: CommandLine) -> None:
     with command_line.start("rebuild", *SMALL_GRID, "--phase-step", "0.5", "--workers", "2") as process:
         assert _wait_for(lambda: _committed(command_line.database) >= 1)

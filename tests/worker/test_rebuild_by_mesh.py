@@ -2,6 +2,8 @@ from __future__ import annotations
 
 import json
 
+import pytest
+
 from tests.worker.conftest import CommandLine
 from threadstate.library.engine import reader_engine
 from threadstate.library.method import Method
@@ -14,6 +16,8 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.answers import exact_answers
+
+pytestmark = pytest.mark.sqlite_alone
 
 GRID = ["--tilt-max", "2", "--tilt-step", "2", "--phase-step", "180"]
 BY_MESH = ["--method", "mesh", "--preset", "coarse", "--final-step", "10uin", "--unchecked"]

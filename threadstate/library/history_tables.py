@@ -15,12 +15,11 @@ from sqlalchemy import (
     Index,
     Integer,
     PrimaryKeyConstraint,
-    String,
     Table,
-    Text,
 )
 
 from threadstate.library.tables import NAME_LENGTH, metadata, one_of
+from threadstate.library.text import bytewise_string, bytewise_text
 from threadstate.state.model import FeaturePair, StateClass
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 
@@ -34,9 +33,9 @@ formation = Table(
     "formation",
     metadata,
     Column("library_id", Integer, nullable=False),
-    Column("formation", String(KEY_LENGTH), nullable=False),
+    Column("formation", bytewise_string(KEY_LENGTH), nullable=False),
     # Null where the solver is not certain of the states.
-    Column("state_class", String(NAME_LENGTH)),
+    Column("state_class", bytewise_string(NAME_LENGTH)),
     # Serves: the formations of a library; one by its key.
     PrimaryKeyConstraint(*_OF_FORMATION),
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),
@@ -49,12 +48,12 @@ formation_contact = Table(
     "formation_contact",
     metadata,
     Column("library_id", Integer, nullable=False),
-    Column("formation", String(KEY_LENGTH), nullable=False),
+    Column("formation", bytewise_string(KEY_LENGTH), nullable=False),
     Column("position", Integer, nullable=False),
     Column("stage", Integer, nullable=False),
-    Column("bolt_region", String(NAME_LENGTH), nullable=False),
-    Column("nut_region", String(NAME_LENGTH), nullable=False),
-    Column("features", String(NAME_LENGTH), nullable=False),
+    Column("bolt_region", bytewise_string(NAME_LENGTH), nullable=False),
+    Column("nut_region", bytewise_string(NAME_LENGTH), nullable=False),
+    Column("features", bytewise_string(NAME_LENGTH), nullable=False),
     # Serves: the contacts of all formations, in order.
     PrimaryKeyConstraint(*_OF_FORMATION, "position"),
     ForeignKeyConstraint(_OF_FORMATION, ["formation.library_id", "formation.formation"], ondelete="CASCADE"),
@@ -74,9 +73,9 @@ history_interval = Table(
     Column("position", Integer, nullable=False),
     Column("start_deg", Double, nullable=False),
     Column("end_deg", Double, nullable=False),
-    Column("formation", String(KEY_LENGTH), nullable=False),
+    Column("formation", bytewise_string(KEY_LENGTH), nullable=False),
     # Names separated by spaces.
-    Column("flags", Text, nullable=False),
+    Column("flags", bytewise_text(), nullable=False),
     # At the middle; null where the state there is not decided, the margin also where nothing has one.
     Column("margin", Double),
     Column("first_height", Double),
@@ -107,7 +106,7 @@ history_boundary = Table(
     Column("last_height_before", Double),
     Column("last_height_after", Double),
     # Flags, separated by spaces, of labels that hold at single phases in between.
-    Column("flags_between", Text, nullable=False),
+    Column("flags_between", bytewise_text(), nullable=False),
     # Serves: the boundaries of an orientation, and of all, in order.
     PrimaryKeyConstraint(*_OF_BOUNDARY),
     ForeignKeyConstraint(_OF_CHUNK, ["chunk.library_id", "chunk.orientation"], ondelete="CASCADE"),
@@ -128,7 +127,10 @@ history_boundary_contact = Table(
         column
         for side in ("before", "after")
         for column in (
-            *(Column(f"{name}_{side}", String(NAME_LENGTH)) for name in ("bolt_region", "nut_region", "features")),
+            *(
+                Column(f"{name}_{side}", bytewise_string(NAME_LENGTH))
+                for name in ("bolt_region", "nut_region", "features")
+            ),
             *(Column(f"normal_{axis}_{side}", Double) for axis in "xyz"),
         )
     ),
@@ -166,7 +168,7 @@ clearance_window_course = Table(
     Column("orientation", Integer, nullable=False),
     Column("position", Integer, nullable=False),
     Column("place", Integer, nullable=False),
-    Column("features", String(NAME_LENGTH), nullable=False),
+    Column("features", bytewise_string(NAME_LENGTH), nullable=False),
     *(Column(name, Double, nullable=False) for name in ("start_deg", "end_deg", "start_height", "end_height")),
     # Serves: the courses of a window, and of all, in order.
     PrimaryKeyConstraint(*_OF_WINDOW, "place"),

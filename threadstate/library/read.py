@@ -16,6 +16,9 @@ from threadstate.library.tables import contact, library, stage_pose, state, stat
 from threadstate.state.model import ContactState, Flag, StateClass, UndecidedPose
 from threadstate.units import LengthUnit
 
+LARGEST_ID = 2**31 - 1
+"""What a column of integers holds everywhere."""
+
 
 @dataclass(frozen=True)
 class LibraryRecord:
@@ -64,7 +67,7 @@ def library_by_id(connection: Connection, library_id: int) -> LibraryRecord:
     Raises:
         NotFoundError: there is none.
     """
-    row = _published(connection, library.c.id == library_id)
+    row = _published(connection, library.c.id == library_id) if library_id <= LARGEST_ID else None
     if row is None:
         raise NotFoundError(f"library {library_id} is not published here")
     return _record(row)

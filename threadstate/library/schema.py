@@ -8,27 +8,32 @@ from sqlalchemy import Engine, text
 from sqlalchemy.exc import DatabaseError
 
 from threadstate.errors import SchemaError
+from threadstate.library.address import is_sqlite, shown
 
 SCHEMA_REVISION = "0004"
 """The newest migration, which the tables of ``threadstate.library.tables`` mirror."""
 
 MENDING_COMMAND = "threadstate migrate"
 
+_UNDEFINED_TABLE = "42P01"
+"""PostgreSQL's code of a table that is not there."""
+
 
 def stored_revision(engine: Engine) -> str | None:
-    """The revision of the database's schema; None where the file, or everything in it, is missing.
+    """The revision of the database's schema; None where a SQLite file, or everything in the database, is missing.
 
     Raises:
-        SchemaError: the file is no database.
+        SchemaError: the database cannot be read, as a file that is none or a server that does not answer.
     """
     try:
         with engine.connect() as connection:
             return connection.scalar(text("SELECT version_num FROM alembic_version"))
     except DatabaseError as error:
         reason = str(error.orig)
-        if "no such table" in reason or "unable to open database file" in reason:
+        missing = ("no such table", "unable to open database file") if is_sqlite(engine.url) else ()
+        if getattr(error.orig, "sqlstate", None) == _UNDEFINED_TABLE or any(words in reason for words in missing):
             return None
-        raise SchemaError(f"database {_file(engine)} cannot be read: {reason}") from None
+        raise SchemaError(f"database {place(engine)} cannot be read: {reason}") from None
 
 
 def check_schema(engine: Engine) -> None:
@@ -46,10 +51,13 @@ def check_schema(engine: Engine) -> None:
         found, cure = f"is at schema revision {revision}", f"run `{MENDING_COMMAND}`"
     else:
         found, cure = f"is at schema revision {revision}, of a newer threadstate", "install that one"
-    raise SchemaError(f"database {_file(engine)} {found}; this code needs revision {SCHEMA_REVISION}: {cure}")
+    raise SchemaError(f"database {place(engine)} {found}; this code needs revision {SCHEMA_REVISION}: {cure}")
 
 
-def _file(engine: Engine) -> str:
-    """The database's file; a reader's engine has it as a URI."""
+def place(engine: Engine) -> str:
+    """Where an engine's database is, for people: a file, or an address without password."""
+    if not is_sqlite(engine.url):
+        return shown(engine.url.set(query={}))
+    # A reader's engine has the file as a URI.
     name = str(engine.url.database)
     return unquote(name.removeprefix("file:")) if name.startswith("file:") else name

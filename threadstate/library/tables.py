@@ -4,7 +4,7 @@
 ``(i_roll * n_pitch + i_pitch) * n_phase + i_phase`` with every axis ascending, so that it is the same on every
 machine and its order is the order of (roll, pitch, phase). ``orientation`` numbers the chunks,
 ``i_roll * n_pitch + i_pitch``. Lengths are in the unit of the library's row, angles in degrees. All numbers are IEEE
-doubles; neither NaN nor -0.0 is ever stored (SQLite keeps neither).
+doubles; neither NaN nor -0.0 is ever stored (SQLite keeps neither). Text is compared byte by byte.
 """
 
 from __future__ import annotations
@@ -21,12 +21,11 @@ from sqlalchemy import (
     Integer,
     MetaData,
     PrimaryKeyConstraint,
-    String,
     Table,
-    Text,
     UniqueConstraint,
 )
 
+from threadstate.library.text import bytewise_string, bytewise_text
 from threadstate.library.utc import UtcDateTime
 from threadstate.state.model import FeaturePair, Flag, StateClass
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
@@ -57,14 +56,14 @@ library = Table(
     "library",
     metadata,
     Column("id", Integer, nullable=False),
-    Column("designation", String(100), nullable=False),
-    Column("length_unit", String(2), nullable=False),
+    Column("designation", bytewise_string(100), nullable=False),
+    Column("length_unit", bytewise_string(2), nullable=False),
     # What was computed: the SHA-256 of all inputs, and the inputs themselves as canonical JSON.
-    Column("input_sha256", String(_SHA256_LENGTH), nullable=False),
-    Column("pair", Text, nullable=False),
-    Column("method", String(NAME_LENGTH), nullable=False),
-    Column("options", Text, nullable=False),
-    Column("code_version", String(NAME_LENGTH), nullable=False),
+    Column("input_sha256", bytewise_string(_SHA256_LENGTH), nullable=False),
+    Column("pair", bytewise_text(), nullable=False),
+    Column("method", bytewise_string(NAME_LENGTH), nullable=False),
+    Column("options", bytewise_text(), nullable=False),
+    Column("code_version", bytewise_string(NAME_LENGTH), nullable=False),
     # The grid: roll and pitch are -tilt_max .. tilt_max, phase 0 .. 360 without the end.
     Column("tilt_max_deg", Double, nullable=False),
     Column("tilt_step_deg", Double, nullable=False),
@@ -75,7 +74,7 @@ library = Table(
     Column("state_count", Integer, nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
     # Both null until the library is whole; readers see published libraries only.
-    Column("content_sha256", String(_SHA256_LENGTH)),
+    Column("content_sha256", bytewise_string(_SHA256_LENGTH)),
     Column("published_at", UtcDateTime),
     # How many of the poses are undecided; 0 until the library is whole.
     Column("undecided_count", Integer, nullable=False, server_default="0"),
@@ -100,7 +99,7 @@ chunk = Table(
     Column("roll_deg", Double, nullable=False),
     Column("pitch_deg", Double, nullable=False),
     Column("state_count", Integer, nullable=False),
-    Column("content_sha256", String(_SHA256_LENGTH), nullable=False),
+    Column("content_sha256", bytewise_string(_SHA256_LENGTH), nullable=False),
     # Serves: which orientations are committed; the hashes in order when publishing.
     PrimaryKeyConstraint("library_id", "orientation"),
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),
@@ -118,7 +117,7 @@ state = Table(
     Column("roll_deg", Double, nullable=False),
     Column("pitch_deg", Double, nullable=False),
     Column("phase_deg", Double, nullable=False),
-    Column("state_class", String(NAME_LENGTH), nullable=False),
+    Column("state_class", bytewise_string(NAME_LENGTH), nullable=False),
     Column("lambda_deg", Double),
     Column("mu_deg", Double),
     Column("drop", Double),
@@ -179,9 +178,9 @@ contact = Table(
     *(Column(f"point_{axis}", Double, nullable=False) for axis in "xyz"),
     *(Column(f"point_bolt_{axis}", Double, nullable=False) for axis in "xyz"),
     *(Column(f"normal_{axis}", Double, nullable=False) for axis in "xyz"),
-    Column("bolt_region", String(NAME_LENGTH), nullable=False),
-    Column("nut_region", String(NAME_LENGTH), nullable=False),
-    Column("features", String(NAME_LENGTH), nullable=False),
+    Column("bolt_region", bytewise_string(NAME_LENGTH), nullable=False),
+    Column("nut_region", bytewise_string(NAME_LENGTH), nullable=False),
+    Column("features", bytewise_string(NAME_LENGTH), nullable=False),
     Column("bolt_margin", Double, nullable=False),
     Column("nut_margin", Double, nullable=False),
     # Serves: the contacts of a state or of a range of states, in order.
@@ -205,7 +204,7 @@ state_flag = Table(
     Column("library_id", Integer, nullable=False),
     Column("ordinal", Integer, nullable=False),
     Column("position", Integer, nullable=False),
-    Column("flag", String(NAME_LENGTH), nullable=False),
+    Column("flag", bytewise_string(NAME_LENGTH), nullable=False),
     # Serves: the flags of a state or of a range of states, in order.
     PrimaryKeyConstraint("library_id", "ordinal", "position"),
     ForeignKeyConstraint(_OF_STATE, ["state.library_id", "state.ordinal"], ondelete="CASCADE"),
@@ -225,7 +224,7 @@ undecided = Table(
     Column("roll_deg", Double, nullable=False),
     Column("pitch_deg", Double, nullable=False),
     Column("phase_deg", Double, nullable=False),
-    Column("reason", Text, nullable=False),
+    Column("reason", bytewise_text(), nullable=False),
     # Serves: the undecided poses in order, page by page; those of an orientation as a range.
     PrimaryKeyConstraint("library_id", "ordinal"),
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),

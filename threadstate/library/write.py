@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import lru_cache
 
@@ -14,38 +15,74 @@ from threadstate.library.grid import Grid
 from threadstate.library.history_rows import HistoryRows
 from threadstate.library.history_tables import formation, formation_contact
 from threadstate.library.identity import LibraryInputs
+from threadstate.library.method import Method
 from threadstate.library.rows import ChunkRows, Row
 from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag, undecided
+from threadstate.library.turns import Turn, take_turn
+from threadstate.units import LengthUnit
 
 
 class IncompleteLibraryError(ThreadstateError):
     """A library was to be published before all its chunks were there."""
 
 
+@dataclass(frozen=True)
+class _Head:
+    """What a library's row says from the beginning."""
+
+    designation: str
+    length_unit: LengthUnit
+    input_sha256: str
+    pair: str
+    method: Method
+    options: str
+    code_version: str
+    grid: Grid
+    created_at: datetime
+
+
 def open_library(engine: Engine, inputs: LibraryInputs) -> int:
     """The id of the library of these inputs, whose row is made if there is none."""
-    grid = inputs.grid
+    return _opened(
+        engine,
+        _Head(
+            inputs.pair.designation,
+            inputs.pair.unit,
+            inputs.sha256,
+            inputs.pair_json,
+            inputs.method,
+            inputs.options_json,
+            inputs.code_version,
+            inputs.grid,
+            datetime.now(UTC),
+        ),
+    )
+
+
+def _opened(engine: Engine, head: _Head) -> int:
+    grid = head.grid
     with engine.begin() as connection:
-        known = connection.scalar(select(library.c.id).where(library.c.input_sha256 == inputs.sha256))
+        take_turn(connection, Turn.OPEN_LIBRARY)
+        known = connection.scalar(select(library.c.id).where(library.c.input_sha256 == head.input_sha256))
         if known is not None:
             return int(known)
         made = connection.execute(
             insert(library)
             .values(
-                designation=inputs.pair.designation,
-                length_unit=inputs.pair.unit.value,
-                input_sha256=inputs.sha256,
-                pair=inputs.pair_json,
-                method=inputs.method.value,
-                options=inputs.options_json,
-                code_version=inputs.code_version,
+                designation=head.designation,
+                length_unit=head.length_unit.value,
+                input_sha256=head.input_sha256,
+                pair=head.pair,
+                method=head.method.value,
+                options=head.options,
+                code_version=head.code_version,
                 tilt_max_deg=grid.tilt_max_deg,
                 tilt_step_deg=grid.tilt_step_deg,
                 phase_step_deg=grid.phase_step_deg,
                 tilt_count=grid.tilt_count,
                 phase_count=grid.phase_count,
                 state_count=grid.state_count,
-                created_at=datetime.now(UTC),
+                created_at=head.created_at,
             )
             .returning(library.c.id)
         )

@@ -14,15 +14,18 @@ def migrate(database: Database = None, as_json: Json = False) -> None:
     Examples:
       threadstate migrate
       threadstate migrate --database sqlite:////tmp/threads.sqlite3
+      threadstate migrate --database postgresql+psycopg://threads@db.example/threads
     """
-    from threadstate.library.engine import writer_engine
+    from threadstate.library.engine import writing
+    from threadstate.library.schema import place
     from worker.migrate import migrate as bring_up_to_date
 
-    engine = writer_engine(database or read_settings().database)
-    migration = bring_up_to_date(engine)
+    with writing(database or read_settings().database) as engine:
+        migration = bring_up_to_date(engine)
+        where = place(engine)
     if as_json:
         print_json({"before": migration.before, "after": migration.after})
     elif migration.before == migration.after:
-        print_line(f"{engine.url.database} is at revision {migration.after} already")
+        print_line(f"{where} is at revision {migration.after} already")
     else:
-        print_line(f"{engine.url.database} is now at revision {migration.after}")
+        print_line(f"{where} is now at revision {migration.after}")

@@ -14,13 +14,12 @@ def serve(database: Database = None, host: Host = None, port: Port = None) -> No
       threadstate serve
       threadstate serve --host 0.0.0.0 --port 8080
     """
-    from threadstate.library.engine import reader_engine
+    from threadstate.library.engine import reading
     from threadstate.library.schema import check_schema
     from worker.serving import become_service
 
     settings = read_settings()
     chosen = database or settings.database
-    engine = reader_engine(chosen)
-    check_schema(engine)
-    engine.dispose()
+    with reading(chosen) as engine:
+        check_schema(engine)
     become_service(chosen, host or settings.host, port or settings.port)

@@ -16,16 +16,16 @@ def summary(database: Database = None, method: MethodName = Method.EXACT, as_jso
       threadstate summary
       threadstate summary --database sqlite:////tmp/threads.sqlite3 --json
     """
-    from threadstate.library.engine import reader_engine
+    from threadstate.library.engine import reading
     from threadstate.library.read import counts, latest_library, undecided_reasons
     from threadstate.library.schema import check_schema
 
-    engine = reader_engine(database or read_settings().database)
-    check_schema(engine)
-    with engine.connect() as connection:
-        library = latest_library(connection, method=method)
-        counted = counts(connection, library.id)
-        reasons = undecided_reasons(connection, library.id)
+    with reading(database or read_settings().database) as engine:
+        check_schema(engine)
+        with engine.connect() as connection:
+            library = latest_library(connection, method=method)
+            counted = counts(connection, library.id)
+            reasons = undecided_reasons(connection, library.id)
     if as_json:
         print_json(
             {

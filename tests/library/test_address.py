@@ -1,0 +1,40 @@
+from __future__ import annotations
+
+import pytest
+
+from threadstate.errors import InvalidValueError
+from threadstate.library.address import database_url, shown
+
+
+@pytest.mark.parametrize(
+    "database",
+    [
+        "",
+        "threads.sqlite3",
+        "sqlite://",
+        "sqlite:///:memory:",
+        "sqlite:///x?mode=ro",
+        "postgresql://host",
+        "postgresql+asyncpg://host/name",
+        "mysql://host/name",
+    ],
+)
+def test_what_is_neither_database_is_refused(database: str) -> None:
+    with pytest.raises(InvalidValueError, match="database is"):
+        database_url(database)
+
+
+@pytest.mark.parametrize("scheme", ["postgresql", "postgresql+psycopg"])
+def test_an_address_of_postgresql_names_its_driver_and_keeps_the_rest(scheme: str) -> None:
+    url = database_url(f"{scheme}://somebody:secret@host:5433/threads?sslmode=require")
+    assert url.render_as_string(hide_password=False) == (
+        "postgresql+psycopg://somebody:secret@host:5433/threads?sslmode=require"
+    )
+    assert "secret" not in shown(url)
+
+
+@pytest.mark.parametrize("database", ["mysql://user:secret@host/name", "postgresql:/user:secret@host/name"])
+def test_a_password_in_a_refused_address_is_not_repeated(database: str) -> None:
+    with pytest.raises(InvalidValueError) as caught:
+        database_url(database)
+    assert "secret" not in str(caught.value)

@@ -1,0 +1,46 @@
+"""Commands that say what a database holds, or that it holds nothing."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+from tests.worker.conftest import SMALL_GRID, CommandLine
+from threadstate.library.schema import SCHEMA_REVISION
+from worker.exit_codes import ExitCode
+
+
+@pytest.mark.parametrize("name", ["summary", "serve"])
+def test_a_database_that_is_not_migrated_ends_with_3(command_line: CommandLine, name: str) -> None:
+    code, out, err = command_line.here(name)
+    assert (code, out) == (ExitCode.SCHEMA, "")
+    assert "run `threadstate migrate`" in err
+    assert len(err.splitlines()) == 1
+
+
+def test_nothing_published_ends_with_4(command_line: CommandLine) -> None:
+    assert command_line.here("migrate")[0] == 0
+    code, out, err = command_line.here("summary")
+    assert (code, out) == (ExitCode.NOT_FOUND, "")
+    assert "run `threadstate rebuild`" in err
+
+
+def test_migrate_says_what_it_did(command_line: CommandLine) -> None:
+    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": None, "after": SCHEMA_REVISION}
+    assert json.loads(command_line.here("migrate", "--json")[1]) == {
+        "before": SCHEMA_REVISION,
+        "after": SCHEMA_REVISION,
+    }
+    assert "already" in command_line.here("migrate")[1]
+
+
+def test_the_summary_counts_every_state_once(command_line: CommandLine) -> None:
+    command_line.out("rebuild", *SMALL_GRID)
+    summary = json.loads(command_line.here("summary", "--json")[1])
+    assert summary["states"] == 216
+    assert sum(summary["classes"].values()) == 216
+    readable = command_line.here("summary")[1]
+    for name, count in (summary["classes"] | summary["flags"]).items():
+        assert re.search(rf"^{name} +{count}$", readable, re.M)
