@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from tests.archive.history_library import SMALL_GRID, histories_of_grid
 from tests.databases import KINDS, Databases, PostgresqlDatabases, SqliteDatabases
 from tests.postgresql_server import PostgresqlServer, running_server
+from threadstate.history.model import History
 
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("repeatable")
@@ -32,6 +34,12 @@ def postgresql_server() -> Iterator[PostgresqlServer]:
     """A PostgreSQL server, which all tests share."""
     with running_server() as server:
         yield server
+
+
+@pytest.fixture(scope="session")
+def small_histories() -> list[History]:
+    """The histories of the small grid."""
+    return histories_of_grid(SMALL_GRID)
 
 
 @pytest.fixture(scope="session")

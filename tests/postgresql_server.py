@@ -67,9 +67,9 @@ class PostgresqlServer:
                 time.sleep(0.02)
 
     def stop(self) -> None:
-        """Stop it; what its clients are at is lost."""
+        """Stop it at once; what its clients are at is lost."""
         if self._process is not None:
-            self._process.send_signal(signal.SIGINT)
+            self._process.send_signal(signal.SIGQUIT)
             self._process.wait(PATIENCE_S)
             self._process = None
 
@@ -90,7 +90,7 @@ def running_server() -> Iterator[PostgresqlServer]:
     try:
         programs = wheel / VERSION_FOLDER / "bin"
         # It ends with this process, however that ends.
-        unprivileged = ["setpriv", "--pdeathsig", "INT"]
+        unprivileged = ["setpriv", "--pdeathsig", "QUIT"]
         if os.geteuid() == 0:
             # The server refuses to run as root, and nobody else may look into root's folders.
             programs = _copied(wheel, home)

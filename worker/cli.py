@@ -11,6 +11,7 @@ import typer
 from typer.exceptions import TyperException
 
 from threadstate.errors import ThreadstateError
+from worker.commands.copy import copy
 from worker.commands.formation import formation
 from worker.commands.heights import heights
 from worker.commands.history import history
@@ -54,6 +55,7 @@ COMMANDS = (
     locate,
     mesh,
     migrate,
+    copy,
     serve,
     run,
 )

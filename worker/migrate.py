@@ -33,6 +33,17 @@ def migrate(engine: Engine) -> Migration:
     return Migration(before, SCHEMA_REVISION)
 
 
+def migrate_empty(engine: Engine) -> None:
+    """Make the schema where there is none, and check the one that there is.
+
+    Raises:
+        SchemaError: the database is at another revision.
+    """
+    if stored_revision(engine) is None:
+        _upgrade(engine)
+    check_schema(engine)
+
+
 def _upgrade(engine: Engine) -> None:
     # Alembic takes half a second to import; a database that needs nothing is not to wait for it.
     from alembic import command

@@ -17,6 +17,9 @@ from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+SMALL_GRID = Grid(3.0, 3.0, 180.0)
+"""9 orientations."""
+
 
 def histories_of_grid(grid: Grid) -> list[History]:
     """The histories of all orientations of a grid, in order; its phases do not matter."""

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 from sqlalchemy import func, select
 
-from tests.archive.history_library import histories_of_grid, store_histories
+from tests.archive.history_library import SMALL_GRID as GRID
+from tests.archive.history_library import store_histories
 from tests.databases import Databases
 from threadstate.archive.read import formations, orientation_history, stored_histories
 from threadstate.archive.rows import history_rows
@@ -15,7 +16,6 @@ from threadstate.archive.stored import StoredHistories
 from threadstate.history.model import History
 from threadstate.history.window import windows_of
 from threadstate.library.engine import reader_engine, writer_engine
-from threadstate.library.grid import Grid
 from threadstate.library.history_tables import history_interval
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.tables import library
@@ -26,19 +26,18 @@ from threadstate.state.solve import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()
-GRID = Grid(3.0, 3.0, 180.0)
 INPUTS = LibraryInputs(PAIR, GRID, SolveOptions())
 
 
-@pytest.fixture(scope="session")
-def histories() -> list[History]:
-    return histories_of_grid(GRID)
+@pytest.fixture
+def histories(small_histories: list[History]) -> list[History]:
+    return small_histories
 
 
 @pytest.fixture(scope="module")
-def database(histories: list[History], databases: Databases) -> str:
+def database(small_histories: list[History], databases: Databases) -> str:
     url = databases.migrated()
-    store_histories(url, GRID, histories)
+    store_histories(url, GRID, small_histories)
     return url
 
 

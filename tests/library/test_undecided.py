@@ -31,7 +31,8 @@ def _answers(index: int) -> list[Answer]:
     ]
 
 
-def _published(writer: Engine) -> int:
+def published(writer: Engine) -> int:
+    """The number of a library with undecided poses, published in a migrated database."""
     library_id = write.open_library(writer, INPUTS)
     for index in range(GRID.orientation_count):
         rows = chunk_rows(GRID.orientation(index), GRID.first_ordinal(index), _answers(index))
@@ -42,7 +43,7 @@ def _published(writer: Engine) -> int:
 
 
 def test_a_library_with_undecided_poses_is_whole(writer: Engine, reader: Engine) -> None:
-    library_id = _published(writer)
+    library_id = published(writer)
     with reader.connect() as connection:
         record = read.latest_library(connection, method=Method.MESH)
         assert (record.id, record.state_count, record.undecided_count) == (library_id, 16, 11)
@@ -56,7 +57,7 @@ def test_a_library_with_undecided_poses_is_whole(writer: Engine, reader: Engine)
 
 
 def test_an_undecided_pose_says_why_it_has_no_state(writer: Engine, reader: Engine) -> None:
-    library_id = _published(writer)
+    library_id = published(writer)
     with reader.connect() as connection:
         assert read.state_of_pose(connection, library_id, -1.0, -1.0, 240.0) == plain_state(-1.0, -1.0, 240.0)
         with pytest.raises(UndecidedPoseError, match="pitch 0, phase 120 deg: reason 1"):
@@ -67,7 +68,7 @@ def test_an_undecided_pose_says_why_it_has_no_state(writer: Engine, reader: Engi
 
 
 def test_a_library_by_meshes_does_not_pass_for_the_latest(writer: Engine, reader: Engine) -> None:
-    library_id = _published(writer)
+    library_id = published(writer)
     with reader.connect() as connection:
         with pytest.raises(NotFoundError):
             read.latest_library(connection)

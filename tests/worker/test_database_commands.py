@@ -7,6 +7,7 @@ import re
 
 import pytest
 
+from tests.databases import Databases
 from tests.worker.conftest import SMALL_GRID, CommandLine
 from threadstate.library.schema import SCHEMA_REVISION
 from worker.exit_codes import ExitCode
@@ -44,3 +45,28 @@ def test_the_summary_counts_every_state_once(command_line: CommandLine) -> None:
     readable = command_line.here("summary")[1]
     for name, count in (summary["classes"] | summary["flags"]).items():
         assert re.search(rf"^{name} +{count}$", readable, re.M)
+
+
+def test_a_copy_is_proved_by_its_hash(command_line: CommandLine, databases: Databases) -> None:
+    published = json.loads(command_line.out("rebuild", "--tilt-max", "1", "--phase-step", "180", "--json"))
+    target = databases.new()
+    code, out, _ = command_line.here("copy", "--to", target, "--json")
+    assert (code, json.loads(out)) == (
+        0,
+        {
+            "library": published["library"],
+            "copy": 1,
+            "content_sha256": published["content_sha256"],
+            "poses": published["states"],
+            "was_there": False,
+        },
+    )
+    assert "is there already" in command_line.here("copy", "--to", target, "--library", "1")[1]
+    assert command_line.here("copy", "--to", target, "--library", "2")[0] == ExitCode.NOT_FOUND
+    summary = json.loads(command_line.here("summary", "--database", target, "--json")[1])
+    assert summary["content_sha256"] == published["content_sha256"]
+
+
+def test_nothing_to_copy_ends_with_4(command_line: CommandLine, databases: Databases) -> None:
+    command_line.here("migrate")
+    assert command_line.here("copy", "--to", databases.new())[0] == ExitCode.NOT_FOUND

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from sqlalchemy import Table
 
 from threadstate.library import history_tables as tables
-from threadstate.library.rows import Row
+from threadstate.library.fingerprint import chunk_sha256
+from threadstate.library.rows import ChunkRows, Row
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,3 +47,8 @@ class HistoryRows:
         """SHA-256, in hexadecimal, of all rows as JSON, in which every number is its shortest decimal."""
         rows = [[one.formation, one.contacts] for one in self.formations], *(rows for _, rows in self.of_orientation())
         return hashlib.sha256(json.dumps(rows, separators=(",", ":"), allow_nan=False).encode()).hexdigest()
+
+
+def content_sha256_of(rows: ChunkRows, history: HistoryRows | None) -> str:
+    """A chunk's content hash: that of its answers and, where it has one, of its history."""
+    return rows.content_sha256 if history is None else chunk_sha256(rows.content_sha256, history.content_sha256)

@@ -58,8 +58,13 @@ class LibraryInputs:
     @cached_property
     def sha256(self) -> str:
         """SHA-256, in hexadecimal, of pair, grid, method, options and code version."""
-        parts = (self.pair_json, canonical_json(self.grid), self.method, self.options_json, self.code_version)
-        return hashlib.sha256(json.dumps(parts, separators=(",", ":")).encode()).hexdigest()
+        return inputs_sha256(self.pair_json, self.grid, self.method, self.options_json, self.code_version)
+
+
+def inputs_sha256(pair_json: str, grid: Grid, method: Method, options_json: str, code_version: str) -> str:
+    """SHA-256, in hexadecimal, of what a library's content depends on."""
+    parts = (pair_json, canonical_json(grid), method, options_json, code_version)
+    return hashlib.sha256(json.dumps(parts, separators=(",", ":")).encode()).hexdigest()
 
 
 def canonical_json(value: object) -> str:

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import lru_cache
 
-from sqlalchemy import Connection, Dialect, Engine, Table, func, insert, select, update
+from sqlalchemy import Connection, Dialect, Engine, Table, delete, func, insert, select, update
 
 from threadstate.errors import ThreadstateError
-from threadstate.library.fingerprint import chunk_sha256, library_sha256
+from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
-from threadstate.library.history_rows import HistoryRows
+from threadstate.library.history_rows import HistoryRows, content_sha256_of
 from threadstate.library.history_tables import formation, formation_contact
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.method import Method
+from threadstate.library.read import LibraryRecord
 from threadstate.library.rows import ChunkRows, Row
 from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag, undecided
 from threadstate.library.turns import Turn, take_turn
@@ -55,6 +56,24 @@ def open_library(engine: Engine, inputs: LibraryInputs) -> int:
             inputs.code_version,
             inputs.grid,
             datetime.now(UTC),
+        ),
+    )
+
+
+def open_copy(engine: Engine, record: LibraryRecord) -> int:
+    """The id of the library of the same inputs as a published one of another database; made if there is none."""
+    return _opened(
+        engine,
+        _Head(
+            record.designation,
+            record.length_unit,
+            record.input_sha256,
+            record.pair,
+            record.method,
+            record.options,
+            record.code_version,
+            record.grid,
+            record.created_at,
         ),
     )
 
@@ -125,9 +144,7 @@ def write_chunk(engine: Engine, library_id: int, rows: ChunkRows, history: Histo
                     orientation.roll_deg,
                     orientation.pitch_deg,
                     rows.pose_count,
-                    rows.content_sha256
-                    if history is None
-                    else chunk_sha256(rows.content_sha256, history.content_sha256),
+                    content_sha256_of(rows, history),
                 )
             ],
         )
@@ -170,6 +187,12 @@ def publish(engine: Engine, library_id: int, grid: Grid) -> str:
             .values(content_sha256=content_sha256, published_at=datetime.now(UTC), undecided_count=left_undecided)
         )
     return content_sha256
+
+
+def remove_unpublished(engine: Engine, library_id: int) -> None:
+    """Remove a library that is not published, with all its rows."""
+    with engine.begin() as connection:
+        connection.execute(delete(library).where(library.c.id == library_id, library.c.published_at.is_(None)))
 
 
 def _write_history(connection: Connection, library_id: int, orientation: int, rows: HistoryRows) -> None:
