@@ -5,10 +5,9 @@ from __future__ import annotations
 from alembic import context
 from sqlalchemy import Connection
 
-import threadstate.library.history_tables  # noqa: F401 - its tables belong to the schema
 from threadstate.library.engine import writer_engine
-from threadstate.library.tables import metadata
 from threadstate.settings import read_settings
+from threadstate.tables import metadata
 
 
 def _run(connection: Connection) -> None:

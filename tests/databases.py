@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
 from itertools import count
 from pathlib import Path
 from typing import Protocol
 
 from tests.postgresql_server import PostgresqlServer
-from threadstate.library.engine import writer_engine
+from threadstate.library.engine import writing
+from threadstate.tables import metadata
 from worker.migrate import migrate
 
 SQLITE = "sqlite"
@@ -24,6 +27,9 @@ class Databases(Protocol):
 
     def migrated(self) -> str:
         """The URL of a database with the schema and nothing in it; made through the migrations, as a user's is."""
+
+    def lent(self) -> AbstractContextManager[str]:
+        """As ``migrated``, of a database that is another's afterwards; its schema is to be left as it is."""
 
 
 class SqliteDatabases:
@@ -48,6 +54,11 @@ class SqliteDatabases:
         shutil.copy(self._template, path)
         return f"sqlite:///{path}"
 
+    @contextmanager
+    def lent(self) -> Iterator[str]:
+        """The URL of a copy of a migrated file."""
+        yield self.migrated()
+
     def _new_path(self) -> Path:
         folder = self._folder / str(next(self._numbers))
         folder.mkdir()
@@ -61,6 +72,7 @@ class PostgresqlDatabases:
         self._server = server
         self._numbers = count()
         self._template: str | None = None
+        self._free: list[str] = []
 
     def new(self) -> str:
         """The URL of an empty database."""
@@ -74,6 +86,16 @@ class PostgresqlDatabases:
             self._template = template
         return self._server.url(self._create(self._template))
 
+    @contextmanager
+    def lent(self) -> Iterator[str]:
+        """The URL of a migrated database, which is emptied afterwards: that takes a tenth of the time of a new one."""
+        url = self._free.pop() if self._free else self.migrated()
+        yield url
+        with writing(url) as engine, engine.begin() as connection:
+            tables = ", ".join(metadata.tables)
+            connection.exec_driver_sql(f"TRUNCATE {tables} RESTART IDENTITY")
+        self._free.append(url)
+
     def _create(self, template: str) -> str:
         name = f"threads_{next(self._numbers)}"
         self._server.execute(f"CREATE DATABASE {name} TEMPLATE {template}")
@@ -81,6 +103,5 @@ class PostgresqlDatabases:
 
 
 def _migrate(url: str) -> None:
-    engine = writer_engine(url)
-    migrate(engine)
-    engine.dispose()
+    with writing(url) as engine:
+        migrate(engine)

@@ -14,8 +14,24 @@ FORBIDDEN = [
     # Four rooms, one direction.
     ("threadstate", ("worker", "service", "migrations", "fastapi", "starlette", "uvicorn", "typer", "multiprocessing")),
     ("worker", ("service", "fastapi", "starlette")),
-    ("service", ("worker", "migrations", "alembic", "typer")),
+    (
+        "service",
+        (
+            "worker",
+            "migrations",
+            "alembic",
+            "typer",
+            # Libraries are read there and written elsewhere.
+            "threadstate.library.write",
+            "threadstate.library.copying",
+            "threadstate.jobs.work",
+        ),
+    ),
     ("migrations", ("worker", "service", "threadstate.thread", "threadstate.contact", "threadstate.state")),
+    # What is stored of libraries knows nothing of jobs and keys, and these compute nothing.
+    ("threadstate/library", ("threadstate.jobs", "threadstate.access")),
+    ("threadstate/jobs", ("numba", "threadstate.contact", "threadstate.state.solve", "threadstate.access")),
+    ("threadstate/access", ("threadstate.jobs",)),
     # The physics knows no database, and data flows thread -> contact -> state -> library.
     (
         "threadstate/thread",

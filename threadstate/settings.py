@@ -21,12 +21,15 @@ DATABASE = "THREADSTATE_DATABASE"
 WORKERS = "THREADSTATE_WORKERS"
 HOST = "THREADSTATE_HOST"
 PORT = "THREADSTATE_PORT"
+READ_KEYS = "THREADSTATE_READ_KEYS"
+LEASE_S = "THREADSTATE_LEASE_S"
 
-NAMES = (DATA_DIR, DATABASE, WORKERS, HOST, PORT, NUMBA_CACHE_DIR)
+NAMES = (DATA_DIR, DATABASE, WORKERS, HOST, PORT, READ_KEYS, LEASE_S, NUMBA_CACHE_DIR)
 """Every setting there is."""
 
 DATABASE_FILE = "threadstate.sqlite3"
 LARGEST_WORKER_COUNT = 256
+DEFAULT_LEASE_S, LARGEST_LEASE_S = 20, 3600
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,8 @@ class Settings:
         workers: how many processes compute.
         host: address that the service listens on.
         port: port that it listens on.
+        read_keys_required: whether reading, too, needs a key.
+        lease_s: after how many seconds of silence a worker is taken for dead.
     """
 
     data_dir: Path
@@ -46,6 +51,8 @@ class Settings:
     workers: int
     host: str
     port: int
+    read_keys_required: bool
+    lease_s: int
 
 
 def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
@@ -61,6 +68,8 @@ def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
         workers=_integer(environment, WORKERS, _processors(), LARGEST_WORKER_COUNT),
         host=environment.get(HOST) or "127.0.0.1",
         port=_integer(environment, PORT, 8000, 65535),
+        read_keys_required=_one_of(environment, READ_KEYS, ("open", "required")) == "required",
+        lease_s=_integer(environment, LEASE_S, DEFAULT_LEASE_S, LARGEST_LEASE_S),
     )
 
 
@@ -82,6 +91,14 @@ def _integer(environment: Mapping[str, str], name: str, default: int, largest: i
     if not (text.isascii() and text.isdigit() and 1 <= int(text) <= largest):
         raise InvalidValueError(name, text, f"an integer, 1 to {largest}")
     return int(text)
+
+
+def _one_of(environment: Mapping[str, str], name: str, valid: tuple[str, ...]) -> str:
+    """One of some words, the first where nothing is said."""
+    text = environment.get(name) or valid[0]
+    if text not in valid:
+        raise InvalidValueError(name, text, ", ".join(valid))
+    return text
 
 
 def _processors() -> int:

@@ -15,6 +15,7 @@ from worker.commands.copy import copy
 from worker.commands.formation import formation
 from worker.commands.heights import heights
 from worker.commands.history import history
+from worker.commands.key import key
 from worker.commands.locate import locate
 from worker.commands.mesh import mesh
 from worker.commands.migrate import migrate
@@ -27,6 +28,7 @@ from worker.commands.solve import solve
 from worker.commands.summary import summary
 from worker.commands.transitions import transitions
 from worker.commands.windows import windows
+from worker.commands.worker import worker
 from worker.exit_codes import ExitCode, exit_code_of
 from worker.garbage import collect_rarely
 
@@ -56,6 +58,8 @@ COMMANDS = (
     mesh,
     migrate,
     copy,
+    worker,
+    key,
     serve,
     run,
 )

@@ -10,9 +10,10 @@ from threadstate.library.engine import reader_engine, writer_engine
 
 
 @pytest.fixture
-def database(databases: Databases) -> str:
+def database(databases: Databases) -> Iterator[str]:
     """The URL of a migrated, empty database."""
-    return databases.migrated()
+    with databases.lent() as url:
+        yield url
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ from threadstate.errors import NotFoundError
 from threadstate.history.model import History
 from threadstate.library import copying, write
 from threadstate.library.copying import CopyError, copy_library
-from threadstate.library.engine import reader_engine, writer_engine, writing
+from threadstate.library.engine import reading, writing
 from threadstate.library.grid import Grid
 from threadstate.library.history_tables import history_interval
 from threadstate.library.identity import LibraryInputs
@@ -50,10 +50,8 @@ def way(with_histories: str, databases: Databases, request: pytest.FixtureReques
     """From the library with histories to an empty database of the other kind."""
     kinds: list[Databases] = [request.getfixturevalue(f"{kind}_databases") for kind in ("sqlite", "postgresql")]
     (other,) = (kind for kind in kinds if kind is not databases)
-    engines = Way(reader_engine(with_histories), writer_engine(other.migrated()))
-    yield engines
-    engines.source.dispose()
-    engines.target.dispose()
+    with other.lent() as empty, reading(with_histories) as source, writing(empty) as target:
+        yield Way(source, target)
 
 
 def _published(engine: Engine) -> int:
@@ -90,7 +88,7 @@ def test_a_copy_is_the_same_to_the_last_bit(way: Way) -> None:
 
 
 def test_undecided_poses_are_copied(databases: Databases) -> None:
-    with writing(databases.migrated()) as source, writing(databases.migrated()) as target:
+    with databases.lent() as full, databases.lent() as empty, writing(full) as source, writing(empty) as target:
         library_id = published_with_undecided(source)
         copied = copy_library(source, target, library_id)
         with source.connect() as here, target.connect() as there:

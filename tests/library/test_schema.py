@@ -17,8 +17,14 @@ from tests.databases import Databases
 from threadstate.errors import SchemaError
 from threadstate.library.engine import reader_engine, reading, writer_engine, writing
 from threadstate.library.schema import MENDING_COMMAND, SCHEMA_REVISION, check_schema, stored_revision
-from threadstate.library.tables import metadata
+from threadstate.tables import metadata
 from worker.migrate import Migration, migrate
+
+
+@pytest.fixture
+def database(databases: Databases) -> str:
+    """The URL of a migrated, empty database whose schema may be changed."""
+    return databases.migrated()
 
 
 @pytest.fixture
@@ -186,5 +192,14 @@ def test_every_text_of_postgresql_is_compared_byte_by_byte(empty: Engine) -> Non
 
 
 def test_every_table_is_documented(repository_root: Path) -> None:
-    text = (repository_root / "docs" / "library.md").read_text()
-    assert {line.split("`")[1] for line in text.splitlines() if line.startswith("| `")} == set(metadata.tables)
+    documented = [
+        line.split("`")[1]
+        for name in ("library.md", "jobs.md")
+        for line in (repository_root / "docs" / name)
+        .read_text()
+        .partition("## Tables")[2]
+        .partition("\n## ")[0]
+        .splitlines()
+        if line.startswith("| `")
+    ]
+    assert sorted(documented) == sorted(metadata.tables)

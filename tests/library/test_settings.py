@@ -37,8 +37,11 @@ def test_every_setting_is_read() -> None:
             "THREADSTATE_WORKERS": "3",
             "THREADSTATE_HOST": "::1",
             "THREADSTATE_PORT": "8080",
+            "THREADSTATE_READ_KEYS": "required",
+            "THREADSTATE_LEASE_S": "5",
         }
     )
+    assert (settings.read_keys_required, settings.lease_s) == (True, 5)
     assert (settings.database, settings.workers, settings.host, settings.port) == (
         "sqlite:////tmp/a.sqlite3",
         3,
@@ -47,11 +50,16 @@ def test_every_setting_is_read() -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["THREADSTATE_WORKERS", "THREADSTATE_PORT"])
+@pytest.mark.parametrize("name", ["THREADSTATE_WORKERS", "THREADSTATE_PORT", "THREADSTATE_LEASE_S"])
 @pytest.mark.parametrize("value", ["0", "-1", "1.5", "many", "70000", "٣"])
 def test_a_bad_number_names_its_setting(name: str, value: str) -> None:
     with pytest.raises(InvalidValueError, match=name):
         read_settings({name: value, "HOME": "/h"})
+
+
+def test_a_word_that_is_not_known_names_its_setting() -> None:
+    with pytest.raises(InvalidValueError, match="THREADSTATE_READ_KEYS is 'yes'; valid: open, required"):
+        read_settings({"THREADSTATE_READ_KEYS": "yes", "HOME": "/h"})
 
 
 def test_every_setting_is_documented(repository_root: Path) -> None:

@@ -21,9 +21,10 @@ from threadstate.library.fingerprint import answers_sha256, library_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, chunk_rows
-from threadstate.library.tables import metadata, state
+from threadstate.library.tables import state
 from threadstate.state.model import ContactState, Flag, StateClass
 from threadstate.state.solve import SolveOptions
+from threadstate.tables import metadata
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.units import LengthUnit
 from worker.migrate import migrate

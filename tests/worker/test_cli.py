@@ -42,7 +42,7 @@ COMMANDS = sorted(_commands().commands)
 
 def _options(name: str) -> Iterator[str]:
     for parameter in _commands().commands[name].params:
-        yield from parameter.opts
+        yield from (name for name in parameter.opts if name.startswith("-"))
 
 
 def _sections(text: str) -> dict[str, str]:

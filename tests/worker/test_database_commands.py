@@ -70,3 +70,26 @@ def test_a_copy_is_proved_by_its_hash(command_line: CommandLine, databases: Data
 def test_nothing_to_copy_ends_with_4(command_line: CommandLine, databases: Databases) -> None:
     command_line.here("migrate")
     assert command_line.here("copy", "--to", databases.new())[0] == ExitCode.NOT_FOUND
+
+
+@pytest.mark.sqlite_alone
+def test_a_key_is_shown_once_listed_without_its_secret_and_revoked(command_line: CommandLine) -> None:
+    command_line.here("migrate")
+    code, out, err = command_line.here("key", "create", "--name", "designer")
+    key = out.strip()
+    key_id = key.split("_")[1]
+    assert (code, err) == (0, "This is the key; it is shown this once.\n")
+    _, read_key, _ = command_line.here("key", "create", "--name", "reader", "--scope", "read", "--json")
+    assert json.loads(read_key)["key"] != key
+    listed = [json.loads(line) for line in command_line.here("key", "list", "--json")[1].splitlines()]
+    assert [(one["name"], one["scope"], one["revoked_at"]) for one in listed] == [
+        ("designer", "write", None),
+        ("reader", "read", None),
+    ]
+    assert f"{key_id}  write  counts  designer" in command_line.here("key", "list")[1]
+    assert command_line.here("key", "revoke", "--id", key_id)[0] == 0
+    assert f"{key_id}  write  revoked" in command_line.here("key", "list")[1]
+    assert key.split("_", 2)[2] not in command_line.here("key", "list")[1]
+    assert command_line.here("key", "revoke", "--id", "0" * 12)[0] == ExitCode.NOT_FOUND
+    for arguments in (("create",), ("revoke",), ("create", "--name", "")):
+        assert command_line.here("key", *arguments)[0] == ExitCode.USAGE

@@ -106,6 +106,11 @@ def _plain(value: object, name: str) -> object:
     raise InvalidValueError(name, value, "a number, a name or a dataclass of them")
 
 
+def code_versions() -> frozenset[str]:
+    """The code versions of the libraries that this code computes, one for each method."""
+    return frozenset(_code_version(patterns) for patterns in (PHYSICS, MESH_PHYSICS))
+
+
 @cache
 def _code_version(patterns: tuple[str, ...]) -> str:
     # Any change of the physics makes new libraries beside the old ones without anyone having to remember a number.

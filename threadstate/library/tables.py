@@ -42,7 +42,7 @@ metadata = MetaData(
 )
 
 NAME_LENGTH = 32
-_SHA256_LENGTH = 64
+SHA256_LENGTH = 64
 
 
 def one_of(column: str, names: Iterable[StrEnum]) -> CheckConstraint:
@@ -59,7 +59,7 @@ library = Table(
     Column("designation", bytewise_string(100), nullable=False),
     Column("length_unit", bytewise_string(2), nullable=False),
     # What was computed: the SHA-256 of all inputs, and the inputs themselves as canonical JSON.
-    Column("input_sha256", bytewise_string(_SHA256_LENGTH), nullable=False),
+    Column("input_sha256", bytewise_string(SHA256_LENGTH), nullable=False),
     Column("pair", bytewise_text(), nullable=False),
     Column("method", bytewise_string(NAME_LENGTH), nullable=False),
     Column("options", bytewise_text(), nullable=False),
@@ -74,7 +74,7 @@ library = Table(
     Column("state_count", Integer, nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
     # Both null until the library is whole; readers see published libraries only.
-    Column("content_sha256", bytewise_string(_SHA256_LENGTH)),
+    Column("content_sha256", bytewise_string(SHA256_LENGTH)),
     Column("published_at", UtcDateTime),
     # How many of the poses are undecided; 0 until the library is whole.
     Column("undecided_count", Integer, nullable=False, server_default="0"),
@@ -99,7 +99,7 @@ chunk = Table(
     Column("roll_deg", Double, nullable=False),
     Column("pitch_deg", Double, nullable=False),
     Column("state_count", Integer, nullable=False),
-    Column("content_sha256", bytewise_string(_SHA256_LENGTH), nullable=False),
+    Column("content_sha256", bytewise_string(SHA256_LENGTH), nullable=False),
     # Serves: which orientations are committed; the hashes in order when publishing.
     PrimaryKeyConstraint("library_id", "orientation"),
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),

@@ -15,6 +15,7 @@ class Turn(IntEnum):
 
     MIGRATE = 1
     OPEN_LIBRARY = 2
+    ASK = 3
 
 
 def take_turn(connection: Connection, turn: Turn) -> None:

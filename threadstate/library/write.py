@@ -163,29 +163,32 @@ def publish(engine: Engine, library_id: int, grid: Grid) -> str:
         IncompleteLibraryError: chunks are missing.
     """
     with engine.begin() as connection:
-        row = connection.execute(
-            select(library.c.content_sha256).where(library.c.id == library_id).with_for_update()
-        ).one()
-        if row.content_sha256 is not None:
-            return str(row.content_sha256)
-        chunks = connection.execute(
-            select(chunk.c.orientation, chunk.c.state_count, chunk.c.content_sha256)
-            .where(chunk.c.library_id == library_id)
-            .order_by(chunk.c.orientation)
-        ).all()
-        states, left_undecided = (_count(connection, table, library_id) for table in (state, undecided))
-        answers = states + left_undecided
-        if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or answers != grid.state_count:
-            raise IncompleteLibraryError(
-                f"library {library_id} has {len(chunks)} of {grid.orientation_count} orientations and "
-                f"{answers} of {grid.state_count} poses"
-            )
-        content_sha256 = library_sha256([row.content_sha256 for row in chunks])
-        connection.execute(
-            update(library)
-            .where(library.c.id == library_id)
-            .values(content_sha256=content_sha256, published_at=datetime.now(UTC), undecided_count=left_undecided)
+        return publish_in(connection, library_id, grid)
+
+
+def publish_in(connection: Connection, library_id: int, grid: Grid) -> str:
+    """As :func:`publish`, in a transaction that has begun."""
+    known = connection.scalar(select(library.c.content_sha256).where(library.c.id == library_id).with_for_update())
+    if known is not None:
+        return str(known)
+    chunks = connection.execute(
+        select(chunk.c.orientation, chunk.c.state_count, chunk.c.content_sha256)
+        .where(chunk.c.library_id == library_id)
+        .order_by(chunk.c.orientation)
+    ).all()
+    states, left_undecided = (_count(connection, table, library_id) for table in (state, undecided))
+    answers = states + left_undecided
+    if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or answers != grid.state_count:
+        raise IncompleteLibraryError(
+            f"library {library_id} has {len(chunks)} of {grid.orientation_count} orientations and "
+            f"{answers} of {grid.state_count} poses"
         )
+    content_sha256 = library_sha256([row.content_sha256 for row in chunks])
+    connection.execute(
+        update(library)
+        .where(library.c.id == library_id)
+        .values(content_sha256=content_sha256, published_at=datetime.now(UTC), undecided_count=left_undecided)
+    )
     return content_sha256
 
 

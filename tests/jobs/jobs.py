@@ -1,0 +1,67 @@
+"""A small library of plain states as a job, for tests of what happens to jobs."""
+
+from __future__ import annotations
+
+from sqlalchemy import Engine
+
+from tests.library.states import plain_state
+from threadstate.jobs.model import JobEvent, JobRecord
+from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.work import hand_in, open_job, take_chunks
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.read import published_libraries
+from threadstate.library.rows import chunk_rows
+from threadstate.library.write import open_library, write_chunk
+from threadstate.state.options import SolveOptions
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+GRID = Grid(1.0, 1.0, 180.0)
+INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+
+
+def read_job(engine: Engine, job_id: int) -> JobRecord:
+    with engine.connect() as connection:
+        return job_by_id(connection, job_id)
+
+
+def events(engine: Engine, job_id: int, after: int = 0) -> list[JobEvent]:
+    with engine.connect() as connection:
+        return events_after(connection, job_id, after)
+
+
+def published_count(engine: Engine) -> int:
+    with engine.connect() as connection:
+        return len(published_libraries(connection))
+
+
+def opened(engine: Engine, job_id: int) -> int:
+    """Open a job.
+
+    Returns:
+        Number of its library.
+    """
+    library_id = open_library(engine, INPUTS)
+    open_job(engine, job_id, library_id)
+    return library_id
+
+
+def commit(engine: Engine, library_id: int, index: int) -> None:
+    """Commit a chunk of plain states to the library."""
+    states = [plain_state(*pose) for pose in GRID.poses(index)]
+    write_chunk(engine, library_id, chunk_rows(GRID.orientation(index), GRID.first_ordinal(index), states))
+
+
+def work_off(engine: Engine, worker_id: str, job_id: int, library_id: int, most: int = GRID.orientation_count) -> int:
+    """Take, commit and hand in chunks as long as there are free ones, ``most`` at most.
+
+    Returns:
+        How many.
+    """
+    for done in range(most):
+        taken = take_chunks(engine, worker_id, job_id, 1)
+        if not taken:
+            return done
+        commit(engine, library_id, taken[0])
+        assert hand_in(engine, worker_id, job_id, taken[0])
+    return most

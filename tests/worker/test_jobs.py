@@ -1,0 +1,191 @@
+"""Workers as processes of their own: together, killed, asleep, and told to stop.
+
+``scripts/kill_workers.py`` kills more of them.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Mapping
+
+import pytest
+from sqlalchemy import Engine, select
+
+from tests.databases import Databases
+from tests.worker.conftest import CommandLine
+from threadstate.jobs.ask import ask_for, cancel
+from threadstate.jobs.model import JobRecord
+from threadstate.jobs.names import EventKind, JobState
+from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.workers import beats
+from threadstate.library.engine import writing
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.read import library_by_id, published_libraries
+from threadstate.library.tables import chunk, state
+from threadstate.settings import LEASE_S
+from threadstate.state.options import SolveOptions
+from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.rebuild import rebuild
+
+GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
+INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+PATIENCE_S = 120.0
+
+
+class Jobs:
+    """A database with jobs, and workers on it that take each other for dead after a second."""
+
+    def __init__(self, engine: Engine, command_line: CommandLine) -> None:
+        self.engine = engine
+        self.command_line = command_line
+
+    def start(self) -> subprocess.Popen[str]:
+        return self.command_line.start("worker", "--workers", "1", "--until-idle")
+
+    def job(self, job_id: int = 1) -> JobRecord:
+        with self.engine.connect() as connection:
+            return job_by_id(connection, job_id)
+
+    def published(self) -> list[str]:
+        with self.engine.connect() as connection:
+            return [library.content_sha256 for library in published_libraries(connection)]
+
+    def committed(self) -> int:
+        with self.engine.connect() as connection:
+            return len(connection.scalars(select(chunk.c.orientation)).all())
+
+
+@pytest.fixture
+def jobs(
+    databases: Databases,
+    environment: Mapping[str, str],
+    capsys: pytest.CaptureFixture[str],
+) -> Iterator[Jobs]:
+    with databases.lent() as database, writing(database) as engine:
+        yield Jobs(engine, CommandLine(database, {**environment, LEASE_S: "1"}, capsys))
+
+
+@pytest.fixture(scope="session")
+def expected_content(sqlite_databases: Databases) -> str:
+    """The content hash of the small library as ``rebuild`` computes it."""
+    with writing(sqlite_databases.migrated()) as engine:
+        return rebuild(engine, INPUTS, 2, _Unwatched()).content_sha256
+
+
+class _Unwatched:
+    def begin(self, committed: int, total: int) -> None: ...
+
+    def ready(self) -> None: ...
+
+    def advance(self, poses: int) -> None: ...
+
+
+def _wait_for(condition: Callable[[], bool]) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, "in vain"
+        time.sleep(0.01)
+
+
+def _end(*workers: subprocess.Popen[str]) -> None:
+    """Wait until workers have ended by themselves, without an error."""
+    for worker in workers:
+        _, err = worker.communicate(timeout=PATIENCE_S)
+        assert worker.returncode == 0, err
+
+
+def _check_whole(jobs: Jobs, expected_content: str) -> None:
+    """The library is the one that ``rebuild`` computes; no chunk is lost or doubled."""
+    assert jobs.published() == [expected_content]
+    done = jobs.job()
+    assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
+    with jobs.engine.connect() as connection:
+        assert done.library_id is not None
+        assert library_by_id(connection, done.library_id).state_count == GRID.state_count
+        assert len(connection.execute(select(state.c.ordinal)).all()) == GRID.state_count
+        told = events_after(connection, done.id, 0)
+    assert [event.number for event in told] == list(range(1, done.event_count + 1))
+    progress = [event.done_count for event in told if event.kind is EventKind.PROGRESS]
+    assert progress == sorted(set(progress))
+    assert [event.kind for event in told].count(EventKind.PUBLISHED) == 1
+
+
+@pytest.mark.postgresql_alone
+def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, expected_content: str) -> None:
+    ask_for(jobs.engine, INPUTS)
+    with jobs.start() as one, jobs.start() as other:
+        _end(one, other)
+    _check_whole(jobs, expected_content)
+    assert beats(jobs.engine) == {}
+
+
+def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_content: str) -> None:
+    moments = random.Random(20060128)
+    ask_for(jobs.engine, INPUTS)
+    for _ in range(2):
+        with jobs.start() as killed:
+            before = jobs.committed()
+            _wait_for(lambda before=before: jobs.job().lease_count > 0 or jobs.committed() > before)  # type: ignore[misc]
+            time.sleep(moments.uniform(0.0, 0.5))
+            killed.kill()
+            killed.communicate()
+        assert jobs.published() == [] or jobs.job().state is JobState.DONE
+    with jobs.start() as last:
+        _end(last)
+    _check_whole(jobs, expected_content)
+
+
+@pytest.mark.sqlite_alone
+def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs, expected_content: str) -> None:
+    ask_for(jobs.engine, INPUTS)
+    with jobs.start() as asleep:
+        _wait_for(lambda: jobs.job().lease_count > 0)
+        os.kill(asleep.pid, signal.SIGSTOP)
+        (sleeping,) = beats(jobs.engine)
+        with jobs.start() as other:
+            _wait_for(lambda: sleeping not in beats(jobs.engine))
+            os.kill(asleep.pid, signal.SIGCONT)
+            _end(other, asleep)
+    _check_whole(jobs, expected_content)
+
+
+@pytest.mark.sqlite_alone
+def test_told_to_stop_a_worker_leaves_at_once(jobs: Jobs) -> None:
+    ask_for(jobs.engine, INPUTS)
+    with jobs.start() as worker:
+        _wait_for(lambda: jobs.committed() > 0)
+        worker.terminate()
+        _, err = worker.communicate(timeout=PATIENCE_S)
+    assert worker.returncode == 0, err
+    assert err.splitlines()[-1] == "stopped"
+    assert beats(jobs.engine) == {}
+    assert jobs.job().lease_count == 0
+    assert jobs.published() == []
+
+
+@pytest.mark.sqlite_alone
+def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
+    asked = ask_for(jobs.engine, INPUTS)
+    with jobs.start() as worker:
+        _wait_for(lambda: jobs.committed() > 0)
+        cancel(jobs.engine, asked.id)
+        _end(worker)
+    assert jobs.job().state is JobState.CANCELLED
+    assert jobs.published() == []
+
+
+@pytest.mark.sqlite_alone
+def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, expected_content: str) -> None:
+    ask_for(jobs.engine, INPUTS)
+    grid = ("--tilt-max", "1", "--tilt-step", "1", "--phase-step", "15")
+    with jobs.start() as worker:
+        rebuilt = json.loads(jobs.command_line.out("rebuild", *grid, "--json"))
+        _end(worker)
+    assert rebuilt["content_sha256"] == expected_content
+    _check_whole(jobs, expected_content)

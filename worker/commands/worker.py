@@ -1,0 +1,47 @@
+"""``threadstate worker``."""
+
+from __future__ import annotations
+
+import signal
+from typing import Annotated, NoReturn
+
+import typer
+
+from threadstate.settings import read_settings
+from worker.options import Database, Workers
+
+
+def worker(
+    database: Database = None,
+    workers: Workers = None,
+    until_idle: Annotated[
+        bool, typer.Option("--until-idle", help="End when every job has ended.", show_default=False)
+    ] = False,
+) -> None:
+    r"""Compute the libraries that are asked for as jobs, until stopped.
+
+    Any number may run at once, on several machines where the database is PostgreSQL's. SIGTERM and Ctrl-C end it; its
+    chunks are free for others then. One that is killed is found to be silent.
+
+    \b
+    Examples:
+      threadstate worker
+      threadstate worker --workers 2 --until-idle
+    """
+    from threadstate.library.engine import writing
+    from threadstate.library.schema import check_schema
+    from worker.jobs.serve import serve_jobs
+    from worker.output import tell
+
+    settings = read_settings()
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        with writing(database or settings.database) as engine:
+            check_schema(engine)
+            serve_jobs(engine, workers or settings.workers, settings.lease_s, until_idle=until_idle)
+    except KeyboardInterrupt:
+        tell("stopped")
+
+
+def _interrupt(_signal: int, _frame: object) -> NoReturn:
+    raise KeyboardInterrupt
