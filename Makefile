@@ -9,6 +9,7 @@
 # make designer   write the designer's session of the README and the table of windows, from the latest library
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew
+# make kills      kill workers of jobs a hundred times, and check what is left
 # make lock       renew the lock files after a change of dependencies (needs uv)
 
 PYTHON ?= python3
@@ -19,7 +20,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots
+.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots kills
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -61,6 +62,9 @@ designer: setup
 screenshots: setup
 	$(BIN)/threadstate rebuild
 	$(BIN)/python -m scripts.write_screenshots
+
+kills: setup
+	$(BIN)/python -m scripts.kill_workers
 
 $(VENV)/.created:
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)

@@ -13,6 +13,7 @@ import service.explorer.endpoints
 import service.health.endpoints
 import service.histories.computed
 import service.histories.endpoints
+import service.jobs.endpoints
 import service.libraries.endpoints
 import service.meshes.endpoints
 import service.network.endpoints
@@ -21,8 +22,10 @@ import service.solve.endpoints
 import service.states.endpoints
 import service.undecided.endpoints
 import threadstate
+from service.control import ControlEngine
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
 from service.explorer.unknown import install_unknown_page
+from service.keys import guard_reading
 from service.middleware import BodyLimit, EncodedSlashes, HeadAsGet, SecurityHeaders
 from service.network.store import NetworkStore
 from service.parameters import refuse_unknown_parameters
@@ -42,12 +45,15 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     Raises:
         InvalidValueError: a setting is not valid.
     """
-    engine = reader_engine((settings or read_settings()).database)
+    settings = settings or read_settings()
+    engine = reader_engine(settings.database)
+    control = ControlEngine(settings.database)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
         yield
         engine.dispose()
+        control.dispose()
 
     app = DescribedApplication(
         title="threadstate",
@@ -58,10 +64,12 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         openapi_url=None,
         redirect_slashes=False,
         lifespan=lifespan,
-        dependencies=[Depends(refuse_unknown_parameters)],
+        dependencies=[Depends(guard_reading), Depends(refuse_unknown_parameters)],
         responses=PROBLEM_RESPONSES,
     )
     app.state.engine = engine
+    app.state.control = control
+    app.state.read_keys_required = settings.read_keys_required
     app.state.networks = NetworkStore()
     install_problem_handlers(app)
     install_unknown_page(app)
@@ -75,6 +83,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         service.network,
         service.meshes,
         service.solve,
+        service.jobs,
         service.health,
         service.docs,
         service.explorer,

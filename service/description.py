@@ -27,8 +27,10 @@ class DescribedApplication(FastAPI):
             document = super().openapi()
             for methods in document["paths"].values():
                 for operation in methods.values():
-                    content = operation["responses"]["default"]["content"]
-                    content[MEDIA_TYPE] = content.pop("application/json")
+                    problem = operation["responses"]["default"]
+                    # FastAPI takes an error to be of the media type of the answer.
+                    (schema,) = problem["content"].values()
+                    problem["content"] = {MEDIA_TYPE: schema}
             # Not among the routes' responses: what FastAPI describes there loses every null.
             for one in EXAMPLES:
                 answer = document["paths"][one.path][one.method]["responses"]["200"]["content"][one.media_type]

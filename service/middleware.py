@@ -17,6 +17,9 @@ SECURITY_HEADERS = {
     "Referrer-Policy": "no-referrer",
 }
 
+ASKED_AS_HEAD = "threadstate.asked_as_head"
+"""In the scope of a request that came as HEAD; an answer that has no end looks for it."""
+
 
 class SecurityHeaders:
     """Puts the security headers on every response that has none of its own."""
@@ -72,7 +75,7 @@ class HeadAsGet:
                 message = {**message, "body": b""}
             await send(message)
 
-        await self._app({**scope, "method": "GET"}, receive, send_without_content)
+        await self._app({**scope, "method": "GET", ASKED_AS_HEAD: True}, receive, send_without_content)
 
 
 class BodyLimit:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from http import HTTPStatus
+from types import MappingProxyType
 from typing import Any
 
 from fastapi import FastAPI, Request, Response
@@ -14,11 +15,14 @@ from pydantic import BaseModel, Field
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 
+from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
 from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, UndecidedPoseError, UnresolvedPoseError
+from threadstate.jobs.model import JobEndedError
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:threadstate:problem:"
 _LONGEST_ECHO = 100
+NO_HEADERS: Mapping[str, str] = MappingProxyType({})
 
 
 class ProblemItem(BaseModel):
@@ -56,6 +60,9 @@ NOT_MIGRATED = Kind("not-migrated", HTTPStatus.SERVICE_UNAVAILABLE, "Database no
 NOT_READY = Kind("not-ready", HTTPStatus.SERVICE_UNAVAILABLE, "No library is published")
 DATABASE_UNAVAILABLE = Kind("database-unavailable", HTTPStatus.SERVICE_UNAVAILABLE, "Database unavailable")
 UNRESOLVED_POSE = Kind("unresolved-pose", HTTPStatus.UNPROCESSABLE_ENTITY, "Pose not resolved")
+KEY_REFUSED = Kind("key-refused", HTTPStatus.UNAUTHORIZED, "Key needed")
+SCOPE_REFUSED = Kind("scope-refused", HTTPStatus.FORBIDDEN, "Key not good for this")
+JOB_ENDED = Kind("job-ended", HTTPStatus.CONFLICT, "Job has ended")
 INTERNAL = Kind("internal", HTTPStatus.INTERNAL_SERVER_ERROR, "Internal error")
 
 KINDS = (
@@ -64,6 +71,9 @@ KINDS = (
     NOT_FOUND,
     UNDECIDED_POSE,
     UNRESOLVED_POSE,
+    KEY_REFUSED,
+    SCOPE_REFUSED,
+    JOB_ENDED,
     NOT_MIGRATED,
     NOT_READY,
     DATABASE_UNAVAILABLE,
@@ -92,6 +102,9 @@ def install_problem_handlers(app: FastAPI) -> None:
         (UndecidedPoseError, _undecided_pose),
         (NotFoundError, _not_found),
         (UnresolvedPoseError, _unresolved_pose),
+        (KeyRefusedError, _key_refused),
+        (ScopeRefusedError, _scope_refused),
+        (JobEndedError, _job_ended),
         (SchemaError, _schema),
         (SQLAlchemyError, _database),
         (HTTPException, _http),
@@ -100,15 +113,17 @@ def install_problem_handlers(app: FastAPI) -> None:
         app.add_exception_handler(error, handler)
 
 
-def problem_response(kind: Kind, detail: str, errors: Sequence[ProblemItem] = ()) -> Response:
+def problem_response(
+    kind: Kind, detail: str, errors: Sequence[ProblemItem] = (), headers: Mapping[str, str] = NO_HEADERS
+) -> Response:
     """The response for a problem of one of the service's kinds."""
     problem = Problem(
         type=TYPE_PREFIX + kind.name, title=kind.title, status=kind.status, detail=detail, errors=list(errors)
     )
-    return _response(problem, {})
+    return _response(problem, headers)
 
 
-def _response(problem: Problem, headers: dict[str, str]) -> Response:
+def _response(problem: Problem, headers: Mapping[str, str]) -> Response:
     # Escaped to ASCII: what a client sent may not be encodable otherwise (lone surrogates).
     return Response(
         json.dumps(problem.model_dump(exclude_defaults=True)),
@@ -151,6 +166,18 @@ def _undecided_pose(_request: Request, error: Any) -> Response:
 
 def _unresolved_pose(_request: Request, error: Any) -> Response:
     return problem_response(UNRESOLVED_POSE, str(error))
+
+
+def _key_refused(_request: Request, error: Any) -> Response:
+    return problem_response(KEY_REFUSED, str(error), headers={"WWW-Authenticate": "Bearer"})
+
+
+def _scope_refused(_request: Request, error: Any) -> Response:
+    return problem_response(SCOPE_REFUSED, str(error))
+
+
+def _job_ended(_request: Request, error: Any) -> Response:
+    return problem_response(JOB_ENDED, str(error))
 
 
 def _schema(_request: Request, error: Any) -> Response:

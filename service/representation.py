@@ -9,6 +9,8 @@ from fastapi import Request, Response
 
 REVALIDATE = "public, no-cache"
 """May be stored, must be asked for again: a stored library does not change, but ``latest`` moves on."""
+REVALIDATE_PRIVATELY = "private, no-cache"
+"""Where reading needs a key, no copy is kept on the way."""
 
 JSON = "application/json"
 NOT_MODIFIED: dict[int | str, dict[str, str]] = {304: {"description": "The client's copy is current (`If-None-Match`)"}}
@@ -26,7 +28,8 @@ def representation(
 ) -> Response:
     """``content`` with its ETag, or an empty 304 where ``If-None-Match`` names that ETag."""
     etag = f'"{hashlib.sha256(content).hexdigest()}"'
-    all_headers = {"ETag": etag, "Cache-Control": REVALIDATE, **(headers or {})}
+    cached = REVALIDATE_PRIVATELY if request.app.state.read_keys_required else REVALIDATE
+    all_headers = {"ETag": etag, "Cache-Control": cached, **(headers or {})}
     if _matches(request.headers.get("if-none-match", ""), etag):
         return Response(status_code=304, headers=all_headers)
     return Response(content, 200, all_headers, media_type)

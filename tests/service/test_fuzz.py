@@ -39,13 +39,17 @@ text = st.one_of(
     st.floats().map(repr),
     st.text(max_size=20),
 )
-segments = st.one_of(st.sampled_from(("v1", "libraries", "states", "histories", "1", "docs", "assets")), text)
+segments = st.one_of(
+    st.sampled_from(("v1", "libraries", "states", "histories", "jobs", "events", "1", "docs", "assets")), text
+)
 resources = st.one_of(
     st.lists(segments, max_size=7),
     st.tuples(st.just("v1"), st.just("libraries"), text, st.just("states")),
     st.tuples(*map(st.just, ("v1", "libraries", "latest", "states"))),
     st.tuples(*map(st.just, ("v1", "libraries", "latest", "states")), text, text, text),
     st.tuples(*map(st.just, ("v1", "libraries", "1", "histories")), text, text),
+    st.tuples(st.just("v1"), st.just("jobs"), text),
+    st.tuples(st.just("v1"), st.just("jobs"), text, st.just("events")),
 )
 json_values = st.recursive(
     st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5)),

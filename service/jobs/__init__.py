@@ -1,0 +1,1 @@
+"""Libraries that are asked for, and how far they are."""

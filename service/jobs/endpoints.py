@@ -1,0 +1,103 @@
+"""``/v1/jobs``."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+from urllib.parse import urlencode
+
+from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
+
+from service.control import RequestedControl
+from service.database import ReadConnection, engine_of
+from service.jobs.schemas import JobDocument, JobPage, JobRequest, job_document
+from service.jobs.stream import HEADERS, EventStream, told
+from service.keys import require_write_key
+from service.middleware import ASKED_AS_HEAD
+from service.representation import JSON, NOT_MODIFIED, json_response
+from threadstate.jobs.ask import ask_for, cancel
+from threadstate.jobs.model import JobRecord
+from threadstate.jobs.read import job_by_id, jobs_before
+from threadstate.library.read import LARGEST_ID
+
+router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
+
+LARGEST_LIMIT = 100
+
+JobId = Annotated[int, Path(alias="id", ge=1, le=LARGEST_ID, description="number of the job", examples=[1])]
+LimitQuery = Annotated[int, Query(ge=1, le=LARGEST_LIMIT, description="how many jobs a page has at most")]
+BeforeQuery = Annotated[int, Query(ge=1, le=LARGEST_ID, description="from the `next` link of the page before")]
+LastEventHeader = Annotated[
+    int,
+    Header(alias="Last-Event-ID", ge=0, le=LARGEST_ID, description="number of the last event that was received"),
+]
+
+_ACCEPTED: dict[int | str, dict[str, Any]] = {
+    200: {"description": "The library is there already"},
+    202: {"model": JobDocument, "description": "It is queued, or at work; `Location` says where to look"},
+}
+_ALL_TOLD: dict[int | str, dict[str, Any]] = {
+    204: {"description": "The job has ended, and all of it has been received: do not connect again"}
+}
+
+
+@router.post(
+    "",
+    summary="Ask for a library",
+    response_model=JobDocument,
+    responses=_ACCEPTED,
+    dependencies=[Depends(require_write_key)],
+)
+def post_job(engine: RequestedControl, body: JobRequest) -> Response:
+    """Have a library computed. The same inputs are the same job; one that failed or was cancelled begins again."""
+    job = ask_for(engine, body.inputs())
+    return _job_response(job, 200 if job.state.ended else 202)
+
+
+@router.get("", summary="All jobs", response_model=JobPage, responses=NOT_MODIFIED)
+def list_jobs(
+    request: Request, connection: ReadConnection, limit: LimitQuery = 50, before: BeforeQuery = LARGEST_ID
+) -> Response:
+    """The jobs, the latest first, page by page."""
+    found = jobs_before(connection, before, limit + 1)
+    following, headers = None, {}
+    if len(found) > limit:
+        query = urlencode({**request.query_params, "before": found[limit - 1].id})
+        following = f"{request.scope.get('root_path', '')}/v1/jobs?{query}"
+        headers["Link"] = f'<{following}>; rel="next"'
+    page = JobPage(jobs=[job_document(job) for job in found[:limit]], next=following)
+    return json_response(request, page.model_dump(mode="json"), headers)
+
+
+@router.get("/{id}", summary="One job", response_model=JobDocument, responses=NOT_MODIFIED)
+def get_job(request: Request, connection: ReadConnection, job_id: JobId) -> Response:
+    """How far a job is, and the number of its library once that is published."""
+    return json_response(request, job_document(job_by_id(connection, job_id)).model_dump(mode="json"))
+
+
+@router.get("/{id}/events", summary="What happens to a job", response_class=EventStream, responses=_ALL_TOLD)
+def get_events(request: Request, job_id: JobId, last_event_id: LastEventHeader = 0) -> Response:
+    """Server-sent events: what has happened, and what happens until the job ends.
+
+    Each has a number, as `id`, a kind, as `event`, and as `data` an object with `job`, `kind`, `at`, `committed`,
+    `chunks` and `reason`. A client that comes back with `Last-Event-ID` is told what it has missed.
+    """
+    engine = engine_of(request)
+    # Not the request's connection: that one would be held as long as the stream is open.
+    with engine.connect() as connection:
+        job = job_by_id(connection, job_id)
+    if job.state.ended and last_event_id >= job.event_count:
+        return Response(status_code=204, headers={"Cache-Control": "no-store"})
+    if request.scope.get(ASKED_AS_HEAD):
+        return Response(media_type=EventStream.media_type, headers=HEADERS)
+    return EventStream(told(engine, job_id, last_event_id), headers=HEADERS)
+
+
+@router.delete("/{id}", summary="Cancel a job", response_model=JobDocument, dependencies=[Depends(require_write_key)])
+def delete_job(engine: RequestedControl, job_id: JobId) -> Response:
+    """Cancel a job that has not ended. What is computed stays, unpublished, for when it is asked for again."""
+    return _job_response(cancel(engine, job_id), 200)
+
+
+def _job_response(job: JobRecord, status: int) -> Response:
+    headers = {"Location": f"/v1/jobs/{job.id}", "Cache-Control": "no-store"}
+    return Response(job_document(job).model_dump_json(), status, headers, JSON)

@@ -1,0 +1,178 @@
+"""The shape of a job that is asked for, and of one that is told of."""
+
+from __future__ import annotations
+
+import json
+from datetime import datetime
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from service.libraries.schemas import GridDocument
+from threadstate.errors import InvalidValueError
+from threadstate.jobs.model import JobEvent, JobRecord
+from threadstate.jobs.names import EventKind, JobState
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.method import Method
+from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
+from threadstate.mesh.presets import Preset
+from threadstate.mesh.scene_name import Scene
+from threadstate.state.options import SolveOptions
+from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+
+_FORBID = ConfigDict(extra="forbid")
+_DEFAULTS = SolveOptions()
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+
+
+class GridToCompute(BaseModel):
+    """The grid, in degrees: roll and pitch +-``tilt_max``, phase 0 up to but without 360."""
+
+    model_config = _FORBID
+
+    tilt_max: Number = 4.0
+    tilt_step: Number = 1.0
+    phase_step: Number = 1.0
+
+
+class Tolerances(BaseModel):
+    """Limits and tolerances; lengths in multiples of the thread pitch."""
+
+    model_config = _FORBID
+
+    turn_limit_deg: Number = _DEFAULTS.turn_limit_deg
+    quasi_stable_fraction: Number = _DEFAULTS.quasi_stable_fraction
+    tie_tolerance: Number = _DEFAULTS.tie_tolerance
+    embedment_tolerance: Number = _DEFAULTS.embedment_tolerance
+
+
+class MeshSettings(BaseModel):
+    """Settings of the method by meshes, as on the command line."""
+
+    model_config = _FORBID
+
+    preset: Preset = Preset.PAPER
+    descent: Descent = Descent.SAFE
+    final_step: FinalStep = FinalStep.ONE_MICROINCH
+    tangent: Tangent = Tangent.EDGE
+    scene: Scene = DEFAULT_SCENE
+    checked: Annotated[bool, Field(strict=True)] = True
+
+
+class JobRequest(BaseModel):
+    """A library to be computed."""
+
+    model_config = ConfigDict(
+        **_FORBID, json_schema_extra={"examples": [{"designation": DEFAULT_DESIGNATION, "grid": {"phase_step": 5.0}}]}
+    )
+
+    designation: Annotated[str, Field(min_length=1, max_length=100, description="the thread")] = DEFAULT_DESIGNATION
+    grid: GridToCompute = GridToCompute()
+    method: Method = Method.EXACT
+    tolerances: Tolerances = Tolerances()
+    mesh: MeshSettings | None = Field(default=None, description="of the method `mesh` alone")
+
+    def inputs(self) -> LibraryInputs:
+        """The inputs of the library.
+
+        Raises:
+            InvalidValueError: a value is out of range, or there are settings of meshes for another method.
+        """
+        if self.mesh is not None and self.method is not Method.MESH:
+            raise InvalidValueError("mesh", "given", "settings of the method `mesh` alone")
+        return LibraryInputs(
+            pair_by_designation(self.designation),
+            Grid(self.grid.tilt_max, self.grid.tilt_step, self.grid.phase_step),
+            SolveOptions(**dict(self.tolerances)),
+            None if self.method is Method.EXACT else _mesh_options(self.mesh or MeshSettings()),
+        )
+
+
+class JobDocument(BaseModel):
+    """A job."""
+
+    id: int
+    state: JobState
+    reason: str | None = Field(description="why it failed")
+    designation: str
+    method: Method
+    grid: GridDocument
+    options: dict[str, float | str | bool] = Field(description="limits and tolerances of the method")
+    input_sha256: str = Field(description="hash of all of these; the same is the same job")
+    code_version: str = Field(description="workers of another version do not take it")
+    chunks: int = Field(description="how many orientations there are")
+    committed: int = Field(description="how many of them are computed")
+    at_work: int = Field(description="how many of them workers are at")
+    library: int | None = Field(description="number of the published library")
+    asked_at: datetime
+    ended_at: datetime | None
+
+
+class JobPage(BaseModel):
+    """Jobs, the latest first."""
+
+    jobs: list[JobDocument]
+    next: str | None = Field(description="address of the next page; null on the last")
+
+
+class EventDocument(BaseModel):
+    """Something that happened to a job: the ``data`` of an event of the stream."""
+
+    job: int
+    kind: EventKind
+    at: datetime
+    committed: int = Field(description="how many chunks were committed then")
+    chunks: int
+    reason: str | None
+
+
+def job_document(job: JobRecord) -> JobDocument:
+    """The document of a job."""
+    grid = job.inputs.grid
+    return JobDocument(
+        id=job.id,
+        state=job.state,
+        reason=job.reason,
+        designation=job.inputs.pair.designation,
+        method=job.inputs.method,
+        grid=GridDocument(
+            tilt_max=grid.tilt_max_deg,
+            tilt_step=grid.tilt_step_deg,
+            phase_step=grid.phase_step_deg,
+            orientations=grid.orientation_count,
+        ),
+        options=json.loads(job.inputs.options_json),
+        input_sha256=job.input_sha256,
+        code_version=job.code_version,
+        chunks=job.chunk_count,
+        committed=job.done_count,
+        at_work=job.lease_count,
+        library=job.library_id,
+        asked_at=job.asked_at,
+        ended_at=job.ended_at,
+    )
+
+
+def event_document(job: JobRecord, event: JobEvent) -> EventDocument:
+    """The document of an event of a job."""
+    return EventDocument(
+        job=job.id,
+        kind=event.kind,
+        at=event.at,
+        committed=event.done_count,
+        chunks=job.chunk_count,
+        reason=event.reason,
+    )
+
+
+def _mesh_options(chosen: MeshSettings) -> MeshOptions:
+    return MeshOptions(
+        tessellation=chosen.preset.tessellation,
+        descent=chosen.descent,
+        final_step=chosen.final_step.thread_pitches,
+        tangent=chosen.tangent,
+        scene=chosen.scene,
+        checked=chosen.checked,
+    )

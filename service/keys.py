@@ -1,0 +1,49 @@
+"""Keys that requests show, in the header ``Authorization`` alone: addresses are logged."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Request, Security
+from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
+from fastapi.security.utils import get_authorization_scheme_param
+
+from service.database import ReadConnection, engine_of
+from threadstate.access.keys import require_key
+from threadstate.access.scope import Scope
+
+GUARDED = "/v1/"
+"""Where reading needs a key, if it does; health and the description of the interface stay open."""
+
+_BEARER = HTTPBearer(
+    scheme_name="key",
+    description="a key that `threadstate key create` printed",
+    bearerFormat="ts_...",
+    auto_error=False,
+)
+
+
+def require_write_key(
+    connection: ReadConnection,
+    shown: Annotated[HTTPAuthorizationCredentials | None, Security(_BEARER)],
+) -> None:
+    """Let a request pass that shows a key for writing.
+
+    Raises:
+        KeyRefusedError: it shows none that counts.
+        ScopeRefusedError: it shows one for reading alone.
+    """
+    require_key(connection, None if shown is None else shown.credentials, Scope.WRITE)
+
+
+def guard_reading(request: Request) -> None:
+    """Let a request pass if reading is open, or if it shows a key.
+
+    Raises:
+        KeyRefusedError: reading is closed, and it shows no key that counts.
+    """
+    if not (request.app.state.read_keys_required and request.url.path.startswith(GUARDED)):
+        return
+    scheme, key = get_authorization_scheme_param(request.headers.get("authorization"))
+    with engine_of(request).connect() as connection:
+        require_key(connection, key if scheme.lower() == "bearer" else None, Scope.READ)
