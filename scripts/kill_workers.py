@@ -28,7 +28,7 @@ from threadstate.jobs.ask import ask_for
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.read import events_after, job_by_id
-from threadstate.jobs.tables import job
+from threadstate.jobs.tables import job, job_chunk, job_worker
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -43,13 +43,13 @@ GRID = Grid(tilt_max_deg=2.0, tilt_step_deg=1.0, phase_step_deg=15.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 WORKERS = 2
 LEASE = "1"
-LONGEST_LIFE_S = 3.0
+LONGEST_PAUSE_S = 8.0
 COMMAND = (sys.executable, "-c", "from worker.cli import main; main()", "worker", "--workers", "1")
 
 
 @dataclass(frozen=True)
 class Tally:
-    """What happened: workers killed, of these with a chunk in hand; jobs that were done."""
+    """What happened: workers killed, of these with chunks in hand; jobs that were done."""
 
     kills: int
     in_hand: int
@@ -78,7 +78,7 @@ def kill_workers(databases: Databases, kills: int, seed: int) -> Tally:
     with writing(database) as engine, _workers(database) as workers:
         current = ask_for(engine, INPUTS)
         while killed < kills or current.state is not JobState.DONE:
-            time.sleep(moments.uniform(0.0, LONGEST_LIFE_S) if killed < kills else 0.2)
+            time.sleep(moments.uniform(0.0, LONGEST_PAUSE_S) if killed < kills else 0.2)
             current = _job(engine, current.id)
             _check(engine, current, expected)
             if current.state is JobState.DONE:
@@ -87,8 +87,8 @@ def kill_workers(databases: Databases, kills: int, seed: int) -> Tally:
                     _forget(engine)
                     current = ask_for(engine, INPUTS)
             if killed < kills:
-                in_hand += current.lease_count > 0
                 victim = moments.randrange(WORKERS)
+                in_hand += _holds_chunks(engine, workers[victim].pid)
                 os.kill(workers[victim].pid, signal.SIGKILL)
                 workers[victim].wait()
                 killed += 1
@@ -112,6 +112,12 @@ def _check(engine: Engine, current: JobRecord, expected: str) -> None:
     progress = [event.done_count for event in events if event.kind is EventKind.PROGRESS]
     assert progress == sorted(set(progress)), progress
     assert [event.kind for event in events].count(EventKind.PUBLISHED) == 1
+
+
+def _holds_chunks(engine: Engine, pid: int) -> bool:
+    held = select(job_chunk.c.orientation).join(job_worker).where(job_worker.c.name.endswith(f":{pid}")).limit(1)
+    with engine.connect() as connection:
+        return connection.scalar(held) is not None
 
 
 def _forget(engine: Engine) -> None:
@@ -152,8 +158,8 @@ def main() -> None:
         for databases in kinds:
             tally = kill_workers(databases, arguments.kills, arguments.seed)
             sys.stdout.write(
-                f"{type(databases).__name__}: {tally.kills} workers killed, {tally.in_hand} times while chunks were in "
-                f"work; {tally.jobs} libraries published, each whole and the same: no chunk lost or doubled, none seen "
+                f"{type(databases).__name__}: {tally.kills} workers killed, {tally.in_hand} of them with chunks in "
+                f"hand; {tally.jobs} libraries published, each whole and the same: no chunk lost or doubled, none seen "
                 "too early\n"
             )
             sys.stdout.flush()

@@ -21,19 +21,21 @@ VERSION_FOLDER = "pginstall18"
 ROLE = "threadstate"
 UNPRIVILEGED = "nobody"
 PATIENCE_S = 60.0
+MEMORY = Path("/dev/shm")
+ENOUGH_BYTES = 4 << 30
 
-CHEAP = ("fsync=off", "synchronous_commit=off", "full_page_writes=off", "max_wal_size=4GB", "shared_buffers=64MB")
+CHEAP = ("fsync=off", "synchronous_commit=off", "full_page_writes=off", "max_wal_size=256MB", "shared_buffers=64MB")
 """Settings of a server whose data need not outlive it."""
 
 
 class PostgresqlServer:
-    """A server on a socket in a folder of its own."""
+    """A server on a socket in one folder, with its data in another."""
 
-    def __init__(self, home: Path, programs: Path, unprivileged: list[str]) -> None:
+    def __init__(self, home: Path, data: Path, programs: Path, unprivileged: list[str]) -> None:
         self._home = home
         self._programs = programs
         self._unprivileged = unprivileged
-        self._data = home / "data"
+        self._data = data
         self._process: subprocess.Popen[bytes] | None = None
         self._run("initdb", "--pgdata", self._data, "--username", ROLE, "--auth=trust", "--no-sync")
 
@@ -86,8 +88,7 @@ def running_server() -> Iterator[PostgresqlServer]:
     assert spec.origin is not None
     wheel = Path(spec.origin).parent
     # A socket's path has to be short.
-    home = Path(tempfile.mkdtemp(prefix="threadstate-"))
-    try:
+    with _folder(None) as home, _folder(_folder_of_data()) as data:
         programs = wheel / VERSION_FOLDER / "bin"
         # It ends with this process, however that ends.
         unprivileged = ["setpriv", "--pdeathsig", "QUIT"]
@@ -96,16 +97,30 @@ def running_server() -> Iterator[PostgresqlServer]:
             programs = _copied(wheel, home)
             other = pwd.getpwnam(UNPRIVILEGED)
             unprivileged += ["--reuid", str(other.pw_uid), "--regid", str(other.pw_gid), "--clear-groups"]
-            os.chown(home, other.pw_uid, other.pw_gid)
+            for folder in (home, data):
+                os.chown(folder, other.pw_uid, other.pw_gid)
             home.chmod(0o755)
-        server = PostgresqlServer(home, programs, unprivileged)
+        server = PostgresqlServer(home, data, programs, unprivileged)
         server.start()
         try:
             yield server
         finally:
             server.stop()
+
+
+def _folder_of_data() -> Path | None:
+    """Memory where there is plenty: unlinking files that have reached a busy disk takes longer than the tests."""
+    free = shutil.disk_usage(MEMORY).free if MEMORY.is_dir() else 0
+    return MEMORY if free > ENOUGH_BYTES else None
+
+
+@contextmanager
+def _folder(parent: Path | None) -> Iterator[Path]:
+    folder = Path(tempfile.mkdtemp(prefix="threadstate-", dir=parent))
+    try:
+        yield folder
     finally:
-        shutil.rmtree(home)
+        shutil.rmtree(folder)
 
 
 def _copied(wheel: Path, home: Path) -> Path:
