@@ -114,8 +114,16 @@ def committed_orientations(engine: Engine, library_id: int) -> frozenset[int]:
         return frozenset(connection.scalars(select(chunk.c.orientation).where(chunk.c.library_id == library_id)))
 
 
-def write_chunk(engine: Engine, library_id: int, rows: ChunkRows, history: HistoryRows | None = None) -> bool:
+def write_chunk(
+    engine: Engine,
+    library_id: int,
+    rows: ChunkRows,
+    history: HistoryRows | None = None,
+    content_sha256: str | None = None,
+) -> bool:
     """Write a chunk, with its history if it has one, in one transaction; one that is there is left as it is.
+
+    ``content_sha256`` is its hash where it is copied: an older threadstate may have hashed other columns.
 
     Returns:
         Whether it was written.
@@ -144,7 +152,7 @@ def write_chunk(engine: Engine, library_id: int, rows: ChunkRows, history: Histo
                     orientation.roll_deg,
                     orientation.pitch_deg,
                     rows.pose_count,
-                    content_sha256_of(rows, history),
+                    content_sha256 or content_sha256_of(rows, history),
                 )
             ],
         )
