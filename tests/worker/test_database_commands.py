@@ -37,6 +37,7 @@ def test_migrate_says_what_it_did(command_line: CommandLine) -> None:
     assert "already" in command_line.here("migrate")[1]
 
 
+@pytest.mark.sqlite_alone
 def test_the_summary_counts_every_state_once(command_line: CommandLine) -> None:
     command_line.out("rebuild", *SMALL_GRID)
     summary = json.loads(command_line.here("summary", "--json")[1])

@@ -186,6 +186,7 @@ def test_killed_at_any_commit_it_goes_on_to_the_same_bits(command_line: CommandL
     assert len(ordinals) == GRID.state_count
 
 
+@pytest.mark.sqlite_alone
 def test_killed_at_random_moments_it_ends_with_the_same_bits(command_line: CommandLine, expected_content: str) -> None:
     moments = random.Random(20060116)
     for _ in range(4):
