@@ -65,6 +65,21 @@ def wait_for_scene(explorer: Explorer, told: str) -> None:
     explorer.wait(lambda: told in explorer.run(drawn), f"the scene does not show {told}")
 
 
+def settled_canvas(explorer: Explorer) -> list[int]:
+    """The pixels of the scene once it is drawn: the same at two looks, between which frames go by."""
+    looks = [canvas_content(explorer)]
+
+    def is_settled() -> bool:
+        frames = "const done = arguments[0]; let left = 30;"
+        frames += "const next = () => left-- ? requestAnimationFrame(next) : done();"
+        explorer.chromium.execute_async_script(f"{frames} next()")
+        looks.append(canvas_content(explorer))
+        return looks[-1] == looks[-2]
+
+    explorer.wait(is_settled, "the scene does not settle")
+    return looks[-1]
+
+
 def wait_for_canvas(explorer: Explorer, pixels: list[int]) -> None:
     explorer.wait(lambda: canvas_content(explorer) == pixels, "the canvas is not as it was")
 
@@ -226,7 +241,7 @@ def test_a_link_restores_exactly_the_view(explorer: Explorer) -> None:
     wait_for_scene(explorer, "from first contact to second contact")
     link = explorer.chromium.current_url
     shown = [explorer.text(one) for one in ("#state", "#depth", "#map", "#network", "#disks")]
-    pixels = canvas_content(explorer)
+    pixels = settled_canvas(explorer)
     explorer.open("/" + link.removeprefix(explorer.address + "/"))
     wait_for_scene(explorer, "from first contact to second contact")
     explorer.wait(
