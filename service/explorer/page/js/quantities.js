@@ -54,7 +54,7 @@ export const QUANTITIES = {
   },
   embedment: {
     name: "embedment",
-    help: "how far the bolt would have to be in the nut for a third contact",
+    help: "the least lift after which the bolt, in its third pose, does not overlap the nut",
     all: "greatest embedment",
     ofState: (state) => state.embedment,
     ofAll: (orientation) => orientation.embedment_most,

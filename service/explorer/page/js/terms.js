@@ -33,7 +33,7 @@ const SHORT_REGIONS = {
 };
 
 export const FLAGS = {
-  flush: "flush: the bolt's base lies on the nut's surface",
+  flush: "flush: the bolt lies on a patch, not on points",
   tie: "tie: several contacts at once",
   balanced: "balanced: the origin lies on the pivot axis, both senses were followed",
   grazing: "grazing: surfaces touch without crossing",
