@@ -114,22 +114,23 @@ class MeshMethod:
         def pose(way: float) -> Floats:
             return trans([0.0, 0.0, start - way]) @ level
 
-        def found(way: float) -> Clusters | None:
-            return self._clusters(pose(way)) or None
+        def meets(way: float) -> bool | None:
+            return self._collides(pose(way)) or None
 
         limit = start + p
         if self._options.descent is Descent.DECADES:
-            reached = regress(found, decades(FIRST_STEP * p, self._final), limit)
+            reached = regress(meets, decades(FIRST_STEP * p, self._final), limit)
         else:
             try:
                 reached = approach(
-                    found, lambda way: self._collider.distance(pose(way)), self._final, limit, MOST_STEPS
+                    meets, lambda way: self._collider.distance(pose(way)), self._final, limit, MOST_STEPS
                 )
             except TimeoutError:
                 raise Undecided(f"the bolt slides beside the nut for more than {MOST_STEPS} steps") from None
         if reached is None:
             raise Undecided("the meshes do not collide on the way down by a thread pitch")
-        return pose(reached.place), reached.found
+        blocked = pose(reached.place)
+        return blocked, self._clusters(blocked)
 
     def _clusters(self, T_nut_bolt: Floats) -> Clusters:
         return self._connectivity.clusters(self._collider.pairs(T_nut_bolt))
