@@ -25,7 +25,7 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=2, help="computing processes [%(default)s]")
     parser.add_argument("--lines", type=int, default=72, help="orientations searched for events [%(default)s]")
     parser.add_argument("--degrees", type=int, default=360, help="of phase searched on each [%(default)s]")
-    parser.add_argument("--centres", type=int, default=57, help="the most in a hard place [%(default)s]")
+    parser.add_argument("--centres", type=int, default=40, help="the most in a hard place [%(default)s]")
     parser.add_argument("--tilt-max", type=float, default=4.0, help="of the grid, in degrees [%(default)s]")
     parser.add_argument("--phase-step", type=float, default=1.0, help="of the grid, in degrees [%(default)s]")
     chosen = parser.parse_args()

@@ -14,7 +14,7 @@ from threadstate.thread.pair import Pair
 
 DECADES = tuple(range(-12, -2))
 """Exponents of ten of the changes' sizes."""
-POSE_DIRECTIONS = 9
+POSE_DIRECTIONS = 15
 DIMENSION_DIRECTIONS = 3
 SEED = 11
 SCALES = tuple(10.0**k for k in range(-6, 7) if k)
