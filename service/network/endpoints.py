@@ -126,7 +126,7 @@ def list_transitions(
         library=network.library.id,
         unit=shown,
         count=len(found),
-        transitions=transition_documents(page, network.histories, network.pair, factor),
+        transitions=transition_documents(page, network.histories, network.tilts, factor),
         next=following,
     )
     return _json(request, answer, shown, headers)

@@ -10,6 +10,7 @@ from sqlalchemy import Connection
 
 from threadstate.answer.documents import NetworkSummaryDocument
 from threadstate.answer.networks import summary_document
+from threadstate.answer.tilts import TiltChanges
 from threadstate.archive.read import stored_histories
 from threadstate.archive.stored import StoredHistories
 from threadstate.errors import NotFoundError
@@ -49,6 +50,11 @@ class LibraryNetwork:
     def transitions(self) -> tuple[Transition, ...]:
         """All transitions, in order."""
         return transitions(self.cell_map)
+
+    @cached_property
+    def tilts(self) -> TiltChanges:
+        """What tilts change, as far as it was asked for."""
+        return TiltChanges(self.histories, self.pair)
 
     @cached_property
     def summary(self) -> NetworkSummaryDocument:

@@ -28,6 +28,13 @@ class StoredContactChange:
     normal_after: Vector | None
     moved: float | None
 
+    @property
+    def reverse(self) -> StoredContactChange:
+        """The change the other way round."""
+        return StoredContactChange(
+            self.stage, self.place, self.after, self.normal_after, self.before, self.normal_before, self.moved
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class StoredBoundary:

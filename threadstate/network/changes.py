@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import zip_longest
 
 from threadstate.history.labels import ContactLabels
@@ -58,7 +58,7 @@ class ContactDifference:
         return f"contact {self.stage}.{self.place + 1} {', '.join(_words(self.before, self.after))}"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class FormationDifference:
     """How a formation differs from another one: its class, and the contacts that do, by stage and place."""
 
@@ -66,13 +66,13 @@ class FormationDifference:
     class_after: StateClass | None
     contacts: tuple[ContactDifference, ...]
 
-    @property
+    @cached_property
     def kinds(self) -> frozenset[ChangeKind]:
         """All that changes."""
         kinds = {kind for contact in self.contacts for kind in contact.kinds}
         return frozenset(kinds | {ChangeKind.CLASS} if self.class_before != self.class_after else kinds)
 
-    @property
+    @cached_property
     def text(self) -> str:
         """The difference in words, empty where there is none."""
         texts = [contact.text for contact in self.contacts]

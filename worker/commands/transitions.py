@@ -43,7 +43,7 @@ def transitions(
     which = TransitionFilter(move, roll, pitch, phase_min, phase_max, source, target, change, state_class)
     network = stored_network(database)
     found = selected(network, which)
-    documents = transition_documents(found[:limit], network.histories, network.pair, 1.0)
+    documents = transition_documents(found[:limit], network.histories, network.tilts, 1.0)
     if as_json:
         for one in documents:
             print_json(one.model_dump(mode="json", by_alias=True))

@@ -1,0 +1,104 @@
+"""What a tilt changes: solved when it is first asked for, and kept, as a published library does not change."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from threadstate.archive.stored import StoredContactChange, StoredHistories, stored_changes
+from threadstate.errors import UnresolvedPoseError
+from threadstate.history.differences import contact_changes
+from threadstate.network.moves import Move
+from threadstate.network.transitions import Transition
+from threadstate.state.model import ContactState
+from threadstate.state.solve import solve_poses
+from threadstate.thread.pair import Pair
+
+SOLVED_DEG = 1e-3
+"""Over a shorter stretch of phase a tilt is between two events, where a pose may take seconds: it is not solved."""
+
+PoseDeg = tuple[float, float, float]
+Heights = tuple[float | None, float | None]
+
+
+@dataclass(frozen=True, slots=True)
+class TiltChange:
+    """Heights of the bolt's origin before and after, at first contact and in its last pose, and the changed contacts.
+
+    Lengths are in the pair's unit; a height is None where the state is undecided or was not solved.
+    """
+
+    first_height: Heights = (None, None)
+    last_height: Heights = (None, None)
+    changes: tuple[StoredContactChange, ...] = ()
+
+    @property
+    def reverse(self) -> TiltChange:
+        """What the tilt back changes."""
+        return TiltChange(
+            self.first_height[::-1], self.last_height[::-1], tuple(change.reverse for change in self.changes)
+        )
+
+
+NOT_SOLVED = TiltChange()
+UPWARDS = (Move.ROLL_UP, Move.PITCH_UP)
+
+
+class TiltChanges:
+    """What the tilts of a library change, each half way through the stretch of phase over which it can be made."""
+
+    def __init__(self, histories: StoredHistories, pair: Pair) -> None:
+        self._histories = histories
+        self._pair = pair
+        self._known: dict[tuple[PoseDeg, PoseDeg], TiltChange] = {}
+
+    def of(self, tilts: Sequence[Transition]) -> list[TiltChange]:
+        """What each changes; nothing is known of one whose stretch is shorter than ``SOLVED_DEG``."""
+        sides = [self._sides(one) for one in tilts]
+        unknown = [poses for poses in dict.fromkeys(sides) if poses is not None and poses not in self._known]
+        states = iter(_solved(self._pair, [pose for poses in unknown for pose in poses]))
+        for poses in unknown:
+            self._known[poses] = _change(next(states), next(states))
+        return [self._change_of(one, poses) for one, poses in zip(tilts, sides, strict=True)]
+
+    def _sides(self, one: Transition) -> tuple[PoseDeg, PoseDeg] | None:
+        """The poses on both sides, that of the smaller roll or pitch first; None where the stretch is too short."""
+        if one.end_deg - one.start_deg < SOLVED_DEG:
+            return None
+        phase = 0.5 * (one.start_deg + one.end_deg) % 360.0
+        cells = (one.source, one.target) if one.move in UPWARDS else (one.target, one.source)
+        low, high = (self._histories.tilt_deg(cell.orientation) for cell in cells)
+        return (*low, phase), (*high, phase)
+
+    def _change_of(self, one: Transition, poses: tuple[PoseDeg, PoseDeg] | None) -> TiltChange:
+        if poses is None:
+            return NOT_SOLVED
+        upwards = self._known[poses]
+        return upwards if one.move in UPWARDS else upwards.reverse
+
+
+def _change(before: ContactState | None, after: ContactState | None) -> TiltChange:
+    return TiltChange(
+        (_height(before, 0), _height(after, 0)),
+        (_height(before, -1), _height(after, -1)),
+        stored_changes(contact_changes(before, after), before, after),
+    )
+
+
+def _height(state: ContactState | None, stage: int) -> float | None:
+    return None if state is None else state.poses[stage].translation[2]
+
+
+def _solved(pair: Pair, poses: list[PoseDeg]) -> list[ContactState | None]:
+    """The states of poses in order; None where undecided."""
+    try:
+        return list(solve_poses(pair, poses))
+    except UnresolvedPoseError:
+        return [_state(pair, pose) for pose in poses]
+
+
+def _state(pair: Pair, pose: PoseDeg) -> ContactState | None:
+    try:
+        return solve_poses(pair, [pose])[0]
+    except UnresolvedPoseError:
+        return None
