@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.exact import first_heights, seconds_to_solve
+from benchmarks.questions import answered
 from benchmarks.rebuild import floor, profile, rebuilt
 from benchmarks.report import Pace, Report, as_json, print_tables
 from benchmarks.rivalry import rivals
@@ -55,6 +56,8 @@ def _measured(pose_count: int, compared_count: int, grid: Grid) -> Report:
         rebuilds = [rebuilt(folder, grid, cores) for cores in CORES]
         parts = profile(folder, pair, grid)
         limit = floor(folder, parts, rebuilds[-1].processes, rebuilds[-1].database_bytes)
+        _tell("questions ...")
+        questions = answered(rebuilds[-1].path(folder), grid)
     return Report(
         sampled=len(sampled),
         declined=len(sampled) - len(poses),
@@ -65,6 +68,7 @@ def _measured(pose_count: int, compared_count: int, grid: Grid) -> Report:
         rebuilds=rebuilds,
         parts=parts,
         floor=limit,
+        questions=questions,
     )
 
 

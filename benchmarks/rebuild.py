@@ -49,6 +49,10 @@ class Rebuilt:
     seconds: float
     database_bytes: int
 
+    def path(self, folder: Path) -> Path:
+        """The database in the folder that the library was made in."""
+        return _database(folder, self.processes)
+
 
 @dataclass(frozen=True)
 class Part:
@@ -77,7 +81,7 @@ def rebuilt(folder: Path, grid: Grid, processes: int) -> Rebuilt:
     Raises:
         RebuildFailedError: it failed.
     """
-    path = folder / f"rebuilt_by_{processes}.sqlite3"
+    path = _database(folder, processes)
     arguments = ["rebuild", "--database", f"sqlite:///{path}", "--workers", str(processes), "--json"]
     for option, value in (
         ("--tilt-max", grid.tilt_max_deg),
@@ -141,6 +145,10 @@ def floor(folder: Path, parts: list[Part], cores: int, database_bytes: int) -> F
         os.fsync(file.fileno())
     disk = time.perf_counter() - start
     return Floor(sum(part.seconds for part in parts if part.name == "solve: kernels") / cores, disk)
+
+
+def _database(folder: Path, processes: int) -> Path:
+    return folder / f"rebuilt_by_{processes}.sqlite3"
 
 
 class _Stopwatch:

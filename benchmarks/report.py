@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.questions import Question
 from benchmarks.rebuild import Floor, Part, Rebuilt
 from benchmarks.rivalry import Rival
 
@@ -45,6 +46,7 @@ class Report:
     rebuilds: list[Rebuilt]
     parts: list[Part]
     floor: Floor
+    questions: list[Question]
 
 
 def as_json(report: Report) -> str:
@@ -57,7 +59,7 @@ def print_tables(report: Report) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         console = Console(highlight=False, width=WIDTH_OF_A_FILE)
-    for table in (_paces(report), _rivals(report), _rebuilds(report), _parts(report)):
+    for table in (_paces(report), _rivals(report), _rebuilds(report), _parts(report), _questions(report)):
         # Apart from its table: a title is broken to the table's width.
         console.print(table.title, style="bold")
         table.title = None
@@ -117,6 +119,13 @@ def _parts(report: Report) -> Table:
     for part in report.parts:
         table.add_row(part.name, part.where, f"{part.seconds:.2f}", f"{part.seconds / total:.1%}")
     table.add_row("all", "", f"{total:.2f}", "")
+    return table
+
+
+def _questions(report: Report) -> Table:
+    table = _table("Stored questions on this library, in one process", "question", "first (ms)", "median", "longest")
+    for one in report.questions:
+        table.add_row(one.name, f"{one.first_ms:.1f}", f"{one.median_ms:.1f}", f"{one.longest_ms:.1f}")
     return table
 
 

@@ -1,0 +1,109 @@
+"""What stored answers cost: every question on a library, asked of the service within this process."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from fastapi.testclient import TestClient
+
+from benchmarks.sample import SEED
+from service.app import create_app
+from threadstate.library.grid import Grid
+from threadstate.settings import read_settings
+
+ASKED = 40
+"""How often each question is asked, about other orientations, phases and formations each time."""
+
+LIBRARY = "/v1/libraries/latest"
+OBSERVED = ("contact=1:crest:*:edge-edge", "contact=1:*:*:*&class=stable_three_point", "flag=flush")
+TILTS = ("ccw", "ccw,roll%2B,roll-,pitch%2B,pitch-")
+
+
+class QuestionFailedError(Exception):
+    """An answer was not one; the text is its address and what came instead."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """Wall times in ms of one kind of question: the first time, then the median and the longest of the others."""
+
+    name: str
+    first_ms: float
+    median_ms: float
+    longest_ms: float
+
+
+def answered(database: Path, grid: Grid) -> list[Question]:
+    """Every kind of stored question, put to the latest library of a SQLite file.
+
+    Raises:
+        QuestionFailedError: an answer has another status than 200.
+    """
+    settings = replace(read_settings({}), database=f"sqlite:///{database}")
+    with TestClient(create_app(settings)) as client:
+        first = client.get(f"{LIBRARY}/histories/{grid.tilts_deg[0]}/{grid.tilts_deg[-1]}")
+        if first.status_code != 200:
+            raise QuestionFailedError(f"{first.url}: {first.status_code} {first.text}")
+        return [_timed(client, name, make) for name, make in _questions(client, grid).items()]
+
+
+def _questions(client: TestClient, grid: Grid) -> dict[str, Callable[[], str]]:
+    """Addresses by the name of the question."""
+    chosen = np.random.default_rng(SEED)
+    keys: list[str] = []
+
+    def tilt() -> str:
+        roll, pitch = chosen.choice(grid.tilts_deg, 2).tolist()
+        return f"{roll}/{pitch}"
+
+    def pose() -> str:
+        return f"{tilt()}/{chosen.choice(grid.phases_deg)}"
+
+    def key() -> str:
+        if not keys:
+            nodes = client.get(f"{LIBRARY}/network?format=node-link").json()["nodes"]
+            keys.extend(node["id"] for node in nodes)
+        return str(chosen.choice(keys))
+
+    def path(objective: str) -> Callable[[], str]:
+        return lambda: f"{LIBRARY}/network/paths?from={key()}&objective={objective}&moves={chosen.choice(TILTS)}"
+
+    def page(query: str) -> Callable[[], str]:
+        return lambda: f"{LIBRARY}/transitions?{query}&after={chosen.integers(200)}"
+
+    return {
+        "a state": lambda: f"{LIBRARY}/states/{pose()}",
+        "depth against phase": lambda: f"{LIBRARY}/histories/{tilt()}",
+        "intervals": lambda: f"{LIBRARY}/histories/{tilt()}/intervals",
+        "heights": lambda: f"{LIBRARY}/histories/{tilt()}/heights",
+        "windows": lambda: f"{LIBRARY}/windows?unit={chosen.choice(['in', 'mm'])}",
+        "transitions along phase": page("move=ccw"),
+        "transitions by tilting": page("move=roll%2B"),
+        "transitions of class": page("change=class"),
+        "network, summary": lambda: f"{LIBRARY}/network",
+        "network, node-link": lambda: f"{LIBRARY}/network?format=node-link",
+        "network, GraphML": lambda: f"{LIBRARY}/network?format=graphml",
+        "network, DOT": lambda: f"{LIBRARY}/network?format=dot",
+        "a formation": lambda: f"{LIBRARY}/network/formations/{key()}",
+        "path, least turning": path("turning"),
+        "path, fewest transitions": path("transitions"),
+        "path, largest margin": path("margin"),
+        "what remains": lambda: f"{LIBRARY}/network/locate?{chosen.choice(OBSERVED)}",
+    }
+
+
+def _timed(client: TestClient, name: str, make: Callable[[], str]) -> Question:
+    times = []
+    for _ in range(ASKED):
+        address = make()
+        start = time.perf_counter()
+        answer = client.get(address)
+        times.append(1e3 * (time.perf_counter() - start))
+        if answer.status_code != 200:
+            raise QuestionFailedError(f"{address}: {answer.status_code} {answer.text}")
+    return Question(name, times[0], statistics.median(times[1:]), max(times[1:]))
