@@ -1,33 +1,15 @@
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 
-from tests.archive.history_library import SMALL_GRID, store_histories
-from tests.databases import Databases
-from threadstate.answer.library_network import LibraryNetwork, library_network
+from threadstate.answer.library_network import LibraryNetwork
 from threadstate.answer.tilts import NOT_SOLVED, SOLVED_DEG, TiltChanges
-from threadstate.history.model import History
-from threadstate.library.engine import reader_engine
-from threadstate.library.read import library_by_id
 from threadstate.network.moves import Move
 from threadstate.network.transitions import Transition
 from threadstate.state.solve import solve_poses
 
 
-@pytest.fixture(scope="module")
-def network(sqlite_databases: Databases, small_histories: list[History]) -> Iterator[LibraryNetwork]:
-    """The network of a library of nine orientations."""
-    database = sqlite_databases.migrated()
-    store_histories(database, SMALL_GRID, small_histories)
-    engine = reader_engine(database)
-    with engine.connect() as connection:
-        yield library_network(connection, library_by_id(connection, 1))
-    engine.dispose()
-
-
-@pytest.fixture(scope="module")
+@pytest.fixture
 def tilts(network: LibraryNetwork) -> list[Transition]:
     """All its tilts."""
     return [one for one in network.transitions if not one.move.turns]

@@ -21,20 +21,16 @@ _UNDECIDED = (math.nan, math.nan)
 
 
 def stored_heights(connection: Connection, network: LibraryNetwork, roll_deg: float, pitch_deg: float) -> Heights:
-    """The curve of an orientation of a library: what its tables lack is solved.
+    """The curve of an orientation of a library: what its tables lack is solved, once.
 
     Raises:
         NotFoundError: the orientation is none of the library's grid.
     """
     number = network.orientation(roll_deg, pitch_deg)
-    grid = network.library.grid
-    first = grid.first_ordinal(number)
-    on_grid = heights_between(connection, network.library.id, first, first + grid.phase_count - 1)
-    known = {phase: on_grid.get(first + i, _UNDECIDED) for i, phase in enumerate(grid.phases_deg)}
-    history = network.histories.orientations[number]
-    return heights_of(
-        network.pair, roll_deg, pitch_deg, _sides(history, known), TOLERANCE * network.pair.thread_pitch, known
-    )
+    found = network.curves.get(number)
+    if found is None:
+        found = network.curves[number] = _curve(connection, network, number)
+    return found
 
 
 def computed_heights(pair: Pair, roll_deg: float, pitch_deg: float) -> Heights:
@@ -59,6 +55,18 @@ def heights_document(
         phases=heights.phases_deg.tolist(),
         first_heights=_scaled(heights.first, factor),
         last_heights=_scaled(heights.last, factor),
+    )
+
+
+def _curve(connection: Connection, network: LibraryNetwork, number: int) -> Heights:
+    roll_deg, pitch_deg = network.histories.tilt_deg(number)
+    grid = network.library.grid
+    first = grid.first_ordinal(number)
+    on_grid = heights_between(connection, network.library.id, first, first + grid.phase_count - 1)
+    known = {phase: on_grid.get(first + i, _UNDECIDED) for i, phase in enumerate(grid.phases_deg)}
+    history = network.histories.orientations[number]
+    return heights_of(
+        network.pair, roll_deg, pitch_deg, _sides(history, known), TOLERANCE * network.pair.thread_pitch, known
     )
 
 

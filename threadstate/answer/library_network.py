@@ -14,6 +14,7 @@ from threadstate.answer.tilts import TiltChanges
 from threadstate.archive.read import stored_histories
 from threadstate.archive.stored import StoredHistories
 from threadstate.errors import NotFoundError
+from threadstate.history.heights import Heights
 from threadstate.library.read import LibraryRecord, not_on_the_grid
 from threadstate.network.cells import CellMap
 from threadstate.network.export import dot, graphml, node_link_json
@@ -50,6 +51,11 @@ class LibraryNetwork:
     def transitions(self) -> tuple[Transition, ...]:
         """All transitions, in order."""
         return transitions(self.cell_map)
+
+    @cached_property
+    def curves(self) -> dict[int, Heights]:
+        """Heights against phase by orientation, as far as they were asked for."""
+        return {}
 
     @cached_property
     def tilts(self) -> TiltChanges:

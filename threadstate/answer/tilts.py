@@ -56,9 +56,9 @@ class TiltChanges:
         """What each changes; nothing is known of one whose stretch is shorter than ``SOLVED_DEG``."""
         sides = [self._sides(one) for one in tilts]
         unknown = [poses for poses in dict.fromkeys(sides) if poses is not None and poses not in self._known]
-        states = iter(_solved(self._pair, [pose for poses in unknown for pose in poses]))
-        for poses in unknown:
-            self._known[poses] = _change(next(states), next(states))
+        if unknown:
+            states = iter(_solved(self._pair, [pose for poses in unknown for pose in poses]))
+            self._known.update((poses, _change(next(states), next(states))) for poses in unknown)
         return [self._change_of(one, poses) for one, poses in zip(tilts, sides, strict=True)]
 
     def _sides(self, one: Transition) -> tuple[PoseDeg, PoseDeg] | None:
