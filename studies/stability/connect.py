@@ -26,7 +26,7 @@ Route = tuple[Verdict, ...]
 class Surroundings:
     """A centre and the sides of the events around it that are known, each with the route that leads there.
 
-    ``met`` holds every event that was looked at, with the two answers on its sides.
+    The centre is a side itself once an answer was found to be steep about it, no event being in between. ``met`` holds every event that was looked at, with the two answers on its sides.
     """
 
     method: Method
@@ -50,6 +50,8 @@ class Surroundings:
         for factor in STEEPER:
             found = self._walk(answered, factor, divisible=divisible)
             if found is not None:
+                if found == (Event.STEEP,):
+                    self.sides.append((self.centre, found))
                 return found
         return None
 

@@ -55,8 +55,8 @@ _HOW = {
 }
 
 
-_SLOW = (EventKind.SNAP, EventKind.FEATURE)
-"""Around these a pose takes the exact method many times as long as elsewhere, or the brute force is asked often."""
+_SLOW = {EventKind.SNAP: 3, EventKind.FLUSH: 2, EventKind.GRAZING: 2}
+"""A centre in so many is taken where poses take long, or the way to each is sought long."""
 
 
 def lines(pair: Pair, count: int) -> list[Case]:
@@ -75,7 +75,7 @@ def places(pair: Pair, events: list[Event], each: int) -> list[Place]:
     found = []
     for kind in EventKind:
         cases = [event.case for event in events if event.kind is kind]
-        found.append(Place(kind.value, _HOW[kind], tuple(spread(cases, each // 3 if kind in _SLOW else each))))
+        found.append(Place(kind.value, _HOW[kind], tuple(spread(cases, each // _SLOW.get(kind, 1)))))
     window = math.degrees(2.0 * math.pi * axial_play(pair) / pair.thread_pitch)
     ordinary = _random(pair, 1, each, (LINE_TILT_DEG, LINE_TILT_DEG), 180.0)
     found += [
