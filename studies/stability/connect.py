@@ -26,7 +26,8 @@ Route = tuple[Verdict, ...]
 class Surroundings:
     """A centre and the sides of the events around it that are known, each with the route that leads there.
 
-    The centre is a side itself once an answer was found to be steep about it, no event being in between. ``met`` holds every event that was looked at, with the two answers on its sides.
+    The centre is a side itself once an answer was found to be steep about it, no event being in between. ``met`` holds
+    every event that was looked at, with the two answers on its sides.
     """
 
     method: Method

@@ -75,7 +75,7 @@ def places(pair: Pair, events: list[Event], each: int) -> list[Place]:
     found = []
     for kind in EventKind:
         cases = [event.case for event in events if event.kind is kind]
-        found.append(Place(kind.value, _HOW[kind], tuple(spread(cases, each // _SLOW.get(kind, 1)))))
+        found.append(Place(kind.value, _HOW[kind], tuple(spread(cases, -(-each // _SLOW.get(kind, 1))))))
     window = math.degrees(2.0 * math.pi * axial_play(pair) / pair.thread_pitch)
     ordinary = _random(pair, 1, each, (LINE_TILT_DEG, LINE_TILT_DEG), 180.0)
     found += [
