@@ -1,7 +1,10 @@
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+from itertools import pairwise
+from pathlib import Path
 
 AFTER_THAT_NOTHING_COMPILES = """
 import gc
@@ -40,3 +43,28 @@ def test_after_the_warm_up_nothing_is_compiled() -> None:
     assert kernels > 20
     assert signatures > 5
     assert new == "[]"
+
+
+COMPILES_FOR_A_WHILE = """
+import time
+from threadstate import warm_up
+
+def compile_for_a_while():
+    print(time.monotonic())
+    time.sleep(0.3)
+    print(time.monotonic())
+
+warm_up.load_kernels = compile_for_a_while
+warm_up.load_kernels_in_turn()
+"""
+
+
+def test_one_process_compiles_at_a_time(tmp_path: Path) -> None:
+    environment = {**os.environ, "THREADSTATE_NUMBA_CACHE_DIR": str(tmp_path)}
+    running = [
+        subprocess.Popen([sys.executable, "-c", COMPILES_FOR_A_WHILE], env=environment, stdout=subprocess.PIPE)
+        for _ in range(3)
+    ]
+    turns = sorted(tuple(map(float, process.communicate()[0].split())) for process in running)
+    assert [process.returncode for process in running] == [0, 0, 0]
+    assert all(end <= begin for (_, end), (begin, _) in pairwise(turns))

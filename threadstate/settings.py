@@ -18,13 +18,28 @@ PREFIX = "THREADSTATE_"
 
 DATA_DIR = "THREADSTATE_DATA_DIR"
 DATABASE = "THREADSTATE_DATABASE"
+DATABASE_PASSWORD_FILE = "THREADSTATE_DATABASE_PASSWORD_FILE"
 WORKERS = "THREADSTATE_WORKERS"
+SCHEDULER = "THREADSTATE_SCHEDULER"
 HOST = "THREADSTATE_HOST"
 PORT = "THREADSTATE_PORT"
 READ_KEYS = "THREADSTATE_READ_KEYS"
 LEASE_S = "THREADSTATE_LEASE_S"
+HEARTBEAT_FILE = "THREADSTATE_HEARTBEAT_FILE"
 
-NAMES = (DATA_DIR, DATABASE, WORKERS, HOST, PORT, READ_KEYS, LEASE_S, NUMBA_CACHE_DIR)
+NAMES = (
+    DATA_DIR,
+    DATABASE,
+    DATABASE_PASSWORD_FILE,
+    WORKERS,
+    SCHEDULER,
+    HOST,
+    PORT,
+    READ_KEYS,
+    LEASE_S,
+    HEARTBEAT_FILE,
+    NUMBA_CACHE_DIR,
+)
 """Every setting there is."""
 
 DATABASE_FILE = "threadstate.sqlite3"
@@ -40,19 +55,23 @@ class Settings:
         data_dir: folder of everything that is stored.
         database: URL of the database.
         workers: how many processes compute.
+        scheduler: address of the Dask scheduler whose workers compute in their place; None: they do.
         host: address that the service listens on.
         port: port that it listens on.
         read_keys_required: whether reading, too, needs a key.
         lease_s: after how many seconds of silence a worker is taken for dead.
+        heartbeat_file: file that a worker touches with every heartbeat; None: none.
     """
 
     data_dir: Path
     database: str
     workers: int
+    scheduler: str | None
     host: str
     port: int
     read_keys_required: bool
     lease_s: int
+    heartbeat_file: Path | None
 
 
 def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
@@ -66,11 +85,34 @@ def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
         data_dir=data_dir,
         database=environment.get(DATABASE) or f"sqlite:///{data_dir / DATABASE_FILE}",
         workers=_integer(environment, WORKERS, _processors(), LARGEST_WORKER_COUNT),
+        scheduler=environment.get(SCHEDULER) or None,
         host=environment.get(HOST) or "127.0.0.1",
         port=_integer(environment, PORT, 8000, 65535),
         read_keys_required=_one_of(environment, READ_KEYS, ("open", "required")) == "required",
         lease_s=_integer(environment, LEASE_S, DEFAULT_LEASE_S, LARGEST_LEASE_S),
+        heartbeat_file=Path(file) if (file := environment.get(HEARTBEAT_FILE)) else None,
     )
+
+
+def database_password(environment: Mapping[str, str] = os.environ) -> str | None:
+    """The password that the file of ``THREADSTATE_DATABASE_PASSWORD_FILE`` holds, without the line's end.
+
+    Returns:
+        None where the setting is not made.
+
+    Raises:
+        InvalidValueError: the file cannot be read or is empty.
+    """
+    file = environment.get(DATABASE_PASSWORD_FILE)
+    if not file:
+        return None
+    try:
+        password = Path(file).read_text(encoding="utf-8").rstrip("\r\n")
+    except (OSError, UnicodeDecodeError):
+        password = ""
+    if not password:
+        raise InvalidValueError(DATABASE_PASSWORD_FILE, file, "a file that can be read, with the password in it")
+    return password
 
 
 def _data_dir(environment: Mapping[str, str]) -> Path:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import fcntl
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 from threadstate.contact._solve_kernel import solve_rows
@@ -22,6 +24,16 @@ def kernels_are_compiled() -> bool:
 def load_kernels() -> None:
     """Load every kernel into this process; those that the cache has not are compiled."""
     solve_poses(quarter_twenty_unc(), POSES_DEG)
+
+
+def load_kernels_in_turn() -> None:
+    """As :func:`load_kernels`; where they are still to be compiled, one process of a machine does and others wait."""
+    with ExitStack() as stack:
+        if not kernels_are_compiled():
+            _cache().mkdir(parents=True, exist_ok=True)
+            turn = stack.enter_context((_cache() / "compiling").open("w"))
+            fcntl.flock(turn, fcntl.LOCK_EX)
+        load_kernels()
 
 
 def main() -> None:

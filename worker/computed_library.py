@@ -23,6 +23,7 @@ def computed_library(
     tilt_max_deg: float,
     tilt_step_deg: float,
     workers: int,
+    scheduler: str | None = None,
     mesh: MeshOptions | None = None,
 ) -> Rebuild:
     """The published library of that pair and grid, computed if need be; an empty database is migrated first.
@@ -33,13 +34,15 @@ def computed_library(
         InvalidValueError: a value is not valid.
         SchemaError: the database is at another revision.
         ComputeError: a computing process failed.
+        ClusterError: the cluster cannot be used, or not any more.
     """
     pair = pair_by_designation(DEFAULT_DESIGNATION if designation is None else designation)
     inputs = LibraryInputs(pair, Grid(tilt_max_deg, tilt_step_deg, phase_step_deg), SolveOptions(), mesh)
     with writing(database) as engine:
         if stored_revision(engine) is None:
-            running_forkserver()  # it loads the kernels meanwhile
+            if scheduler is None:
+                running_forkserver()  # it loads the kernels meanwhile
             migrate(engine)
         check_schema(engine)
         with progress_bar() as progress:
-            return rebuild(engine, inputs, workers, progress)
+            return rebuild(engine, inputs, workers, progress, scheduler)

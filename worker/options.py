@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from threadstate import settings
+from threadstate.errors import InvalidValueError
 from threadstate.library.method import Method
 
 Database = Annotated[
@@ -45,6 +46,15 @@ Workers = Annotated[
         show_default=f"{settings.WORKERS}, else one a processor",
     ),
 ]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler",
+        metavar="URL",
+        help="Dask scheduler whose workers compute, tcp://host:port.",
+        show_default=f"{settings.SCHEDULER}, else processes here",
+    ),
+]
 Host = Annotated[
     str | None,
     typer.Option(
@@ -57,3 +67,14 @@ Port = Annotated[
         "--port", metavar="N", min=1, max=65535, help="Port to listen on.", show_default=f"{settings.PORT}, else 8000"
     ),
 ]
+
+
+def chosen_scheduler(read: settings.Settings, scheduler: str | None, workers: int | None) -> str | None:
+    """The scheduler whose workers compute; None: processes here do, as where their number is an option.
+
+    Raises:
+        InvalidValueError: both are options.
+    """
+    if scheduler is not None and workers is not None:
+        raise InvalidValueError("--workers", workers, "without --scheduler alone: a scheduler's workers compute there")
+    return read.scheduler if scheduler is None and workers is None else scheduler

@@ -10,7 +10,7 @@ from sqlalchemy import Engine
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import LibraryRecord, library_by_input
 from threadstate.library.write import committed_orientations, open_library, publish, write_chunk
-from worker.processes import computing_processes
+from worker.computers import computers
 
 
 @dataclass(frozen=True)
@@ -49,14 +49,18 @@ class Progress(Protocol):
         """That many more poses are committed."""
 
 
-def rebuild(engine: Engine, inputs: LibraryInputs, workers: int, progress: Progress) -> Rebuild:
+def rebuild(
+    engine: Engine, inputs: LibraryInputs, workers: int, progress: Progress, scheduler: str | None = None
+) -> Rebuild:
     """Compute and publish the library of these inputs, going on from the chunks that are committed.
 
     May be killed at any moment: a chunk is committed whole or not at all, and the library is published only when all
-    are. The content depends on the inputs alone, not on ``workers`` or on earlier runs.
+    are. The content depends on the inputs alone, not on earlier runs or on who computes: ``workers`` processes, or the
+    workers of the Dask cluster at ``scheduler``. Either way this process alone writes, each chunk when it is there.
 
     Raises:
         ComputeError: a computing process failed.
+        ClusterError: the cluster cannot be used, or not any more.
     """
     known = _published(engine, inputs)
     if known is not None:
@@ -69,8 +73,8 @@ def rebuild(engine: Engine, inputs: LibraryInputs, workers: int, progress: Progr
     progress.begin(len(committed) * grid.phase_count, grid.state_count)
     computed = 0
     if missing:
-        with computing_processes(inputs, min(workers, len(missing))) as processes:
-            for chunk in processes.chunks(missing, progress.ready):
+        with computers(inputs, min(workers, len(missing)), scheduler) as computing:
+            for chunk in computing.chunks(missing, progress.ready):
                 if write_chunk(engine, library_id, chunk.rows, chunk.history):
                     computed += chunk.rows.pose_count
                 progress.advance(chunk.rows.pose_count)

@@ -1,9 +1,13 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.address import database_url, shown
+from threadstate.library.engine import reader_engine, writer_engine
+from threadstate.settings import DATABASE_PASSWORD_FILE
 
 
 @pytest.mark.parametrize(
@@ -38,3 +42,14 @@ def test_a_password_in_a_refused_address_is_not_repeated(database: str) -> None:
     with pytest.raises(InvalidValueError) as caught:
         database_url(database)
     assert "secret" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("address", "password"), [("user@host", "from file"), ("user:in-url@host", "in-url")])
+def test_postgresql_takes_a_files_password_where_the_address_has_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, address: str, password: str
+) -> None:
+    (tmp_path / "password").write_text("from file\n")
+    monkeypatch.setenv(DATABASE_PASSWORD_FILE, str(tmp_path / "password"))
+    for engine in (writer_engine(f"postgresql://{address}/threads"), reader_engine(f"postgresql://{address}/threads")):
+        assert engine.url.password == password
+        assert password not in repr(engine)

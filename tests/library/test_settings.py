@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from threadstate.errors import InvalidValueError
-from threadstate.settings import NAMES, read_settings
+from threadstate.settings import DATABASE_PASSWORD_FILE, NAMES, database_password, read_settings
 
 
 def test_the_defaults_follow_the_data_directory() -> None:
@@ -39,9 +39,12 @@ def test_every_setting_is_read() -> None:
             "THREADSTATE_PORT": "8080",
             "THREADSTATE_READ_KEYS": "required",
             "THREADSTATE_LEASE_S": "5",
+            "THREADSTATE_SCHEDULER": "tcp://scheduler.example:8786",
+            "THREADSTATE_HEARTBEAT_FILE": "/tmp/heartbeat",
         }
     )
     assert (settings.read_keys_required, settings.lease_s) == (True, 5)
+    assert (settings.scheduler, settings.heartbeat_file) == ("tcp://scheduler.example:8786", Path("/tmp/heartbeat"))
     assert (settings.database, settings.workers, settings.host, settings.port) == (
         "sqlite:////tmp/a.sqlite3",
         3,
@@ -60,6 +63,28 @@ def test_a_bad_number_names_its_setting(name: str, value: str) -> None:
 def test_a_word_that_is_not_known_names_its_setting() -> None:
     with pytest.raises(InvalidValueError, match="THREADSTATE_READ_KEYS is 'yes'; valid: open, required"):
         read_settings({"THREADSTATE_READ_KEYS": "yes", "HOME": "/h"})
+
+
+def test_an_empty_setting_is_as_good_as_none() -> None:
+    settings = read_settings({"THREADSTATE_SCHEDULER": "", "THREADSTATE_HEARTBEAT_FILE": "", "HOME": "/h"})
+    assert (settings.scheduler, settings.heartbeat_file) == (None, None)
+    assert database_password({DATABASE_PASSWORD_FILE: ""}) is None
+
+
+def test_a_password_is_a_files_content_without_the_lines_end(tmp_path: Path) -> None:
+    (tmp_path / "password").write_text(" se cret:@/\n")
+    assert database_password({DATABASE_PASSWORD_FILE: str(tmp_path / "password")}) == " se cret:@/"
+
+
+@pytest.mark.parametrize("content", [None, "", "\n", b"\xff"])
+def test_a_file_without_a_password_names_its_setting(tmp_path: Path, content: str | bytes | None) -> None:
+    path = tmp_path / "password"
+    if isinstance(content, str):
+        path.write_text(content)
+    elif content is not None:
+        path.write_bytes(content)
+    with pytest.raises(InvalidValueError, match=f"{DATABASE_PASSWORD_FILE} is .*password'; valid: a file"):
+        database_password({DATABASE_PASSWORD_FILE: str(path)})
 
 
 def test_every_setting_is_documented(repository_root: Path) -> None:

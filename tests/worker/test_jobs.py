@@ -12,6 +12,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 
 import pytest
 from sqlalchemy import Engine, select
@@ -29,7 +30,7 @@ from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import library_by_id, published_libraries
 from threadstate.library.tables import chunk, state
-from threadstate.settings import LEASE_S
+from threadstate.settings import HEARTBEAT_FILE, LEASE_S
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.rebuild import rebuild
@@ -186,6 +187,26 @@ def test_told_to_stop_a_worker_leaves_at_once(jobs: Jobs) -> None:
     assert beats(jobs.engine) == {}
     assert jobs.job().lease_count == 0
     assert jobs.published() == []
+
+
+@pytest.mark.sqlite_alone
+def test_a_worker_touches_its_heartbeat_file_while_the_database_takes_its_beats(
+    databases: Databases, environment: Mapping[str, str], capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "heartbeat"
+    with databases.lent() as database:
+        commands = CommandLine(database, {**environment, LEASE_S: "1", HEARTBEAT_FILE: str(file)}, capsys)
+        with commands.start("worker") as worker:
+            _wait_for(file.exists)
+            first = file.stat().st_mtime_ns
+            _wait_for(lambda: file.stat().st_mtime_ns > first)
+            os.kill(worker.pid, signal.SIGSTOP)
+            last = file.stat().st_mtime_ns
+            time.sleep(0.5)
+            assert file.stat().st_mtime_ns == last
+            os.kill(worker.pid, signal.SIGCONT)
+            worker.terminate()
+            worker.communicate(timeout=PATIENCE_S)
 
 
 @pytest.mark.sqlite_alone

@@ -10,6 +10,8 @@ from typing import Any
 
 from sqlalchemy import URL, Engine, create_engine, event
 
+from threadstate.settings import database_password
+
 CONNECT_TIMEOUT_S = 10
 LOCK_TIMEOUT_S = 60
 IDLE_TIMEOUT_S = 60
@@ -17,7 +19,11 @@ IDLE_TIMEOUT_S = 60
 
 
 def postgresql_writer(url: URL) -> Engine:
-    """An engine that may write."""
+    """An engine that may write.
+
+    Raises:
+        InvalidValueError: the password's file cannot be read.
+    """
     # Rows are handed to the driver as tuples.
     engine = create_engine(
         _with_defaults(url), isolation_level="READ COMMITTED", paramstyle="format", pool_pre_ping=True
@@ -36,7 +42,11 @@ def postgresql_writer(url: URL) -> Engine:
 
 
 def postgresql_reader(url: URL) -> Engine:
-    """An engine that cannot write."""
+    """An engine that cannot write.
+
+    Raises:
+        InvalidValueError: the password's file cannot be read.
+    """
     engine = create_engine(_with_defaults(url), isolation_level="REPEATABLE READ", pool_pre_ping=True)
 
     @event.listens_for(engine, "connect")
@@ -53,7 +63,9 @@ def _with_defaults(url: URL) -> URL:
         "client_encoding": "utf8",
         "connect_timeout": str(CONNECT_TIMEOUT_S),
     }
-    return url.set(query={**defaults, **url.query})
+    url = url.set(query={**defaults, **url.query})
+    password = None if url.password else database_password()
+    return url if password is None else url.set(password=password)
 
 
 def _set(connection: Any, **values: str) -> None:

@@ -15,7 +15,18 @@ from worker.mesh_options import (
     Unchecked,
     mesh_options,
 )
-from worker.options import Database, Designation, Json, MethodName, PhaseStep, TiltMax, TiltStep, Workers
+from worker.options import (
+    Database,
+    Designation,
+    Json,
+    MethodName,
+    PhaseStep,
+    Scheduler,
+    TiltMax,
+    TiltStep,
+    Workers,
+    chosen_scheduler,
+)
 from worker.output import print_json, print_line
 
 
@@ -26,6 +37,7 @@ def rebuild(
     tilt_max: TiltMax = 4.0,
     tilt_step: TiltStep = 1.0,
     workers: Workers = None,
+    scheduler: Scheduler = None,
     method: MethodName = Method.EXACT,
     preset: PresetName = None,
     descent: DescentName = None,
@@ -39,13 +51,15 @@ def rebuild(
 
     Goes on where an earlier run was stopped. A library of the same inputs that is published already is left as it is;
     other inputs make a new library beside the old one. An empty database is migrated first. Poses that the method
-    cannot decide are stored as such, with the reason; by meshes a pose takes a tenth of a second and more.
+    cannot decide are stored as such, with the reason; by meshes a pose takes a tenth of a second and more. With a
+    scheduler the workers of its Dask cluster compute, and this process writes.
 
     \b
     Examples:
       threadstate rebuild
       threadstate rebuild --database sqlite:////tmp/threads.sqlite3 --workers 2
       threadstate rebuild --phase-step 5 --tilt-max 2 --json
+      threadstate rebuild --scheduler tcp://scheduler.example:8786
       threadstate rebuild --phase-step 30 --tilt-max 1 --method mesh --preset coarse
     """
     began = time.perf_counter()
@@ -60,6 +74,7 @@ def rebuild(
         tilt_max_deg=tilt_max,
         tilt_step_deg=tilt_step,
         workers=workers or settings.workers,
+        scheduler=chosen_scheduler(settings, scheduler, workers),
         mesh=mesh,
     )
     elapsed_s = time.perf_counter() - began

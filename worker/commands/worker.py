@@ -8,12 +8,13 @@ from typing import Annotated, NoReturn
 import typer
 
 from threadstate.settings import read_settings
-from worker.options import Database, Workers
+from worker.options import Database, Scheduler, Workers, chosen_scheduler
 
 
 def worker(
     database: Database = None,
     workers: Workers = None,
+    scheduler: Scheduler = None,
     until_idle: Annotated[
         bool, typer.Option("--until-idle", help="End when every job has ended.", show_default=False)
     ] = False,
@@ -27,10 +28,11 @@ def worker(
     Examples:
       threadstate worker
       threadstate worker --workers 2 --until-idle
+      threadstate worker --scheduler tcp://scheduler.example:8786
     """
     from threadstate.library.engine import writing
     from threadstate.library.schema import check_schema
-    from worker.jobs.serve import serve_jobs
+    from worker.jobs.serve import Serving, serve_jobs
     from worker.output import tell
 
     settings = read_settings()
@@ -38,7 +40,13 @@ def worker(
     try:
         with writing(database or settings.database) as engine:
             check_schema(engine)
-            serve_jobs(engine, workers or settings.workers, settings.lease_s, until_idle=until_idle)
+            serving = Serving(
+                processes=workers or settings.workers,
+                scheduler=chosen_scheduler(settings, scheduler, workers),
+                lease_s=settings.lease_s,
+                heartbeat_file=settings.heartbeat_file,
+            )
+            serve_jobs(engine, serving, until_idle=until_idle)
     except KeyboardInterrupt:
         tell("stopped")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from threading import Event, Thread
 
 from sqlalchemy import Engine
@@ -19,11 +20,12 @@ BEATS_A_LEASE = 8
 class Heart:
     """The heart of one worker; made by :func:`beating`."""
 
-    def __init__(self, engine: Engine, worker_id: str, lease_s: float) -> None:
+    def __init__(self, engine: Engine, worker_id: str, lease_s: float, file: Path | None) -> None:
         self._engine = engine
         self._worker_id = worker_id
         self._interval_s = lease_s / BEATS_A_LEASE
         self._watch = Watch(lease_s)
+        self._file = file
         self._stopped = Event()
         self._lost: LostLeaseError | None = None
 
@@ -41,6 +43,9 @@ class Heart:
         while not self._stopped.wait(self._interval_s):
             try:
                 beat(self._engine, self._worker_id)
+                if self._file is not None:
+                    with suppress(OSError):
+                        self._file.touch()
                 for silent, count in self._watch.silent(beats(self._engine)):
                     if remove_silent(self._engine, silent, count):
                         tell(f"worker {silent} is silent; its chunks are free")
@@ -56,9 +61,11 @@ class Heart:
 
 
 @contextmanager
-def beating(engine: Engine, worker_id: str, lease_s: float) -> Iterator[Heart]:
-    """A heart that beats while the context lasts."""
-    heart = Heart(engine, worker_id, lease_s)
+def beating(engine: Engine, worker_id: str, lease_s: float, file: Path | None = None) -> Iterator[Heart]:
+    """A heart that beats while the context lasts, and touches ``file`` with every beat that the database has taken."""
+    if file is not None:
+        file.touch()
+    heart = Heart(engine, worker_id, lease_s, file)
     thread = Thread(target=heart.beat_on, name="heart", daemon=True)
     thread.start()
     try:

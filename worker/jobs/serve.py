@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import chain
+from pathlib import Path
 
 from sqlalchemy import Engine
 from sqlalchemy.exc import IntegrityError, SQLAlchemyError
@@ -17,13 +18,32 @@ from threadstate.jobs.work import Work, hand_in, has_ended, next_work, open_job,
 from threadstate.jobs.workers import LostLeaseError, join, leave
 from threadstate.library.identity import code_versions
 from threadstate.library.write import IncompleteLibraryError, open_library, write_chunk
+from worker.cluster.errors import ClusterError
+from worker.computers import computers
 from worker.jobs.heart import Heart, beating
 from worker.output import tell
-from worker.processes import ComputeError, computing_processes
+from worker.processes import ComputeError
 
 POLL_S = 1.0
 RETRY_S = 2.0
-"""How long a worker waits after the database failed."""
+"""How long a worker waits after the database, or the cluster, failed."""
+
+
+@dataclass(frozen=True)
+class Serving:
+    """How a worker works.
+
+    Attributes:
+        processes: how many processes compute.
+        scheduler: address of the Dask cluster that computes in their place; None: they do.
+        lease_s: after how many seconds of silence another worker is taken for dead.
+        heartbeat_file: file that is touched with every heartbeat; None: none.
+    """
+
+    processes: int
+    scheduler: str | None
+    lease_s: float
+    heartbeat_file: Path | None
 
 
 @dataclass(frozen=True)
@@ -33,18 +53,21 @@ class _Session:
     engine: Engine
     worker_id: str
     heart: Heart
-    processes: int
+    serving: Serving
 
 
-def serve_jobs(engine: Engine, processes: int, lease_s: float, *, until_idle: bool) -> None:
-    """Work on jobs, with that many computing processes, until interrupted or (``until_idle``) until all have ended."""
+def serve_jobs(engine: Engine, serving: Serving, *, until_idle: bool) -> None:
+    """Work on jobs until interrupted or (``until_idle``) until all have ended."""
     while True:
         try:
-            with _joined(engine, processes, lease_s) as session:
+            with _joined(engine, serving) as session:
                 _work(session, until_idle=until_idle)
                 return
         except LostLeaseError as error:
             tell(f"{error}; it begins anew")
+        except ClusterError as error:
+            tell(f"the cluster fails, it is tried again: {error}")
+            time.sleep(RETRY_S)
         except SQLAlchemyError as error:
             reason = " ".join(str(getattr(error, "orig", None) or error).split())
             tell(f"the database fails, it is tried again: {reason}")
@@ -52,11 +75,11 @@ def serve_jobs(engine: Engine, processes: int, lease_s: float, *, until_idle: bo
 
 
 @contextmanager
-def _joined(engine: Engine, processes: int, lease_s: float) -> Iterator[_Session]:
+def _joined(engine: Engine, serving: Serving) -> Iterator[_Session]:
     worker_id = join(engine, f"{socket.gethostname()}:{os.getpid()}")
     try:
-        with beating(engine, worker_id, lease_s) as heart:
-            yield _Session(engine, worker_id, heart, processes)
+        with beating(engine, worker_id, serving.lease_s, serving.heartbeat_file) as heart:
+            yield _Session(engine, worker_id, heart, serving)
     finally:
         # Where this fails the others find out that the worker is silent.
         with suppress(SQLAlchemyError):
@@ -97,8 +120,9 @@ def _compute(session: _Session, work: Work, library_id: int) -> None:
     if first is None:
         return
     tell(f"job {work.job_id}: chunks of library {library_id}")
-    with computing_processes(work.inputs, min(session.processes, work.inputs.grid.orientation_count)) as processes:
-        for chunk in processes.chunks(chain([first], taken), lambda: None):
+    processes = min(session.serving.processes, work.inputs.grid.orientation_count)
+    with computers(work.inputs, processes, session.serving.scheduler) as computing:
+        for chunk in computing.chunks(chain([first], taken), lambda: None):
             write_chunk(session.engine, library_id, chunk.rows, chunk.history)
             if not hand_in(session.engine, session.worker_id, work.job_id, chunk.rows.orientation.index):
                 return

@@ -1,0 +1,274 @@
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+import pytest
+from sqlalchemy import func, select
+
+from tests.databases import Databases
+from tests.worker.cluster.clusters import Cluster, running_cluster
+from tests.worker.conftest import SMALL_GRID, CommandLine
+from threadstate.jobs.ask import ask_for
+from threadstate.jobs.names import EventKind, JobState
+from threadstate.jobs.read import events_after, job_by_id
+from threadstate.library.engine import reading, writing
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.read import published_libraries
+from threadstate.library.tables import chunk, state, undecided
+from threadstate.settings import LEASE_S, SCHEDULER
+from threadstate.state.options import SolveOptions
+from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.cluster.chunks import computing_cluster
+from worker.processes import ASKED_AHEAD
+from worker.rebuild import rebuild
+
+GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
+INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+PATIENCE_S = 120.0
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Where the processes of a cluster work; the tests' own files lie elsewhere."""
+    made = tmp_path / "cluster"
+    made.mkdir()
+    return made
+
+
+@pytest.fixture
+def cluster(folder: Path, environment: Mapping[str, str]) -> Iterator[Cluster]:
+    with running_cluster(folder, environment, workers=2) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def expected_content(sqlite_databases: Databases) -> str:
+    """The content hash of the small library as processes of one's own compute it."""
+    with writing(sqlite_databases.migrated()) as engine:
+        return rebuild(engine, INPUTS, 1, _Unwatched()).content_sha256
+
+
+class _Unwatched:
+    def begin(self, committed: int, total: int) -> None: ...
+
+    def ready(self) -> None: ...
+
+    def advance(self, poses: int) -> None: ...
+
+
+def _committed(database: str) -> int:
+    """How many chunks are committed."""
+    with reading(database) as engine, engine.connect() as connection:
+        return len(connection.scalars(select(chunk.c.orientation)).all())
+
+
+def _check_whole(database: str, expected_content: str) -> None:
+    """There is one library, the expected one, with each chunk and each pose once."""
+    with reading(database) as engine, engine.connect() as connection:
+        assert [library.content_sha256 for library in published_libraries(connection)] == [expected_content]
+        orientations = connection.scalars(select(chunk.c.orientation).order_by(chunk.c.orientation)).all()
+        counts = [connection.scalar(select(func.count()).select_from(table)) for table in (state, undecided)]
+    assert list(orientations) == list(range(GRID.orientation_count))
+    assert sum(count or 0 for count in counts) == GRID.state_count
+
+
+def _wait_for(condition: Callable[[], bool]) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, "in vain"
+        time.sleep(0.01)
+
+
+def test_two_workers_compute_what_processes_here_do(
+    command_line: CommandLine, cluster: Cluster, expected_content: str
+) -> None:
+    out = command_line.out("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json")
+    assert json.loads(out)["content_sha256"] == expected_content
+    assert json.loads(out)["computed"] == GRID.state_count
+    _check_whole(command_line.database, expected_content)
+
+
+@pytest.mark.sqlite_alone
+def test_chunks_of_a_killed_worker_are_computed_by_others(
+    command_line: CommandLine, cluster: Cluster, expected_content: str
+) -> None:
+    command_line.out("migrate")
+    with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json") as process:
+        _wait_for(lambda: _committed(command_line.database) > 0)
+        cluster.workers[0].kill()
+        out, err = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 0, err
+    assert json.loads(out)["computed"] == GRID.state_count
+    _check_whole(command_line.database, expected_content)
+
+
+@pytest.mark.sqlite_alone
+def test_a_killed_rebuild_goes_on_where_it_was(
+    command_line: CommandLine, cluster: Cluster, expected_content: str
+) -> None:
+    command_line.out("migrate")
+    arguments = ("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json")
+    with command_line.start(*arguments) as killed:
+        _wait_for(lambda: _committed(command_line.database) > 1)
+        killed.kill()
+        killed.communicate()
+    kept = _committed(command_line.database)
+    result = json.loads(command_line.out(*arguments))
+    assert result["was_published"] or result["computed"] == GRID.state_count - kept * GRID.phase_count
+    _check_whole(command_line.database, expected_content)
+
+
+@pytest.mark.sqlite_alone
+def test_without_its_scheduler_a_rebuild_ends_and_what_is_committed_stays(
+    command_line: CommandLine, cluster: Cluster, expected_content: str
+) -> None:
+    command_line.out("migrate")
+    with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process:
+        _wait_for(lambda: _committed(command_line.database) > 0)
+        cluster.scheduler.kill()
+        _, err = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 1
+    assert f"threadstate: the Dask scheduler {cluster.address} is gone" in err
+    command_line.out("rebuild", *SMALL_GRID)
+    _check_whole(command_line.database, expected_content)
+
+
+@pytest.mark.sqlite_alone
+def test_a_worker_whose_history_code_differs_is_refused(
+    command_line: CommandLine, folder: Path, environment: Mapping[str, str], tmp_path: Path, repository_root: Path
+) -> None:
+    for room in ("threadstate", "worker"):
+        shutil.copytree(repository_root / room, tmp_path / "other" / room)
+    with (tmp_path / "other/threadstate/history/build.py").open("a") as source:
+        source.write("# another version\n")
+    with running_cluster(folder, environment, workers=1) as cluster:
+        cluster.add_worker(PYTHONPATH=str(tmp_path / "other"))
+        _wait_for(lambda: (folder / "log").read_text().count("Starting worker compute stream") == 2)
+        code, _, err = command_line.here("rebuild", *SMALL_GRID, "--scheduler", cluster.address)
+    assert code == 1
+    assert "a Dask worker cannot compute the same bits: code " in err.splitlines()[-1]
+    assert "(at tcp://127.0.0.1:" in err
+
+
+@pytest.mark.sqlite_alone
+def test_a_worker_that_joins_late_is_looked_at_too(
+    command_line: CommandLine, folder: Path, environment: Mapping[str, str], tmp_path: Path, repository_root: Path
+) -> None:
+    for room in ("threadstate", "worker"):
+        shutil.copytree(repository_root / room, tmp_path / "other" / room)
+    (tmp_path / "other/threadstate/late.py").write_text("")
+    with (
+        running_cluster(folder, environment, workers=0) as cluster,
+        command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process,
+    ):
+        assert process.stderr is not None
+        assert process.stderr.readline() == f"the Dask scheduler {cluster.address} has no worker yet; waiting for one\n"
+        cluster.add_worker(PYTHONPATH=str(tmp_path / "other"))
+        _, err = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 1
+    assert "a Dask worker cannot compute the same bits: code " in err.splitlines()[-1]
+
+
+@pytest.mark.sqlite_alone
+def test_no_more_chunks_are_asked_for_than_workers_have_room_for(cluster: Cluster) -> None:
+    taken = 0
+
+    def orientations() -> Iterator[int]:
+        nonlocal taken
+        for index in range(GRID.orientation_count):
+            taken += 1
+            yield index
+
+    with computing_cluster(INPUTS, cluster.address) as computing:
+        received = 0
+        for one in computing.chunks(orientations(), lambda: None):
+            received += 1
+            assert one.rows.orientation.index in range(GRID.orientation_count)
+            assert taken - received < ASKED_AHEAD * len(cluster.workers)
+    assert received == taken == GRID.orientation_count
+
+
+def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
+    databases: Databases,
+    cluster: Cluster,
+    environment: Mapping[str, str],
+    capsys: pytest.CaptureFixture[str],
+    expected_content: str,
+) -> None:
+    with databases.lent() as database, writing(database) as engine:
+        asked = ask_for(engine, INPUTS)
+        commands = CommandLine(database, {**environment, LEASE_S: "2", SCHEDULER: cluster.address}, capsys)
+        with commands.start("worker", "--until-idle") as process:
+            _wait_for(lambda: _committed(database) > 0)
+            cluster.workers[1].kill()
+            _, err = process.communicate(timeout=PATIENCE_S)
+        assert process.returncode == 0, err
+        with engine.connect() as connection:
+            done = job_by_id(connection, asked.id)
+            kinds = [event.kind for event in events_after(connection, asked.id, 0)]
+        assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
+        # No mishap of the job: it was queued once.
+        assert [kinds.count(kind) for kind in (EventKind.QUEUED, EventKind.PUBLISHED)] == [1, 1]
+        _check_whole(database, expected_content)
+
+
+@pytest.mark.sqlite_alone
+def test_a_worker_of_jobs_waits_for_its_scheduler(
+    databases: Databases, environment: Mapping[str, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with databases.lent() as database, writing(database) as engine:
+        asked = ask_for(engine, INPUTS)
+        commands = CommandLine(database, {**environment, SCHEDULER: "tcp://127.0.0.1:1"}, capsys)
+        with commands.start("worker") as process:
+            assert process.stderr is not None
+            told = [process.stderr.readline() for _ in range(2)]
+            process.terminate()
+            process.communicate(timeout=PATIENCE_S)
+        assert told[1] == ("the cluster fails, it is tried again: no Dask scheduler answers at tcp://127.0.0.1:1\n")
+        with engine.connect() as connection:
+            waiting = job_by_id(connection, asked.id)
+        assert (waiting.state, waiting.lease_count) == (JobState.RUNNING, 0)
+
+
+@pytest.mark.sqlite_alone
+@pytest.mark.parametrize("address", ["here:8786", "http://127.0.0.1:8786", "tcp://", "tcp://127.0.0.1:x"])
+def test_what_is_no_schedulers_address_is_refused(command_line: CommandLine, address: str) -> None:
+    code, _, err = command_line.here("rebuild", *SMALL_GRID, "--scheduler", address)
+    assert code == 2
+    assert f"scheduler is {address!r}; valid: the address of a Dask scheduler" in err
+
+
+@pytest.mark.sqlite_alone
+def test_processes_and_a_scheduler_exclude_each_other(command_line: CommandLine) -> None:
+    code, _, err = command_line.here("rebuild", "--workers", "2", "--scheduler", "tcp://127.0.0.1:8786")
+    assert code == 2
+    assert "--workers is 2; valid:" in err
+
+
+@pytest.mark.sqlite_alone
+def test_without_the_extra_it_is_said_what_to_install(command_line: CommandLine) -> None:
+    script = (
+        "import sys; sys.modules['distributed'] = None; from worker.cli import run_command_line; "
+        f"sys.exit(run_command_line(['rebuild', '--database', {command_line.database!r}, "
+        "'--scheduler', 'tcp://127.0.0.1:8786']))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], env=os.environ, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "pip install 'threadstate[dask]'" in done.stderr.splitlines()[-1]
+
+
+def test_dask_is_loaded_only_when_asked_for() -> None:
+    script = (
+        "import worker.cli, worker.computed_library, worker.jobs.serve, sys; "
+        "print([name for name in ('dask', 'distributed') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"

@@ -1,0 +1,188 @@
+"""Chunks from the workers of a Dask cluster, as they finish.
+
+The scheduler knows nothing that is not known here: which chunks are missing is in the database, and each is written
+there as soon as it arrives. No more are asked for than the workers can have before them, so that neither the
+scheduler's nor the workers' memory grows with the library.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from queue import Empty, SimpleQueue
+from typing import TYPE_CHECKING
+
+from threadstate.errors import InvalidValueError
+from threadstate.library.identity import LibraryInputs
+from worker.cluster.errors import ClusterError, VersionSkewError
+from worker.cluster.versions import own_versions
+from worker.messages import Chunk
+from worker.output import tell
+from worker.processes import ASKED_AHEAD, ComputeError
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+CONNECT_TIMEOUT_S = 10
+PATIENCE_S = 60.0
+"""How long a cluster may be without a worker."""
+LOOK_EVERY_S = 1.0
+"""How often the cluster is asked how many threads it has."""
+SCHEMES = ("tcp://", "tls://")
+VALID_ADDRESS = "the address of a Dask scheduler, such as tcp://host:8786 or tls://host:8786"
+
+
+class ComputingCluster:
+    """The workers of a cluster that compute chunks of one library; made by :func:`computing_cluster`."""
+
+    def __init__(self, inputs: LibraryInputs, address: str, client: Client) -> None:
+        self._inputs = inputs
+        self._address = address
+        self._client = client
+        self._asked_for: set[Future[Chunk]] = set()
+        self._done: SimpleQueue[Future[Chunk]] = SimpleQueue()
+        self._room = 0
+        self._looked_s = 0.0
+        self._worker_seen_s = time.monotonic()
+
+    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
+        """The chunks of these orientations, in the order in which they are finished.
+
+        Those of a worker that dies are computed by others.
+
+        Args:
+            orientations: their numbers, each taken when there is a worker for it.
+            on_ready: called once, when the first chunk is there.
+
+        Raises:
+            ComputeError: a chunk failed, or one worker after another died of it.
+            ClusterError: the scheduler is gone, there is no worker for a minute, or one is of another version.
+        """
+        waiting = iter(orientations)
+        announced = False
+        while self._ask(waiting) or self._asked_for:
+            try:
+                future = self._done.get(timeout=LOOK_EVERY_S)
+            except Empty:
+                continue
+            chunk = self._result(future)
+            self._asked_for.remove(future)
+            if not announced:
+                announced = True
+                on_ready()
+            yield chunk
+
+    def close(self) -> None:
+        """Ask for nothing any more; what workers are at is dropped when they are done with it."""
+        self._asked_for.clear()
+
+    def _ask(self, waiting: Iterator[int]) -> bool:
+        """Ask for as many chunks as there is room for.
+
+        Returns:
+            Whether there may be more to ask for.
+        """
+        from worker.cluster.remote import remote_chunk
+
+        self._look()
+        while len(self._asked_for) < self._room:
+            index = next(waiting, None)
+            if index is None:
+                return False
+            future = self._client.submit(remote_chunk, self._inputs, index, own_versions(), pure=False)
+            self._asked_for.add(future)
+            future.add_done_callback(self._done.put)
+        return True
+
+    def _look(self) -> None:
+        """See now and then how many threads there are: workers come and go."""
+        now_s = time.monotonic()
+        if self._room and now_s - self._looked_s < LOOK_EVERY_S:
+            return
+        try:
+            threads = sum(self._client.nthreads().values())
+        except (OSError, TimeoutError) as error:
+            raise self._gone(error) from None
+        self._looked_s = now_s
+        self._room = ASKED_AHEAD * threads
+        if threads:
+            self._worker_seen_s = now_s
+        elif now_s - self._worker_seen_s > PATIENCE_S:
+            raise ClusterError(f"the Dask scheduler {self._address} has had no worker for {PATIENCE_S:g} s")
+
+    def _result(self, future: Future[Chunk]) -> Chunk:
+        from distributed import CancelledError, KilledWorker
+
+        try:
+            chunk = future.result()
+        except VersionSkewError as error:
+            raise _skewed(str(error)) from None
+        except KilledWorker as error:
+            raise ComputeError(f"one Dask worker after another died of a chunk: {error}") from None
+        except (CancelledError, OSError, TimeoutError) as error:
+            raise self._gone(error) from None
+        except Exception as error:  # whatever it is that a worker raises
+            raise ComputeError(f"a Dask worker failed: {type(error).__name__}: {error}") from None
+        assert isinstance(chunk, Chunk)
+        return chunk
+
+    def _gone(self, error: BaseException) -> ClusterError:
+        return ClusterError(f"the Dask scheduler {self._address} is gone ({type(error).__name__})")
+
+
+@contextmanager
+def computing_cluster(inputs: LibraryInputs, address: str) -> Iterator[ComputingCluster]:
+    """The cluster of the scheduler at ``address``, whose workers are seen to be of this version first.
+
+    Raises:
+        InvalidValueError: that is no address of a scheduler.
+        ClusterError: Dask is not installed, no scheduler answers there, or a worker is of another version.
+    """
+    with _connected(address) as client:
+        _check_versions(client, address)
+        cluster = ComputingCluster(inputs, address, client)
+        try:
+            yield cluster
+        finally:
+            cluster.close()
+
+
+@contextmanager
+def _connected(address: str) -> Iterator[Client]:
+    if not address.startswith(SCHEMES):
+        raise InvalidValueError("scheduler", address, VALID_ADDRESS)
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ClusterError("a scheduler needs Dask, which is not installed: pip install 'threadstate[dask]'") from None
+
+    # What goes wrong is said by errors of our own; Dask's log would tell the same again, in many lines.
+    for name in ("distributed", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    try:
+        client = Client(address, timeout=CONNECT_TIMEOUT_S, set_as_default=False, name="threadstate")
+    except ValueError:
+        raise InvalidValueError("scheduler", address, VALID_ADDRESS) from None
+    except (OSError, TimeoutError):
+        raise ClusterError(f"no Dask scheduler answers at {address}") from None
+    try:
+        yield client
+    finally:
+        client.close()
+
+
+def _check_versions(client: Client, address: str) -> None:
+    from worker.cluster.remote import require_versions
+
+    answers = client.run(require_versions, own_versions(), on_error="return")
+    if not answers:
+        tell(f"the Dask scheduler {address} has no worker yet; waiting for one")
+    for place, answer in answers.items():
+        if answer is not None:
+            raise _skewed(f"{answer} (at {place})")
+
+
+def _skewed(differences: str) -> ClusterError:
+    return VersionSkewError(f"a Dask worker cannot compute the same bits: {differences}")
