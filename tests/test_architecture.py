@@ -72,7 +72,7 @@ def test_no_tracked_file_names_a_package_registry(tracked_files: list[Path], rep
 
 
 def test_lock_files_pin_by_hash_and_hold_no_address(repository_root: Path) -> None:
-    for name in ("requirements.lock", "requirements-node.lock"):
+    for name in sorted(path.name for path in repository_root.glob("requirements*.lock")):
         text = (repository_root / name).read_text()
         assert "://" not in text
         assert "--index-url" not in text
