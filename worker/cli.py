@@ -26,6 +26,7 @@ from worker.commands.run import run
 from worker.commands.serve import serve
 from worker.commands.solve import solve
 from worker.commands.summary import summary
+from worker.commands.sweep import sweep
 from worker.commands.transitions import transitions
 from worker.commands.windows import windows
 from worker.commands.worker import worker
@@ -46,6 +47,7 @@ app = typer.Typer(
 COMMANDS = (
     solve,
     rebuild,
+    sweep,
     summary,
     history,
     heights,

@@ -149,6 +149,20 @@ def computing_cluster(inputs: LibraryInputs, address: str) -> Iterator[Computing
             cluster.close()
 
 
+def cluster_threads(address: str) -> int:
+    """How many threads the workers of a cluster have.
+
+    Raises:
+        InvalidValueError: that is no address of a scheduler.
+        ClusterError: as for :func:`computing_cluster`, or it has none.
+    """
+    with _connected(address) as client:
+        threads: int = sum(client.nthreads().values())
+    if not threads:
+        raise ClusterError(f"the Dask scheduler {address} has no worker")
+    return threads
+
+
 @contextmanager
 def _connected(address: str) -> Iterator[Client]:
     if not address.startswith(SCHEMES):
