@@ -1,6 +1,6 @@
 # make setup      everything that run, test and bench stand on; instant the second time
 # make run        migrate, compute the library if this very one is not published yet, serve it
-# make test       format, lint, types, tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
+# make test       format, lint, types, bandit, tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
 # make bench      poses per second, beside a mesh collision library
 # make paper      put the paper's statements to the test, write docs/paper-claims.md
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
@@ -10,6 +10,8 @@
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew
 # make kills      kill workers of jobs a hundred times, and check what is left
+# make fuzz     ask the service whatever its description allows and forbids, 10,000 times and more
+# make audit      ask the advisory services about every locked dependency; fails where they cannot be reached
 # make lock       renew the lock files after a change of dependencies (needs uv)
 
 PYTHON ?= python3
@@ -20,7 +22,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots kills
+.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots kills fuzz audit
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -32,6 +34,7 @@ test: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	$(BIN)/bandit -q -r threadstate service worker migrations -c pyproject.toml
 	$(NODE) node_modules/eslint/bin/eslint.js .
 	$(NODE) --test tests/page/*.test.js
 	$(BIN)/pytest
@@ -66,6 +69,13 @@ screenshots: setup
 kills: setup
 	$(BIN)/python -m scripts.kill_workers
 
+fuzz: setup
+	$(BIN)/python -m scripts.fuzz
+
+audit: $(VENV)-audit/.dependencies node_modules/.installed
+	$(VENV)-audit/bin/pip-audit --strict --disable-pip --require-hashes --progress-spinner off -r requirements.lock
+	PATH="$$PATH:$(CURDIR)/$(BIN)" npm audit --audit-level=low
+
 $(VENV)/.created:
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)
 	@touch $@
@@ -73,6 +83,11 @@ $(VENV)/.created:
 $(VENV)/.dependencies: requirements.lock $(VENV)/.created
 	@echo "Installing the locked dependencies ..."
 	$(PIP) -r requirements.lock
+	@touch $@
+
+$(VENV)-audit/.dependencies: requirements-audit.lock
+	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)-audit
+	$(VENV)-audit/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $<
 	@touch $@
 
 node_modules/.installed: package.json package-lock.json requirements-node.lock $(VENV)/.created

@@ -14,6 +14,7 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, Field
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
+from starlette.routing import Match
 
 from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
 from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, UndecidedPoseError, UnresolvedPoseError
@@ -139,16 +140,17 @@ def _refused_parameter(_request: Request, error: Any) -> Response:
 
 
 def _validation(_request: Request, error: Any) -> Response:
-    items = [
-        ProblemItem(
-            location=" ".join(_short(str(part)) for part in one["loc"]),
-            value=_short(str(one.get("input", ""))),
-            valid=_short(one["msg"]),
-        )
-        for one in error.errors()[:10]
-    ]
+    items = [_refused_by_schema(one, error.body) for one in error.errors()[:10]]
     detail = "; ".join(f"{item.location} is {item.value!r}: {item.valid}" for item in items)
     return problem_response(INVALID_VALUE, detail, items)
+
+
+def _refused_by_schema(one: Any, body: Any) -> ProblemItem:
+    location = " ".join(_short(str(part)) for part in one["loc"])
+    if one["type"] == "json_invalid":
+        place = int(one["loc"][1])
+        return ProblemItem(location=location, value=_short(body[place:]), valid=_short(f"JSON: {one['ctx']['error']}"))
+    return ProblemItem(location=location, value=_short(str(one.get("input", ""))), valid=_short(one["msg"]))
 
 
 def _invalid_value(_request: Request, error: Any) -> Response:
@@ -189,10 +191,23 @@ def _database(_request: Request, _error: Any) -> Response:
     return problem_response(DATABASE_UNAVAILABLE, detail)
 
 
-def _http(_request: Request, error: Any) -> Response:
+def _http(request: Request, error: Any) -> Response:
     title = HTTPStatus(error.status_code).phrase
     problem = Problem(type="about:blank", title=title, status=error.status_code, detail=str(error.detail))
-    return _response(problem, dict(error.headers or {}))
+    headers = dict(error.headers or {})
+    if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
+        headers["Allow"] = ", ".join(_allowed_methods(request))
+    return _response(problem, headers)
+
+
+def _allowed_methods(request: Request) -> list[str]:
+    """The methods of a path: each is a route of its own, of which Starlette names the first alone."""
+    found = [
+        method
+        for method in ("DELETE", "GET", "PATCH", "POST", "PUT")
+        if any(route.matches({**request.scope, "method": method})[0] is Match.FULL for route in request.app.routes)
+    ]
+    return sorted([*found, "HEAD"]) if "GET" in found else found
 
 
 def _internal(_request: Request, _error: Any) -> Response:

@@ -14,12 +14,14 @@ from service.jobs.stream import HEADERS, EventStream, told
 from service.keys import require_write_key
 from service.middleware import ASKED_AS_HEAD
 from service.representation import JSON, NOT_MODIFIED, json_response
+from service.strict_json import StrictJsonRoute
 from threadstate.jobs.ask import ask_for, cancel
 from threadstate.jobs.model import JobRecord
+from threadstate.jobs.names import EventKind
 from threadstate.jobs.read import job_by_id, jobs_before
 from threadstate.library.read import LARGEST_ID
 
-router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
+router = APIRouter(prefix="/v1/jobs", tags=["jobs"], route_class=StrictJsonRoute)
 
 LARGEST_LIMIT = 100
 
@@ -38,6 +40,17 @@ _ACCEPTED: dict[int | str, dict[str, Any]] = {
 _ALL_TOLD: dict[int | str, dict[str, Any]] = {
     204: {"description": "The job has ended, and all of it has been received: do not connect again"}
 }
+_EVENT_SCHEMA = {
+    "type": "object",
+    "title": "One event of the stream",
+    "required": ["id", "event", "data"],
+    "properties": {
+        "id": {"type": "string", "pattern": "^[1-9][0-9]*$"},
+        "event": {"enum": list(EventKind)},
+        "data": {"type": "string", "contentMediaType": JSON},
+    },
+}
+_EVENT_DESCRIPTION = {"responses": {"200": {"content": {EventStream.media_type: {"schema": _EVENT_SCHEMA}}}}}
 
 
 @router.post(
@@ -74,7 +87,13 @@ def get_job(request: Request, connection: ReadConnection, job_id: JobId) -> Resp
     return json_response(request, job_document(job_by_id(connection, job_id)).model_dump(mode="json"))
 
 
-@router.get("/{id}/events", summary="What happens to a job", response_class=EventStream, responses=_ALL_TOLD)
+@router.get(
+    "/{id}/events",
+    summary="What happens to a job",
+    response_class=EventStream,
+    responses=_ALL_TOLD,
+    openapi_extra=_EVENT_DESCRIPTION,
+)
 def get_events(request: Request, job_id: JobId, last_event_id: LastEventHeader = 0) -> Response:
     """Server-sent events: what has happened, and what happens until the job ends.
 

@@ -65,7 +65,12 @@ class JobRequest(BaseModel):
     """A library to be computed."""
 
     model_config = ConfigDict(
-        **_FORBID, json_schema_extra={"examples": [{"designation": DEFAULT_DESIGNATION, "grid": {"phase_step": 5.0}}]}
+        **_FORBID,
+        json_schema_extra={
+            "examples": [{"designation": DEFAULT_DESIGNATION, "grid": {"phase_step": 5.0}}],
+            "if": {"required": ["mesh"], "properties": {"mesh": {"type": "object"}}},
+            "then": {"required": ["method"], "properties": {"method": {"const": Method.MESH.value}}},
+        },
     )
 
     designation: Annotated[str, Field(min_length=1, max_length=100, description="the thread")] = DEFAULT_DESIGNATION

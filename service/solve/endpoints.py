@@ -8,13 +8,14 @@ from fastapi import APIRouter, Response
 
 from service.representation import JSON
 from service.solve.schemas import SolveAnswer, SolveRequest
+from service.strict_json import StrictJsonRoute
 from service.units import UNIT_HEADER, UnitQuery
 from threadstate.state.document import state_document
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import pair_by_designation
 from threadstate.units import conversion_factor
 
-router = APIRouter(prefix="/v1/solve", tags=["solve"])
+router = APIRouter(prefix="/v1/solve", tags=["solve"], route_class=StrictJsonRoute)
 
 
 @router.post("", summary="Solve poses", response_model=SolveAnswer)

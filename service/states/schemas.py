@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -63,10 +63,20 @@ class StateSchema(BaseModel):
     margins: MarginsSchema
 
 
+def _require_nothing(schema: dict[str, Any]) -> None:
+    del schema["required"]
+
+
+class ChosenFieldsSchema(StateSchema):
+    """A contact state; with `fields` those of its fields alone."""
+
+    model_config = ConfigDict(json_schema_extra=_require_nothing)
+
+
 class StatePage(BaseModel):
     """One page of states."""
 
     library: int = Field(description="number of the library")
     unit: LengthUnit = Field(description="unit of all lengths in this answer")
-    states: list[StateSchema] = Field(description="with `fields`, only those fields of each")
+    states: list[ChosenFieldsSchema] = Field(description="with `fields`, only those fields of each")
     next: str | None = Field(description="address of the next page, null on the last; also as `Link: rel=next`")

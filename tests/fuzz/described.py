@@ -1,0 +1,129 @@
+"""Requests made from the service's own description, and whether the answers are as it says (Schemathesis)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Any
+
+import schemathesis
+from fastapi import FastAPI
+from schemathesis.config import SchemathesisConfig
+from schemathesis.engine import Status, StopReason, events, from_schema
+from schemathesis.engine.recorder import ScenarioRecorder
+
+from threadstate.library.grid import Grid
+
+GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
+"""Of the library that is asked: its poses are known here, so that they are found."""
+LONGEST_REQUEST_S = 120
+EVENTS_READ = 3
+"""Of a stream: a job that nobody works on never ends it."""
+MADE_UP_PER_SLOW = 20
+"""An operation that solves a history each time gets one case for so many of the others."""
+SLOW = r"^/v1/histories/"
+RULES_BETWEEN_VALUES = r"/(states|transitions|paths|locate|intervals|heights|solve|jobs)$"
+"""Where a value may be refused for what no schema says: another value beside it, a cursor's content, a name."""
+
+
+@dataclass
+class Tally:
+    """What came of a run: how many cases each operation had, the statuses, and what was wrong, in words."""
+
+    cases: Counter[str] = field(default_factory=Counter)
+    statuses: Counter[int] = field(default_factory=Counter)
+    wrong: list[str] = field(default_factory=list)
+
+    @property
+    def total(self) -> int:
+        """How many requests were made."""
+        return self.cases.total()
+
+
+def fuzz(app: FastAPI, key: str, *, examples: int, seed: int, longest_s: int) -> Tally:
+    """Ask ``app`` whatever its description allows and forbids, in this process, and check each answer.
+
+    Every check of Schemathesis holds: no failure of the server, status, media type, headers and content as described,
+    what the description forbids refused, what it allows not refused as invalid, no write without a key.
+
+    Args:
+        app: the service, over a database with a library of :data:`GRID`.
+        key: one for writing.
+        examples: how many random cases an operation gets, beside those that its description lays out.
+        seed: the same seed makes the same cases.
+        longest_s: after so many seconds it ends, and says that it did not finish.
+    """
+    schema = schemathesis.openapi.from_asgi(
+        "/openapi.json", app, config=SchemathesisConfig.from_dict(_config(key, examples, seed, longest_s))
+    )
+    tally = Tally()
+    for event in from_schema(schema).execute():
+        match event:
+            case events.ScenarioFinished():
+                _count(tally, event.recorder)
+                if event.status is Status.ERROR:
+                    tally.wrong.append(f"{event.recorder.label}: the scenario ended with an error")
+            case events.NonFatalError():
+                tally.wrong.append(f"{event.label}: {event.value}")
+            case events.FatalError():
+                raise event.exception
+            case events.EngineFinished() if event.stop_reason is not StopReason.COMPLETED:
+                tally.wrong.append(f"ended early: {event.stop_reason}")
+            case _:
+                pass
+    return tally
+
+
+def _count(tally: Tally, recorder: ScenarioRecorder) -> None:
+    for case_id, node in recorder.cases.items():
+        interaction = recorder.interactions.get(case_id)
+        if interaction is None:
+            continue
+        tally.cases[node.value.operation.label] += 1
+        if interaction.response is not None:
+            tally.statuses[interaction.response.status_code] += 1
+    for case_id, checks in recorder.checks.items():
+        label = recorder.cases[case_id].value.operation.label
+        for check in checks:
+            if check.failure_info is not None:
+                tally.wrong.append(f"{label}: {check.failure_info.failure}\n{check.failure_info.code_sample}")
+            elif check.status is Status.ERROR:
+                tally.wrong.append(f"{label}: the check {check.name} failed itself")
+
+
+def _config(key: str, examples: int, seed: int, longest_s: int) -> dict[str, Any]:
+    phases = [index * GRID.phase_step_deg for index in range(GRID.phase_count)]
+    tilts = list(GRID.tilts_deg)
+    words: dict[str, list[float] | list[str] | list[int]] = {
+        "tilts": tilts,
+        "phases": phases,
+        "libraries": ["latest", "latest-mesh", "1", "1-4-20-unc", "1%2F4-20%20UNC"],
+        "jobs": [1, 2, 3],
+    }
+    return {
+        "seed": seed,
+        "max-time": longest_s,
+        "request-timeout": LONGEST_REQUEST_S,
+        "max-stream-events": EVENTS_READ,
+        "continue-on-failure": True,
+        "headers": {"Authorization": f"Bearer {key}"},
+        "dictionaries": {name: {"values": values} for name, values in words.items()},
+        "parameters": {
+            "path.roll": {"dictionary": "tilts", "probability": 0.8},
+            "path.pitch": {"dictionary": "tilts", "probability": 0.8},
+            "path.phase": {"dictionary": "phases", "probability": 0.8},
+            "path.id": {"dictionary": "libraries", "probability": 0.8},
+        },
+        "generation": {"max-examples": examples, "deterministic": False, "database": "none"},
+        # What is cancelled stays, to be asked for.
+        "checks": {"use_after_free": {"enabled": False}, "ensure_resource_availability": {"enabled": False}},
+        "phases": {"coverage": {"generate-duplicate-query-parameters": True}},
+        "operations": [
+            {"include-path-regex": RULES_BETWEEN_VALUES, "checks": {"positive_data_acceptance": {"enabled": False}}},
+            {"include-path-regex": SLOW, "generation": {"max-examples": max(examples // MADE_UP_PER_SLOW, 1)}},
+            {
+                "include-path-regex": "^/v1/jobs/",
+                "parameters": {"path.id": {"dictionary": "jobs", "probability": 0.8}},
+            },
+        ],
+    }
