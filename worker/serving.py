@@ -20,7 +20,9 @@ def become_service(database: str, host: str, port: int) -> NoReturn:
     """
     tell(f"Open {address(host, port)} in a browser, or ask {address(host, port)}/v1/libraries/latest.")
     arguments = [sys.executable, "-m", "uvicorn", SERVICE, "--factory", "--host", host, "--port", str(port)]
-    os.execve(sys.executable, arguments, {**os.environ, DATABASE: database})
+    environment = {**os.environ, DATABASE: database}
+    # This very interpreter, and arguments that no shell reads.
+    os.execve(sys.executable, arguments, environment)  # nosec B606
 
 
 def address(host: str, port: int) -> str:
