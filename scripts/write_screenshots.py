@@ -21,7 +21,7 @@ DRAWN = (
     "#depth .curve",
     "#disks .disk",
     "#state table",
-    "#network .card",
+    "#state table",
     "#path .step",
     "#scene canvas",
 )

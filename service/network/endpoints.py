@@ -18,6 +18,7 @@ from service.network.parameters import (
     TransitionQuery,
 )
 from service.network.schemas import (
+    FormationsAnswer,
     HeightsAnswer,
     IntervalsAnswer,
     LocationAnswer,
@@ -173,6 +174,13 @@ def get_network(
         case NetworkFormat.SUMMARY:
             answer = NetworkSummary(library=network.library.id, network=network.summary)
             return json_response(request, answer.model_dump(mode="json", by_alias=True))
+
+
+@router.get("/network/formations", summary="All formations", response_model=FormationsAnswer, responses=NOT_MODIFIED)
+def list_formations(request: Request, network: RequestedNetwork) -> Response:
+    """Every formation in few words: class, share, where it occurs, how far it is to the window; ordered by key."""
+    answer = FormationsAnswer(library=network.library.id, formations=network.formations)
+    return json_response(request, answer.model_dump(mode="json", by_alias=True))
 
 
 @router.get("/network/formations/{key}", summary="One formation", response_model=NodeAnswer, responses=NOT_MODIFIED)

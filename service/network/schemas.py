@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import BaseModel, Field
 
 from threadstate.answer.documents import (
+    FormationSummaryDocument,
     HeightsDocument,
     LocationDocument,
     NetworkSummaryDocument,
@@ -79,6 +80,13 @@ class NodeLinkNetwork(BaseModel):
     graph: dict[str, str]
     nodes: list[dict[str, float | str]]
     edges: list[dict[str, float | str]]
+
+
+class FormationsAnswer(BaseModel):
+    """All formations of a network."""
+
+    library: int = Field(description="number of the library")
+    formations: list[FormationSummaryDocument]
 
 
 class NodeAnswer(_OfLibrary):

@@ -28,9 +28,19 @@ def violations(explorer: Explorer, axe: str) -> list[str]:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_axe_finds_nothing_serious(explorer: Explorer, repository_root: Path, theme: str) -> None:
+@pytest.mark.parametrize(
+    ("tab", "shown"),
+    [
+        ("state", "#state table"),
+        ("regions", "#disks .disk"),
+        ("follows", "#path .step"),
+        ("network", "#network .way .ring-in"),
+    ],
+)
+def test_axe_finds_nothing_serious(explorer: Explorer, repository_root: Path, theme: str, tab: str, shown: str) -> None:
     explorer.choose("#theme", theme)
-    for selector in ("#scene canvas", "#network .card", "#path .step", "#disks .disk", "#state table"):
+    explorer.click(f"#tab-{tab}")
+    for selector in ("#scene canvas", "#depth .curve", shown):
         explorer.one(selector)
     assert violations(explorer, (repository_root / AXE).read_text()) == []
 

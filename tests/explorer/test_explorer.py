@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
+import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
-from tests.explorer.browser import Explorer
+from tests.explorer.browser import Explorer, resize
 
 LIBRARY = "/v1/libraries/latest"
 CLASS_NAMES = {
@@ -167,6 +169,7 @@ def test_a_point_of_the_depth_and_of_a_disk_move_the_phase(explorer: Explorer) -
     picture = explorer.one("#depth svg")
     ActionChains(explorer.chromium).move_to_element(picture).click().perform()
     explorer.wait(lambda: 150 < phase_of(explorer) < 190, "the phase is not that of the middle of the picture")
+    explorer.click("#tab-regions")
     disk = explorer.one("#disks .disk")
     ActionChains(explorer.chromium).move_to_element_with_offset(disk, 0, -60).click().perform()
     explorer.wait(lambda: 60 < phase_of(explorer) < 120, "the phase is not that of the top of the disk")
@@ -178,6 +181,7 @@ def phase_of(explorer: Explorer) -> float:
 
 def test_disks_say_what_touches_at_the_phase(explorer: Explorer) -> None:
     choose_pose(explorer, 4, -4, 0)
+    explorer.click("#tab-regions")
     state = explorer.fetched(f"{LIBRARY}/states/4/-4/0")
     explorer.wait_for_text("#disks .at-cursor", " on ")
     lines = [element.text for element in explorer.all("#disks .at-cursor text")]
@@ -198,6 +202,7 @@ def test_stages_are_played_and_the_scene_is_orbited(explorer: Explorer) -> None:
     canvas.send_keys(Keys.ARROW_LEFT, Keys.ARROW_UP, "+")
     wait_for_another_canvas(explorer, at_rest)
     canvas.send_keys("0")
+    explorer.run("document.activeElement.blur()")
     wait_for_canvas(explorer, at_rest)
 
 
@@ -210,10 +215,11 @@ def test_turn_through_phase_is_played_until_it_is_stopped(explorer: Explorer) ->
     assert explorer.one("#play-phase").get_attribute("aria-pressed") == "false"
 
 
-def test_network_is_followed(explorer: Explorer) -> None:
+def test_what_follows_is_followed(explorer: Explorer) -> None:
     choose_pose(explorer, 0, -4, 130)
-    key = explorer.one('#network .card.here[data-move="ccw"]').get_attribute("data-key")
-    explorer.click('#network .card.here[data-move="ccw"]')
+    explorer.click("#tab-follows")
+    key = explorer.one('#follows .card.here[data-move="ccw"]').get_attribute("data-key")
+    explorer.click('#follows .card.here[data-move="ccw"]')
     explorer.wait(lambda: phase_of(explorer) != 130, "the phase stays")
     intervals: list[Any] = explorer.fetched(f"{LIBRARY}/histories/0/-4/intervals")["history"]["intervals"]
     phase = phase_of(explorer)
@@ -223,8 +229,83 @@ def test_network_is_followed(explorer: Explorer) -> None:
 
 def test_path_leads_to_the_window(explorer: Explorer) -> None:
     choose_pose(explorer, 0, -4, 130)
+    explorer.click("#tab-follows")
     explorer.click("#path .step.window")
     explorer.wait_for_text("#depth-readout", "in the clearance window")
+
+
+def test_network_shows_every_formation_and_the_way_from_here(explorer: Explorer) -> None:
+    choose_pose(explorer, 0, -4, 130)
+    explorer.click("#tab-network")
+    formations = explorer.fetched(f"{LIBRARY}/network/formations")["formations"]
+    explorer.one("#network .way .stop")
+    assert {one.get_attribute("data-key") for one in explorer.all("#network .formation")} == {
+        one["key"] for one in formations
+    }
+    intervals = explorer.fetched(f"{LIBRARY}/histories/0/-4/intervals")["history"]["intervals"]
+    (here,) = [one["formation"] for one in intervals if one["start"] <= 130 < one["end"]]
+    chosen = explorer.one('#network .formation[aria-selected="true"]')
+    assert chosen.get_attribute("data-key") == here["key"]
+    path = explorer.fetched(f"{LIBRARY}/network/paths?from={here['key']}&roll=0&pitch=-4&phase=130")["path"]
+    keys = [step["formation"] for step in path["steps"]]
+    turns = sum(one != before for before, one in pairwise(keys))
+    assert len(explorer.all("#network .way .stop")) == turns
+    (far,) = [one for one in formations if one["key"] == path["steps"][-1]["formation"]]
+    explorer.click(f'#network .formation[data-key="{far["key"]}"]')
+    explorer.wait_for_text("#network-readout", far["text"])
+    explorer.wait_for_text("#depth-readout", "in the clearance window")
+
+
+def test_tabs_are_part_of_the_view_and_obey_arrows(explorer: Explorer) -> None:
+    explorer.click("#tab-state")
+    explorer.one("#tab-state").send_keys(Keys.ARROW_LEFT)
+    explorer.one("#network .formation")
+    explorer.wait(lambda: "tab=network" in explorer.chromium.current_url, "the address does not follow the tab")
+    explorer.open("/#tab=regions")
+    explorer.one("#disks .disk")
+    assert [one.get_attribute("id") for one in explorer.all('[role="tabpanel"]') if one.is_displayed()] == [
+        "panel-regions"
+    ]
+    explorer.one("#tab-regions").send_keys(Keys.HOME)
+    explorer.one("#state table")
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1366, 768), (1920, 1080)])
+def test_map_depth_and_solids_are_seen_at_once_and_nothing_is_cut(explorer: Explorer, width: int, height: int) -> None:
+    resize(explorer.chromium, width, height)
+    try:
+        explorer.one("#scene canvas")
+        explorer.one("#depth .curve")
+        for tab in ("state", "regions", "follows", "network"):
+            explorer.click(f"#tab-{tab}")
+            assert explorer.run(OUTSIDE) == [], tab
+    finally:
+        resize(explorer.chromium, 1280, 800)
+
+
+OUTSIDE = """
+const panels = [...document.querySelectorAll('.panel')];
+const found = [];
+const box = (element) => element.getBoundingClientRect();
+if (document.documentElement.scrollHeight > innerHeight) found.push('the page is scrolled');
+for (const panel of panels) {
+  const { left, top, right, bottom } = box(panel);
+  if (left < 0 || top < 0 || right > innerWidth || bottom > innerHeight) found.push(`outside: ${panel.className}`);
+  for (const other of panels) {
+    const o = box(other);
+    if (other !== panel && left < o.right && o.left < right && top < o.bottom && o.top < bottom) found.push('overlap');
+  }
+  const clipped = [...panel.querySelectorAll(':scope svg text')].filter((text) => {
+    const frame = box(text.ownerSVGElement);
+    const one = box(text);
+    const outside = one.left < frame.left - 1 || one.right > frame.right + 1;
+    return one.width > 0 && (outside || one.top < frame.top - 1 || one.bottom > frame.bottom + 1);
+  });
+  found.push(...clipped.map((text) => `cut: ${text.textContent}`));
+}
+return found;
+"""
+"""What lies outside the window, overlaps another panel or is cut by its picture's edge."""
 
 
 def test_a_link_restores_exactly_the_view(explorer: Explorer) -> None:
@@ -235,39 +316,79 @@ def test_a_link_restores_exactly_the_view(explorer: Explorer) -> None:
     explorer.choose("#stage", "1.5")
     explorer.one("#scene canvas").send_keys(Keys.ARROW_LEFT, "+")
     explorer.click("#zoom-in")
+    explorer.click("#tab-follows")
+    explorer.one("#path .step")
     fragment = "quantity=pivot_offset&over=all"
     explorer.wait(lambda: fragment in explorer.chromium.current_url, "the address does not follow")
     explorer.wait(lambda: "span=180" in explorer.chromium.current_url, "the address does not follow the zoom")
     wait_for_scene(explorer, "from first contact to second contact")
     link = explorer.chromium.current_url
-    shown = [explorer.text(one) for one in ("#state", "#depth", "#map", "#network", "#disks")]
+    parts = ("#state", "#depth", "#map", "#follows", "#path")
+    shown = [explorer.text(one) for one in parts]
     pixels = settled_canvas(explorer)
     explorer.open("/" + link.removeprefix(explorer.address + "/"))
     wait_for_scene(explorer, "from first contact to second contact")
     explorer.wait(
-        lambda: [explorer.text(one) for one in ("#state", "#depth", "#map", "#network", "#disks")] == shown,
+        lambda: [explorer.text(one) for one in parts] == shown,
         "the view is not the same",
     )
     assert explorer.chromium.current_url == link
     wait_for_canvas(explorer, pixels)
 
 
-def test_keyboard_reaches_everything(explorer: Explorer) -> None:
-    explorer.one("#path .step")
+@pytest.mark.parametrize("tab", ["state", "regions", "follows", "network"])
+def test_keyboard_reaches_everything_and_its_focus_is_seen(explorer: Explorer, tab: str) -> None:
+    explorer.click(f"#tab-{tab}")
+    explorer.one(f"#panel-{tab} svg, #panel-{tab} table")
     explorer.one("#scene canvas")
     interactive = explorer.run(
         "return [...document.querySelectorAll('a, button, select, input, [tabindex=\"0\"]')]"
-        ".filter((one) => !one.disabled && one.checkVisibility()).length"
+        ".filter((one) => !one.disabled && one.tabIndex >= 0 && one.checkVisibility()).length"
     )
-    explorer.run("document.activeElement.blur()")
+    explorer.run("document.activeElement.blur(); document.body.tabIndex = -1; document.body.focus()")
+    explorer.run("document.body.removeAttribute('tabindex')")
     seen = []
-    for _ in range(interactive + 2):
+    for _ in range(interactive):
         ActionChains(explorer.chromium).send_keys(Keys.TAB).perform()
-        seen.append(explorer.chromium.switch_to.active_element.id)
-    assert len(set(seen)) >= interactive
+        seen.append(explorer.run(FOCUSED))
+    assert [one["name"] for one in seen if not one["visible"]] == []
+    assert len({one["index"] for one in seen}) == interactive
+
+
+FOCUSED = """
+const at = document.activeElement;
+const all = [...document.querySelectorAll('*')];
+const outlined = [at, ...at.querySelectorAll('.box, .frame-in, .reach')].some((one) => {
+  const { outlineStyle, outlineWidth, strokeWidth, stroke } = getComputedStyle(one);
+  const drawn = one !== at && parseFloat(strokeWidth) >= 2 && stroke !== 'none';
+  return drawn || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2);
+});
+return { index: all.indexOf(at), name: at.id || at.outerHTML.slice(0, 80), visible: outlined };
+"""
+"""Which element has the focus, and whether that is seen."""
+
+
+def test_keys_choose_and_follow(explorer: Explorer) -> None:
     explorer.one('#map .cell[aria-selected="true"]').send_keys(Keys.ARROW_UP)
     explorer.wait_for_text("#state", "roll 0 deg, pitch 0 deg")
     focused = explorer.chromium.switch_to.active_element
     assert (focused.get_attribute("data-roll"), focused.get_attribute("data-pitch")) == ("0", "0")
-    explorer.one('#network .card[data-move="ccw"]').send_keys(Keys.ENTER)
+    explorer.click("#tab-follows")
+    explorer.one('#follows .card[data-move="ccw"]').send_keys(Keys.ENTER)
     explorer.wait(lambda: phase_of(explorer) != 10, "Enter does not follow")
+    explorer.click("#tab-network")
+    explorer.one('#network .formation[aria-selected="true"]').send_keys(Keys.ARROW_DOWN)
+    key = explorer.chromium.switch_to.active_element.get_attribute("data-key")
+    explorer.chromium.switch_to.active_element.send_keys(Keys.ENTER)
+    explorer.wait(
+        lambda: explorer.one('#network .formation[aria-selected="true"]').get_attribute("data-key") == key,
+        "Enter does not follow",
+    )
+
+
+def test_help_is_shown_at_the_focus_and_hidden_by_escape(explorer: Explorer) -> None:
+    explorer.run("document.querySelector('.panel.phase button.help').focus()")
+    explorer.wait_for_text("#help:not([hidden])", "the clearance window, in which it falls")
+    assert explorer.run("return document.activeElement.getAttribute('aria-describedby')") == "help"
+    ActionChains(explorer.chromium).send_keys(Keys.ESCAPE).perform()
+    assert not explorer.one("#help").is_displayed()

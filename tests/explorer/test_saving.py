@@ -17,6 +17,7 @@ from tests.explorer.browser import Explorer
 from tests.explorer.test_explorer import choose_pose, wait_for_scene
 
 PNG = b"\x89PNG\r\n\x1a\n"
+TABS = {"disks": "regions", "follows": "follows", "path": "follows", "network": "network", "state": "state"}
 Save = Callable[[str, str], bytes]
 
 
@@ -28,9 +29,11 @@ def save(explorer: Explorer, tmp_path: Path) -> Save:
     )
     choose_pose(explorer, -4, 0, 130)
     wait_for_scene(explorer, "roll -4, pitch 0, phase 130 deg")
-    explorer.one("#network .card")
 
     def save(panel: str, kind: str) -> bytes:
+        if panel in TABS:
+            explorer.click(f"#tab-{TABS[panel]}")
+            explorer.one(f"#panel-{TABS[panel]} :is(svg, table)")
         explorer.click(f'[data-save="{panel}"] button[data-kind="{kind}"]')
         pattern = f"1-4-20-unc_*_roll-4_pitch0_phase130*.{kind.lower()}"
         explorer.wait(lambda: any(tmp_path.glob(pattern)), f"no {kind} of {panel} was saved")
@@ -43,7 +46,7 @@ def save(explorer: Explorer, tmp_path: Path) -> Save:
 
 
 def test_pictures_are_saved_as_svg_and_png(save: Save) -> None:
-    for panel in ("map", "phase", "disks", "network"):
+    for panel in ("map", "phase", "disks", "follows", "path", "network"):
         root = ET.fromstring(save(panel, "SVG"))
         elements = list(root.iter())
         assert len(elements) > 20
@@ -74,10 +77,38 @@ def test_tables_are_saved_with_the_numbers_of_the_interface(save: Save, explorer
     assert {(float(roll), float(pitch)): name for roll, pitch, name in rows("map")[1:]} == classes
     intervals = explorer.fetched(f"{library}/histories/-4/0/intervals")["history"]["intervals"]
     assert [row[3] for row in rows("disks")[1:]] == [one["formation"]["key"] for one in intervals]
-    contacts = explorer.fetched(f"{library}/states/-4/0/130")["contacts"]
-    assert [[float(cell) for cell in row[4:7]] for row in rows("state")[1:]] == [one["point"] for one in contacts]
-    key = explorer.run("return document.querySelector('#network .card.here').dataset.key")
-    assert key in {row[1] for row in rows("network")[1:]}
+    following = rows("follows")[1:]
+    key = explorer.run("return document.querySelector('#follows .card.here').dataset.key")
+    assert key in {row[1] for row in following}
+    steps = rows("path")[1:]
+    assert len(steps) == len(explorer.all("#path .step"))
+    formations = explorer.fetched(f"{library}/network/formations")["formations"]
+    assert [(row[0], float(row[2])) for row in rows("network")[1:]] == [
+        (one["key"], one["share"]) for one in formations
+    ]
+
+
+def test_table_of_the_state_has_every_number_of_it(save: Save, explorer: Explorer) -> None:
+    state = explorer.fetched("/v1/libraries/latest/states/-4/0/130")
+    table = list(csv.reader(io.StringIO(save("state", "CSV").decode())))[1:]
+    numbers = sorted(float(value) for _, name, value, _ in table if name != "class" and is_number(value))
+    assert numbers == sorted(numbers_of(state))
+
+
+def is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def numbers_of(value: object) -> list[float]:
+    """Every number within a document."""
+    if isinstance(value, (int, float)):
+        return [float(value)]
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return [number for one in inner for number in numbers_of(one)]
 
 
 def copied(explorer: Explorer, button: str) -> str:

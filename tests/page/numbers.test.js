@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { changeText } from "../../service/explorer/page/js/network_view.js";
+import { changeText } from "../../service/explorer/page/js/follows_view.js";
 import { stepLabels } from "../../service/explorer/page/js/path_view.js";
 import { nearestThreshold, stableShare } from "../../service/explorer/page/js/quantities.js";
 import { stateLine } from "../../service/explorer/page/js/terms.js";

@@ -18,6 +18,7 @@ const CHOSEN = {
   from: -20.125,
   span: 0.001,
   stage: 1.25,
+  tab: "network",
   nut: "glass",
   azimuth: 12.5,
   elevation: -30,
@@ -38,7 +39,7 @@ test("every part of a view is in its fragment", () => {
 });
 
 test("what is not valid in a fragment is left out", () => {
-  const bad = "roll=11&pitch=&phase=360&unit=ft&theme=red&span=0&library=-1&stage=NaN&nut=&x=1&constructor=1&distance=1e999";
+  const bad = "roll=11&pitch=&phase=360&unit=ft&theme=red&span=0&library=-1&stage=NaN&nut=&tab=numbers&x=1&constructor=1&distance=1e999";
   assert.deepEqual(viewOf(bad), {});
 });
 

@@ -12,6 +12,7 @@ from pydantic import BaseModel
 from service.network.schemas import (
     ComputedHeights,
     ComputedIntervals,
+    FormationsAnswer,
     HeightsAnswer,
     IntervalsAnswer,
     LocationAnswer,
@@ -70,6 +71,7 @@ def test_answers_have_the_documented_shape(network_client: TestClient) -> None:
         (f"{LIBRARY}/transitions", TransitionsPage),
         (f"{LIBRARY}/network", NetworkSummary),
         (f"{LIBRARY}/network?format=node-link", NodeLinkNetwork),
+        (f"{LIBRARY}/network/formations", FormationsAnswer),
         (f"{LIBRARY}/network/formations/{key}", NodeAnswer),
         (f"{LIBRARY}/network/paths?from={key}", PathAnswer),
         (f"{LIBRARY}/network/locate?contacts=3", LocationAnswer),
@@ -182,6 +184,18 @@ def test_the_network_is_exported_whole(network_client: TestClient) -> None:
     assert len(list(ET.fromstring(graphml.text).iter(f"{space}node"))) == summary["formations"]
     dot = network_client.get(f"{LIBRARY}/network?format=dot").text
     assert dot.count(" -> ") == summary["edges"]
+
+
+def test_the_list_of_formations_says_the_same_as_each(network_client: TestClient) -> None:
+    listed = _json(network_client, f"{LIBRARY}/network/formations")["formations"]
+    assert len(listed) == _json(network_client, f"{LIBRARY}/network")["network"]["formations"]
+    for one in listed[::7]:
+        node = _json(network_client, f"{LIBRARY}/network/formations/{one['key']}")["node"]
+        assert {name: node[name] for name in ("share", "window_share", "orientations", "to_window")} == {
+            name: one[name] for name in ("share", "window_share", "orientations", "to_window")
+        }
+        assert (one["class"], one["contacts"]) == (node["formation"]["class"], len(node["formation"]["contacts"]))
+    assert sum(one["share"] for one in listed) == pytest.approx(1.0)
 
 
 def test_a_formation_a_path_and_a_location_belong_together(network_client: TestClient) -> None:

@@ -219,6 +219,19 @@ class NodeDocument(_Document):
     occurrences: list[OccurrenceDocument]
 
 
+class FormationSummaryDocument(_Document):
+    """A formation of the network in few words."""
+
+    key: str
+    state_class: StateClass | None = Field(serialization_alias="class", validation_alias=_CLASS)
+    text: str = Field(description="its class and contacts in words")
+    contacts: int = Field(description="how many contacts it has")
+    share: float = Field(description="of the phase of all orientations")
+    window_share: float = Field(description="of its own phase that is in a clearance window")
+    orientations: int = Field(description="at how many it occurs")
+    to_window: ReachDocument
+
+
 class StepDocument(_Document):
     """A step of a path: the interval that is entered, how, where and after how much turning."""
 

@@ -8,8 +8,8 @@ from functools import cached_property
 from pydantic import TypeAdapter
 from sqlalchemy import Connection
 
-from threadstate.answer.documents import NetworkSummaryDocument
-from threadstate.answer.networks import summary_document
+from threadstate.answer.documents import FormationSummaryDocument, NetworkSummaryDocument
+from threadstate.answer.networks import formation_summaries, summary_document
 from threadstate.answer.tilts import TiltChanges
 from threadstate.archive.read import stored_histories
 from threadstate.archive.stored import StoredHistories
@@ -66,6 +66,11 @@ class LibraryNetwork:
     def summary(self) -> NetworkSummaryDocument:
         """The size of the network."""
         return summary_document(self.network, sum(len(one.windows) for one in self.histories.orientations))
+
+    @cached_property
+    def formations(self) -> list[FormationSummaryDocument]:
+        """Every formation in few words."""
+        return formation_summaries(self.network)
 
     @cached_property
     def node_link(self) -> bytes:

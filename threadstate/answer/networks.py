@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from threadstate.answer.documents import (
     FollowingDocument,
+    FormationSummaryDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
@@ -16,6 +17,7 @@ from threadstate.answer.documents import (
 from threadstate.answer.formations import formation_document
 from threadstate.answer.lengths import scaled
 from threadstate.network.analysis import (
+    SnapReach,
     cut_formations,
     dead_ends,
     following,
@@ -45,6 +47,23 @@ def summary_document(network: ConstraintNetwork, window_count: int) -> NetworkSu
     )
 
 
+def formation_summaries(network: ConstraintNetwork) -> list[FormationSummaryDocument]:
+    """Each formation of a network in few words, in the network's order."""
+    return [
+        FormationSummaryDocument(
+            key=node.formation.key,
+            state_class=node.formation.state_class,
+            text=node.formation.text,
+            contacts=len(node.formation.contacts),
+            share=node.share,
+            window_share=node.window_share,
+            orientations=len(node.orientations),
+            to_window=_reach_document(reach),
+        )
+        for node, reach in zip(network.nodes, snap_reach(network), strict=True)
+    ]
+
+
 def node_document(network: ConstraintNetwork, key: str, factor: float) -> NodeDocument:
     """A formation in the network, lengths multiplied by ``factor``.
 
@@ -59,9 +78,7 @@ def node_document(network: ConstraintNetwork, key: str, factor: float) -> NodeDo
         share=node.share,
         window_share=node.window_share,
         orientations=len(node.orientations),
-        to_window=ReachDocument(
-            occurrences=reach.count, reaching=reach.reaching, least=reach.least_deg, most=reach.most_deg
-        ),
+        to_window=_reach_document(reach),
         following=[
             FollowingDocument(
                 move=one.move,
@@ -117,6 +134,10 @@ def location_document(location: Location, cell_map: CellMap) -> LocationDocument
         orientations=len(location.orientations),
         stretches=stretches,
     )
+
+
+def _reach_document(reach: SnapReach) -> ReachDocument:
+    return ReachDocument(occurrences=reach.count, reaching=reach.reaching, least=reach.least_deg, most=reach.most_deg)
 
 
 def _occurrence(cell: Cell, cell_map: CellMap, factor: float) -> OccurrenceDocument:

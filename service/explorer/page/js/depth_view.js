@@ -2,17 +2,17 @@
 
 import { CLASS_COLOURS, UNDECIDED_COLOUR } from "./colours.js";
 import { depthCurves, intervalAt, seen } from "./curve.js";
+import { sizeOf } from "./size.js";
 import { picture, pointIn, put, svg } from "./svg.js";
 import { className } from "./terms.js";
 import { angleTicks, decimalsOf, ticks } from "./ticks.js";
 import { angle, angleNumber, fixed, inTurn, length } from "./units.js";
 
-const WIDTH = 860;
-const HEIGHT = 290;
-const LEFT = 66;
+const LEAST = { width: 420, height: 180 };
+const LEFT = 78;
 const RIGHT = 14;
-const TOP = 26;
-const BOTTOM = 58;
+const TOP = 24;
+const BOTTOM = 38;
 const RIBBON = 12;
 const CLIP = "depth-clip";
 
@@ -33,10 +33,10 @@ export class DepthView {
   /** Draws everything but the cursor. */
   draw({ heights, intervals, library }, view) {
     const curves = depthCurves(heights, library.pair.thread_pitch);
-    const scale = scaleOf(curves, view);
+    const scale = scaleOf(curves, view, sizeOf(this.#frame, LEAST));
     this.#scale = scale;
-    const root = picture(WIDTH, HEIGHT, "Depth against phase", { class: "depth", tabindex: 0, role: "img" });
-    root.append(clip());
+    const root = picture(scale.width, scale.height, "Depth against phase", { class: "depth", tabindex: 0, role: "img" });
+    root.append(clip(scale));
     root.append(...windowBands(intervals, scale));
     root.append(...axes(scale, view.unit));
     root.append(...boundaryLines(intervals, scale));
@@ -57,7 +57,7 @@ export class DepthView {
     const parts = [];
     for (const [low] of seen(view.phase, view.phase, scale.from, scale.span)) {
       const x = scale.x(low);
-      parts.push(svg("line", { x1: x, x2: x, y1: TOP, y2: HEIGHT - BOTTOM + RIBBON + 4 }));
+      parts.push(svg("line", { x1: x, x2: x, y1: TOP, y2: scale.base + RIBBON + 4 }));
       const state = model.state?.pose.phase === view.phase ? model.state.state : null;
       if (state) {
         parts.push(svg("circle", { cx: x, cy: scale.y(state.poses.at(-1).translation[2]), r: 4, class: "at-last" }));
@@ -97,22 +97,26 @@ export function depthReadout(model, view) {
   return `${className(interval.formation.class)} from ${angle(interval.start)} to ${angle(end)}${within}`;
 }
 
-function scaleOf(curves, { from, span }) {
+function scaleOf(curves, { from, span }, { width, height }) {
   const heights = [...curves.first, ...curves.last].flat();
-  const inRange = heights.filter(({ phase }) => seen(phase, phase, from, span).length > 0).map(({ height }) => height);
-  const shown = inRange.length > 1 ? inRange : heights.map(({ height }) => height);
+  const inRange = heights.filter(({ phase }) => seen(phase, phase, from, span).length > 0).map((point) => point.height);
+  const shown = inRange.length > 1 ? inRange : heights.map((point) => point.height);
   const low = shown.length > 0 ? Math.min(...shown) : 0;
   const high = shown.length > 0 ? Math.max(...shown) : 1;
   const room = (high - low || Math.abs(high) || 1) * 0.08;
   const [bottom, top] = [low - room, high + room];
-  const [x0, x1, y0, y1] = [LEFT, WIDTH - RIGHT, HEIGHT - BOTTOM, TOP];
+  const [x0, x1, y0, y1] = [LEFT, width - RIGHT, height - BOTTOM, TOP];
   return {
+    width,
+    height,
+    base: y0,
+    right: x1,
     from,
     span,
     bottom,
     top,
     x: (phase) => round(x0 + ((phase - from) / span) * (x1 - x0)),
-    y: (height) => round(y0 + ((height - bottom) / (top - bottom)) * (y1 - y0)),
+    y: (value) => round(y0 + ((value - bottom) / (top - bottom)) * (y1 - y0)),
     phase: (x) => from + (Math.min(Math.max(x, x0), x1) - x0) / (x1 - x0) * span,
   };
 }
@@ -121,21 +125,21 @@ function round(value) {
   return Math.round(value * 100) / 100;
 }
 
-function clip() {
-  const box = { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM };
+function clip(scale) {
+  const box = { x: LEFT, y: TOP, width: scale.right - LEFT, height: scale.base - TOP };
   return svg("clipPath", { id: CLIP }, svg("rect", box));
 }
 
 function axes(scale, unit) {
   const marks = [];
-  const heights = ticks(scale.bottom, scale.top, 6);
+  const heights = ticks(scale.bottom, scale.top, Math.max(2, Math.round((scale.base - TOP) / 30)));
   const decimals = decimalsOf(heights);
   for (const height of heights) {
     const y = scale.y(height);
-    marks.push(svg("line", { x1: LEFT, x2: WIDTH - RIGHT, y1: y, y2: y, class: height === 0 ? "zero" : "grid" }));
+    marks.push(svg("line", { x1: LEFT, x2: scale.right, y1: y, y2: y, class: height === 0 ? "zero" : "grid" }));
     marks.push(svg("text", { x: LEFT - 7, y: y + 4, "text-anchor": "end" }, fixed(height, decimals)));
   }
-  const base = HEIGHT - BOTTOM + RIBBON;
+  const base = scale.base + RIBBON;
   const phases = angleTicks(scale.from, scale.from + scale.span, 12);
   for (const phase of phases) {
     const x = scale.x(phase);
@@ -143,7 +147,7 @@ function axes(scale, unit) {
     const shown = scale.span === 360 ? phase : inTurn(phase);
     marks.push(svg("text", { x, y: base + 20, "text-anchor": "middle" }, angleNumber(shown, decimalsOf(phases))));
   }
-  marks.push(svg("text", { x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 6, "text-anchor": "middle", class: "title" }, "phase (deg)"));
+  marks.push(svg("text", { x: LEFT - 7, y: base + 20, "text-anchor": "end", class: "title" }, "phase (deg)"));
   marks.push(svg("text", { x: LEFT - 7, y: TOP - 11, "text-anchor": "end", class: "title" }, `z (${unit})`));
   return marks;
 }
@@ -161,7 +165,7 @@ function curveLines(runs, scale, name) {
 function windowBands(intervals, scale) {
   return (intervals?.history.windows ?? []).flatMap((window) =>
     seen(window.enter, window.leave, scale.from, scale.span).map(([low, high]) =>
-      svg("rect", { x: scale.x(low), width: Math.max(scale.x(high) - scale.x(low), 1), y: TOP, height: HEIGHT - TOP - BOTTOM, class: "window" }, [
+      svg("rect", { x: scale.x(low), width: Math.max(scale.x(high) - scale.x(low), 1), y: TOP, height: scale.base - TOP, class: "window" }, [
         svg("title", {}, `clearance window, ${angle(window.width, 3)} wide`),
       ]),
     ),
@@ -172,7 +176,7 @@ function boundaryLines(intervals, scale) {
   const places = (intervals?.history.boundaries ?? []).flatMap(({ phase }) => seen(phase, phase, scale.from, scale.span));
   return places.map(([phase]) => {
     const x = scale.x(phase);
-    return svg("line", { x1: x, x2: x, y1: TOP, y2: HEIGHT - BOTTOM, class: "boundary" });
+    return svg("line", { x1: x, x2: x, y1: TOP, y2: scale.base, class: "boundary" });
   });
 }
 
@@ -181,7 +185,7 @@ function ribbon(intervals, scale) {
     seen(interval.start, interval.end, scale.from, scale.span).map(([low, high]) => {
       const colour = CLASS_COLOURS[interval.formation.class] ?? UNDECIDED_COLOUR;
       const width = Math.max(scale.x(high) - scale.x(low), 0.5);
-      return svg("rect", { x: scale.x(low), width, y: HEIGHT - BOTTOM + 2, height: RIBBON - 2, fill: colour }, [
+      return svg("rect", { x: scale.x(low), width, y: scale.base + 2, height: RIBBON - 2, fill: colour }, [
         svg("title", {}, interval.formation.text),
       ]);
     }),
@@ -197,7 +201,7 @@ function snapMarks(intervals, scale, view) {
         const text = `snap at ${angle(snap.phase, 3)}: falls ${length(snap.fall, view.unit)}`;
         return svg("g", { class: "snap" }, [
           svg("line", { x1: x, x2: x, y1: scale.y(snap.height_before), y2: scale.y(snap.height_after) }),
-          svg("text", { x: WIDTH - RIGHT, y: TOP - 11, "text-anchor": "end" }, text),
+          svg("text", { x: scale.right, y: TOP - 11, "text-anchor": "end" }, text),
         ]);
       }),
     );

@@ -5,12 +5,14 @@ import { STAGES, atPhase, laneRadii, phaseOf, sectorPath, sectors } from "./disk
 import { picture, pointIn, put, svg } from "./svg.js";
 import { REGIONS, shortRegion } from "./terms.js";
 
-const WIDTH = 860;
-const HEIGHT = 346;
-const APART = 284;
-const MIDDLE = 142;
-const RINGS = { nut_region: [72, 100], bolt_region: [40, 68] };
-const EDGE = 104;
+const WIDTH = 396;
+const APART = { x: 198, y: 264 };
+const MIDDLE = 112;
+const HEIGHT = 2 * APART.y - 10;
+/** The fourth place, beside the third disk, has the legend. */
+const LEGEND = { x: APART.x + 26, y: APART.y + 44, apart: 20 };
+const RINGS = { nut_region: [49, 70], bolt_region: [25, 46] };
+const EDGE = 73;
 const NAMES = ["first contact", "second contact", "third contact"];
 
 /** The picture in a frame; `choose` is called with a phase that was pointed at. */
@@ -31,7 +33,7 @@ export class DisksView {
     this.#cursors = [];
     this.#texts = [];
     STAGES.forEach((stage, k) => {
-      const centre = [APART / 2 + 4 + k * APART, MIDDLE];
+      const centre = [(k % 2 + 0.5) * APART.x, MIDDLE + Math.floor(k / 2) * APART.y];
       root.append(this.#disk(intervals?.history.intervals ?? [], stage, centre));
     });
     root.append(...legend());
@@ -44,17 +46,17 @@ export class DisksView {
       const [[x1, y1], [x2, y2]] = [atPhase(centre, RINGS.bolt_region[0] - 6, phase), atPhase(centre, EDGE + 2, phase)];
       for (const [name, value] of Object.entries({ x1, y1, x2, y2 })) line.setAttribute(name, value);
     });
-    this.#texts.forEach(({ group, x, stage }) => {
+    this.#texts.forEach(({ group, centre: [x, y], stage }) => {
       const contacts = interval?.formation.contacts.filter((contact) => contact.stage === stage) ?? [];
       const lines = contacts.map((one) => `${shortRegion(one.bolt_region)} on ${shortRegion(one.nut_region)}`);
       const shown = lines.length > 0 ? lines : ["none"];
-      put(group, ...shown.map((line, k) => svg("text", { x, y: MIDDLE + EDGE + 30 + 14 * k, "text-anchor": "middle" }, line)));
+      put(group, ...shown.map((line, k) => svg("text", { x, y: y + EDGE + 32 + 14 * k, "text-anchor": "middle" }, line)));
     });
   }
 
   #disk(intervals, stage, centre) {
-    const [x] = centre;
-    const group = svg("g", { class: "disk" }, svg("text", { x, y: 14, "text-anchor": "middle", class: "name" }, NAMES[stage - 1]));
+    const [x, y] = centre;
+    const group = svg("g", { class: "disk" }, svg("text", { x, y: y - EDGE - 24, "text-anchor": "middle", class: "name" }, NAMES[stage - 1]));
     for (const [part, [inner, outer]] of Object.entries(RINGS)) {
       group.append(svg("path", { d: sectorPath(centre, inner, outer, 0, 360), class: "empty" }));
       for (const { start, end, lane, lanes, region } of sectors(intervals, stage, part)) {
@@ -64,15 +66,12 @@ export class DisksView {
         group.append(path);
       }
     }
-    ["outer: nut", "inner: bolt"].forEach((text, k) => {
-      group.append(svg("text", { x, y: MIDDLE - 2 + 14 * k, "text-anchor": "middle", class: "title" }, text));
-    });
     for (const phase of [0, 90, 180, 270]) group.append(phaseLabel(centre, phase));
     const line = svg("line", { class: "cursor" });
     const texts = svg("g", { class: "at-cursor" });
     group.append(line, texts);
     this.#cursors.push({ line, centre });
-    this.#texts.push({ group: texts, x, stage });
+    this.#texts.push({ group: texts, centre, stage });
     this.#listen(group, centre);
     return group;
   }
@@ -91,7 +90,7 @@ export class DisksView {
 }
 
 function phaseLabel(centre, phase) {
-  const [x, y] = atPhase(centre, EDGE + 5, phase);
+  const [x, y] = atPhase(centre, EDGE + 3, phase);
   const anchor = { 0: "start", 180: "end" }[phase] ?? "middle";
   const down = { 90: 0, 270: 8 }[phase] ?? 4;
   return svg("text", { x, y: y + down, "text-anchor": anchor, class: "title" }, `${phase}`);
@@ -99,13 +98,16 @@ function phaseLabel(centre, phase) {
 
 function legend() {
   const shown = Object.keys(REGIONS).filter((region) => region !== "base");
-  const columns = 5;
-  return shown.flatMap((region, k) => {
-    const x = 8 + (k % columns) * 172;
-    const y = HEIGHT - 36 + Math.floor(k / columns) * 19;
+  const rings = ["outer ring: the nut's", "inner ring: the bolt's"].map((text, k) =>
+    svg("text", { x: LEGEND.x, y: LEGEND.y - 26 + 14 * k, class: "title" }, text),
+  );
+  const entries = shown.flatMap((region, k) => {
+    const { x, apart } = LEGEND;
+    const y = LEGEND.y + k * apart;
     return [
-      svg("rect", { x, y, width: 13, height: 13, fill: REGION_COLOURS[region], class: "swatch" }),
-      svg("text", { x: x + 19, y: y + 11 }, REGIONS[region]),
+      svg("rect", { x, y, width: 14, height: 14, fill: REGION_COLOURS[region], class: "swatch" }),
+      svg("text", { x: x + 20, y: y + 11.5 }, REGIONS[region]),
     ];
   });
+  return [...rings, ...entries];
 }

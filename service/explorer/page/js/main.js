@@ -4,12 +4,14 @@ import { keepAddress } from "./address_bar.js";
 import { Api, LostError } from "./api.js";
 import { showControls, wireControls } from "./controls.js";
 import { nearestTilt } from "./grid.js";
+import { wireHelp } from "./help.js";
 import { byId } from "./html.js";
 import { say, showExplorer, showTrouble, troubleOf } from "./messages.js";
 import { Model } from "./model.js";
 import { Pictures } from "./pictures.js";
 import { wireSaving } from "./saving.js";
 import { curlLine, pythonLines } from "./snippets.js";
+import { showTab, wireTabs } from "./tabs.js";
 import { viewOf } from "./url_state.js";
 import { View } from "./view.js";
 
@@ -33,13 +35,18 @@ async function begin() {
   });
   byId("library").textContent = `${designation}, library ${id}`;
   wireControls(view, grid);
+  wireTabs(view);
+  wireHelp();
   const address = keepAddress(view);
   wireCopying(address);
   wireSaving(model, view, () => pictures.scene);
   showControls(view.value);
+  showTab(view.value);
   showExplorer();
+  pictures.followSizes();
   view.follow((now, changed) => {
     showControls(now);
+    if (changed.has("tab")) showTab(now);
     pictures.follow(changed);
     model.follow(now);
   });

@@ -3,15 +3,19 @@
 import { CLASS_COLOURS, inkOn, scaleColour } from "./colours.js";
 import { tilts } from "./grid.js";
 import { QUANTITIES } from "./quantities.js";
+import { sizeOf } from "./size.js";
 import { picture, put, svg } from "./svg.js";
 import { CLASSES, className } from "./terms.js";
 import { angleNumber } from "./units.js";
 
-const SIZE = 380;
-const LEFT = 44;
-const TOP = 6;
-const SIDE = 328;
-const LEGEND = 56;
+const LEAST = { width: 300, height: 260 };
+const LEFT = 46;
+const RIGHT = 2;
+const TOP = 4;
+const BELOW = 62;
+const LETTERS_FROM = 14;
+const LEGEND_PLACES = [0, 72, 174];
+const LEGEND_WIDTH = 246;
 const NONE = "–";
 
 /** The picture in a frame; `choose` is called with roll and pitch, `tell` with a line about a cell. */
@@ -32,18 +36,20 @@ export class MapView {
     const angles = tilts(model.library.grid);
     const range = rangeOf(values);
     const focused = this.#frame.contains(document.activeElement);
-    const root = picture(SIZE, TOP + SIDE + 42 + LEGEND, "Map of orientations", { class: "map", role: "group" });
-    const side = SIDE / angles.length;
+    const { width, height } = sizeOf(this.#frame, LEAST);
+    const root = picture(width, height, "Map of orientations", { class: "map", role: "group" });
+    const plot = plotIn(width, height, angles.length);
+    const side = plot.side / angles.length;
     const cells = svg("g", { role: "grid", "aria-label": "orientations by pitch and roll" });
     [...angles].reverse().forEach((pitch, row) => {
       const line = svg("g", { role: "row" });
       angles.forEach((roll, column) => {
         const cell = values.get(keyOf(roll, pitch));
-        line.append(this.#cell(cell, { roll, pitch, x: LEFT + column * side, y: TOP + row * side, side }, range, view));
+        line.append(this.#cell(cell, { roll, pitch, x: plot.left + column * side, y: TOP + row * side, side }, range, view));
       });
       cells.append(line);
     });
-    root.append(cells, ...axes(angles, side), ...legend(view, range, values));
+    root.append(cells, ...axes(angles, plot), ...legend(plot, view, range, values));
     cells.addEventListener("keydown", (event) => this.#step(event, angles, view));
     put(this.#frame, root);
     if (focused) this.#frame.querySelector("[aria-selected=true]")?.focus();
@@ -65,7 +71,7 @@ export class MapView {
     const box = { x: x + 0.75, y: y + 0.75, width: side - 1.5, height: side - 1.5 };
     element.append(svg("rect", { ...box, fill: colour, class: colour === null ? "none" : null }));
     const letter = CLASSES[cell?.value]?.letter ?? (colour === null ? NONE : null);
-    if (letter !== null && side > 14) {
+    if (letter !== null && side > LETTERS_FROM) {
       element.append(svg("text", { x: x + side / 2, y: y + side / 2 + 4, "text-anchor": "middle", fill: colour && inkOn(colour) }, letter));
     }
     if (chosen) {
@@ -131,59 +137,64 @@ function colourOf(value, range) {
   return scaleColour(high > low ? (value - low) / (high - low) : 0.5);
 }
 
-function axes(angles, side) {
+/** The square of the cells, in the middle of what the picture has. */
+function plotIn(width, height, count) {
+  const side = Math.floor(Math.min(width - LEFT - RIGHT, height - TOP - BELOW) / count) * count;
+  return { side, left: LEFT + Math.floor((width - LEFT - RIGHT - side) / 2), bottom: TOP + side };
+}
+
+function axes(angles, { side: all, left, bottom }) {
   const marks = [];
+  const side = all / angles.length;
   const every = Math.ceil(angles.length / 11);
   angles.forEach((angle, k) => {
     if (k % every !== (angles.length >> 1) % every) return;
-    const x = LEFT + (k + 0.5) * side;
-    const y = TOP + SIDE - (k + 0.5) * side + 4;
-    marks.push(svg("text", { x, y: TOP + SIDE + 15, "text-anchor": "middle" }, angleNumber(angle)));
-    marks.push(svg("text", { x: LEFT - 6, y, "text-anchor": "end" }, angleNumber(angle)));
+    const x = left + (k + 0.5) * side;
+    const y = bottom - (k + 0.5) * side + 4;
+    marks.push(svg("text", { x, y: bottom + 14, "text-anchor": "middle" }, angleNumber(angle)));
+    marks.push(svg("text", { x: left - 6, y, "text-anchor": "end" }, angleNumber(angle)));
   });
-  const middle = TOP + SIDE / 2;
-  marks.push(svg("text", { x: LEFT + SIDE / 2, y: TOP + SIDE + 32, "text-anchor": "middle", class: "title" }, "roll (deg)"));
-  marks.push(svg("text", { x: 12, y: middle, "text-anchor": "middle", class: "title", transform: `rotate(-90 12 ${middle})` }, "pitch (deg)"));
+  const [x, y] = [left - 34, TOP + all / 2];
+  marks.push(svg("text", { x: left + all / 2, y: bottom + 29, "text-anchor": "middle", class: "title" }, "roll (deg)"));
+  marks.push(svg("text", { x, y, "text-anchor": "middle", class: "title", transform: `rotate(-90 ${x} ${y})` }, "pitch (deg)"));
   return marks;
 }
 
-function legend(view, range, values) {
-  const top = TOP + SIDE + 46;
-  if (range === null) return view.quantity === "class" ? classLegend(top) : [];
+function legend(plot, view, range, values) {
+  const top = plot.bottom + 38;
+  if (range === null) return view.quantity === "class" ? classLegend(plot, top) : [];
   const gaps = [...values.values()].some(({ value }) => value === null);
-  return [...scaleLegend(top, view, range), ...(gaps ? noneLegend(top) : [])];
+  return [...scaleLegend(plot, top, view, range), ...(gaps ? noneLegend(plot, top) : [])];
 }
 
-function classLegend(top) {
-  return Object.entries(CLASSES).flatMap(([key, { name, letter }], k) => {
-    const y = top + k * 17;
+function classLegend({ left, side }, top) {
+  const first = left + side / 2 - LEGEND_WIDTH / 2;
+  return Object.entries(CLASSES).flatMap(([key, { short, letter }], k) => {
+    const x = first + LEGEND_PLACES[k];
     return [
-      svg("rect", { x: LEFT, y, width: 14, height: 14, fill: CLASS_COLOURS[key] }),
-      svg("text", { x: LEFT + 7, y: y + 11, "text-anchor": "middle", fill: inkOn(CLASS_COLOURS[key]) }, letter),
-      svg("text", { x: LEFT + 21, y: y + 11 }, name),
+      svg("rect", { x, y: top, width: 14, height: 14, fill: CLASS_COLOURS[key] }),
+      svg("text", { x: x + 7, y: top + 11, "text-anchor": "middle", fill: inkOn(CLASS_COLOURS[key]) }, letter),
+      svg("text", { x: x + 19, y: top + 11 }, short),
     ];
   });
 }
 
-function scaleLegend(top, view, [low, high]) {
+function scaleLegend({ left, side }, top, view, [low, high]) {
   const steps = 64;
-  const width = SIDE / steps;
+  const width = side / steps;
   const bars = Array.from({ length: steps }, (_, k) =>
-    svg("rect", { x: LEFT + k * width, y: top, width: width + 0.4, height: 12, fill: scaleColour(k / (steps - 1)) }),
+    svg("rect", { x: left + k * width, y: top - 2, width: width + 0.4, height: 9, fill: scaleColour(k / (steps - 1)) }),
   );
   const quantity = QUANTITIES[view.quantity];
-  const label = (value, x, anchor) => svg("text", { x, y: top + 27, "text-anchor": anchor }, quantity.write(value, view.unit));
-  return [
-    ...bars,
-    label(low, LEFT, "start"),
-    label(high, LEFT + SIDE, "end"),
-  ];
+  const label = (value, x, anchor) => svg("text", { x, y: top + 20, "text-anchor": anchor }, quantity.write(value, view.unit));
+  return [...bars, label(low, left, "start"), label(high, left + side, "end")];
 }
 
-function noneLegend(top) {
+function noneLegend({ left, side }, top) {
+  const middle = left + side / 2;
   return [
-    svg("rect", { x: LEFT, y: top + 36, width: 14, height: 14, class: "none" }),
-    svg("text", { x: LEFT + 7, y: top + 47, "text-anchor": "middle" }, NONE),
-    svg("text", { x: LEFT + 21, y: top + 47 }, "none"),
+    svg("rect", { x: middle - 24, y: top + 10, width: 12, height: 12, class: "none" }),
+    svg("text", { x: middle - 18, y: top + 20, "text-anchor": "middle" }, NONE),
+    svg("text", { x: middle - 7, y: top + 20 }, "none"),
   ];
 }

@@ -19,6 +19,7 @@ export class Model {
   state = null;
   node = null;
   path = null;
+  formations = null;
 
   #api;
   #told;
@@ -76,6 +77,11 @@ export class Model {
         ? null
         : this.#optional(this.#api.get(`${this.root}/network/paths`, { from: key, roll, pitch, phase: interval.inside, unit })),
     );
+  }
+
+  /** Asks for all formations of the network; null where the library has none. */
+  followNetwork() {
+    this.#want("formations", "all", async () => (await this.#optional(this.#api.get(`${this.root}/network/formations`)))?.formations ?? null);
   }
 
   /** Asks again for what has not come, after the service was lost. */

@@ -2,18 +2,18 @@
 
 import { inTurn } from "./units.js";
 
-/** Where each group stands about the formation. */
+/** The moves in pairs of opposite senses. */
 const GROUPS = [
-  { move: "cw", place: "left", title: "turning clockwise" },
-  { move: "ccw", place: "right", title: "turning counter-clockwise" },
-  { move: "roll-", place: "top", title: "less roll" },
-  { move: "roll+", place: "top", title: "more roll" },
-  { move: "pitch-", place: "bottom", title: "less pitch" },
-  { move: "pitch+", place: "bottom", title: "more pitch" },
+  { move: "cw", title: "turning clockwise" },
+  { move: "ccw", title: "turning counter-clockwise" },
+  { move: "roll-", title: "less roll" },
+  { move: "roll+", title: "more roll" },
+  { move: "pitch-", title: "less pitch" },
+  { move: "pitch+", title: "more pitch" },
 ];
 
 /**
- * The groups of a formation's node: {move, place, title, shown, more, rest}, where `shown` are the `most` formations with
+ * The groups of a formation's node: {move, title, shown, more, rest}, where `shown` are the `most` formations with
  * the largest shares, `more` is how many others there are, and `rest` their share. The formation that comes next at this
  * very orientation, whose key `next` has by its move, stands first and is marked `here`.
  */
@@ -35,11 +35,11 @@ export function groupsOf(node, most, next) {
 
 /**
  * Where a formation is found when it is followed from a pose by a move: the pose {roll, pitch, phase} half way through the
- * occurrence that the move leads to, or else through the nearest one.
+ * occurrence that the move leads to, or else through the nearest one; without a move (null), through the nearest one.
  */
 export function followed(node, pose, move, grid) {
   const target = { ...pose };
-  const tilt = { roll: "roll", pitch: "pitch" }[move.slice(0, -1)];
+  const tilt = { roll: "roll", pitch: "pitch" }[move?.slice(0, -1)];
   if (tilt) target[tilt] += move.endsWith("+") ? grid.tilt_step : -grid.tilt_step;
   const best = node.occurrences
     .map((one) => ({ one, far: distance(one, target, move) }))

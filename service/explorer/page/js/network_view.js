@@ -1,133 +1,167 @@
-// A formation amid those that turns and tilts lead to.
+// All formations of the network: where one is, what may come next, and the way to the window.
 
 import { CLASS_COLOURS, UNDECIDED_COLOUR } from "./colours.js";
-import { groupsOf } from "./neighbours.js";
+import { bandsOf, passed } from "./overview.js";
 import { picture, put, svg } from "./svg.js";
-import { className, shortRegion } from "./terms.js";
+import { CLASSES } from "./terms.js";
 import { percent } from "./units.js";
-import { wrapped } from "./wrap.js";
 
-const WIDTH = 860;
-const CARD = { width: 238, height: 52, gap: 6 };
-const MOST = 3;
-const LINES = 3;
-const LETTERS = 31;
-const CENTRE_WIDTH = 270;
-const TITLE = 18;
-const ROW = TITLE + MOST * (CARD.height + CARD.gap) + 20;
-const HEIGHT = 3 * ROW + 12;
-const CENTRE_HEIGHT = 130;
+const WIDTH = 396;
+const LEFT = 72;
+const TOP = 32;
+const STEP = 12;
+const MOST = Math.floor((WIDTH - LEFT) / STEP);
+const APART = 2.4;
+/** Sides of squares: the rarest formation's and the commonest's. */
+const [LEAST_SIDE, MOST_SIDE] = [6, 11.2];
+const KEY = 36;
+const PLACES = [14, 92, 194];
 
-/** The picture in a frame; `follow` is called with a formation's key and the move that leads there. */
+/** The picture in a frame; `choose` is called with the key of a formation, `tell` with a line about one. */
 export class NetworkView {
   #frame;
-  #follow;
+  #choose;
+  #tell;
+  #places = new Map();
+  #marks = null;
+  #here = null;
 
-  constructor(frame, follow) {
+  constructor(frame, choose, tell) {
     this.#frame = frame;
-    this.#follow = follow;
+    this.#choose = choose;
+    this.#tell = tell;
   }
 
-  /** Draws a formation's node; `next` has the keys of what comes next at this orientation, by move. */
-  draw(node, next) {
-    const root = picture(WIDTH, HEIGHT, "The formation amid those that turns and tilts lead to", { class: "network", role: "group" });
-    const links = svg("g", { class: "links" });
-    root.append(links, centre(node));
-    const taken = { top: 0, bottom: 0, left: 0, right: 0 };
-    for (const group of groupsOf(node, MOST, next)) {
-      const [x, y] = corner(group.place, taken[group.place]++);
-      links.append(...linksTo(group, x, y));
-      root.append(...this.#group(group, x, y));
+  /** Draws all formations. */
+  draw(formations) {
+    const bands = bandsOf(formations, MOST);
+    const lines = bands.reduce((sum, band) => sum + band.lines.length, 0);
+    const height = TOP + lines * STEP + bands.length * APART + KEY + 6;
+    const root = picture(WIDTH, height, "All formations of the network", { class: "network", role: "group" });
+    const squares = svg("g", { role: "listbox", "aria-label": "formations by the turning to the window" });
+    const greatest = Math.max(...formations.map(({ share }) => share));
+    this.#places = new Map();
+    let y = TOP;
+    for (const { title, lines: rows } of bands) {
+      root.append(svg("text", { x: LEFT - 8, y: y + STEP - 2, "text-anchor": "end", class: "title" }, title));
+      rows.forEach((row) => {
+        row.forEach((formation, k) => squares.append(this.#square(formation, LEFT + (k + 0.5) * STEP, y + STEP / 2, greatest)));
+        y += STEP;
+      });
+      y += APART;
     }
+    this.#marks = { links: svg("g", { class: "links" }), way: svg("g", { class: "way" }) };
+    root.prepend(this.#marks.links);
+    root.append(squares, this.#marks.way, ...heading(), ...key(height - KEY + 8));
+    squares.addEventListener("keydown", (event) => this.#step(event));
     put(this.#frame, root);
+  }
+
+  /** Marks the formation of a node, what follows it, and the path from it; null where the pose has none. */
+  mark(node, path) {
+    if (this.#marks === null) return;
+    const focused = this.#frame.contains(document.activeElement);
+    this.#here?.element.setAttribute("tabindex", -1);
+    this.#here?.element.setAttribute("aria-selected", false);
+    this.#here = this.#places.get(node?.formation.key) ?? this.#places.values().next().value ?? null;
+    this.#here?.element.setAttribute("tabindex", 0);
+    put(this.#marks.links);
+    put(this.#marks.way);
+    if (node === null || this.#here === null) return;
+    this.#here.element.setAttribute("aria-selected", true);
+    put(this.#marks.links, ...this.#links(node));
+    put(this.#marks.way, ...this.#way(path));
+    if (focused) this.#here.element.focus();
+    this.#tell(this.#here.formation.text);
   }
 
   /** Says that there is nothing to be drawn. */
   tell(text) {
-    const line = document.createElement("p");
-    line.className = "readout";
-    line.textContent = text;
-    put(this.#frame, line);
+    this.#marks = null;
+    put(this.#frame);
+    this.#tell(text);
   }
 
-  #group({ title, shown, more, rest, move }, x, y) {
-    const parts = [svg("text", { x, y: y + 12, class: "group" }, title)];
-    shown.forEach((one, k) => parts.push(this.#card(one, move, x, y + TITLE + k * (CARD.height + CARD.gap))));
-    const below = y + TITLE + shown.length * (CARD.height + CARD.gap) + 11;
-    if (shown.length === 0) parts.push(svg("text", { x, y: below, class: "title" }, "leads nowhere: the grid ends here"));
-    if (more > 0) parts.push(svg("text", { x, y: below, class: "title" }, `and ${more} more, ${percent(rest)} together`));
-    return parts;
+  #square(formation, x, y, greatest) {
+    const { key: name, class: stateClass, share, text, orientations } = formation;
+    const side = LEAST_SIDE + (MOST_SIDE - LEAST_SIDE) * Math.cbrt(share / greatest);
+    const told = `${text}; ${percent(share)} of all poses, at ${orientations} orientation${orientations === 1 ? "" : "s"}`;
+    const element = svg("g", { role: "option", class: "formation", tabindex: -1, "aria-selected": false, "aria-label": told, "data-key": name });
+    element.append(
+      svg("rect", { x: x - STEP / 2, y: y - STEP / 2, width: STEP, height: STEP, class: "reach", fill: "transparent" }),
+      svg("rect", { x: x - side / 2, y: y - side / 2, width: side, height: side, rx: 1.5, fill: CLASS_COLOURS[stateClass] ?? UNDECIDED_COLOUR }),
+    );
+    element.addEventListener("click", () => this.#choose(name));
+    element.addEventListener("pointerenter", () => this.#tell(told));
+    element.addEventListener("focus", () => this.#tell(told));
+    this.#places.set(name, { x, y, element, formation });
+    return element;
   }
 
-  #card({ formation, class: stateClass, change, share, here }, move, x, y) {
-    const card = svg("g", { class: here ? "card here" : "card", role: "button", tabindex: 0, "data-key": formation, "data-move": move });
-    const tip = svg("title", {}, `${className(stateClass)}: ${change}`);
-    card.append(svg("rect", { x, y, width: CARD.width, height: CARD.height, rx: 4, class: "box" }, tip));
-    card.append(svg("rect", { x, y, width: 6, height: CARD.height, rx: 2, fill: CLASS_COLOURS[stateClass] ?? UNDECIDED_COLOUR }));
-    wrapped(changeText(change, stateClass), LETTERS, LINES).forEach((line, k) => {
-      card.append(svg("text", { x: x + 12, y: y + 16 + 14 * k }, line));
-    });
-    const right = { x: x + CARD.width - 6, "text-anchor": "end", class: "share" };
-    card.append(svg("text", { ...right, y: y + CARD.height / 2 + (here ? -3 : 4) }, percent(share)));
-    if (here) card.append(svg("text", { ...right, y: y + CARD.height / 2 + 13 }, "next"));
-    const follow = () => this.#follow(formation, move);
-    card.addEventListener("click", follow);
-    card.addEventListener("keydown", (event) => {
-      if (event.key !== "Enter" && event.key !== " ") return;
+  #links({ following }) {
+    const from = this.#here;
+    return following
+      .filter(({ formation }) => this.#places.has(formation))
+      .map(({ formation, move, share }) => {
+        const to = this.#places.get(formation);
+        const kind = move === "ccw" ? "ccw" : move === "cw" ? "cw" : "tilt";
+        return svg("line", { x1: from.x, y1: from.y, x2: to.x, y2: to.y, class: kind, "stroke-width": (0.6 + 2.4 * share).toFixed(2) });
+      });
+  }
+
+  #way(path) {
+    const places = passed(path).map((name) => this.#places.get(name)).filter(Boolean);
+    const points = places.map(({ x, y }) => `${x} ${y}`);
+    const line = points.length > 1 ? [svg("path", { d: `M${points.join("L")}`, class: "outline" }), svg("path", { d: `M${points.join("L")}`, class: "line" })] : [];
+    const { x, y } = this.#here;
+    const stops = places.slice(1).map((stop) => svg("circle", { cx: stop.x, cy: stop.y, r: 2.6, class: "stop" }));
+    return [...line, ...stops, svg("circle", { cx: x, cy: y, r: 9, class: "ring-out" }), svg("circle", { cx: x, cy: y, r: 9, class: "ring-in" })];
+  }
+
+  #step(event) {
+    const focused = document.activeElement?.dataset.key;
+    const at = this.#places.get(focused);
+    if (at === undefined) return;
+    if (event.key === "Enter" || event.key === " ") {
       event.preventDefault();
-      follow();
-    });
-    return card;
+      this.#choose(focused);
+      return;
+    }
+    const next = nearest([...this.#places.values()], at, event.key);
+    if (next === null) return;
+    event.preventDefault();
+    at.element.setAttribute("tabindex", -1);
+    next.element.setAttribute("tabindex", 0);
+    next.element.focus();
   }
 }
 
-/** What changes, short enough for a card: a change of class is told by the new one alone. */
-export function changeText(change, stateClass) {
-  const [first, ...rest] = change.split("; ");
-  const name = className(stateClass);
-  if (first.endsWith(` to ${name}`) && !first.startsWith("contact")) return [`to ${name}`, ...rest].join("; ");
-  return change || "the same contacts";
+/** The place that an arrow leads to: the next in its row, or the nearest in the row above or below; else null. */
+function nearest(places, { x, y }, arrow) {
+  const [right, down] = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] }[arrow] ?? [0, 0];
+  const ahead = places.filter((one) => (one.x - x) * right + (one.y - y) * down > 1 && (down !== 0 || Math.abs(one.y - y) < 1));
+  const far = (one) => Math.abs(one.y - y) * 100 + Math.abs(one.x - x);
+  return ahead.length === 0 ? null : ahead.reduce((a, b) => (far(b) < far(a) ? b : a));
 }
 
-function corner(place, k) {
-  const right = WIDTH - CARD.width - 4;
-  switch (place) {
-    case "left": return [4, ROW + 4];
-    case "right": return [right, ROW + 4];
-    case "top": return [k === 0 ? 110 : WIDTH - CARD.width - 110, 4];
-    default: return [k === 0 ? 110 : WIDTH - CARD.width - 110, 2 * ROW + 10];
-  }
+function heading() {
+  return [
+    svg("text", { x: 0, y: 11, class: "title" }, "turning to"),
+    svg("text", { x: 0, y: 24, class: "title" }, "window (deg)"),
+    ...Object.entries(CLASSES).flatMap(([name, { short }], k) => [
+      svg("rect", { x: LEFT + 2 + PLACES[k], y: 7, width: 12, height: 12, rx: 1.5, fill: CLASS_COLOURS[name] }),
+      svg("text", { x: LEFT + 19 + PLACES[k], y: 17 }, short),
+    ]),
+  ];
 }
 
-function linksTo({ shown, place }, x, y) {
-  const middle = [WIDTH / 2, ROW + 4 + TITLE + (3 * CARD.height + 2 * CARD.gap) / 2];
-  return shown.map(({ share }, k) => {
-    const top = y + TITLE + k * (CARD.height + CARD.gap);
-    const end = {
-      left: [x + CARD.width, top + CARD.height / 2],
-      right: [x, top + CARD.height / 2],
-      top: [x < WIDTH / 2 - CARD.width ? x + CARD.width : x, top + CARD.height / 2],
-      bottom: [x < WIDTH / 2 - CARD.width ? x + CARD.width : x, top + CARD.height / 2],
-    }[place];
-    const width = (0.6 + 5 * share).toFixed(2);
-    return svg("line", { x1: middle[0], y1: middle[1], x2: end[0], y2: end[1], "stroke-width": width });
-  });
-}
-
-function centre({ formation, share, orientations }) {
-  const x = (WIDTH - CENTRE_WIDTH) / 2;
-  const y = ROW + 4 + TITLE + (3 * CARD.height + 2 * CARD.gap - CENTRE_HEIGHT) / 2;
-  const colour = CLASS_COLOURS[formation.class] ?? UNDECIDED_COLOUR;
-  const group = svg("g", { class: "centre" });
-  group.append(svg("rect", { x, y, width: CENTRE_WIDTH, height: CENTRE_HEIGHT, rx: 6, class: "box" }));
-  group.append(svg("rect", { x, y, width: CENTRE_WIDTH, height: 7, rx: 3, fill: colour }));
-  const lines = formation.contacts.map(
-    ({ stage, bolt_region: bolt, nut_region: nut, features }) => `${stage}  ${shortRegion(bolt)} on ${shortRegion(nut)}, ${features}`,
-  );
-  group.append(svg("text", { x: x + 12, y: y + 25, class: "name" }, className(formation.class)));
-  lines.slice(0, 4).forEach((line, k) => group.append(svg("text", { x: x + 12, y: y + 43 + 15 * k }, line)));
-  if (lines.length > 4) group.append(svg("text", { x: x + 12, y: y + 103 }, `and ${lines.length - 4} more contacts`));
-  const where = `${percent(share)} of all poses, at ${orientations} orientation${orientations === 1 ? "" : "s"}`;
-  group.append(svg("text", { x: x + 12, y: y + CENTRE_HEIGHT - 8, class: "title" }, where));
-  return group;
+function key(y) {
+  const entry = (x, at, name, text) => [
+    svg("line", { x1: x, x2: x + 22, y1: at, y2: at, class: name, "stroke-width": 2 }),
+    svg("text", { x: x + 27, y: at + 4 }, text),
+  ];
+  return [
+    svg("g", { class: "way" }, [svg("path", { d: `M${LEFT} ${y}h22`, class: "line" }), svg("text", { x: LEFT + 27, y: y + 4 }, "way from here")]),
+    svg("g", { class: "links" }, [...entry(LEFT + 150, y, "ccw", "turning on"), ...entry(LEFT, y + 17, "cw", "turning back"), ...entry(LEFT + 150, y + 17, "tilt", "tilting")]),
+  ];
 }

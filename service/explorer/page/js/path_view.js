@@ -5,10 +5,10 @@ import { picture, put, svg } from "./svg.js";
 import { className } from "./terms.js";
 import { angle, angleNumber, inTurn } from "./units.js";
 
-const WIDTH = 860;
-const PER_ROW = 12;
+const WIDTH = 396;
+const PER_ROW = 6;
 const STEP = WIDTH / PER_ROW;
-const ROW = 52;
+const ROW = 40;
 const BOX = { width: 58, height: 22 };
 
 /** Draws a path; `choose` is called with the pose of a step. */
@@ -20,7 +20,7 @@ export function drawPath(frame, path, choose) {
     const [x, y] = placeOf(k);
     if (k > 0) {
       const [x0, y0] = placeOf(k - 1);
-      const line = y0 === y ? `M${x0 + BOX.width} ${y0 + 11}H${x}` : `M${x0 + 29} ${y0 + BOX.height}V${y0 + 42}H${x + 29}V${y}`;
+      const line = y0 === y ? `M${x0 + BOX.width} ${y0 + 11}H${x}` : `M${x0 + 29} ${y0 + BOX.height}V${y0 + 31}H${x + 29}V${y}`;
       root.append(svg("path", { d: line, class: "link" }));
     }
     root.append(stepBox(step, labels[k], x, y, k === 0, choose));

@@ -4,6 +4,7 @@ import { CLASS_COLOURS } from "./colours.js";
 import { intervalAt, nextFormations } from "./curve.js";
 import { DepthView, depthReadout } from "./depth_view.js";
 import { DisksView } from "./disks_view.js";
+import { FollowsView } from "./follows_view.js";
 import { behind, nearestPhase, steppedPhase } from "./grid.js";
 import { byId } from "./html.js";
 import { MapView } from "./map_view.js";
@@ -14,6 +15,7 @@ import { firstCamera } from "./orbit.js";
 import { drawPath, pathText } from "./path_view.js";
 import { Player } from "./player.js";
 import { QUANTITIES } from "./quantities.js";
+import { followSize } from "./size.js";
 import { showState } from "./state_panel.js";
 import { stateLine } from "./terms.js";
 import { WHOLE_TURN, aroundWindow, middleOf, zoomed } from "./zoom.js";
@@ -21,6 +23,7 @@ import { WHOLE_TURN, aroundWindow, middleOf, zoomed } from "./zoom.js";
 const STAGES_PER_SECOND = 0.55;
 const PHASE_STEPS_PER_SECOND = 30;
 const UNITED = ["roll", "pitch"];
+const NO_NETWORK = "There is none: the library was computed by meshes, or the phase is undecided.";
 
 /** The pictures, and what is played in them. */
 export class Pictures {
@@ -31,6 +34,7 @@ export class Pictures {
   #map;
   #depth;
   #disks;
+  #follows;
   #network;
   #player;
   #solids = null;
@@ -47,14 +51,25 @@ export class Pictures {
     );
     this.#depth = new DepthView(byId("depth"), toPhase, (factor, middle) => view.set(zoomed(view.value, factor, middle)));
     this.#disks = new DisksView(byId("disks"), toPhase);
-    this.#network = new NetworkView(byId("network"), (key, move) => this.#followFormation(key, move));
+    this.#follows = new FollowsView(byId("follows"), (key, move) => this.#followFormation(key, move));
+    this.#network = new NetworkView(
+      byId("network"),
+      (key) => this.#followFormation(key, null),
+      (text) => (byId("network-readout").textContent = text),
+    );
     this.#player = new Player((name) => this.#showPlaying(name));
     this.#wireZoom();
     this.#wireScene();
   }
 
+  /** Draws what is as large as its frame anew whenever that changes. */
+  followSizes() {
+    followSize([byId("map"), byId("depth")], (frame) => (frame === byId("map") ? this.#drawMap() : this.#drawCurves()));
+  }
+
   /** Loads the solids, after everything else was asked for. */
   async begin() {
+    this.#showTab();
     if (this.#solids !== null) return;
     this.#solids = this.#loadScene();
     try {
@@ -72,8 +87,10 @@ export class Pictures {
     if (["heights", "intervals"].includes(part)) this.#drawCurves();
     if (part === "windows") this.#showSnap();
     if (part === "state") this.#drawState();
-    if (part === "node") this.#drawNetwork();
+    if (part === "node") this.#drawFollowing();
     if (part === "path") this.#drawPath();
+    if (part === "formations") this.#drawNetwork();
+    if (["node", "path"].includes(part)) this.#markNetwork();
     if (part === "library") this.#model.follow(view);
   }
 
@@ -85,6 +102,7 @@ export class Pictures {
     if (has("phase")) this.#moveCursors();
     if (has(...UNITED)) this.#showSnap();
     if (has("stage", "nut", "azimuth", "elevation", "distance")) this.#drawScene();
+    if (has("tab")) this.#showTab();
     if (has(...UNITED, "stage") && !["stages", "phase"].includes(this.#player.playing)) this.#player.stop();
   }
 
@@ -101,7 +119,7 @@ export class Pictures {
     if (heights === null) return;
     const intervals = this.#intervals();
     this.#depth.draw({ heights, intervals, library }, this.#view.value);
-    this.#disks.draw(intervals);
+    if (this.#isSeen("regions")) this.#disks.draw(intervals);
     this.#moveCursors();
   }
 
@@ -110,13 +128,35 @@ export class Pictures {
     const intervals = this.#intervals();
     const interval = intervalAt(intervals, view.phase);
     this.#depth.moveCursor(this.#model, view);
-    this.#disks.moveCursor(interval, view.phase);
+    if (this.#isSeen("regions")) this.#disks.moveCursor(interval, view.phase);
     byId("depth-readout").textContent = depthReadout({ intervals }, view);
-    if (UNITED.every((name) => intervals?.history[name] === view[name])) this.#model.followFormation(view, interval);
+    this.#followInterval(interval);
+  }
+
+  #followInterval(interval) {
+    const { value } = this.#view;
+    if (!this.#isSeen("follows", "network")) return;
+    if (UNITED.every((name) => this.#intervals()?.history[name] === value[name])) this.#model.followFormation(value, interval);
+  }
+
+  #isSeen(...tabs) {
+    return tabs.includes(this.#view.value.tab);
+  }
+
+  /** Draws what a tab holds that has come into sight. */
+  #showTab() {
+    if (this.#isSeen("network")) this.#model.followNetwork();
+    this.#drawCurves();
+    if (this.#isSeen("follows")) {
+      this.#drawFollowing();
+      this.#drawPath();
+    }
+    this.#drawState();
   }
 
   #drawState() {
     const { state } = this.#model;
+    if (state === null) return;
     showState(byId("state"), state, state.unit);
     byId("state-line").textContent = state.state ? stateLine(state.state) : "undecided";
     byId("state-line").style.setProperty("--class", CLASS_COLOURS[state.state?.class] ?? "transparent");
@@ -134,9 +174,23 @@ export class Pictures {
     byId("scene-readout").textContent = readout;
   }
 
+  #drawFollowing() {
+    if (this.#model.node) this.#follows.draw(this.#model.node.node, nextFormations(this.#intervals(), this.#view.value.phase));
+    else this.#follows.tell(NO_NETWORK);
+  }
+
   #drawNetwork() {
-    if (this.#model.node) this.#network.draw(this.#model.node.node, nextFormations(this.#intervals(), this.#view.value.phase));
-    else this.#network.tell("This library has no network: it was computed by meshes, or the phase is undecided.");
+    const { formations } = this.#model;
+    if (formations === null) this.#network.tell(NO_NETWORK);
+    else this.#network.draw(formations);
+    this.#markNetwork();
+  }
+
+  #markNetwork() {
+    const { node, path } = this.#model;
+    const here = node?.node ?? null;
+    const way = path?.path ?? null;
+    this.#network.mark(here, way?.steps[0].formation === here?.formation.key ? way : null);
   }
 
   #drawPath() {

@@ -4,11 +4,28 @@ import { lastStage } from "./motion.js";
 import { html } from "./html.js";
 import { say } from "./messages.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
-import { contactTable, depthTable, followingTable, intervalTable, mapTable } from "./tables.js";
+import { depthTable, followingTable, formationTable, intervalTable, mapTable, pathTable, stateTable } from "./tables.js";
 
-const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", network: "#network svg" };
-const TABLES = { map: mapTable, phase: depthTable, disks: intervalTable, network: followingTable, state: contactTable };
-const NAMES = { map: "orientations", phase: "depth", disks: "regions", network: "what-follows", scene: "bolt-and-nut", state: "contacts" };
+const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg" };
+const TABLES = {
+  map: mapTable,
+  phase: depthTable,
+  disks: intervalTable,
+  follows: followingTable,
+  path: pathTable,
+  network: formationTable,
+  state: stateTable,
+};
+const NAMES = {
+  map: "orientations",
+  phase: "depth",
+  disks: "regions",
+  follows: "what-follows",
+  path: "way-to-the-window",
+  network: "formations",
+  scene: "bolt-and-nut",
+  state: "state",
+};
 
 /** Fills every place for save buttons; `sceneOf` returns the scene, or null. */
 export function wireSaving(model, view, sceneOf) {

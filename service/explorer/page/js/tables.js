@@ -30,19 +30,57 @@ export function followingTable({ node: { node } }) {
   return [["move", "formation", "class", "share", "change"], ...rows];
 }
 
-/** The contacts of a state. */
-export function contactTable({ state: { state, unit } }) {
-  const axes = ["x", "y", "z"];
-  const head = [
-    "stage", "bolt_region", "nut_region", "features",
-    ...axes.map((axis) => `point_${axis}_${unit}`),
-    ...axes.map((axis) => `point_bolt_${axis}_${unit}`),
-    ...axes.map((axis) => `normal_${axis}`),
-    `bolt_margin_${unit}`, `nut_margin_${unit}`,
-  ];
-  const rows = state.contacts.map((one) => [
-    one.stage, one.bolt_region, one.nut_region, one.features,
-    ...one.point, ...one.point_bolt, ...one.normal, one.bolt_margin, one.nut_margin,
+/** The steps of the path to the window. */
+export function pathTable({ path: { path } }, { unit }) {
+  const rows = path.steps.map((one) => [
+    one.move, one.roll, one.pitch, one.phase, one.turning, one.formation, one.class, one.margin, one.in_window, one.text,
   ]);
+  const head = ["move", "roll_deg", "pitch_deg", "phase_deg", "turned_deg", "formation", "class", `margin_${unit}`, "in_window", "contacts"];
   return [head, ...rows];
+}
+
+/** All formations of the network. */
+export function formationTable({ formations }) {
+  const rows = formations.map((one) => [
+    one.key, one.class, one.share, one.window_share, one.orientations, one.to_window.least, one.to_window.most, one.text,
+  ]);
+  return [["formation", "class", "share", "window_share", "orientations", "least_to_window_deg", "most_to_window_deg", "contacts"], ...rows];
+}
+
+/** Every number of a state, one a row: what it is of, its name, value and unit. */
+export function stateTable({ state: { state, pose, unit } }) {
+  const rows = [
+    ...["roll", "pitch", "phase"].map((name) => ["pose", name, pose[name], "deg"]),
+    ["state", "class", state.class, ""],
+    ["state", "flags", state.flags.join(" "), ""],
+    ["state", "lambda", state.turns[0], "deg"],
+    ["state", "mu", state.turns[1], "deg"],
+    ...["drop", "embedment", "pivot_offset"].flatMap((name) => [
+      ["state", name, state[name], unit],
+      ["state", `margin_${name}`, state.margins[name], unit],
+    ]),
+    ...state.contacts.flatMap((contact, k) => contactRows(`contact ${k + 1}`, contact, unit)),
+    ...state.poses.flatMap((one, k) => poseRows(`pose at stage ${k + 1}`, one, unit)),
+  ];
+  return [["of", "name", "value", "unit"], ...rows];
+}
+
+const AXES = ["x", "y", "z"];
+
+function contactRows(name, contact, unit) {
+  const vector = (part, its) => AXES.map((axis, k) => [name, `${part}_${axis}`, contact[part][k], its]);
+  return [
+    ...["stage", "bolt_region", "nut_region", "features"].map((part) => [name, part, contact[part], ""]),
+    ...vector("point", unit),
+    ...vector("point_bolt", unit),
+    ...vector("normal", ""),
+    ...["bolt_margin", "nut_margin"].map((part) => [name, part, contact[part], unit]),
+  ];
+}
+
+function poseRows(name, { rotation, translation }, unit) {
+  return [
+    ...rotation.flatMap((row, i) => row.map((value, j) => [name, `r${i + 1}${j + 1}`, value, ""])),
+    ...translation.map((value, k) => [name, `t${AXES[k]}`, value, unit]),
+  ];
 }

@@ -1,13 +1,14 @@
 // The field's words for what the service names in its answers.
 
 export const CLASSES = {
-  stable_three_point: { name: "stable three-point", letter: "S", help: "three contacts hold the bolt, or it lies flush" },
+  stable_three_point: { name: "stable three-point", short: "stable", letter: "S", help: "three contacts hold the bolt, or it lies flush" },
   quasi_stable_two_point: {
     name: "quasi-stable two-point",
+    short: "quasi-stable",
     letter: "Q",
     help: "two contacts, and the pivot axis passes near the bolt's origin",
   },
-  unstable_two_point: { name: "unstable two-point", letter: "U", help: "two contacts, about which the bolt goes on turning" },
+  unstable_two_point: { name: "unstable two-point", short: "unstable", letter: "U", help: "two contacts, about which the bolt goes on turning" },
 };
 
 export const REGIONS = {

@@ -1,5 +1,6 @@
 // The view as the fragment of an address, so that a link restores it exactly.
 
+import { TABS } from "./tabs.js";
 import { DEFAULTS } from "./view.js";
 
 const between = (low, high) => (text) => {
@@ -22,6 +23,7 @@ const READERS = {
   from: between(-360, 360),
   span: between(1e-6, 360),
   stage: between(0, 3),
+  tab: among(...TABS),
   nut: among("cut", "glass", "off"),
   azimuth: between(-1e6, 1e6),
   elevation: between(-90, 90),

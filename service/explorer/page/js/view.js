@@ -13,10 +13,11 @@ export const DEFAULTS = Object.freeze({
   from: 0,
   span: 360,
   stage: 3,
+  tab: "state",
   nut: "cut",
   azimuth: -60,
   elevation: 25,
-  distance: 2.4,
+  distance: 2.1,
 });
 
 /** The present view, and who follows it. */
