@@ -146,13 +146,55 @@ def test_map_shows_each_quantity_with_its_values(explorer: Explorer) -> None:
     explorer.wait_for_text("#map-readout", f"greatest drop {length_shown(one['drop_most'])}")
 
 
-def test_history_is_fetched_once_however_the_phase_moves(explorer: Explorer) -> None:
-    choose_pose(explorer, 4, 4, 90)
-    explorer.addresses_asked()
-    for phase in range(0, 360, 15):
-        explorer.choose("#phase-slider", str(phase))
+def test_history_is_fetched_once_and_nothing_while_the_phase_moves(explorer: Explorer) -> None:
+    explorer.click('#map .cell[data-roll="4"][data-pitch="4"]')
+    explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg")
+    history = f"{explorer.address}/v1/libraries/1/histories/4/4?unit=in"
+    asked = explorer.addresses_asked()
+
+    def is_fetched() -> bool:
+        asked.extend(explorer.addresses_asked())
+        return history in asked
+
+    explorer.wait(is_fetched, "the history is not fetched")
+    explorer.choose("#phase-slider", "5")
+    explorer.wait_for_text("#state", "phase 5 deg")
+    explorer.wait_for_text("#map-readout", "roll 4, pitch 4")
+    explorer.run(MOVE)
     explorer.wait_for_text("#state", "phase 345 deg")
-    assert not [address for address in explorer.addresses_asked() if "/histories/" in address]
+    asked.extend(explorer.addresses_asked())
+    assert asked.count(history) == 1
+    moved = [one for one in asked if "/states/" in one or "phase=1" in one or "phase=2" in one]
+    assert moved == [] or moved == [one for one in moved if "/states/4/4/10" in one]
+
+
+MOVE = """
+const slider = document.querySelector('#phase-slider');
+for (let phase = 0; phase < 360; phase += 15) {
+  slider.value = phase;
+  slider.dispatchEvent(new Event('input', { bubbles: true }));
+}
+"""
+"""The phase moved by its slider, as fast as can be."""
+
+
+def test_motion_is_reduced_where_that_is_preferred(explorer: Explorer) -> None:
+    media = {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]}
+    explorer.chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
+    try:
+        choose_pose(explorer, -4, 0, 130)
+        explorer.choose("#stage", "0")
+        wait_for_scene(explorer, "above the nut")
+        explorer.click("#play-stages")
+        stages = [explorer.run(STAGE)]
+        while stages[-1] < 3:
+            stages.append(explorer.run(STAGE))
+        assert set(stages) <= {0, 1, 2, 3}
+    finally:
+        explorer.chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
+STAGE = "return Number(document.querySelector('#stage').value)"
 
 
 def test_depth_shows_intervals_window_and_snap(explorer: Explorer) -> None:

@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
+import pytest
 from selenium import webdriver
+from selenium.webdriver.common.keys import Keys
 
-from tests.archive.history_library import histories_of_grid
+from tests.archive.history_library import histories_of_grid, store_histories
 from tests.databases import Databases
 from tests.explorer.browser import Explorer
 from tests.explorer.conftest import GRID
+from tests.explorer.test_accessibility import AXE, violations
 from tests.service.running import running_service
+from threadstate.access.keys import create_key
+from threadstate.access.scope import Scope
 from threadstate.archive.rows import history_rows
 from threadstate.history.window import windows_of
-from threadstate.library.engine import writer_engine
+from threadstate.jobs.ask import ask_for
+from threadstate.library.engine import writer_engine, writing
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
+from threadstate.settings import READ_KEYS
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -40,6 +48,57 @@ def test_page_tells_of_no_library_then_of_its_progress_and_goes_on(
                 assert kind_of(explorer) == "building"
         explorer.one("#map .cell")
         assert kind_of(explorer) == ""
+
+
+def test_page_tells_of_a_job_that_waits_for_a_worker(chromium: webdriver.Chrome, sqlite_databases: Databases) -> None:
+    database = sqlite_databases.migrated()
+    with writing(database) as engine:
+        ask_for(engine, LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions()))
+    with running_service(database) as address:
+        explorer = Explorer(chromium, address)
+        explorer.open()
+        explorer.wait_for_text("#message", "1/4-20 UNC: waits for a worker")
+        assert kind_of(explorer) == "building"
+
+
+def test_page_asks_for_a_key_and_keeps_it_to_itself(chromium: webdriver.Chrome, sqlite_databases: Databases) -> None:
+    database = sqlite_databases.migrated()
+    store_histories(database, GRID, histories_of_grid(GRID))
+    with writing(database) as engine:
+        key = create_key(engine, "page", Scope.READ)
+    with running_service(database, settings={READ_KEYS: "required"}) as address:
+        explorer = Explorer(chromium, address)
+        explorer.open("/#roll=4&pitch=4&phase=20")
+        explorer.wait(lambda: kind_of(explorer) == "key", "the page does not ask for a key")
+        assert explorer.chromium.switch_to.active_element.get_attribute("id") == "key"
+        explorer.one("#key").send_keys("ts_wrong", Keys.ENTER)
+        explorer.wait_for_text("#message", "This key is refused")
+        assert explorer.run("return sessionStorage.length") == 0
+        explorer.one("#key").send_keys(key, Keys.ENTER)
+        explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg, phase 20 deg")
+        explorer.one("#scene canvas")
+        assert kind_of(explorer) == ""
+        asked = explorer.addresses_asked()
+        assert asked and not [one for one in [*asked, explorer.chromium.current_url] if key in one]
+        assert explorer.run("return [localStorage.length, document.cookie]") == [0, ""]
+        assert explorer.run("return Object.values(sessionStorage)") == [key]
+        explorer.chromium.refresh()
+        explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg, phase 20 deg")
+        explorer.click("#forget-key")
+        explorer.wait(lambda: kind_of(explorer) == "key", "the key is not forgotten")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_serious_where_there_is_nothing_to_explore(
+    chromium: webdriver.Chrome, sqlite_databases: Databases, repository_root: Path, theme: str
+) -> None:
+    database = sqlite_databases.migrated()
+    with running_service(database, settings={READ_KEYS: "required"}) as closed, running_service(database) as empty:
+        for address, kind in ((closed, "key"), (empty, "empty")):
+            explorer = Explorer(chromium, address)
+            explorer.open(f"/#theme={theme}")
+            explorer.one(f"#message[data-kind={kind}]:not([hidden])")
+            assert violations(explorer, (repository_root / AXE).read_text()) == []
 
 
 def build(database: str) -> Iterator[int]:

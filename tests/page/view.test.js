@@ -60,6 +60,15 @@ test("a stored state is fetched by its address, in the unit shown", () => {
   assert.match(pythonLines("http://h", LIBRARY, { pose: POSE, unit: "mm", stored: true }), /states\/4\/-3\/185\?unit=mm"/);
 });
 
+test("where a key is needed the lines show it, from a variable and not itself", () => {
+  for (const stored of [true, false]) {
+    const state = { pose: POSE, unit: "in", stored };
+    assert.match(curlLine("http://h", LIBRARY, state, true), / -H "Authorization: Bearer \$KEY"/);
+    assert.match(pythonLines("http://h", LIBRARY, state, true), /"Authorization": f"Bearer {os.environ\['KEY'\]}"/);
+    assert.doesNotMatch(curlLine("http://h", LIBRARY, state, false) + pythonLines("http://h", LIBRARY, state, false), /Authorization/);
+  }
+});
+
 test("a solved state is fetched by its pose", () => {
   const line = curlLine("http://h", LIBRARY, { pose: POSE, unit: "mm", stored: false });
   const body = JSON.parse(line.match(/-d '(.*)'/)[1]);

@@ -6,15 +6,15 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 
 @contextmanager
-def running_service(database: str, port: int = 0) -> Iterator[str]:
-    """The address of a running service over a database, at that port or (0) at a free one."""
+def running_service(database: str, port: int = 0, settings: Mapping[str, str] | None = None) -> Iterator[str]:
+    """The address of a running service over a database, at that port or (0) at a free one, with these settings more."""
     command = [sys.executable, "-m", "uvicorn", "--factory", "service.app:create_app", "--port", str(port)]
-    environment = {**os.environ, "THREADSTATE_DATABASE": database}
+    environment = {**os.environ, "THREADSTATE_DATABASE": database, **(settings or {})}
     # Read to its end only after it was stopped: without the log of requests little is written.
     with subprocess.Popen([*command, "--no-access-log"], env=environment, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None

@@ -17,13 +17,28 @@ export class LostError extends Error {}
 /** Asks one service; what a library's number stands in never changes, so its answers are kept. */
 export class Api {
   #answers = new Map();
+  #key;
+
+  /** `key` is shown with every request; null: none. */
+  constructor(key) {
+    this.#key = key;
+  }
+
+  get hasKey() {
+    return this.#key !== null;
+  }
+
+  /** Shows another key from now on. */
+  use(key) {
+    this.#key = key;
+  }
 
   /** The JSON at a path with these parameters; null and undefined ones are left out. */
   get(path, parameters = {}) {
     const address = addressOf(path, parameters);
     const known = this.#answers.get(address);
     if (known) return known;
-    const answer = ask(address);
+    const answer = this.#ask(address);
     this.#answers.set(address, answer);
     if (this.#answers.size > KEPT) this.#answers.delete(this.#answers.keys().next().value);
     answer.catch(() => this.#answers.delete(address));
@@ -32,13 +47,13 @@ export class Api {
 
   /** The JSON at a path as it is now. */
   getAnew(path) {
-    return ask(path);
+    return this.#ask(path);
   }
 
   /** The states of poses, on the grid or not, by the exact solver. */
   async solve(poses, designation, unit) {
     const body = JSON.stringify({ poses, designation });
-    const answer = await ask(addressOf("/v1/solve", { unit }), {
+    const answer = await this.#ask(addressOf("/v1/solve", { unit }), {
       method: "POST",
       headers: { "Content-Type": "application/json" },
       body,
@@ -48,7 +63,23 @@ export class Api {
 
   /** The bytes at a path. */
   async bytes(path) {
-    return (await fetched(path)).arrayBuffer();
+    return (await this.#fetched(path)).arrayBuffer();
+  }
+
+  async #ask(address, options = {}) {
+    return (await this.#fetched(address, options)).json();
+  }
+
+  async #fetched(address, options = {}) {
+    const headers = { ...options.headers, ...(this.hasKey && { Authorization: `Bearer ${this.#key}` }) };
+    let response;
+    try {
+      response = await fetch(address, { ...options, headers });
+    } catch (error) {
+      throw new LostError(`no answer from the service: ${error.message}`);
+    }
+    if (!response.ok) throw new ProblemError(response.status, await response.json().catch(() => ({ title: response.statusText })));
+    return response;
   }
 }
 
@@ -57,19 +88,4 @@ function addressOf(path, parameters) {
   const given = Object.entries(parameters).filter(([, value]) => value !== null && value !== undefined);
   const query = given.map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
   return query ? `${path}?${query}` : path;
-}
-
-async function ask(address, options) {
-  return (await fetched(address, options)).json();
-}
-
-async function fetched(address, options) {
-  let response;
-  try {
-    response = await fetch(address, options);
-  } catch (error) {
-    throw new LostError(`no answer from the service: ${error.message}`);
-  }
-  if (!response.ok) throw new ProblemError(response.status, await response.json().catch(() => ({ title: response.statusText })));
-  return response;
 }

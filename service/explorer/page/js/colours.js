@@ -2,7 +2,7 @@
 
 export const CLASS_COLOURS = {
   stable_three_point: "#0072b2",
-  quasi_stable_two_point: "#e69f00",
+  quasi_stable_two_point: "#f2b92f",
   unstable_two_point: "#d55e00",
 };
 export const UNDECIDED_COLOUR = "#8a8a8a";
@@ -20,6 +20,9 @@ export const REGION_COLOURS = {
   surface: "#8fb59a",
   base: "#8fb59a",
 };
+
+/** Contacts of the three stages, in the scene and its legend. */
+export const STAGE_COLOURS = ["#cc79a7", "#008860", "#f2b92f"];
 
 const SCALE = [
   [0, 32, 76], [0, 42, 102], [34, 56, 112], [59, 73, 108], [80, 87, 109], [101, 103, 112], [122, 119, 120],

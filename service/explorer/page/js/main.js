@@ -1,12 +1,13 @@
 // The page: what is chosen goes into the view, the model follows it, and the pictures are drawn of both.
 
 import { keepAddress } from "./address_bar.js";
-import { Api, LostError } from "./api.js";
+import { Api, ProblemError } from "./api.js";
 import { showControls, wireControls } from "./controls.js";
 import { nearestTilt } from "./grid.js";
 import { wireHelp } from "./help.js";
 import { byId } from "./html.js";
-import { say, showExplorer, showTrouble, troubleOf } from "./messages.js";
+import { forgetKey, keepKey, keptKey } from "./kept_key.js";
+import { KEY_WANTED, hideTrouble, progressOf, say, showExplorer, showTrouble, troubleOf } from "./messages.js";
 import { Model } from "./model.js";
 import { Pictures } from "./pictures.js";
 import { wireSaving } from "./saving.js";
@@ -17,7 +18,8 @@ import { View } from "./view.js";
 
 const RETRY_MS = 2000;
 
-const api = new Api();
+
+const api = new Api(keptKey());
 const view = new View(viewOf(location.hash));
 const model = new Model(api, (part) => pictures.redraw(part), failed);
 const pictures = new Pictures(api, model, view);
@@ -39,6 +41,11 @@ async function begin() {
   wireHelp();
   const address = keepAddress(view);
   wireCopying(address);
+  byId("forget-key").hidden = !api.hasKey;
+  byId("forget-key").addEventListener("click", () => {
+    forgetKey();
+    location.reload();
+  });
   wireSaving(model, view, () => pictures.scene);
   showControls(view.value);
   showTab(view.value);
@@ -58,11 +65,26 @@ async function begin() {
 async function failed(error) {
   if (troubled) return;
   troubled = true;
-  const building = error instanceof LostError ? [] : await buildingNow();
-  const trouble = troubleOf(error, building, model.library === null && view.value.library !== null);
-  showTrouble(trouble);
+  const asks = error instanceof ProblemError && error.status !== KEY_WANTED;
+  const trouble = troubleOf(error, asks ? await buildingNow() : [], model.library === null && view.value.library !== null);
+  showTrouble({ ...trouble, refused: api.hasKey });
   if (trouble.kind === "fault") throw error;
-  setTimeout(again, RETRY_MS);
+  if (trouble.kind === "key") takeKey();
+  else setTimeout(again, RETRY_MS);
+}
+
+/** Forgets a key that was refused, and goes on with the one that is given in the form. */
+function takeKey() {
+  forgetKey();
+  api.use(null);
+  byId("key-form").onsubmit = (event) => {
+    event.preventDefault();
+    const key = byId("key").value.trim();
+    hideTrouble();
+    keepKey(key);
+    api.use(key);
+    again();
+  };
 }
 
 function again() {
@@ -80,7 +102,8 @@ function again() {
 
 async function buildingNow() {
   try {
-    return (await api.getAnew("/v1/building")).building;
+    const [{ building }, { jobs }] = await Promise.all([api.getAnew("/v1/building"), api.getAnew("/v1/jobs")]);
+    return progressOf(building, jobs);
   } catch {
     return [];
   }
@@ -90,8 +113,8 @@ function wireCopying(address) {
   const copies = {
     "copy-link": ["link", address],
     "copy-json": ["JSON", () => JSON.stringify(model.state.state, null, 1)],
-    "copy-curl": ["curl line", () => curlLine(location.origin, model.library, model.state)],
-    "copy-python": ["Python lines", () => pythonLines(location.origin, model.library, model.state)],
+    "copy-curl": ["curl line", () => curlLine(location.origin, model.library, model.state, api.hasKey)],
+    "copy-python": ["Python lines", () => pythonLines(location.origin, model.library, model.state, api.hasKey)],
   };
   for (const [id, [name, text]] of Object.entries(copies)) {
     byId(id).addEventListener("click", async () => {

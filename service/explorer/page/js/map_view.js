@@ -2,7 +2,7 @@
 
 import { CLASS_COLOURS, inkOn, scaleColour } from "./colours.js";
 import { tilts } from "./grid.js";
-import { QUANTITIES } from "./quantities.js";
+import { QUANTITIES, needsSummaries } from "./quantities.js";
 import { sizeOf } from "./size.js";
 import { picture, put, svg } from "./svg.js";
 import { CLASSES, className } from "./terms.js";
@@ -96,7 +96,7 @@ export class MapView {
 /** What each cell shows: by "roll pitch" its value, null where there is none, and a line that says it. */
 export function mapValues(model, view) {
   const quantity = QUANTITIES[view.quantity];
-  const overAll = view.over === "all" || !quantity.ofState;
+  const overAll = needsSummaries(view);
   const values = new Map();
   const add = (roll, pitch, value) => {
     const what = overAll && quantity.ofState ? quantity.all : quantity.name;

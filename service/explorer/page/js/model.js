@@ -3,9 +3,13 @@
 import { ProblemError } from "./api.js";
 import { heightsOf } from "./curve.js";
 import { nearestPhase } from "./grid.js";
+import { needsSummaries } from "./quantities.js";
+import { Rest } from "./rest.js";
 
 const MAP_FIELDS = "roll,pitch,class,drop,embedment,pivot_offset,margins";
 const MAP_PAGE = 1000;
+/** While the phase moves nothing is asked for; what belongs to a phase is asked for when it has come to rest. */
+const REST_MS = 150;
 
 /** The parts of the model, each null until it has come. */
 export class Model {
@@ -25,6 +29,8 @@ export class Model {
   #told;
   #failed;
   #wanted = new Map();
+  #mapRest = new Rest(REST_MS);
+  #formationRest = new Rest(REST_MS);
 
   /** `told` is called with the name of a part that has come, `failed` with an error. */
   constructor(api, told, failed) {
@@ -51,23 +57,34 @@ export class Model {
     if (this.library.unit !== unit) {
       this.#want("library", unit, () => this.#api.get(this.root, { unit }));
     }
-    this.#want("orientations", unit, async () => (await this.#api.get(`${this.root}/orientations`, { unit })).orientations);
-    this.#want("windows", unit, () => this.#optional(this.#api.get(`${this.root}/windows`, { unit })));
-    this.#want("history", `${unit} ${roll} ${pitch}`, () =>
-      this.#api.get(`${this.root}/histories/${roll}/${pitch}`, { unit }),
-    );
+    if (needsSummaries(view)) this.#askForSummaries(unit);
+    this.#want("state", `${unit} ${roll} ${pitch} ${phase}`, () => this.#state(view));
     this.#want("heights", `${unit} ${roll} ${pitch}`, () => this.#heights(view));
     this.#want("intervals", `${unit} ${roll} ${pitch}`, () =>
       this.#optional(this.#api.get(`${this.root}/histories/${roll}/${pitch}/intervals`, { unit })),
     );
     const onGrid = nearestPhase(this.library.grid, phase);
-    this.#want("map", `${unit} ${onGrid}`, () => this.#map(onGrid, unit));
-    this.#want("state", `${unit} ${roll} ${pitch} ${phase}`, () => this.#state(view));
+    const askForMap = () => this.#want("map", `${unit} ${onGrid}`, () => this.#map(onGrid, unit));
+    if (this.map === null) askForMap();
+    else this.#mapRest.after(askForMap);
+  }
+
+  #askForSummaries(unit) {
+    this.#want("orientations", unit, async () => (await this.#api.get(`${this.root}/orientations`, { unit })).orientations);
+    this.#want("windows", unit, () => this.#optional(this.#api.get(`${this.root}/windows`, { unit })));
+  }
+
+  /** Asks for the history of a view's orientation, whose states then need not be asked for one by one. */
+  followHistory({ unit, roll, pitch }) {
+    this.#want("history", `${unit} ${roll} ${pitch}`, () => this.#history({ unit, roll, pitch }));
   }
 
   /** Asks for a formation and its way to the window; both null where the pose has none. */
   followFormation(view, interval) {
-    const { unit, roll, pitch } = view;
+    this.#formationRest.after(() => this.#askForFormation(view, interval));
+  }
+
+  #askForFormation({ unit, roll, pitch }, interval) {
     const key = interval?.formation.key ?? null;
     this.#want("node", `${unit} ${key}`, async () =>
       key === null ? null : this.#optional(this.#api.get(`${this.root}/network/formations/${key}`, { unit })),
@@ -115,6 +132,10 @@ export class Model {
     }
   }
 
+  #history({ unit, roll, pitch }) {
+    return this.#api.get(`${this.root}/histories/${roll}/${pitch}`, { unit });
+  }
+
   async #map(phase, unit) {
     const states = [];
     let address = null;
@@ -128,18 +149,37 @@ export class Model {
   }
 
   async #heights({ roll, pitch, unit }) {
-    const orientation = `${this.root}/histories/${roll}/${pitch}`;
-    const answer = await this.#optional(this.#api.get(`${orientation}/heights`, { unit }));
-    return answer?.heights ?? heightsOf(await this.#api.get(orientation, { unit }));
+    const answer = await this.#optional(this.#api.get(`${this.root}/histories/${roll}/${pitch}/heights`, { unit }));
+    return answer?.heights ?? heightsOf(await this.#history({ unit, roll, pitch }));
   }
 
+  /** From the history where that is here; the first state of an orientation does not wait for it. */
   async #state({ roll, pitch, phase, unit }) {
-    const history = await this.#api.get(`${this.root}/histories/${roll}/${pitch}`, { unit });
     const pose = { roll, pitch, phase };
+    const onGrid = nearestPhase(this.library.grid, phase) === phase;
+    if (this.#wanted.get("history") !== `${unit} ${roll} ${pitch}`) {
+      return onGrid ? this.#storedState(pose, unit) : this.#solvedState(pose, unit);
+    }
+    const history = await this.#history({ unit, roll, pitch });
     const stored = history.states.find((state) => state.phase === phase);
     if (stored) return { pose, unit, state: stored, reason: null, stored: true };
     const undecided = history.undecided.find((one) => one.phase === phase);
     if (undecided) return { pose, unit, state: null, reason: undecided.reason, stored: true };
+    return this.#solvedState(pose, unit);
+  }
+
+  async #storedState(pose, unit) {
+    try {
+      const { roll, pitch, phase } = pose;
+      const state = await this.#api.get(`${this.root}/states/${roll}/${pitch}/${phase}`, { unit });
+      return { pose, unit, state, reason: null, stored: true };
+    } catch (error) {
+      if (!(error instanceof ProblemError && error.status === 404)) throw error;
+      return { pose, unit, state: null, reason: error.message, stored: true };
+    }
+  }
+
+  async #solvedState(pose, unit) {
     try {
       const [state] = await this.#api.solve([pose], this.library.designation, unit);
       return { pose, unit, state, reason: null, stored: false };

@@ -8,13 +8,14 @@ import { FollowsView } from "./follows_view.js";
 import { behind, nearestPhase, steppedPhase } from "./grid.js";
 import { byId } from "./html.js";
 import { MapView } from "./map_view.js";
+import { markPainted } from "./marks.js";
 import { lastStage } from "./motion.js";
 import { followed } from "./neighbours.js";
 import { NetworkView } from "./network_view.js";
 import { firstCamera } from "./orbit.js";
 import { drawPath, pathText } from "./path_view.js";
 import { Player } from "./player.js";
-import { QUANTITIES } from "./quantities.js";
+import { QUANTITIES, needsSummaries } from "./quantities.js";
 import { followSize } from "./size.js";
 import { showState } from "./state_panel.js";
 import { stateLine } from "./terms.js";
@@ -22,6 +23,8 @@ import { WHOLE_TURN, aroundWindow, middleOf, zoomed } from "./zoom.js";
 
 const STAGES_PER_SECOND = 0.55;
 const PHASE_STEPS_PER_SECOND = 30;
+/** Where less motion is preferred: a picture a second, and stages whole. */
+const STILL_STEPS_PER_SECOND = 1;
 const UNITED = ["roll", "pitch"];
 const NO_NETWORK = "There is none: the library was computed by meshes, or the phase is undecided.";
 
@@ -67,9 +70,13 @@ export class Pictures {
     followSize([byId("map"), byId("depth")], (frame) => (frame === byId("map") ? this.#drawMap() : this.#drawCurves()));
   }
 
-  /** Loads the solids, after everything else was asked for. */
-  async begin() {
+  /** Begins with what the view's tab needs. */
+  begin() {
     this.#showTab();
+  }
+
+  /** Loads the solids, after the first numbers were seen. */
+  async #beginSolids() {
     if (this.#solids !== null) return;
     this.#solids = this.#loadScene();
     try {
@@ -85,8 +92,12 @@ export class Pictures {
     const view = this.#view.value;
     if (["map", "orientations", "windows", "library"].includes(part)) this.#drawMap();
     if (["heights", "intervals"].includes(part)) this.#drawCurves();
-    if (part === "windows") this.#showSnap();
-    if (part === "state") this.#drawState();
+    if (part === "intervals") this.#showSnap();
+    if (part === "state") {
+      this.#drawState();
+      this.#model.followHistory(view);
+      this.#beginSolids();
+    }
     if (part === "node") this.#drawFollowing();
     if (part === "path") this.#drawPath();
     if (part === "formations") this.#drawNetwork();
@@ -110,8 +121,10 @@ export class Pictures {
     const { map, orientations, windows } = this.#model;
     const view = this.#view.value;
     const quantity = QUANTITIES[view.quantity];
-    byId("quantity").title = quantity.help;
-    if (map && orientations && (quantity.ofState || windows)) this.#map.draw(this.#model, view);
+    byId("quantity").dataset.help = `${quantity.name}: ${quantity.help}.`;
+    if (needsSummaries(view) ? !(orientations && (quantity.ofState || windows)) : !map) return;
+    this.#map.draw(this.#model, view);
+    markPainted("map");
   }
 
   #drawCurves() {
@@ -121,6 +134,7 @@ export class Pictures {
     this.#depth.draw({ heights, intervals, library }, this.#view.value);
     if (this.#isSeen("regions")) this.#disks.draw(intervals);
     this.#moveCursors();
+    markPainted("depth");
   }
 
   #moveCursors() {
@@ -162,6 +176,7 @@ export class Pictures {
     byId("state-line").style.setProperty("--class", CLASS_COLOURS[state.state?.class] ?? "transparent");
     this.#depth.moveCursor(this.#model, this.#view.value);
     this.#drawScene();
+    markPainted("state");
   }
 
   #drawScene() {
@@ -213,8 +228,7 @@ export class Pictures {
   }
 
   #window() {
-    const { roll, pitch } = this.#view.value;
-    return (this.#model.windows?.windows ?? []).find((one) => one.roll === roll && one.pitch === pitch) ?? null;
+    return this.#intervals()?.history.windows[0] ?? null;
   }
 
   #showSnap() {
@@ -245,7 +259,8 @@ export class Pictures {
   #playStages() {
     const last = this.#model.state?.state ? lastStage(this.#model.state.state) : 0;
     this.#player.play("stages", (seconds) => {
-      const stage = Math.min(seconds * STAGES_PER_SECOND, last);
+      const played = Math.min(seconds * STAGES_PER_SECOND, last);
+      const stage = prefersStillness() ? Math.floor(played) : played;
       this.#view.set({ stage });
       return stage < last;
     });
@@ -255,7 +270,7 @@ export class Pictures {
     const { grid } = this.#model.library;
     const first = this.#view.value.phase;
     this.#player.play("phase", (seconds) => {
-      const steps = Math.floor(seconds * PHASE_STEPS_PER_SECOND);
+      const steps = Math.floor(seconds * (prefersStillness() ? STILL_STEPS_PER_SECOND : PHASE_STEPS_PER_SECOND));
       if (steps > 0) this.#view.set({ phase: steppedPhase(grid, first, steps) });
       return true;
     });
@@ -278,6 +293,7 @@ export class Pictures {
     this.scene = new SceneView(byId("scene"), (camera) => this.#view.set(camera));
     this.scene.setSolids(bolt, nut, 1 / nominalOf(library));
     this.#drawScene();
+    markPainted("solids");
   }
 }
 
@@ -285,6 +301,10 @@ export class Pictures {
 function nominalOf({ pair, unit, stored_unit: stored }) {
   const millimetres = { in: 25.4, mm: 1 };
   return (pair.nominal_diameter * millimetres[unit]) / millimetres[stored];
+}
+
+function prefersStillness() {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
 function sceneReadout(state, stage) {

@@ -75,3 +75,8 @@ export function stableShare(counts) {
   const all = Object.values(counts).reduce((sum, count) => sum + count, 0);
   return all > 0 ? counts.stable_three_point / all : null;
 }
+
+/** Whether a map shows what is known of whole orientations only: over all phases, or a quantity that no state has. */
+export function needsSummaries({ quantity, over }) {
+  return over === "all" || !QUANTITIES[quantity].ofState;
+}

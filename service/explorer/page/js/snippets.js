@@ -6,29 +6,29 @@ function stateAddress(library, pose, unit) {
   return `/v1/libraries/${library.id}/states/${pose.roll}/${pose.pitch}/${pose.phase}${own}`;
 }
 
-/** A shell line that fetches a state. */
-export function curlLine(origin, library, { pose, unit, stored }) {
-  if (stored) return `curl "${origin}${stateAddress(library, pose, unit)}"`;
+/** A shell line that fetches a state; where `keyed`, with the key that the variable KEY has. */
+export function curlLine(origin, library, { pose, unit, stored }, keyed) {
+  const key = keyed ? ' -H "Authorization: Bearer $KEY"' : "";
+  if (stored) return `curl "${origin}${stateAddress(library, pose, unit)}"${key}`;
   const body = JSON.stringify(solveBody(library, pose));
-  return `curl "${origin}/v1/solve?unit=${unit}" -H "Content-Type: application/json" -d '${body}'`;
+  return `curl "${origin}/v1/solve?unit=${unit}" -H "Content-Type: application/json"${key} -d '${body}'`;
 }
 
-/** Python lines that fetch a state, with nothing but the standard library. */
-export function pythonLines(origin, library, { pose, unit, stored }) {
-  if (stored) {
-    return [
-      "import json, urllib.request",
-      "",
-      `address = "${origin}${stateAddress(library, pose, unit)}"`,
-      "state = json.load(urllib.request.urlopen(address))",
-    ].join("\n");
-  }
+/** Python lines that fetch a state, with nothing but the standard library; where `keyed`, with the key in the variable KEY. */
+export function pythonLines(origin, library, { pose, unit, stored }, keyed) {
+  const own = stored ? [] : ['"Content-Type": "application/json"'];
+  const headers = [...own, ...(keyed ? ['"Authorization": f"Bearer {os.environ[\'KEY\']}"'] : [])];
+  const request = stored
+    ? [`address = "${origin}${stateAddress(library, pose, unit)}"`, `request = urllib.request.Request(address, headers={${headers.join(", ")}})`]
+    : [
+        `body = json.dumps(${JSON.stringify(solveBody(library, pose))}).encode()`,
+        `request = urllib.request.Request("${origin}/v1/solve?unit=${unit}", body, {${headers.join(", ")}})`,
+      ];
   return [
-    "import json, urllib.request",
+    `import json, ${keyed ? "os, " : ""}urllib.request`,
     "",
-    `body = json.dumps(${JSON.stringify(solveBody(library, pose))}).encode()`,
-    `request = urllib.request.Request("${origin}/v1/solve?unit=${unit}", body, {"Content-Type": "application/json"})`,
-    'state = json.load(urllib.request.urlopen(request))["states"][0]',
+    ...request,
+    `state = json.load(urllib.request.urlopen(request))${stored ? "" : '["states"][0]'}`,
   ].join("\n");
 }
 
