@@ -10,6 +10,7 @@ from fastapi import Depends, FastAPI
 import service.building.endpoints
 import service.docs.endpoints
 import service.explorer.endpoints
+import service.export.endpoints
 import service.health.endpoints
 import service.histories.computed
 import service.histories.endpoints
@@ -80,6 +81,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         service.orientations,
         service.histories,
         service.undecided,
+        service.export,
         service.network,
         service.meshes,
         service.solve,

@@ -17,7 +17,14 @@ from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
 from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
-from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, UndecidedPoseError, UnresolvedPoseError
+from threadstate.errors import (
+    InvalidValueError,
+    MissingExtraError,
+    NotFoundError,
+    SchemaError,
+    UndecidedPoseError,
+    UnresolvedPoseError,
+)
 from threadstate.jobs.model import JobEndedError
 
 MEDIA_TYPE = "application/problem+json"
@@ -64,6 +71,7 @@ UNRESOLVED_POSE = Kind("unresolved-pose", HTTPStatus.UNPROCESSABLE_ENTITY, "Pose
 KEY_REFUSED = Kind("key-refused", HTTPStatus.UNAUTHORIZED, "Key needed")
 SCOPE_REFUSED = Kind("scope-refused", HTTPStatus.FORBIDDEN, "Key not good for this")
 JOB_ENDED = Kind("job-ended", HTTPStatus.CONFLICT, "Job has ended")
+NOT_INSTALLED = Kind("not-installed", HTTPStatus.NOT_IMPLEMENTED, "Not installed here")
 INTERNAL = Kind("internal", HTTPStatus.INTERNAL_SERVER_ERROR, "Internal error")
 
 KINDS = (
@@ -78,6 +86,7 @@ KINDS = (
     NOT_MIGRATED,
     NOT_READY,
     DATABASE_UNAVAILABLE,
+    NOT_INSTALLED,
     INTERNAL,
 )
 """All kinds of the service's own; any other HTTP error has the type ``about:blank``."""
@@ -107,6 +116,7 @@ def install_problem_handlers(app: FastAPI) -> None:
         (ScopeRefusedError, _scope_refused),
         (JobEndedError, _job_ended),
         (SchemaError, _schema),
+        (MissingExtraError, _missing_extra),
         (SQLAlchemyError, _database),
         (HTTPException, _http),
         (Exception, _internal),
@@ -184,6 +194,10 @@ def _job_ended(_request: Request, error: Any) -> Response:
 
 def _schema(_request: Request, error: Any) -> Response:
     return problem_response(NOT_MIGRATED, str(error))
+
+
+def _missing_extra(_request: Request, error: Any) -> Response:
+    return problem_response(NOT_INSTALLED, str(error))
 
 
 def _database(_request: Request, _error: Any) -> Response:

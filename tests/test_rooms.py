@@ -65,6 +65,24 @@ FORBIDDEN = [
             "threadstate.library",
         ),
     ),
+    # The client knows the service by its answers alone, and loads nothing that computes or stores.
+    (
+        "threadstate/client",
+        (
+            "numba",
+            "sqlalchemy",
+            "fcl",
+            "threadstate.contact",
+            "threadstate.state.solve",
+            "threadstate.library.tables",
+            "threadstate.library.read",
+            "threadstate.export.read",
+            "threadstate.export.file",
+        ),
+    ),
+    # Exports say what is stored, and compute nothing; what their columns mean needs no database.
+    ("threadstate/export", ("numba", "threadstate.contact", "threadstate.state.solve", "threadstate.client")),
+    ("threadstate/export/states.py", ("sqlalchemy", "pyarrow", "threadstate.library")),
     # The tables know no physics: names alone (classes, flags, regions) come from there.
     (
         "threadstate/library/tables.py",
@@ -119,3 +137,13 @@ def test_one_file_alone_imports_fcl(repository_root: Path) -> None:
         if any(module.split(".")[0] == "fcl" for module in _imports(path))
     ]
     assert len(importing) == 1
+
+
+def test_one_file_alone_imports_pyarrow(repository_root: Path) -> None:
+    importing = {
+        path.relative_to(repository_root).as_posix()
+        for room in ROOMS
+        for path in _files(repository_root, room)
+        if any(module.split(".")[0] == "pyarrow" for module in _imports(path))
+    }
+    assert importing == {"threadstate/export/parquet.py"}

@@ -66,3 +66,11 @@ class UnresolvedPoseError(ThreadstateError):
 
 class MeshUndecidedError(UnresolvedPoseError):
     """Meshes cannot answer for a pose; ``reason`` says why."""
+
+
+class MissingExtraError(ThreadstateError):
+    """Something needs a package that is not installed; the message names the extra that brings it."""
+
+    def __init__(self, purpose: str, extra: str) -> None:
+        super().__init__(f"{purpose} needs the extra `{extra}`: pip install 'threadstate[{extra}]'")
+        self.extra = extra

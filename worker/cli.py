@@ -12,6 +12,7 @@ from typer.exceptions import TyperException
 
 from threadstate.errors import ThreadstateError
 from worker.commands.copy import copy
+from worker.commands.export import export
 from worker.commands.formation import formation
 from worker.commands.heights import heights
 from worker.commands.history import history
@@ -60,6 +61,7 @@ COMMANDS = (
     mesh,
     migrate,
     copy,
+    export,
     worker,
     key,
     serve,

@@ -1,0 +1,100 @@
+"""Contact states as rows: every value of the state's document, contacts and poses side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from threadstate.export.column import Cell, Column, Unit, degrees, integer, length, number, text
+from threadstate.state.document import ContactDocument, StateDocument
+
+STAGES = (1, 2, 3)
+LEAST_CONTACTS = 3
+"""So many contacts have columns of their own, also where no state has as many."""
+
+_AXES = "xyz"
+
+
+def state_columns(contacts: int) -> tuple[Column[StateDocument], ...]:
+    """The columns of states of which none has more than so many contacts."""
+    return (
+        degrees("roll", "roll of the pose", lambda state: state["roll"]),
+        degrees("pitch", "pitch of the pose", lambda state: state["pitch"]),
+        degrees("phase", "phase of the pose", lambda state: state["phase"]),
+        text("class", "class of the state", lambda state: str(state["class"])),
+        text("flags", "its flags, separated by spaces", lambda state: " ".join(state["flags"])),
+        degrees("lambda", "second turn", lambda state: state["turns"][0]),
+        degrees("mu", "third turn", lambda state: state["turns"][1]),
+        length("drop", "how far the bolt's origin sinks from the second pose to the third", lambda one: one["drop"]),
+        length("embedment", "least lift of the third pose after which nothing overlaps", lambda one: one["embedment"]),
+        length(
+            "pivot_offset",
+            "from the bolt's origin to the line through the first two contacts",
+            lambda state: state["pivot_offset"],
+        ),
+        length("margin_drop", "signed distance of the drop from its threshold", lambda one: one["margins"]["drop"]),
+        length(
+            "margin_embedment",
+            "signed distance of the embedment from its threshold",
+            lambda state: state["margins"]["embedment"],
+        ),
+        length(
+            "margin_pivot_offset",
+            "signed distance of the pivot offset from its threshold",
+            lambda state: state["margins"]["pivot_offset"],
+        ),
+        *(column for stage in STAGES for column in _pose_columns(stage)),
+        integer("contacts", "how many contacts there are", lambda state: len(state["contacts"])),
+        *(column for place in range(contacts) for column in _contact_columns(place)),
+    )
+
+
+def _pose_columns(stage: int) -> list[Column[StateDocument]]:
+    def rotation(i: int, j: int) -> Callable[[StateDocument], Cell]:
+        return lambda state: state["poses"][stage - 1]["rotation"][i][j] if len(state["poses"]) >= stage else None
+
+    def translation(i: int) -> Callable[[StateDocument], Cell]:
+        return lambda state: state["poses"][stage - 1]["translation"][i] if len(state["poses"]) >= stage else None
+
+    return [
+        *(
+            number(f"pose_{stage}_r{i + 1}{j + 1}", f"rotation, bolt to nut, at stage {stage}", rotation(i, j))
+            for i in range(3)
+            for j in range(3)
+        ),
+        *(
+            length(f"pose_{stage}_t{axis}", f"translation, bolt to nut, at stage {stage}", translation(i))
+            for i, axis in enumerate(_AXES)
+        ),
+    ]
+
+
+def _contact_columns(place: int) -> list[Column[StateDocument]]:
+    def of(cell: Callable[[ContactDocument], Cell]) -> Callable[[StateDocument], Cell]:
+        return lambda state: cell(state["contacts"][place]) if len(state["contacts"]) > place else None
+
+    def vector(name: str, unit: Unit, meaning: str) -> list[Column[StateDocument]]:
+        make = length if unit is Unit.LENGTH else number
+        return [make(f"{head}_{name}_{axis}", meaning, of(_component(name, i))) for i, axis in enumerate(_AXES)]
+
+    head = f"contact_{place + 1}"
+    return [
+        integer(f"{head}_stage", "stage at which the contact is made", of(lambda contact: contact["stage"])),
+        *vector("point", Unit.LENGTH, "where it is, in the nut's frame"),
+        *vector("point_bolt", Unit.LENGTH, "where it is, in the bolt's frame"),
+        *vector("normal", Unit.NONE, "of length 1, in the nut's frame, from the nut into the bolt"),
+        text(f"{head}_bolt_region", "region of the bolt", of(lambda contact: str(contact["bolt_region"]))),
+        text(f"{head}_nut_region", "region of the nut", of(lambda contact: str(contact["nut_region"]))),
+        text(f"{head}_features", "what touches, the bolt's first", of(lambda contact: str(contact["features"]))),
+        length(f"{head}_bolt_margin", "to the boundary of the bolt's region", of(lambda one: one["bolt_margin"])),
+        length(f"{head}_nut_margin", "to the boundary of the nut's region", of(lambda one: one["nut_margin"])),
+    ]
+
+
+def _component(name: str, i: int) -> Callable[[ContactDocument], Cell]:
+    match name:
+        case "point":
+            return lambda contact: contact["point"][i]
+        case "point_bolt":
+            return lambda contact: contact["point_bolt"][i]
+        case _:
+            return lambda contact: contact["normal"][i]
