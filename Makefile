@@ -8,7 +8,7 @@
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
 # make designer   write the designer's session of the README and the table of windows, from the latest library
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
-# make docs       compute the answers shown in the documentation anew
+# make docs       compute the answers shown in the documentation anew, write the tables of columns
 # make kills      kill workers of jobs a hundred times, and check what is left
 # make fuzz     ask the service whatever its description allows and forbids, 10,000 times and more
 # make audit      ask the advisory services about every locked dependency; fails where they cannot be reached
@@ -57,6 +57,7 @@ histories: setup
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py
+	$(BIN)/python -m scripts.write_export_columns
 
 designer: setup
 	$(BIN)/threadstate rebuild

@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from service.app import create_app
+from tests.archive.history_library import SMALL_GRID, store_histories
+from tests.databases import Databases
+from tests.service.conftest import store_library
+from tests.service.made_up_states import made_up_states
+from tests.service.running import running_service
+from threadstate.client import Client
+from threadstate.history.model import History
+from threadstate.library.grid import Grid
+from threadstate.settings import read_settings
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+MADE_UP_GRID = Grid(1.0, 1.0, 30.0)
+
+
+@pytest.fixture(scope="session")
+def made_up_id() -> int:
+    """Number of the library of made-up states, which have every class, flag, region and absence."""
+    return 1
+
+
+@pytest.fixture(scope="session")
+def database(sqlite_databases: Databases, small_histories: list[History], made_up_id: int) -> str:
+    """A database with a library of made-up states and, the latest, one of real histories."""
+    database = sqlite_databases.migrated()
+    made_up = store_library(database, quarter_twenty_unc(), MADE_UP_GRID, made_up_states)
+    assert made_up.id == made_up_id
+    store_histories(database, SMALL_GRID, small_histories)
+    return database
+
+
+@pytest.fixture(scope="session")
+def address(database: str) -> Iterator[str]:
+    """The address of a service over that database."""
+    with running_service(database) as address:
+        yield address
+
+
+@pytest.fixture(scope="session")
+def client(address: str) -> Iterator[Client]:
+    """A client of that service."""
+    with Client(address) as client:
+        yield client
+
+
+@pytest.fixture(scope="session")
+def openapi(database: str) -> dict[str, object]:
+    """What the service says of itself."""
+    return create_app(read_settings({"THREADSTATE_DATABASE": database})).openapi()

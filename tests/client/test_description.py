@@ -1,0 +1,218 @@
+"""The client against the service's own description: neither can change without the other."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import re
+from collections.abc import Callable, Iterator
+from types import ModuleType
+from typing import Any, cast
+
+import pytest
+from pydantic import BaseModel
+
+from service.jobs.schemas import EventDocument
+from tests.test_architecture import modules_loaded_by
+from threadstate.client import AsyncClient, Client
+from threadstate.client.call import Call, PagedCall
+from threadstate.client.calls import export, health, jobs, libraries, network, states
+from threadstate.client.models import health as health_models
+from threadstate.client.models import jobs as job_models
+from threadstate.client.models import libraries as library_models
+from threadstate.client.models import network as network_models
+from threadstate.client.models import problem as problem_models
+from threadstate.client.models import states as state_models
+from threadstate.client.models.answer import Answer
+
+CALLS = (export, health, jobs, libraries, network, states)
+MODELS = (health_models, job_models, library_models, network_models, problem_models, state_models)
+RENAMED = {"State": "StateSchema", "Pose": "PoseSchema", "Contact": "ContactSchema", "Margins": "MarginsSchema"}
+"""Models that go by a shorter name than the service's."""
+
+ARGUMENTS: dict[str, object] = {
+    "roll": 1.0,
+    "pitch": -2.0,
+    "phase": 3.0,
+    "library": 7,
+    "part": "bolt",
+    "key": "0123456789",
+    "source": "0123456789",
+    "target": "abcdef0123",
+    "job_id": 5,
+    "table": "states",
+    "file_format": "csv",
+    "poses": [(1.0, 2.0, 3.0)],
+    "grid": {"phase_step": 5.0},
+    "tolerances": {"tie_tolerance": 1e-11},
+    "mesh": {"checked": True},
+    "moves": ["ccw", "roll+"],
+    "contact": ["1:crest", "2:*:base"],
+    "contacts": 3,
+    "ordered": True,
+    "limit": 10,
+}
+"""A value for every argument that is no text."""
+
+OF_THE_CLIENT_ITSELF = {"cursor", "after", "before", "format", "fields"}
+"""Parameters that the client fills in: of pages, of the shape that a model has."""
+
+
+def _functions(module: ModuleType) -> Iterator[Callable[..., Any]]:
+    for name, value in vars(module).items():
+        if inspect.isfunction(value) and value.__module__ == module.__name__ and not name.startswith("_"):
+            yield value
+
+
+def _described(function: Callable[..., Any]) -> Call[object]:
+    """The request of a function, given all the arguments that it takes."""
+    arguments = {name: ARGUMENTS.get(name, "text") for name in inspect.signature(function).parameters}
+    call = function(**arguments)
+    return call.first if isinstance(call, PagedCall) else cast("Call[object]", call)
+
+
+def _pattern(path: str) -> re.Pattern[str]:
+    return re.compile(re.sub(r"\\\{\w+\\\}", "[^/]+?", re.escape(path)))
+
+
+def _operation(openapi: dict[str, Any], call: Call[object]) -> tuple[str, str, dict[str, Any]]:
+    """The most specific operation that a request is one of."""
+    found = [
+        (path, call.method.lower(), methods[call.method.lower()])
+        for path, methods in openapi["paths"].items()
+        if call.method.lower() in methods and _pattern(path).fullmatch(call.path)
+    ]
+    assert found, (call.method, call.path)
+    return min(found, key=lambda one: one[0].count("{"))
+
+
+DESCRIBED = [function for module in CALLS for function in _functions(module)]
+
+
+def test_every_operation_has_a_method(openapi: dict[str, Any]) -> None:
+    reached = {_operation(openapi, _described(function))[:2] for function in DESCRIBED}
+    operations = {(path, method) for path, methods in openapi["paths"].items() for method in methods}
+    assert operations - reached == set()
+
+
+@pytest.mark.parametrize("function", DESCRIBED, ids=lambda function: function.__name__)
+def test_a_method_asks_for_all_that_can_be_asked_and_for_nothing_else(
+    openapi: dict[str, Any], function: Callable[..., Any]
+) -> None:
+    call = _described(function)
+    _, _, operation = _operation(openapi, call)
+    known = {one["name"] for one in operation.get("parameters", ()) if one["in"] == "query"}
+    assert set(call.parameters) <= known
+    assert known - OF_THE_CLIENT_ITSELF <= set(call.parameters)
+
+
+def test_a_body_has_all_that_the_service_knows(openapi: dict[str, Any]) -> None:
+    for function, schema in ((jobs.ask, "JobRequest"), (states.solve, "SolveRequest")):
+        body = _described(function).body
+        assert body is not None
+        assert set(json.loads(body)) == set(openapi["components"]["schemas"][schema]["properties"])
+
+
+def test_requests_that_write_are_those_that_may_be_repeated(openapi: dict[str, Any]) -> None:
+    """A new one has to be thought about: the same job asked for, or cancelled, twice is the same as once."""
+    writing = {(path, method) for path, methods in openapi["paths"].items() for method in methods if method != "get"}
+    assert writing == {("/v1/jobs", "post"), ("/v1/jobs/{id}", "delete"), ("/v1/solve", "post")}
+
+
+def test_both_clients_have_the_same_methods() -> None:
+    def methods(client: type[object]) -> dict[str, list[str]]:
+        return {
+            name: list(inspect.signature(value).parameters)
+            for name, value in vars(client).items()
+            if inspect.isfunction(value) and not name.startswith("_")
+        }
+
+    assert methods(Client) == methods(AsyncClient)
+    # A description of a job's own methods, or one that both clients have a method for.
+    assert {function.__name__ for function in DESCRIBED} - {"cancel", "events"} <= set(methods(Client))
+
+
+def test_help_shows_what_a_method_takes_and_returns() -> None:
+    signature = inspect.signature(Client("http://127.0.0.1").state)
+    assert list(signature.parameters) == ["roll", "pitch", "phase", "library", "unit"]
+    assert signature.return_annotation == "State"
+    assert inspect.signature(Client.states).return_annotation == "Items[State]"
+    assert inspect.signature(AsyncClient.job).return_annotation == "AsyncJob"
+    assert Client.state.__doc__ == states.state.__doc__
+
+
+def _expanded(schema: Any, definitions: dict[str, Any]) -> Any:
+    """A schema with what it refers to in place, and without words and bounds, which do not matter to a reader."""
+    if isinstance(schema, list):
+        return [_expanded(one, definitions) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    if "$ref" in schema:
+        return _expanded(definitions[schema["$ref"].rpartition("/")[2]], definitions)
+    if "prefixItems" in schema:
+        first, *others = schema["prefixItems"]
+        assert all(one == first for one in others)
+        return {"type": "array", "items": _expanded(first, definitions)}
+    kept = {
+        "type",
+        "enum",
+        "format",
+        "items",
+        "anyOf",
+        "properties",
+        "required",
+        "additionalProperties",
+        "propertyNames",
+        "const",
+    }
+    plain = {name: value for name, value in schema.items() if name in kept}
+    if "properties" in plain:
+        plain["properties"] = {
+            name: _expanded(value, definitions) for name, value in sorted(plain["properties"].items())
+        }
+        plain["required"] = sorted(plain.get("required", ()))
+    return {
+        name: _expanded(value, definitions) if name not in ("properties", "required", "enum") else value
+        for name, value in plain.items()
+    }
+
+
+def _models() -> Iterator[type[BaseModel]]:
+    for module in MODELS:
+        for value in vars(module).values():
+            if inspect.isclass(value) and issubclass(value, Answer) and value.__module__ == module.__name__:
+                yield value
+
+
+@pytest.mark.parametrize("model", list(_models()), ids=lambda model: model.__name__)
+def test_models_are_what_the_service_describes(openapi: dict[str, Any], model: type[BaseModel]) -> None:
+    # The data of an event stream is nothing that OpenAPI describes.
+    event = EventDocument.model_json_schema()
+    components = {**openapi["components"]["schemas"], **event["$defs"], "EventDocument": event}
+    told = components[RENAMED.get(model.__name__, model.__name__)]
+    read = model.model_json_schema(mode="serialization")
+    expected = _expanded(told, components)
+    found = _expanded(read, read.get("$defs", {}))
+    if model.__module__ == problem_models.__name__:
+        # Of a problem alone a reader takes less than all that is promised: proxies have their own.
+        expected.pop("required")
+        found.pop("required")
+    assert found == expected
+
+
+def test_importing_the_client_loads_neither_service_nor_solver() -> None:
+    loaded = modules_loaded_by("import threadstate.client")
+    assert "threadstate.client.client" in loaded
+    heavy = {
+        "fastapi",
+        "starlette",
+        "numba",
+        "sqlalchemy",
+        "scipy",
+        "networkx",
+        "pandas",
+        "polars",
+        "pyarrow",
+        "service",
+    }
+    assert not heavy & {name.partition(".")[0] for name in loaded}

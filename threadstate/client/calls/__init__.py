@@ -1,0 +1,1 @@
+"""The requests of the interface, one file per resource; both clients send these."""

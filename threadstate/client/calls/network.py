@@ -1,0 +1,178 @@
+"""Requests for histories and the constraint network."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from threadstate.answer.documents import TransitionDocument
+from threadstate.client.call import (
+    LATEST,
+    Call,
+    LibraryName,
+    PagedCall,
+    get,
+    get_content,
+    joined,
+    library_path,
+    path_of,
+)
+from threadstate.client.models.network import (
+    ComputedHeights,
+    ComputedIntervals,
+    HeightsAnswer,
+    IntervalsAnswer,
+    LocationAnswer,
+    NetworkSummary,
+    NodeAnswer,
+    NodeLinkNetwork,
+    PathAnswer,
+    TransitionsPage,
+    WindowsAnswer,
+)
+
+LARGEST_PAGE = 100
+GRAPHML = "application/graphml+xml"
+DOT = "text/vnd.graphviz"
+
+
+def intervals(
+    roll: float, pitch: float, *, library: LibraryName = LATEST, unit: str | None = None
+) -> Call[IntervalsAnswer]:
+    """The phase circle of an orientation, cut where any label changes, its boundaries and its clearance windows."""
+    return get(library_path(library, "histories", roll, pitch, "intervals"), IntervalsAnswer, unit=unit)
+
+
+def heights(
+    roll: float, pitch: float, *, library: LibraryName = LATEST, unit: str | None = None
+) -> Call[HeightsAnswer]:
+    """The height of the bolt's origin against phase, at first contact and in the last pose."""
+    return get(library_path(library, "histories", roll, pitch, "heights"), HeightsAnswer, unit=unit)
+
+
+def computed_intervals(
+    roll: float, pitch: float, *, designation: str | None = None, unit: str | None = None
+) -> Call[ComputedIntervals]:
+    """As ``intervals``, of any orientation, computed now: in about a second."""
+    return get(
+        path_of("v1", "histories", roll, pitch, "intervals"), ComputedIntervals, designation=designation, unit=unit
+    )
+
+
+def computed_heights(
+    roll: float, pitch: float, *, designation: str | None = None, unit: str | None = None
+) -> Call[ComputedHeights]:
+    """As ``heights``, of any orientation, computed now: in about a second."""
+    return get(path_of("v1", "histories", roll, pitch, "heights"), ComputedHeights, designation=designation, unit=unit)
+
+
+def windows(
+    *,
+    library: LibraryName = LATEST,
+    roll: float | None = None,
+    pitch: float | None = None,
+    unit: str | None = None,
+) -> Call[WindowsAnswer]:
+    """Where a bolt turned counter-clockwise falls into the nut, how far, how it climbs again and where it leaves."""
+    return get(library_path(library, "windows"), WindowsAnswer, roll=roll, pitch=pitch, unit=unit)
+
+
+def transitions(
+    *,
+    library: LibraryName = LATEST,
+    move: str | None = None,
+    roll: float | None = None,
+    pitch: float | None = None,
+    phase_min: float | None = None,
+    phase_max: float | None = None,
+    source: str | None = None,
+    target: str | None = None,
+    change: str | None = None,
+    state_class: str | None = None,
+    limit: int = LARGEST_PAGE,
+    unit: str | None = None,
+) -> PagedCall[TransitionDocument]:
+    """From which interval to which; ``source`` and ``target`` are keys of formations. All filters hold at once."""
+    filters = {
+        "move": move,
+        "roll": roll,
+        "pitch": pitch,
+        "phase_min": phase_min,
+        "phase_max": phase_max,
+        "from": source,
+        "to": target,
+        "change": change,
+        "class": state_class,
+    }
+    first = get(library_path(library, "transitions"), TransitionsPage, **filters, limit=limit, unit=unit)
+    return PagedCall(first, TransitionDocument)
+
+
+def network(*, library: LibraryName = LATEST) -> Call[NetworkSummary]:
+    """The size of the constraint network, and what holds it together."""
+    return get(library_path(library, "network"), NetworkSummary, format="summary")
+
+
+def network_node_link(*, library: LibraryName = LATEST) -> Call[NodeLinkNetwork]:
+    """The whole network, as networkx reads it."""
+    return get(library_path(library, "network"), NodeLinkNetwork, format="node-link")
+
+
+def network_graphml(*, library: LibraryName = LATEST) -> Call[bytes]:
+    """The whole network as GraphML."""
+    return get_content(library_path(library, "network"), GRAPHML, format="graphml")
+
+
+def network_dot(*, library: LibraryName = LATEST) -> Call[bytes]:
+    """The whole network in the language of Graphviz."""
+    return get_content(library_path(library, "network"), DOT, format="dot")
+
+
+def formation(key: str, *, library: LibraryName = LATEST, unit: str | None = None) -> Call[NodeAnswer]:
+    """Where the formation with that key occurs, what can follow it, and how far it is to the window."""
+    return get(library_path(library, "network", "formations", key), NodeAnswer, unit=unit)
+
+
+def path(
+    source: str,
+    *,
+    library: LibraryName = LATEST,
+    objective: str | None = None,
+    moves: Iterable[str] | None = None,
+    roll: float | None = None,
+    pitch: float | None = None,
+    phase: float | None = None,
+    unit: str | None = None,
+) -> Call[PathAnswer]:
+    """The best path to the window from the formation with the key ``source``, by the ``moves`` allowed.
+
+    From any orientation, or from one ``roll`` and ``pitch``, and ``phase``.
+    """
+    query = {"from": source, "objective": objective, "moves": joined(moves)}
+    return get(
+        library_path(library, "network", "paths"), PathAnswer, **query, roll=roll, pitch=pitch, phase=phase, unit=unit
+    )
+
+
+def locate(
+    *,
+    library: LibraryName = LATEST,
+    state_class: str | None = None,
+    contacts: int | None = None,
+    flag: str | None = None,
+    contact: Iterable[str] | None = None,
+    ordered: bool = False,
+) -> Call[LocationAnswer]:
+    """What remains of all orientations and phases after labels of a state were observed.
+
+    Each ``contact`` is written ``stage:bolt_region:nut_region:features``, with ``*`` for what was not observed; with
+    ``ordered`` these are the first contacts in their order. ``contacts`` is how many there are.
+    """
+    query = {"class": state_class, "contact": joined(contact)}
+    return get(
+        library_path(library, "network", "locate"),
+        LocationAnswer,
+        **query,
+        contacts=contacts,
+        flag=flag,
+        ordered=ordered,
+    )

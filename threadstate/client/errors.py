@@ -1,0 +1,185 @@
+"""What can go wrong between a client and the service; none of it ever holds the key.
+
+Every error takes its arguments as they are, so that it can be sent to another process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from threadstate.client.models.jobs import JobDocument
+from threadstate.client.models.problem import Problem, ProblemItem
+from threadstate.errors import ThreadstateError
+
+PROBLEM_PREFIX = "urn:threadstate:problem:"
+
+
+class ClientError(ThreadstateError):
+    """Base of all that a client raises, but for arguments that are not valid (``InvalidValueError``)."""
+
+
+class ConnectionFailedError(ClientError):
+    """The service cannot be reached, or the connection broke before the answer was whole.
+
+    Attributes:
+        message: what failed.
+        reached: whether the request may have reached the service.
+    """
+
+    def __init__(self, message: str, reached: bool) -> None:
+        super().__init__(message, reached)
+        self.message = message
+        self.reached = reached
+
+    def __str__(self) -> str:
+        return self.message
+
+
+class TimedOutError(ConnectionFailedError):
+    """The service did not answer in time."""
+
+
+class UnexpectedAnswerError(ClientError):
+    """An answer that this interface does not have: of another server, a proxy, or a service of another version."""
+
+
+class ProblemError(ClientError):
+    """The service refused a request, with a problem document (RFC 9457).
+
+    Attributes:
+        request: what was asked, without its query.
+        problem: the document.
+        retry_after_s: how many seconds the service asks to be left alone; None where it does not say.
+    """
+
+    def __init__(self, request: str, problem: Problem, retry_after_s: float | None = None) -> None:
+        super().__init__(request, problem, retry_after_s)
+        self.request = request
+        self.problem = problem
+        self.retry_after_s = retry_after_s
+
+    def __str__(self) -> str:
+        return f"{self.request}: {self.status} {self.title}: {self.detail}".rstrip(": ")
+
+    @property
+    def name(self) -> str:
+        """The problem's name, as the interface lists them; empty where it is none of the service's own."""
+        return self.problem.type.removeprefix(PROBLEM_PREFIX) if self.problem.type.startswith(PROBLEM_PREFIX) else ""
+
+    @property
+    def type(self) -> str:
+        """Which problem it is: a URN, or ``about:blank``."""
+        return self.problem.type
+
+    @property
+    def title(self) -> str:
+        """The problem in words that do not change."""
+        return self.problem.title
+
+    @property
+    def status(self) -> int:
+        """The HTTP status."""
+        return self.problem.status
+
+    @property
+    def detail(self) -> str:
+        """The problem in words of this occurrence."""
+        return self.problem.detail
+
+    @property
+    def refused(self) -> tuple[ProblemItem, ...]:
+        """The values that were refused, where there are any."""
+        return self.problem.errors
+
+
+class InvalidRequestError(ProblemError):
+    """A value is outside its range, or something was asked in a way that the service does not know (400, 413)."""
+
+
+class UnauthorizedError(ProblemError):
+    """A key is needed, and none that counts was shown (401)."""
+
+
+class ForbiddenError(ProblemError):
+    """The key is for reading alone (403)."""
+
+
+class NotFoundError(ProblemError):
+    """A library that is not published, a pose, orientation, formation or job that is not there (404)."""
+
+
+class UndecidedPoseError(NotFoundError):
+    """A pose of the grid that the library's method could not decide; the detail says why (404)."""
+
+
+class ConflictError(ProblemError):
+    """A job that has ended was to be cancelled (409)."""
+
+
+class UnresolvedPoseError(ProblemError):
+    """The exact search could not decide a pose that was to be solved; the detail names it (422)."""
+
+
+class TooManyRequestsError(ProblemError):
+    """The service is asked too much (429); ``retry_after_s`` says how long to wait."""
+
+
+class ServiceUnavailableError(ProblemError):
+    """The service cannot answer now (503): its database is not ready or not there."""
+
+
+class ServerError(ProblemError):
+    """A fault of the service (any other 5xx)."""
+
+
+class JobEndedError(ClientError):
+    """A job that was waited for ended without a library.
+
+    Attributes:
+        job: the job as it is now.
+    """
+
+    def __init__(self, job: JobDocument) -> None:
+        super().__init__(job)
+        self.job = job
+
+    def __str__(self) -> str:
+        reason = "" if self.job.reason is None else f": {self.job.reason}"
+        return f"job {self.job.id} {self.job.state.value}{reason}"
+
+
+class JobFailedError(JobEndedError):
+    """It failed."""
+
+
+class JobCancelledError(JobEndedError):
+    """Somebody cancelled it."""
+
+
+class WaitTimedOutError(ClientError):
+    """A job did not end in the time that was allowed for it; it goes on."""
+
+
+_BY_NAME: Mapping[str, type[ProblemError]] = MappingProxyType({"undecided-pose": UndecidedPoseError})
+_BY_STATUS: Mapping[int, type[ProblemError]] = MappingProxyType(
+    {
+        400: InvalidRequestError,
+        401: UnauthorizedError,
+        403: ForbiddenError,
+        404: NotFoundError,
+        409: ConflictError,
+        413: InvalidRequestError,
+        422: UnresolvedPoseError,
+        429: TooManyRequestsError,
+        503: ServiceUnavailableError,
+    }
+)
+
+
+def problem_error(request: str, problem: Problem, retry_after_s: float | None) -> ProblemError:
+    """The error for a problem document that answered ``request``."""
+    default = ServerError if problem.status >= 500 else ProblemError
+    kind = _BY_STATUS.get(problem.status, default)
+    name = problem.type.removeprefix(PROBLEM_PREFIX)
+    return _BY_NAME.get(name, kind)(request, problem, retry_after_s)

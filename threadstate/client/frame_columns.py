@@ -1,0 +1,154 @@
+"""Which columns a frame of answers has; the states' are those of an export."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+from threadstate.answer.documents import (
+    IntervalDocument,
+    SnapDocument,
+    StretchDocument,
+    TransitionDocument,
+    WindowDocument,
+)
+from threadstate.client.models.jobs import JobDocument
+from threadstate.client.models.libraries import OrientationDocument
+from threadstate.client.models.states import State, UndecidedDocument
+from threadstate.errors import InvalidValueError
+from threadstate.export.column import Cell, Column, degrees, integer, length, number, text, truth
+from threadstate.export.states import LEAST_CONTACTS, state_columns
+from threadstate.state.model import StateClass
+
+Columns = tuple[Column[Any], ...]
+
+
+def columns_and_sources(kind: type[object], items: Sequence[object]) -> tuple[Columns, Sequence[object]]:
+    """The columns of items of that kind, and what their cells are made from, item by item.
+
+    Raises:
+        InvalidValueError: there are no columns for such items.
+    """
+    if kind is State:
+        documents = [item.model_dump(by_alias=True) for item in items if isinstance(item, State)]
+        most = max((len(document["contacts"]) for document in documents), default=0)
+        return state_columns(max(LEAST_CONTACTS, most)), documents
+    if kind not in COLUMNS:
+        raise InvalidValueError(
+            "items", kind.__name__, ", ".join(["State", *(one.__name__ for one in COLUMNS)]) + "; at least one"
+        )
+    return COLUMNS[kind], items
+
+
+def _snap(cell: Callable[[SnapDocument], Cell]) -> Callable[[WindowDocument], Cell]:
+    return lambda window: None if window.snap is None else cell(window.snap)
+
+
+_UNDECIDED: tuple[Column[UndecidedDocument], ...] = (
+    degrees("roll", "roll of the pose", lambda pose: pose.roll),
+    degrees("pitch", "pitch of the pose", lambda pose: pose.pitch),
+    degrees("phase", "phase of the pose", lambda pose: pose.phase),
+    text("reason", "why the library's method could not decide the pose", lambda pose: pose.reason),
+)
+
+
+def _count(state_class: StateClass) -> Callable[[OrientationDocument], Cell]:
+    return lambda one: one.counts[state_class]
+
+
+_ORIENTATIONS: tuple[Column[OrientationDocument], ...] = (
+    degrees("roll", "roll of the orientation", lambda one: one.roll),
+    degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
+    *(integer(name.value, "how many of its states have this class", _count(name)) for name in StateClass),
+    length("drop_most", "greatest drop", lambda one: one.drop_most),
+    length("embedment_most", "greatest embedment", lambda one: one.embedment_most),
+    length("pivot_offset_least", "least pivot offset", lambda one: one.pivot_offset_least),
+    length("margin_least", "least distance of a class's number from its threshold", lambda one: one.margin_least),
+)
+
+_WINDOWS: tuple[Column[WindowDocument], ...] = (
+    degrees("roll", "roll of the orientation", lambda one: one.roll),
+    degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
+    degrees("enter", "phase at which the bolt enters", lambda one: one.enter),
+    degrees("leave", "phase at which it leaves; above 360 past phase 0", lambda one: one.leave),
+    degrees("width", "from the one to the other", lambda one: one.width),
+    length("drop", "from the height at the entry to the lowest", lambda one: one.drop),
+    length("climb", "from the lowest height to that at the exit", lambda one: one.climb),
+    length("enter_height", "height at the entry", lambda one: one.enter_height),
+    length("leave_height", "height at the exit", lambda one: one.leave_height),
+    degrees("lowest_phase", "phase at which it is lowest", lambda one: one.lowest_phase),
+    length("lowest_height", "height there", lambda one: one.lowest_height),
+    degrees("snap_phase", "phase of the largest fall", _snap(lambda snap: snap.phase)),
+    degrees("snap_phase_uncertainty", "half of the bracket of that phase", _snap(lambda snap: snap.phase_uncertainty)),
+    length("snap_fall", "how far it falls there", _snap(lambda snap: snap.fall)),
+    length("snap_height_uncertainty", "of its heights, an estimate", _snap(lambda snap: snap.height_uncertainty)),
+)
+
+_INTERVALS: tuple[Column[IntervalDocument], ...] = (
+    degrees("start", "phase at which the interval begins", lambda one: one.start),
+    degrees("end", "phase at which it ends; above 360 where it holds phase 0", lambda one: one.end),
+    truth("in_window", "whether it belongs to a clearance window", lambda one: one.in_window),
+    text("class", "class of its states; missing where undecided", lambda one: one.formation.state_class),
+    text("flags", "flags of its states, separated by spaces", lambda one: " ".join(one.flags)),
+    text("formation", "key of its contact formation", lambda one: one.formation.key),
+    text("formation_text", "the formation in words", lambda one: one.formation.text),
+    length("margin", "smallest distance from other labels, half way", lambda one: one.margin),
+    length("first_height", "height at first contact, half way", lambda one: one.first_height),
+    length("last_height", "height in the last pose, half way", lambda one: one.last_height),
+)
+
+_STRETCHES: tuple[Column[StretchDocument], ...] = (
+    degrees("roll", "roll of the orientation", lambda one: one.roll),
+    degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
+    degrees("start", "phase at which the stretch begins", lambda one: one.start),
+    degrees("end", "phase at which it ends; above 360 where it holds phase 0", lambda one: one.end),
+)
+
+_TRANSITIONS: tuple[Column[TransitionDocument], ...] = (
+    text("move", "the move", lambda one: one.move.value),
+    degrees("phase", "where a turn meets the boundary, or the stretch of a tilt begins", lambda one: one.phase),
+    degrees("phase_end", "the same for a turn; the end of the stretch for a tilt", lambda one: one.phase_end),
+    degrees("cover", "phase over which the target is what comes next", lambda one: one.cover),
+    degrees("source_roll", "roll before", lambda one: one.source.roll),
+    degrees("source_pitch", "pitch before", lambda one: one.source.pitch),
+    text("source", "key of the formation before", lambda one: one.source.formation),
+    text("source_class", "class before; missing where undecided", lambda one: one.source.state_class),
+    degrees("target_roll", "roll after", lambda one: one.target.roll),
+    degrees("target_pitch", "pitch after", lambda one: one.target.pitch),
+    text("target", "key of the formation after", lambda one: one.target.formation),
+    text("target_class", "class after; missing where undecided", lambda one: one.target.state_class),
+    length("first_height_before", "height at first contact before", lambda one: one.first_height[0]),
+    length("first_height_after", "height at first contact after", lambda one: one.first_height[1]),
+    length("last_height_before", "height in the last pose before", lambda one: one.last_height[0]),
+    length("last_height_after", "height in the last pose after", lambda one: one.last_height[1]),
+    text("text", "what changes, in words", lambda one: one.text),
+)
+
+_JOBS: tuple[Column[JobDocument], ...] = (
+    integer("id", "number of the job", lambda one: one.id),
+    text("state", "how far it is", lambda one: one.state.value),
+    text("reason", "why it failed", lambda one: one.reason),
+    text("designation", "the thread", lambda one: one.designation),
+    text("method", "how states are found", lambda one: one.method.value),
+    degrees("tilt_max", "largest roll and pitch", lambda one: one.grid.tilt_max),
+    degrees("tilt_step", "step of roll and pitch", lambda one: one.grid.tilt_step),
+    degrees("phase_step", "step of phase", lambda one: one.grid.phase_step),
+    integer("chunks", "how many orientations there are", lambda one: one.chunks),
+    integer("committed", "how many of them are computed", lambda one: one.committed),
+    number("share", "the part that is computed, 0 to 1", lambda one: one.committed / one.chunks),
+    integer("library", "number of the library, once published", lambda one: one.library),
+)
+
+COLUMNS: Mapping[type[object], Columns] = MappingProxyType(
+    {
+        UndecidedDocument: _UNDECIDED,
+        OrientationDocument: _ORIENTATIONS,
+        WindowDocument: _WINDOWS,
+        IntervalDocument: _INTERVALS,
+        StretchDocument: _STRETCHES,
+        TransitionDocument: _TRANSITIONS,
+        JobDocument: _JOBS,
+    }
+)
+"""The columns of all that frames are made of, but for states: these have as many contacts as the one with most."""

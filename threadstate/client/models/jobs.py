@@ -1,0 +1,56 @@
+"""Jobs: libraries that were asked for."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from threadstate.client.models.answer import Answer
+from threadstate.client.models.libraries import GridDocument
+from threadstate.jobs.names import EventKind, JobState
+from threadstate.library.method import Method
+
+
+class JobDocument(Answer):
+    """A job: ``committed`` of its ``chunks`` (orientations) are computed, workers are ``at_work`` on others.
+
+    ``reason`` says why it failed, ``library`` is the number of the library once that is published.
+    """
+
+    id: int
+    state: JobState
+    reason: str | None
+    designation: str
+    method: Method
+    grid: GridDocument
+    options: dict[str, float | str | bool]
+    input_sha256: str
+    code_version: str
+    chunks: int
+    committed: int
+    at_work: int
+    library: int | None
+    asked_at: datetime
+    ended_at: datetime | None
+
+
+class JobPage(Answer):
+    """One page of jobs, the latest first."""
+
+    jobs: tuple[JobDocument, ...]
+    next: str | None
+
+    @property
+    def items(self) -> tuple[JobDocument, ...]:
+        """The jobs."""
+        return self.jobs
+
+
+class EventDocument(Answer):
+    """Something that happened to a job, when ``committed`` of its ``chunks`` were computed."""
+
+    job: int
+    kind: EventKind
+    at: datetime
+    committed: int
+    chunks: int
+    reason: str | None

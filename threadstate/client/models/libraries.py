@@ -1,0 +1,96 @@
+"""Libraries, published or still being computed, and their orientations."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from threadstate.client.models.answer import Answer
+from threadstate.library.method import Method
+from threadstate.state.model import Flag, StateClass
+from threadstate.thread.pair import Pair
+from threadstate.units import LengthUnit
+
+
+class GridDocument(Answer):
+    """The grid of a library's poses: roll and pitch +-``tilt_max``, phase 0 up to but without 360."""
+
+    tilt_max: float
+    tilt_step: float
+    phase_step: float
+    orientations: int
+
+
+class LibraryDocument(Answer):
+    """A published library: what it was computed from and what it holds; lengths of the ``pair`` in ``unit``."""
+
+    id: int
+    designation: str
+    slug: str
+    unit: LengthUnit
+    stored_unit: LengthUnit
+    pair: Pair
+    grid: GridDocument
+    method: Method
+    options: dict[str, float | str]
+    state_count: int
+    undecided_count: int
+    code_version: str
+    input_sha256: str
+    content_sha256: str
+    created_at: datetime
+    published_at: datetime
+
+
+class CountsDocument(Answer):
+    """How many states of a library have each class, and each flag."""
+
+    classes: dict[StateClass, int]
+    flags: dict[Flag, int]
+
+
+class LibraryDetail(LibraryDocument):
+    """A published library with the counts of its states."""
+
+    counts: CountsDocument
+
+
+class LibraryList(Answer):
+    """All published libraries, the latest first."""
+
+    libraries: tuple[LibraryDocument, ...]
+
+
+class BuildingDocument(Answer):
+    """A library that is begun and not published: how many of its orientations are done."""
+
+    designation: str
+    method: Method
+    orientations: int
+    done: int
+    created_at: datetime
+
+
+class BuildingList(Answer):
+    """All of these, the latest first."""
+
+    building: tuple[BuildingDocument, ...]
+
+
+class OrientationDocument(Answer):
+    """An orientation over all phases of the grid; a length is None where none of its states has it."""
+
+    roll: float
+    pitch: float
+    counts: dict[StateClass, int]
+    drop_most: float | None
+    embedment_most: float | None
+    pivot_offset_least: float | None
+    margin_least: float | None
+
+
+class OrientationsAnswer(Answer):
+    """All orientations of a library, in the order of roll and pitch."""
+
+    library: int
+    unit: LengthUnit
+    orientations: tuple[OrientationDocument, ...]

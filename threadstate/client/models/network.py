@@ -1,0 +1,111 @@
+"""Histories and the constraint network; what these answers hold is described by ``threadstate.answer.documents``."""
+
+from __future__ import annotations
+
+from threadstate.answer.documents import (
+    HeightsDocument,
+    LocationDocument,
+    NetworkSummaryDocument,
+    NodeDocument,
+    OrientationHistoryDocument,
+    PathDocument,
+    TransitionDocument,
+    WindowDocument,
+)
+from threadstate.client.models.answer import Answer
+from threadstate.units import LengthUnit
+
+
+class IntervalsAnswer(Answer):
+    """The intervals of an orientation's phase circle, the boundaries between them, and its clearance windows."""
+
+    library: int
+    unit: LengthUnit
+    history: OrientationHistoryDocument
+
+
+class ComputedIntervals(Answer):
+    """The same of any orientation, computed when it was asked for."""
+
+    designation: str
+    unit: LengthUnit
+    history: OrientationHistoryDocument
+
+
+class HeightsAnswer(Answer):
+    """The height of the bolt's origin against phase."""
+
+    library: int
+    unit: LengthUnit
+    heights: HeightsDocument
+
+
+class ComputedHeights(Answer):
+    """The same of any orientation, computed when it was asked for."""
+
+    designation: str
+    unit: LengthUnit
+    heights: HeightsDocument
+
+
+class TransitionsPage(Answer):
+    """One page of transitions; ``count`` is how many there are on all pages."""
+
+    library: int
+    unit: LengthUnit
+    count: int
+    transitions: tuple[TransitionDocument, ...]
+    next: str | None
+
+    @property
+    def items(self) -> tuple[TransitionDocument, ...]:
+        """The transitions."""
+        return self.transitions
+
+
+class WindowsAnswer(Answer):
+    """Clearance windows by orientation and phase."""
+
+    library: int
+    unit: LengthUnit
+    windows: tuple[WindowDocument, ...]
+
+
+class NetworkSummary(Answer):
+    """The size of a library's network, and what holds it together."""
+
+    library: int
+    network: NetworkSummaryDocument
+
+
+class NodeLinkNetwork(Answer):
+    """A whole network as networkx reads it (``networkx.node_link_graph(found.model_dump(), edges="edges")``)."""
+
+    directed: bool
+    multigraph: bool
+    graph: dict[str, str]
+    nodes: tuple[dict[str, float | str], ...]
+    edges: tuple[dict[str, float | str], ...]
+
+
+class NodeAnswer(Answer):
+    """A formation in the network."""
+
+    library: int
+    unit: LengthUnit
+    node: NodeDocument
+
+
+class PathAnswer(Answer):
+    """The best path; None where the moves allowed lead to no window."""
+
+    library: int
+    unit: LengthUnit
+    path: PathDocument | None
+
+
+class LocationAnswer(Answer):
+    """Where a state with all that was observed can be."""
+
+    library: int
+    location: LocationDocument

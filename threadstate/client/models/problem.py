@@ -1,0 +1,23 @@
+"""Problem documents (RFC 9457)."""
+
+from __future__ import annotations
+
+from threadstate.client.models.answer import Answer
+
+
+class ProblemItem(Answer):
+    """A value that was refused: where it was, the value as the service received it, and what would be valid."""
+
+    location: str
+    value: str
+    valid: str
+
+
+class Problem(Answer):
+    """A problem document: which problem, in words that do not change and of this occurrence, and the values refused."""
+
+    type: str = "about:blank"
+    title: str = ""
+    status: int
+    detail: str = ""
+    errors: tuple[ProblemItem, ...] = ()

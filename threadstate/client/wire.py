@@ -1,0 +1,114 @@
+"""Requests as they are sent, answers and failures as they are understood; the same for both clients."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+import httpx2
+from pydantic import ValidationError
+
+from threadstate.client.address import url_of
+from threadstate.client.call import Call
+from threadstate.client.errors import (
+    ClientError,
+    ConnectionFailedError,
+    TimedOutError,
+    UnexpectedAnswerError,
+    problem_error,
+)
+from threadstate.client.models.problem import Problem
+from threadstate.client.options import Options
+from threadstate.client.retrying import retry_after_s
+
+Result = TypeVar("Result")
+
+_LONGEST_ECHO = 200
+
+
+def request_of(
+    http: httpx2.Client | httpx2.AsyncClient,
+    options: Options,
+    call: Call[object],
+    headers: dict[str, str] | None = None,
+    quiet_s: float | None = None,
+) -> httpx2.Request:
+    """The request of a call, with further headers, of which nothing may be heard for ``quiet_s`` (None: as usual).
+
+    Raises:
+        UnexpectedAnswerError: the call goes on from an answer, and leads to another host.
+    """
+    url = url_of(options.address, call.path)
+    return http.build_request(
+        call.method,
+        url.copy_merge_params(call.parameters) if call.parameters else url,
+        content=call.body,
+        headers=call.headers | (headers or {}),
+        timeout=options.timeout_of(quiet_s),
+    )
+
+
+def result_of(call: Call[Result], response: httpx2.Response) -> Result:
+    """What a whole answer holds.
+
+    Raises:
+        ProblemError: the service refused the request.
+        UnexpectedAnswerError: it is another answer than the interface describes.
+    """
+    check_success(call, response)
+    try:
+        return call.read(response.content)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        place = ".".join(str(part) for part in first["loc"])
+        raise UnexpectedAnswerError(f"{_name(call)}: {error.title} {place}: {first['msg']}") from None
+
+
+def check_success(call: Call[object], response: httpx2.Response) -> None:
+    """Let an answer pass that is a success; its content has to be read otherwise.
+
+    Raises:
+        ProblemError: the service refused the request.
+        UnexpectedAnswerError: it is neither a success nor a problem document.
+    """
+    if response.is_success:
+        return
+    if response.status_code < 400:
+        raise UnexpectedAnswerError(f"{_name(call)}: {response.status_code}, not followed")
+    raise problem_error(_name(call), _problem(response), retry_after_s(response.headers.get("Retry-After")))
+
+
+@contextmanager
+def understood_failures(call: Call[object]) -> Iterator[None]:
+    """Turn what goes wrong on the way into errors of the client.
+
+    Raises:
+        ConnectionFailedError: the connection failed.
+        TimedOutError: the answer did not come in time.
+    """
+    try:
+        yield
+    except (httpx2.TransportError, httpx2.DecodingError) as error:
+        raise _failure(call, error) from None
+
+
+def _failure(call: Call[object], error: httpx2.RequestError) -> ClientError:
+    reached = not isinstance(error, httpx2.ConnectError | httpx2.ConnectTimeout | httpx2.PoolTimeout)
+    kind = TimedOutError if isinstance(error, httpx2.TimeoutException) else ConnectionFailedError
+    said = str(error) or "no more is known"
+    return kind(f"{_name(call)}: {type(error).__name__}: {said}", reached)
+
+
+def _problem(response: httpx2.Response) -> Problem:
+    """The problem document of an answer; of one that has none, as a proxy's, its status and how it begins."""
+    try:
+        problem = Problem.model_validate_json(response.content)
+    except ValidationError:
+        text = " ".join(response.text[:_LONGEST_ECHO].split())
+        return Problem(status=response.status_code, title=response.reason_phrase, detail=text)
+    return problem.model_copy(update={"status": response.status_code})
+
+
+def _name(call: Call[object]) -> str:
+    return f"{call.method} {call.path.partition('?')[0]}"
