@@ -100,6 +100,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "network_node_link": {},
         "network_graphml": {},
         "network_dot": {},
+        "formations": {},
         "formation": {"key": key},
         "path": {"source": key, "moves": ["ccw", "roll+"], "objective": "transitions"},
         "locate": {"contact": ["1:*:*:edge-edge"], "ordered": True},

@@ -120,6 +120,7 @@ class AsyncClient:
     network_node_link = _answered(network_calls.network_node_link)
     network_graphml = _answered(network_calls.network_graphml)
     network_dot = _answered(network_calls.network_dot)
+    formations = _answered(network_calls.formations)
     formation = _answered(network_calls.formation)
     path = _answered(network_calls.path)
     locate = _answered(network_calls.locate)

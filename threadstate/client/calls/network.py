@@ -19,6 +19,7 @@ from threadstate.client.call import (
 from threadstate.client.models.network import (
     ComputedHeights,
     ComputedIntervals,
+    FormationsAnswer,
     HeightsAnswer,
     IntervalsAnswer,
     LocationAnswer,
@@ -125,6 +126,11 @@ def network_graphml(*, library: LibraryName = LATEST) -> Call[bytes]:
 def network_dot(*, library: LibraryName = LATEST) -> Call[bytes]:
     """The whole network in the language of Graphviz."""
     return get_content(library_path(library, "network"), DOT, format="dot")
+
+
+def formations(*, library: LibraryName = LATEST) -> Call[FormationsAnswer]:
+    """Every formation in few words: class, share, where it occurs, how far it is to the window."""
+    return get(library_path(library, "network", "formations"), FormationsAnswer)
 
 
 def formation(key: str, *, library: LibraryName = LATEST, unit: str | None = None) -> Call[NodeAnswer]:

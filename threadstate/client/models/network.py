@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from threadstate.answer.documents import (
+    FormationSummaryDocument,
     HeightsDocument,
     LocationDocument,
     NetworkSummaryDocument,
@@ -86,6 +87,13 @@ class NodeLinkNetwork(Answer):
     graph: dict[str, str]
     nodes: tuple[dict[str, float | str], ...]
     edges: tuple[dict[str, float | str], ...]
+
+
+class FormationsAnswer(Answer):
+    """All formations of a network in few words, ordered by key."""
+
+    library: int
+    formations: tuple[FormationSummaryDocument, ...]
 
 
 class NodeAnswer(Answer):
