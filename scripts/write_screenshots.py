@@ -16,33 +16,36 @@ from threadstate.settings import read_settings
 
 FOLDER = Path(__file__).parent.parent / "docs" / "explorer"
 LAPTOP, DESKTOP = (1280, 800), (1920, 1080)
-DRAWN = (
-    "#map .cell",
-    "#depth .curve",
-    "#disks .disk",
-    "#state table",
-    "#state table",
-    "#path .step",
-    "#scene canvas",
-)
+DRAWN = ("#map .cell", "#depth .curve", "#scene canvas")
 
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture: its file's name, the size of the page in pixels, the view as a fragment, the panel at its top."""
+    """A picture: its file's name, the size of the page in pixels, the view as a fragment, what its tab shows."""
 
     name: str
     size: tuple[int, int]
     view: str
-    panel: str | None = None
+    tab: str
 
 
 SHOTS = (
-    Shot("laptop-light", LAPTOP, "roll=0&pitch=-4&phase=10&theme=light"),
-    Shot("laptop-dark", LAPTOP, "roll=-4&pitch=0&phase=131&theme=dark&quantity=drop"),
-    Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light", ".panel.network"),
-    Shot("desktop-light", DESKTOP, "roll=0&pitch=-4&phase=10&theme=light&quantity=window_width&from=-16&span=64"),
-    Shot("desktop-dark", DESKTOP, "roll=1&pitch=-2&phase=10&theme=dark&quantity=pivot_offset&over=all&stage=2"),
+    Shot("laptop-light", LAPTOP, "roll=0&pitch=-4&phase=10&theme=light", "#state table"),
+    Shot("laptop-dark", LAPTOP, "roll=-4&pitch=0&phase=131&theme=dark&quantity=drop&tab=regions", "#disks .disk"),
+    Shot("laptop-follows", LAPTOP, "roll=2&pitch=-3&phase=200&theme=light&nut=glass&tab=follows", "#path .step"),
+    Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light&tab=network", "#network .way .stop"),
+    Shot(
+        "desktop-light",
+        DESKTOP,
+        "roll=0&pitch=-4&phase=10&theme=light&quantity=window_width&from=-16&span=64&tab=regions",
+        "#disks .disk",
+    ),
+    Shot(
+        "desktop-dark",
+        DESKTOP,
+        "roll=1&pitch=-2&phase=10&theme=dark&quantity=pivot_offset&over=all&stage=2&tab=network",
+        "#network .way .ring-in",
+    ),
 )
 
 
@@ -62,12 +65,10 @@ def main() -> None:
 def _take(explorer: Explorer, chromium: webdriver.Chrome, shot: Shot) -> None:
     resize(chromium, *shot.size)
     explorer.open(f"/#{shot.view}")
-    for selector in DRAWN:
+    for selector in (*DRAWN, shot.tab):
         explorer.one(selector)
     label = "return document.querySelector('#scene canvas').getAttribute('aria-label') ?? ''"
     explorer.wait(lambda: "phase" in explorer.run(label), "the scene is not drawn")
-    if shot.panel is not None:
-        explorer.run("document.querySelector(arguments[0]).scrollIntoView()", shot.panel)
     path = FOLDER / f"{shot.name}.png"
     path.write_bytes(chromium.get_screenshot_as_png())
     print(f"{path.relative_to(FOLDER.parent.parent)}: {path.stat().st_size} bytes")

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { CLASS_COLOURS, REGION_COLOURS, STAGE_COLOURS, scaleColour } from "../../service/explorer/page/js/colours.js";
 
-/** How the cones that are left see linear RGB (Vienot, Brettel and Mollon 1999 for red and green; Brettel 1997 as Machado 2009 for blue). */
+/** What is seen of linear RGB (Machado, Oliveira and Fernandes 2009, severity 1). */
 const EYES = {
   normal: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
   protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],

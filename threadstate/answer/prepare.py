@@ -20,6 +20,7 @@ def preparation(connection: Connection, network: LibraryNetwork) -> Iterator[Cal
     """
     yield lambda: network.transitions
     yield lambda: network.summary
+    yield lambda: network.formations
     yield lambda: network.node_link
     for number in range(network.cell_map.orientation_count):
         yield partial(stored_heights, connection, network, *network.histories.tilt_deg(number))

@@ -9,7 +9,7 @@ export const UNDECIDED_COLOUR = "#8a8a8a";
 
 /** Positive sides are blue and negative ones orange, the lighter the nearer to the crest. */
 export const REGION_COLOURS = {
-  root: "#3a3a3a",
+  root: "#6f6f6f",
   root_fillet_pos: "#08306b",
   flank_pos: "#2f7fc1",
   crest_fillet_pos: "#9ecae9",

@@ -11,7 +11,7 @@ const WIDTH = 396;
 const CARD = { width: 194, height: 50, gap: 5 };
 const MOST = 3;
 const LINES = 3;
-const LETTERS = 24;
+const LETTERS = 22;
 const TITLE = 17;
 const REST = 18;
 const CENTRE_HEIGHT = 122;
@@ -107,7 +107,7 @@ function centre({ formation, share, orientations }) {
   );
   group.append(svg("text", { x: x + 12, y: y + 25, class: "name" }, className(formation.class)));
   lines.slice(0, 3).forEach((line, k) => group.append(svg("text", { x: x + 12, y: y + 42 + 14 * k }, line)));
-  if (lines.length > 3) group.append(svg("text", { x: x + 12, y: y + 84 }, `and ${lines.length - 3} more contacts`));
+  if (lines.length > 3) group.append(svg("text", { x: x + 12, y: y + 84 }, `and ${lines.length - 3} more`));
   const where = `${percent(share)} of all poses, at ${orientations} orientation${orientations === 1 ? "" : "s"}`;
   group.append(svg("text", { x: x + 12, y: y + CENTRE_HEIGHT - 13, class: "title" }, where));
   return group;

@@ -38,17 +38,23 @@ function kindOf(error, building, named) {
   return building.length > 0 ? "building" : "empty";
 }
 
+/** What the service says, with its commands as such. */
+function said(detail) {
+  const parts = detail.split("`").map((part, k) => (k % 2 === 1 ? html("code", {}, part) : part));
+  return ["The service says: ", ...parts, "."];
+}
+
 const PAGES = {
   empty: ({ detail }) => [
     html("h2", {}, "There is no library to explore yet"),
-    html("p", {}, `The service says: ${detail}.`),
+    html("p", {}, said(detail)),
     html("p", {}, ["Compute one with ", html("code", {}, "threadstate rebuild"), "; this page goes on by itself when it is there."]),
   ],
   building: ({ building }) => [
-    html("h2", {}, "The library is being computed"),
+    html("h2", {}, building.every(({ waiting }) => waiting) ? "The library is asked for" : "The library is being computed"),
     ...building.map(({ designation, done, orientations, waiting }) =>
       html("div", {}, [
-        html("p", {}, waiting ? `${designation}: waits for a worker (threadstate worker)` : `${designation}: ${done} of ${orientations} orientations`),
+        html("p", {}, waiting ? [`${designation}: waits for a worker, `, html("code", {}, "threadstate worker")] : `${designation}: ${done} of ${orientations} orientations`),
         html("progress", { max: orientations, value: done, "aria-label": `progress of ${designation}` }),
       ]),
     ),
@@ -56,12 +62,12 @@ const PAGES = {
   ],
   unknown: ({ detail }) => [
     html("h2", {}, "There is no such library here"),
-    html("p", {}, `The service says: ${detail}.`),
+    html("p", {}, said(detail)),
     html("p", {}, ["The link may belong to another service. See ", html("a", { href: "/" }, "the latest one"), "."]),
   ],
   key: ({ detail, refused }) => [
     html("h2", {}, refused ? "This key is refused" : "This service asks for a key"),
-    html("p", {}, `The service says: ${detail}.`),
+    html("p", {}, said(detail)),
     html("form", { id: "key-form" }, [
       html("label", { for: "key" }, "key for reading "),
       html("input", { id: "key", type: "password", autocomplete: "off", spellcheck: "false", required: true, placeholder: "ts_…" }),
@@ -72,9 +78,9 @@ const PAGES = {
       ". It stays in this tab until the tab is closed, and goes into a header, never into an address.",
     ]),
   ],
-  lost: ({ detail }) => [
+  lost: () => [
     html("h2", {}, "The service does not answer"),
-    html("p", {}, `It may have been stopped, or the network is down (${detail}).`),
+    html("p", {}, "It may have been stopped, or the network is down."),
     html("p", {}, "This page tries again by itself, and keeps your view."),
   ],
   fault: ({ detail }) => [

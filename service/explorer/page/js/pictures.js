@@ -92,7 +92,6 @@ export class Pictures {
     const view = this.#view.value;
     if (["map", "orientations", "windows", "library"].includes(part)) this.#drawMap();
     if (["heights", "intervals"].includes(part)) this.#drawCurves();
-    if (part === "intervals") this.#showSnap();
     if (part === "state") {
       this.#drawState();
       this.#model.followHistory(view);
@@ -134,6 +133,7 @@ export class Pictures {
     this.#depth.draw({ heights, intervals, library }, this.#view.value);
     if (this.#isSeen("regions")) this.#disks.draw(intervals);
     this.#moveCursors();
+    this.#showSnap();
     markPainted("depth");
   }
 

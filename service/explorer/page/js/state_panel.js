@@ -1,7 +1,7 @@
 // Every number of a state.
 
 import { html } from "./html.js";
-import { CLASSES, FLAGS, REGIONS, className } from "./terms.js";
+import { CLASSES, FLAGS, REGIONS, TERMS, className } from "./terms.js";
 import { angle, length, lengthNumber, fixed } from "./units.js";
 
 /** Fills the frame with the tables of a state. */
@@ -58,11 +58,16 @@ function poseRows(pose, unit) {
 function table(caption, rows) {
   const body = rows.map(([name, value]) =>
     html("tr", {}, [
-      html("th", { scope: "row" }, name),
+      html("th", { scope: "row" }, termOf(name)),
       typeof value === "string" ? html("td", {}, value) : html("td", { class: "numbers" }, value.map(numberRow)),
     ]),
   );
   return html("table", {}, [html("caption", {}, caption), html("tbody", {}, body)]);
+}
+
+/** A name; where the field has a word for it, with its meaning at the pointer and the focus. */
+function termOf(name) {
+  return TERMS[name] ? html("button", { type: "button", class: "term", "data-help": TERMS[name] }, name) : name;
 }
 
 function numberRow(numbers) {

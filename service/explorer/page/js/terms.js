@@ -42,6 +42,20 @@ export const FLAGS = {
   no_third: "no third contact within 45 deg",
 };
 
+/** What is meant by the names of a state's numbers. */
+export const TERMS = {
+  flags: "What is out of the ordinary about this state.",
+  "first contact at": "Height of the bolt's origin above the nut's surface when it first touches.",
+  "at rest at": "Height of the bolt's origin above the nut's surface in its last pose.",
+  "turn to the second contact": "Lambda: how far the bolt turns about its first contact until it touches a second time.",
+  "turn to the third contact": "Mu: how far the bolt turns about the pivot axis until it touches a third time.",
+  drop: "How far the origin sinks from the second contact to the third.",
+  embedment: "The least lift after which the bolt, in its third pose, does not overlap the nut.",
+  "pivot offset": "Distance of the bolt's origin from the pivot axis, which goes through the first two contacts.",
+  "made at": "The stage at which it is made, and which features touch: the bolt's first, then the nut's.",
+  "normal, nut to bolt": "Unit normal of the surfaces that touch, out of the nut.",
+};
+
 /** A state in one line: its class, and its flags in a few words. */
 export function stateLine({ class: stateClass, flags }) {
   return [className(stateClass), ...flags.map((flag) => FLAGS[flag].split(/:| within/)[0])].join(", ");
