@@ -1,9 +1,10 @@
 // What is only done once nothing has changed for a while.
 
-/** Does the latest of the things it is given when no other has come for `ms`. */
+/** Does the latest of the things it is given when no other has come for `ms` and for a frame, however long that takes. */
 export class Rest {
   #ms;
   #timer = null;
+  #frame = null;
 
   constructor(ms) {
     this.#ms = ms;
@@ -11,6 +12,9 @@ export class Rest {
 
   after(thing) {
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(thing, this.#ms);
+    cancelAnimationFrame(this.#frame);
+    this.#timer = setTimeout(() => {
+      this.#frame = requestAnimationFrame(() => (this.#timer = setTimeout(thing)));
+    }, this.#ms);
   }
 }
