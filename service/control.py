@@ -12,6 +12,9 @@ from service.database import engine_of
 from threadstate.library.engine import writer_engine
 from threadstate.library.schema import check_schema
 
+PATIENCE_S = 2.0
+"""How long a request waits for what another process is writing; a thread of the service waits with it."""
+
 
 class ControlEngine:
     """An engine that may write, made when it is first needed: a SQLite file that is missing is not made by it."""
@@ -25,7 +28,7 @@ class ControlEngine:
         """The engine; the database has to be there."""
         with self._lock:
             if self._engine is None:
-                self._engine = writer_engine(self._database)
+                self._engine = writer_engine(self._database, PATIENCE_S)
             return self._engine
 
     def dispose(self) -> None:

@@ -23,13 +23,17 @@ from threadstate.errors import (
     NotFoundError,
     SchemaError,
     UndecidedPoseError,
+    UnreadableDatabaseError,
     UnresolvedPoseError,
 )
 from threadstate.jobs.model import JobEndedError
+from threadstate.library.trouble import trouble_of
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:threadstate:problem:"
 _LONGEST_ECHO = 100
+RETRY_AFTER_S = 5
+"""After how many seconds a client may ask again where the database failed."""
 NO_HEADERS: Mapping[str, str] = MappingProxyType({})
 
 
@@ -115,6 +119,7 @@ def install_problem_handlers(app: FastAPI) -> None:
         (KeyRefusedError, _key_refused),
         (ScopeRefusedError, _scope_refused),
         (JobEndedError, _job_ended),
+        (UnreadableDatabaseError, _unreadable),
         (SchemaError, _schema),
         (MissingExtraError, _missing_extra),
         (SQLAlchemyError, _database),
@@ -200,9 +205,13 @@ def _missing_extra(_request: Request, error: Any) -> Response:
     return problem_response(NOT_INSTALLED, str(error))
 
 
-def _database(_request: Request, _error: Any) -> Response:
-    detail = "the database cannot be read; `threadstate migrate` makes one, `threadstate rebuild` fills it"
-    return problem_response(DATABASE_UNAVAILABLE, detail)
+def _unreadable(request: Request, error: Any) -> Response:
+    return _database(request, error.__cause__)
+
+
+def _database(_request: Request, error: Any) -> Response:
+    detail = f"{trouble_of(error)}; `/readyz` says whether something is to be mended"
+    return problem_response(DATABASE_UNAVAILABLE, detail, headers={"Retry-After": str(RETRY_AFTER_S)})
 
 
 def _http(request: Request, error: Any) -> Response:

@@ -43,6 +43,10 @@ class SchemaError(ThreadstateError):
     """The database's schema is not the one this code expects; the message names the mending command."""
 
 
+class UnreadableDatabaseError(SchemaError):
+    """The database's schema cannot be told, because the database cannot be read now."""
+
+
 SEARCH_ENDED = "the search ended before all its cells were closed"
 """Why the exact method leaves a pose undecided."""
 

@@ -12,14 +12,17 @@ from threadstate.library.postgresql_engine import postgresql_reader, postgresql_
 from threadstate.library.sqlite_engine import sqlite_reader, sqlite_writer
 
 
-def writer_engine(database: str) -> Engine:
+def writer_engine(database: str, patience_s: float | None = None) -> Engine:
     """An engine that may write; a SQLite file, and the folder around it, is made where it is missing.
+
+    ``patience_s`` is for how many seconds it waits for what another writer holds (None: as long as a writer of
+    libraries may be at it).
 
     Raises:
         InvalidValueError: ``database`` is the URL of neither database, or the folder cannot be made.
     """
     url = database_url(database)
-    return sqlite_writer(url) if is_sqlite(url) else postgresql_writer(url)
+    return sqlite_writer(url, patience_s) if is_sqlite(url) else postgresql_writer(url, patience_s)
 
 
 def reader_engine(database: str) -> Engine:

@@ -18,8 +18,8 @@ IDLE_TIMEOUT_S = 60
 """A writer that stands still within a transaction, as one whose machine is gone, loses it and so its locks."""
 
 
-def postgresql_writer(url: URL) -> Engine:
-    """An engine that may write.
+def postgresql_writer(url: URL, patience_s: float | None = None) -> Engine:
+    """An engine that may write; it waits for locks for ``patience_s`` seconds (None: ``LOCK_TIMEOUT_S``).
 
     Raises:
         InvalidValueError: the password's file cannot be read.
@@ -34,7 +34,7 @@ def postgresql_writer(url: URL) -> Engine:
         _set(
             connection,
             extra_float_digits="1",
-            lock_timeout=f"{LOCK_TIMEOUT_S}s",
+            lock_timeout=f"{round(1000 * (LOCK_TIMEOUT_S if patience_s is None else patience_s))}ms",
             idle_in_transaction_session_timeout=f"{IDLE_TIMEOUT_S}s",
         )
 

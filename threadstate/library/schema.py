@@ -7,7 +7,7 @@ from urllib.parse import unquote
 from sqlalchemy import Engine, text
 from sqlalchemy.exc import DatabaseError
 
-from threadstate.errors import SchemaError
+from threadstate.errors import SchemaError, UnreadableDatabaseError
 from threadstate.library.address import is_sqlite, shown
 
 SCHEMA_REVISION = "0005"
@@ -23,7 +23,7 @@ def stored_revision(engine: Engine) -> str | None:
     """The revision of the database's schema; None where a SQLite file, or everything in the database, is missing.
 
     Raises:
-        SchemaError: the database cannot be read, as a file that is none or a server that does not answer.
+        UnreadableDatabaseError: the database cannot be read, as a file that is none or a server that does not answer.
     """
     try:
         with engine.connect() as connection:
@@ -33,7 +33,7 @@ def stored_revision(engine: Engine) -> str | None:
         missing = ("no such table", "unable to open database file") if is_sqlite(engine.url) else ()
         if getattr(error.orig, "sqlstate", None) == _UNDEFINED_TABLE or any(words in reason for words in missing):
             return None
-        raise SchemaError(f"database {place(engine)} cannot be read: {reason}") from None
+        raise UnreadableDatabaseError(f"database {place(engine)} cannot be read: {reason}") from error
 
 
 def check_schema(engine: Engine) -> None:

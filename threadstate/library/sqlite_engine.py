@@ -20,8 +20,10 @@ WRITER_CACHE_KIB = 65536
 WRITER_CHECKPOINT_PAGES = 8192
 
 
-def sqlite_writer(url: URL) -> Engine:
+def sqlite_writer(url: URL, patience_s: float | None = None) -> Engine:
     """An engine that may write; it makes the file, and the folder around it, where they are missing.
+
+    It waits for another writer for ``patience_s`` seconds (None: ``BUSY_TIMEOUT_S``).
 
     Raises:
         InvalidValueError: the folder cannot be made.
@@ -30,7 +32,7 @@ def sqlite_writer(url: URL) -> Engine:
         sqlite_path(url).parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InvalidValueError("database", shown(url), f"a file in a folder that can be made ({error})") from None
-    engine = create_engine(url, connect_args={"timeout": BUSY_TIMEOUT_S})
+    engine = create_engine(url, connect_args={"timeout": BUSY_TIMEOUT_S if patience_s is None else patience_s})
 
     @event.listens_for(engine, "connect")
     def prepare(connection: Any, _record: object) -> None:

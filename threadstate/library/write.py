@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from functools import lru_cache
 
 from sqlalchemy import Connection, Dialect, Engine, Table, delete, func, insert, select, update
@@ -192,10 +192,17 @@ def publish_in(connection: Connection, library_id: int, grid: Grid) -> str:
             f"{answers} of {grid.state_count} poses"
         )
     content_sha256 = library_sha256([row.content_sha256 for row in chunks])
+    latest = connection.scalar(select(func.max(library.c.published_at)))
+    now = datetime.now(UTC)
     connection.execute(
         update(library)
         .where(library.c.id == library_id)
-        .values(content_sha256=content_sha256, published_at=datetime.now(UTC), undecided_count=left_undecided)
+        .values(
+            content_sha256=content_sha256,
+            # What is published last is the latest, also where the clock was set back.
+            published_at=now if latest is None or latest < now else latest + timedelta(microseconds=1),
+            undecided_count=left_undecided,
+        )
     )
     return content_sha256
 

@@ -1,0 +1,67 @@
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from sqlalchemy import Engine, create_engine, event
+
+from tests.databases import Databases, SqliteDatabases
+from threadstate.library.engine import writing
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
+from threadstate.library.read import published_libraries
+from threadstate.state.options import SolveOptions
+from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.rebuild import rebuild
+
+GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=30.0)
+INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+GRID_OPTIONS = ("--tilt-max", "1", "--tilt-step", "1", "--phase-step", "30")
+
+
+class Unwatched:
+    """Nobody watches a rebuild."""
+
+    def begin(self, committed: int, total: int) -> None: ...
+
+    def ready(self) -> None: ...
+
+    def advance(self, poses: int) -> None: ...
+
+
+def published(engine: Engine) -> list[str]:
+    """The content hashes of what is seen."""
+    with engine.connect() as connection:
+        return [library.content_sha256 for library in published_libraries(connection)]
+
+
+@contextmanager
+def holding(database: str) -> Iterator[None]:
+    """Another process's transaction, which holds a SQLite file."""
+    engine = create_engine(database, isolation_level=None)
+    event.listen(engine, "begin", lambda connection: connection.exec_driver_sql("BEGIN EXCLUSIVE"))
+    with engine.connect() as connection, connection.begin():
+        yield
+    engine.dispose()
+
+
+@pytest.fixture(scope="session")
+def expected_content(sqlite_databases: Databases) -> str:
+    """The content hash of the small library where nothing fails."""
+    with writing(sqlite_databases.migrated()) as engine:
+        return rebuild(engine, INPUTS, 2, Unwatched()).content_sha256
+
+
+@pytest.fixture
+def sqlite_database(sqlite_databases: SqliteDatabases) -> str:
+    """A migrated SQLite file."""
+    return sqlite_databases.migrated()
+
+
+@pytest.fixture
+def environment_of_commands(repository_root: Path) -> Mapping[str, str]:
+    """The environment of commands; this source tree goes before anything installed."""
+    return {**os.environ, "PYTHONPATH": str(repository_root)}

@@ -1,0 +1,138 @@
+"""PostgreSQL goes away and comes back while the service answers and while a rebuild and workers are at it."""
+
+from __future__ import annotations
+
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Mapping
+
+import pytest
+from sqlalchemy import Engine, Table, func, select
+
+from tests.databases import PostgresqlDatabases
+from tests.faults.conftest import GRID, GRID_OPTIONS, INPUTS, Unwatched, published
+from tests.postgresql_server import PostgresqlServer, running_server
+from tests.service.conftest import client_of
+from tests.service.test_problems import problem
+from tests.worker.conftest import COMMAND
+from threadstate.access.keys import create_key
+from threadstate.access.scope import Scope
+from threadstate.jobs.ask import ask_for
+from threadstate.jobs.names import JobState
+from threadstate.jobs.read import job_by_id
+from threadstate.library.engine import writing
+from threadstate.library.tables import chunk, state
+from threadstate.settings import DATABASE, LEASE_S
+from worker.rebuild import rebuild
+
+RESTARTS = 3
+PATIENCE_S = 300.0
+UNAVAILABLE = "urn:threadstate:problem:database-unavailable"
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[PostgresqlServer]:
+    """A server of these tests' own."""
+    with running_server() as server:
+        yield server
+
+
+@pytest.fixture(scope="module")
+def databases_of_server(server: PostgresqlServer) -> PostgresqlDatabases:
+    """Makes databases of that server."""
+    return PostgresqlDatabases(server)
+
+
+@pytest.fixture
+def database(databases_of_server: PostgresqlDatabases) -> str:
+    """A migrated database of that server."""
+    return databases_of_server.migrated()
+
+
+def test_the_service_says_so_and_recovers(server: PostgresqlServer, database: str) -> None:
+    with writing(database) as engine:
+        rebuild(engine, INPUTS, 1, Unwatched())
+        key = create_key(engine, "one", Scope.WRITE)
+    headers = {"Authorization": f"Bearer {key}"}
+    reads = (
+        "/v1/libraries",
+        "/v1/libraries/latest/states/1/1/30",
+        "/v1/libraries/latest/histories/0/1",
+        "/v1/jobs",
+        "/readyz",
+    )
+    with client_of(database) as client:
+        for _ in range(RESTARTS):
+            assert [client.get(path).status_code for path in reads] == [200] * len(reads)
+            assert client.post("/v1/jobs", headers=headers, json={}).status_code == 202
+            server.stop()
+            for method, path in (*(("GET", path) for path in reads), ("POST", "/v1/jobs"), ("DELETE", "/v1/jobs/1")):
+                answer = client.request(method, path, headers=headers)
+                found = problem(answer, 503)
+                assert found.type == UNAVAILABLE
+                assert int(answer.headers["Retry-After"]) > 0
+                assert "host" not in answer.text, "where the database is, is nobody's business"
+            assert client.get("/healthz").status_code == 200
+            server.start()
+        assert [client.get(path).status_code for path in reads] == [200] * len(reads)
+
+
+def test_workers_end_a_job_whole_after_restarts(
+    server: PostgresqlServer, database: str, environment_of_commands: Mapping[str, str], expected_content: str
+) -> None:
+    environment = {**environment_of_commands, DATABASE: database, LEASE_S: "2"}
+    with writing(database) as engine:
+        job = ask_for(engine, INPUTS)
+        workers = [
+            subprocess.Popen(
+                [*COMMAND, "worker", "--workers", "1", "--until-idle"],
+                env=environment,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+            for _ in range(2)
+        ]
+        for least in range(1, RESTARTS + 1):
+            _wait_for(lambda least=least: _count(engine, chunk) >= 2 * least)  # type: ignore[misc]
+            server.stop()
+            server.start()
+        said = [worker.communicate(timeout=PATIENCE_S)[1] for worker in workers]
+        assert [worker.returncode for worker in workers] == [0, 0], said
+        assert any("the database fails, it is tried again" in one for one in said)
+        assert published(engine) == [expected_content]
+        assert (_count(engine, chunk), _count(engine, state)) == (GRID.orientation_count, GRID.state_count)
+        with engine.connect() as connection:
+            assert job_by_id(connection, job.id).state is JobState.DONE
+
+
+def test_a_rebuild_says_so_and_goes_on(
+    server: PostgresqlServer, database: str, environment_of_commands: Mapping[str, str], expected_content: str
+) -> None:
+    command = [*COMMAND, "rebuild", *GRID_OPTIONS, "--workers", "1"]
+    environment = {**environment_of_commands, DATABASE: database}
+    with writing(database) as engine:
+        with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:
+            _wait_for(lambda: _count(engine, chunk) > 0)
+            server.stop()
+            _, err = process.communicate(timeout=PATIENCE_S)
+        server.start()
+        assert process.returncode == 1, err
+        assert len([line for line in err.splitlines() if line.startswith("threadstate: ")]) == 1
+        assert "Traceback" not in err
+        assert published(engine) == []
+        # The server of the tests commits asynchronously: with it go the last chunks that it took for committed.
+        assert _count(engine, chunk) < GRID.orientation_count
+        subprocess.run(command, env=environment, check=True, capture_output=True, timeout=PATIENCE_S)
+        assert published(engine) == [expected_content]
+
+
+def _count(engine: Engine, table: Table) -> int:
+    with engine.connect() as connection:
+        return connection.scalar(select(func.count()).select_from(table)) or 0
+
+
+def _wait_for(condition: Callable[[], bool]) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, "in vain"
+        time.sleep(0.01)
