@@ -27,7 +27,7 @@ from threadstate.errors import (
     UnresolvedPoseError,
 )
 from threadstate.jobs.model import JobEndedError
-from threadstate.library.trouble import trouble_of
+from threadstate.library.trouble import Trouble, trouble_of
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:threadstate:problem:"
@@ -210,8 +210,9 @@ def _unreadable(request: Request, error: Any) -> Response:
 
 
 def _database(_request: Request, error: Any) -> Response:
-    detail = f"{trouble_of(error)}; `/readyz` says whether something is to be mended"
-    return problem_response(DATABASE_UNAVAILABLE, detail, headers={"Retry-After": str(RETRY_AFTER_S)})
+    trouble = trouble_of(error)
+    cure = "" if trouble in (Trouble.HELD, Trouble.FULL) else "; `threadstate migrate` makes one that is missing"
+    return problem_response(DATABASE_UNAVAILABLE, f"{trouble}{cure}", headers={"Retry-After": str(RETRY_AFTER_S)})
 
 
 def _http(request: Request, error: Any) -> Response:
