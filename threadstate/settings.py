@@ -18,7 +18,7 @@ PREFIX = "THREADSTATE_"
 
 DATA_DIR = "THREADSTATE_DATA_DIR"
 DATABASE = "THREADSTATE_DATABASE"
-DATABASE_PASSWORD_FILE = "THREADSTATE_DATABASE_PASSWORD_FILE"
+DATABASE_PASSWORD_FILE = "THREADSTATE_DATABASE_PASSWORD_FILE"  # nosec B105
 WORKERS = "THREADSTATE_WORKERS"
 SCHEDULER = "THREADSTATE_SCHEDULER"
 HOST = "THREADSTATE_HOST"
@@ -113,7 +113,7 @@ def database_password(environment: Mapping[str, str] = os.environ) -> str | None
     try:
         password = Path(file).read_text(encoding="utf-8").rstrip("\r\n")
     except (OSError, UnicodeDecodeError):
-        password = ""
+        password = ""  # nosec B105
     if not password:
         raise InvalidValueError(DATABASE_PASSWORD_FILE, file, "a file that can be read, with the password in it")
     return password

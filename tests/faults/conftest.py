@@ -15,10 +15,12 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.jobs.serve import Serving
 from worker.rebuild import rebuild
 
 GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=30.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+SERVING = Serving(processes=1, scheduler=None, lease_s=20.0, heartbeat_file=None)
 GRID_OPTIONS = ("--tilt-max", "1", "--tilt-step", "1", "--phase-step", "30")
 
 

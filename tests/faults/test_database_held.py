@@ -8,7 +8,7 @@ import pytest
 from sqlalchemy.exc import OperationalError
 
 from tests.databases import SqliteDatabases
-from tests.faults.conftest import INPUTS, Unwatched, holding, published
+from tests.faults.conftest import INPUTS, SERVING, Unwatched, holding, published
 from tests.service.conftest import client_of
 from tests.service.test_problems import problem
 from threadstate.access.keys import create_key
@@ -50,7 +50,7 @@ def test_a_worker_waits_and_goes_on(
     with writing(sqlite_database) as engine:
         ask_for(engine, INPUTS)
         with holding(sqlite_database):
-            worker = Thread(target=serve_jobs, args=(engine, 1, 20.0), kwargs={"until_idle": True}, daemon=True)
+            worker = Thread(target=serve_jobs, args=(engine, SERVING), kwargs={"until_idle": True}, daemon=True)
             worker.start()
             said = ""
             while said.count("the database fails, it is tried again: database is locked") < 3:

@@ -19,7 +19,7 @@ from sqlalchemy import Engine, event, func, select
 from sqlalchemy.exc import OperationalError
 
 from tests.databases import SqliteDatabases
-from tests.faults.conftest import GRID, GRID_OPTIONS, INPUTS, Unwatched, published
+from tests.faults.conftest import GRID, GRID_OPTIONS, INPUTS, SERVING, Unwatched, published
 from tests.service.conftest import client_of
 from tests.service.test_problems import problem
 from tests.worker.conftest import COMMAND
@@ -99,7 +99,7 @@ def test_a_worker_waits_until_there_is_room_again(
     with writing(sqlite_database) as engine:
         job = ask_for(engine, INPUTS)
     with nearly_full(sqlite_database, FREE_PAGES[1]) as engine:
-        worker = Thread(target=serve_jobs, args=(engine, 1, 5.0), kwargs={"until_idle": True}, daemon=True)
+        worker = Thread(target=serve_jobs, args=(engine, SERVING), kwargs={"until_idle": True}, daemon=True)
         worker.start()
         said = ""
         while said.count("it is tried again: database or disk is full") < 3:
