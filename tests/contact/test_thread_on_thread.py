@@ -67,6 +67,20 @@ def test_a_maximum_beside_a_higher_one_is_not_missed(roll: float, pitch: float, 
     assert np.abs(np.diff(np.degrees(found[:, record.O_MU]), 2)).max() < 1e-3
 
 
+@pytest.mark.parametrize(
+    ("roll", "pitch", "first", "last"), [(4.0, -1.0, 1.9, 5.4), (3.743486227662474, -0.9258258124254919, 1.0, 4.4)]
+)
+def test_a_maximum_between_two_columns_is_not_missed(roll: float, pitch: float, first: float, last: float) -> None:
+    """After turns of more than 40 deg a maximum of phi that is narrower than 0.2 rad touches first."""
+    phases = np.arange(first, last, 0.05)
+    found = rows(
+        np.column_stack([np.full((len(phases), 2), (roll, pitch)), phases]), rectangles=False, turn_limit_deg=45.0
+    )
+    assert (found[:, THIRD_PAIR] == THREAD_THREAD).all()
+    rises = np.diff(np.degrees(found[:, record.O_MU]))
+    assert 0.02 < rises.min() < rises.max() < 0.08
+
+
 def test_a_slope_that_is_zero_to_the_last_bit_loses_no_ridge() -> None:
     """It becomes the end of an interval of regula falsi, and the next slope is divided by it."""
     phases = np.concatenate([np.linspace(358.72, 358.73, 21), 358.725 + 1e-5 * np.arange(-9, 10)])

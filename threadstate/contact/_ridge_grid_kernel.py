@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 LANES = 8
 """Columns are done in groups of so many."""
-MOST_AZIMUTHS = 32
+MOST_AZIMUTHS = 256
 MOST_PIECES = 16
 STRIDE = 2 * MOST_AZIMUTHS + LANES
 """Columns go round more than twice, so that any part of the circumference lies in one piece."""
@@ -76,14 +76,15 @@ def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
         grid[G_SIN + j] = math.sin(step * j)
     c = math.cos(step * LANES)
     s = math.sin(step * LANES)
-    for j in range(LANES, STRIDE):
+    columns = 2 * azimuths + LANES
+    for j in range(LANES, columns):
         x = grid[G_COS + j - LANES]
         y = grid[G_SIN + j - LANES]
         grid[G_COS + j] = x * c - y * s
         grid[G_SIN + j] = x * s + y * c
     lead = bolt[pk.P] / azimuths
     numbers = profile_numbers(bolt)
-    for j in range(STRIDE):
+    for j in range(columns):
         r, _, _ = radius_and_slope(-lead * j, numbers)
         grid[G_BASE + j] = r
 

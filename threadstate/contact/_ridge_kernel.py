@@ -18,6 +18,7 @@ from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
     GRID_SIZE,
     LANES,
+    MOST_AZIMUTHS,
     MOST_CROSSINGS,
     MOST_PIECES,
     list_crossings,
@@ -52,6 +53,9 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 SLICE = math.radians(1.5)
+LATE = math.radians(38.0)
+LATE_SLICE = math.radians(0.2)
+"""Beyond ``LATE`` maxima of phi are narrow, and come and go within tenths of a degree; all azimuths are used there."""
 FOLLOW = math.radians(0.5)
 APART = 0.06
 """Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
@@ -225,6 +229,28 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
     ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MOST_AZIMUTHS`` at the most, is a resolution and not a
     bound: docs/decisions/0001-contacts.md says how it was checked.
     """
+    early = min(limit, LATE)
+    count = between(0.0, early, 1 + int(early / SLICE), azimuths, motion, bolt, nut, limit, found, 0)
+    if limit > LATE:
+        slices = 1 + int((limit - LATE) / LATE_SLICE)
+        count = between(LATE, limit, slices, MOST_AZIMUTHS, motion, bolt, nut, limit, found, count)
+    return count
+
+
+@njit(cache=True, error_model="numpy")
+def between(
+    start: float,
+    end: float,
+    slices: int,
+    azimuths: int,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    limit: float,
+    found: Array,
+    count: int,
+) -> int:
+    """Adds the contacts that the highest places lead to at so many instants after ``start``, the last at ``end``."""
     grid = np.empty(GRID_SIZE)
     standing = np.empty(STANDING_SIZE)
     jet = np.empty(JET_SIZE)
@@ -232,10 +258,8 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
     crossings = np.empty(CROSSINGS_SIZE)
     maxima = np.empty((MOST_CROSSINGS, 2))
     set_columns(azimuths, bolt, grid)
-    count = 0
-    slices = 1 + int(limit / SLICE)
     for i in range(slices):
-        tau = limit * (i + 1) / slices
+        tau = start + (end - start) * (i + 1) / slices
         set_standing(motion, tau, standing)
         for j in range(highest_places(azimuths, standing, bolt, nut, grid, crossings, maxima)):
             theta, z = maxima[j, 0], maxima[j, 1]

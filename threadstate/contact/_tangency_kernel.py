@@ -27,7 +27,7 @@ T_X = 3
 T_Y = 4
 T_POINT_Z = 5
 TANGENCY_SIZE = 6
-MAX_TANGENCIES = 8
+MAX_TANGENCIES = 32
 
 REACH_THETA = 0.12
 """How far (rad) from where Newton's method starts a tangency may lie."""
