@@ -17,7 +17,7 @@ from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.libraries import OrientationDocument
 from threadstate.client.models.states import State, UndecidedDocument
 from threadstate.errors import InvalidValueError
-from threadstate.export.column import Cell, Column, degrees, integer, length, number, text, truth
+from threadstate.export.column import Cell, Column, degrees, integer, length, number, truth, words
 from threadstate.export.states import LEAST_CONTACTS, state_columns
 from threadstate.state.model import StateClass
 
@@ -49,7 +49,7 @@ _UNDECIDED: tuple[Column[UndecidedDocument], ...] = (
     degrees("roll", "roll of the pose", lambda pose: pose.roll),
     degrees("pitch", "pitch of the pose", lambda pose: pose.pitch),
     degrees("phase", "phase of the pose", lambda pose: pose.phase),
-    text("reason", "why the library's method could not decide the pose", lambda pose: pose.reason),
+    words("reason", "why the library's method could not decide the pose", lambda pose: pose.reason),
 )
 
 
@@ -89,10 +89,10 @@ _INTERVALS: tuple[Column[IntervalDocument], ...] = (
     degrees("start", "phase at which the interval begins", lambda one: one.start),
     degrees("end", "phase at which it ends; above 360 where it holds phase 0", lambda one: one.end),
     truth("in_window", "whether it belongs to a clearance window", lambda one: one.in_window),
-    text("class", "class of its states; missing where undecided", lambda one: one.formation.state_class),
-    text("flags", "flags of its states, separated by spaces", lambda one: " ".join(one.flags)),
-    text("formation", "key of its contact formation", lambda one: one.formation.key),
-    text("formation_text", "the formation in words", lambda one: one.formation.text),
+    words("class", "class of its states; missing where undecided", lambda one: one.formation.state_class),
+    words("flags", "flags of its states, separated by spaces", lambda one: " ".join(one.flags)),
+    words("formation", "key of its contact formation", lambda one: one.formation.key),
+    words("formation_text", "the formation in words", lambda one: one.formation.text),
     length("margin", "smallest distance from other labels, half way", lambda one: one.margin),
     length("first_height", "height at first contact, half way", lambda one: one.first_height),
     length("last_height", "height in the last pose, half way", lambda one: one.last_height),
@@ -106,31 +106,31 @@ _STRETCHES: tuple[Column[StretchDocument], ...] = (
 )
 
 _TRANSITIONS: tuple[Column[TransitionDocument], ...] = (
-    text("move", "the move", lambda one: one.move.value),
+    words("move", "the move", lambda one: one.move.value),
     degrees("phase", "where a turn meets the boundary, or the stretch of a tilt begins", lambda one: one.phase),
     degrees("phase_end", "the same for a turn; the end of the stretch for a tilt", lambda one: one.phase_end),
     degrees("cover", "phase over which the target is what comes next", lambda one: one.cover),
     degrees("source_roll", "roll before", lambda one: one.source.roll),
     degrees("source_pitch", "pitch before", lambda one: one.source.pitch),
-    text("source", "key of the formation before", lambda one: one.source.formation),
-    text("source_class", "class before; missing where undecided", lambda one: one.source.state_class),
+    words("source", "key of the formation before", lambda one: one.source.formation),
+    words("source_class", "class before; missing where undecided", lambda one: one.source.state_class),
     degrees("target_roll", "roll after", lambda one: one.target.roll),
     degrees("target_pitch", "pitch after", lambda one: one.target.pitch),
-    text("target", "key of the formation after", lambda one: one.target.formation),
-    text("target_class", "class after; missing where undecided", lambda one: one.target.state_class),
+    words("target", "key of the formation after", lambda one: one.target.formation),
+    words("target_class", "class after; missing where undecided", lambda one: one.target.state_class),
     length("first_height_before", "height at first contact before", lambda one: one.first_height[0]),
     length("first_height_after", "height at first contact after", lambda one: one.first_height[1]),
     length("last_height_before", "height in the last pose before", lambda one: one.last_height[0]),
     length("last_height_after", "height in the last pose after", lambda one: one.last_height[1]),
-    text("text", "what changes, in words", lambda one: one.text),
+    words("text", "what changes, in words", lambda one: one.text),
 )
 
 _JOBS: tuple[Column[JobDocument], ...] = (
     integer("id", "number of the job", lambda one: one.id),
-    text("state", "how far it is", lambda one: one.state.value),
-    text("reason", "why it failed", lambda one: one.reason),
-    text("designation", "the thread", lambda one: one.designation),
-    text("method", "how states are found", lambda one: one.method.value),
+    words("state", "how far it is", lambda one: one.state.value),
+    words("reason", "why it failed", lambda one: one.reason),
+    words("designation", "the thread", lambda one: one.designation),
+    words("method", "how states are found", lambda one: one.method.value),
     degrees("tilt_max", "largest roll and pitch", lambda one: one.grid.tilt_max),
     degrees("tilt_step", "step of roll and pitch", lambda one: one.grid.tilt_step),
     degrees("phase_step", "step of phase", lambda one: one.grid.phase_step),

@@ -49,7 +49,7 @@ class Column(Generic[Source_contra]):
     cell: Callable[[Source_contra], Cell]
 
 
-def text(name: str, meaning: str, cell: Callable[[Source], Cell]) -> Column[Source]:
+def words(name: str, meaning: str, cell: Callable[[Source], Cell]) -> Column[Source]:
     """A column of words."""
     return Column(name, Kind.TEXT, Unit.NONE, meaning, cell)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from threadstate.export.column import Cell, Column, degrees, integer, length, text, truth
+from threadstate.export.column import Cell, Column, degrees, integer, length, truth, words
 
 LEAST_LABELS = 3
 """So many contacts have columns of their own, also where no formation has as many."""
@@ -56,15 +56,15 @@ def interval_columns(contacts: int) -> tuple[Column[IntervalRow], ...]:
         degrees("start", "phase at which the interval begins", lambda one: one.start_deg),
         degrees("end", "phase at which it ends; above 360 where it holds phase 0", lambda one: one.end_deg),
         truth("in_window", "whether it belongs to a clearance window", lambda one: one.in_window),
-        text("class", "class of its states; missing where undecided", lambda one: one.state_class),
-        text("flags", "flags of its states, separated by spaces", lambda one: one.flags),
-        text("formation", "key of its contact formation", lambda one: one.formation),
+        words("class", "class of its states; missing where undecided", lambda one: one.state_class),
+        words("flags", "flags of its states, separated by spaces", lambda one: one.flags),
+        words("formation", "key of its contact formation", lambda one: one.formation),
         length("margin", "smallest distance from other labels, half way", lambda one: one.margin),
         length("first_height", "height of the bolt's origin at first contact, half way", lambda one: one.first_height),
         length("last_height", "height of the bolt's origin in the last pose, half way", lambda one: one.last_height),
         degrees("start_low", "the start lies between this phase, which was solved,", lambda one: one.low_deg),
         degrees("start_high", "and this one", lambda one: one.high_deg),
-        text(
+        words(
             "flags_between",
             "flags that hold at the start alone, separated by spaces",
             lambda one: one.flags_between,
@@ -85,7 +85,7 @@ def _label_columns(place: int) -> list[Column[IntervalRow]]:
     head = f"contact_{place + 1}"
     return [
         integer(f"{head}_stage", "stage at which the contact is made", of(lambda labels: labels.stage)),
-        text(f"{head}_bolt_region", "region of the bolt", of(lambda labels: labels.bolt_region)),
-        text(f"{head}_nut_region", "region of the nut", of(lambda labels: labels.nut_region)),
-        text(f"{head}_features", "what touches, the bolt's first", of(lambda labels: labels.features)),
+        words(f"{head}_bolt_region", "region of the bolt", of(lambda labels: labels.bolt_region)),
+        words(f"{head}_nut_region", "region of the nut", of(lambda labels: labels.nut_region)),
+        words(f"{head}_features", "what touches, the bolt's first", of(lambda labels: labels.features)),
     ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from threadstate.export.column import Cell, Column, Unit, degrees, integer, length, number, text
+from threadstate.export.column import Cell, Column, Unit, degrees, integer, length, number, words
 from threadstate.state.document import ContactDocument, StateDocument
 
 STAGES = (1, 2, 3)
@@ -20,8 +20,8 @@ def state_columns(contacts: int) -> tuple[Column[StateDocument], ...]:
         degrees("roll", "roll of the pose", lambda state: state["roll"]),
         degrees("pitch", "pitch of the pose", lambda state: state["pitch"]),
         degrees("phase", "phase of the pose", lambda state: state["phase"]),
-        text("class", "class of the state", lambda state: str(state["class"])),
-        text("flags", "its flags, separated by spaces", lambda state: " ".join(state["flags"])),
+        words("class", "class of the state", lambda state: str(state["class"])),
+        words("flags", "its flags, separated by spaces", lambda state: " ".join(state["flags"])),
         degrees("lambda", "second turn", lambda state: state["turns"][0]),
         degrees("mu", "third turn", lambda state: state["turns"][1]),
         length("drop", "how far the bolt's origin sinks from the second pose to the third", lambda one: one["drop"]),
@@ -82,9 +82,9 @@ def _contact_columns(place: int) -> list[Column[StateDocument]]:
         *vector("point", Unit.LENGTH, "where it is, in the nut's frame"),
         *vector("point_bolt", Unit.LENGTH, "where it is, in the bolt's frame"),
         *vector("normal", Unit.NONE, "of length 1, in the nut's frame, from the nut into the bolt"),
-        text(f"{head}_bolt_region", "region of the bolt", of(lambda contact: str(contact["bolt_region"]))),
-        text(f"{head}_nut_region", "region of the nut", of(lambda contact: str(contact["nut_region"]))),
-        text(f"{head}_features", "what touches, the bolt's first", of(lambda contact: str(contact["features"]))),
+        words(f"{head}_bolt_region", "region of the bolt", of(lambda contact: str(contact["bolt_region"]))),
+        words(f"{head}_nut_region", "region of the nut", of(lambda contact: str(contact["nut_region"]))),
+        words(f"{head}_features", "what touches, the bolt's first", of(lambda contact: str(contact["features"]))),
         length(f"{head}_bolt_margin", "to the boundary of the bolt's region", of(lambda one: one["bolt_margin"])),
         length(f"{head}_nut_margin", "to the boundary of the nut's region", of(lambda one: one["nut_margin"])),
     ]
