@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from functools import partial
 
 from fastapi import Depends, FastAPI
+from prometheus_client import CollectorRegistry
+from starlette.middleware.cors import CORSMiddleware
 
 import service.building.endpoints
 import service.docs.endpoints
@@ -17,6 +21,7 @@ import service.histories.endpoints
 import service.jobs.endpoints
 import service.libraries.endpoints
 import service.meshes.endpoints
+import service.metrics.endpoints
 import service.network.endpoints
 import service.orientations.endpoints
 import service.solve.endpoints
@@ -24,24 +29,41 @@ import service.states.endpoints
 import service.undecided.endpoints
 import threadstate
 from service.control import ControlEngine
+from service.cors import cors_options
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
+from service.edge.drain import Drain
+from service.edge.middleware import Edge
+from service.edge.route import note_matched_route
 from service.explorer.unknown import install_unknown_page
+from service.kept.answers import KeptAnswers
+from service.kept.compression import Compression
+from service.kept.middleware import AnswerKept
+from service.kept.names import LibraryNames
 from service.keys import guard_reading
-from service.middleware import BodyLimit, EncodedSlashes, HeadAsGet, SecurityHeaders
+from service.limits.admission import Admission, Limits
+from service.limits.body import BodyLimit
+from service.metrics.requests import RequestMetrics
+from service.metrics.state import StateMetrics
+from service.middleware import EncodedSlashes, HeadAsGet
 from service.network.store import NetworkStore
 from service.parameters import refuse_unknown_parameters
 from service.problems import install_problem_handlers
+from service.renditions.shelf import MEGABYTE, RenditionShelf
+from service.warming import Warming
 from threadstate.library.engine import reader_engine
 from threadstate.settings import Settings, read_settings
 
+RENDITIONS = "renditions"
+"""Folder of the renditions, in the data directory."""
 LARGEST_BODY_BYTES = 256 * 1024
 """Room for 1,000 poses with all the digits that a double has."""
 
 
-def create_app(settings: Settings | None = None) -> FastAPI:
+def create_app(settings: Settings | None = None, *, serving: bool = False) -> FastAPI:
     """The service over the database of ``settings`` (None: of the environment).
 
-    The database need not be there yet: ``/readyz`` and the resources say what is missing.
+    The database need not be there yet: ``/readyz`` and the resources say what is missing. ``serving`` is whether this
+    is the application of a process of its own, which logs every request and has whole libraries rendered into files.
 
     Raises:
         InvalidValueError: a setting is not valid.
@@ -49,13 +71,30 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     settings = settings or read_settings()
     engine = reader_engine(settings.database)
     control = ControlEngine(settings.database)
+    names = LibraryNames(engine)
+    kept = KeptAnswers(settings.cache_mb * MEGABYTE)
+    admission = Admission(settings.concurrency, settings.streams)
+    drain = Drain()
+    registry = CollectorRegistry()
+    warming = Warming()
+    registry.register(StateMetrics(engine, kept, admission, warming))
+    shelf = None
+    if serving and settings.renditions_mb > 0:
+        shelf = RenditionShelf(settings.data_dir / RENDITIONS, settings.database, settings.renditions_mb)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        background = asyncio.create_task(warming.run(app, names, shelf)) if serving else None
         yield
+        if background is not None:
+            background.cancel()
+        if shelf is not None:
+            await shelf.close()
+        names.close()
         engine.dispose()
         control.dispose()
 
+    guards = [guard_reading] if settings.read_keys_required else []
     app = DescribedApplication(
         title="threadstate",
         version=threadstate.__version__,
@@ -65,13 +104,16 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         openapi_url=None,
         redirect_slashes=False,
         lifespan=lifespan,
-        dependencies=[Depends(guard_reading), Depends(refuse_unknown_parameters)],
+        dependencies=[Depends(one) for one in (note_matched_route, *guards, refuse_unknown_parameters)],
         responses=PROBLEM_RESPONSES,
     )
+    app.outermost = partial(Edge, metrics=RequestMetrics(registry), drain=drain, logging=serving)
     app.state.engine = engine
     app.state.control = control
     app.state.read_keys_required = settings.read_keys_required
     app.state.networks = NetworkStore()
+    app.state.metrics = registry
+    app.state.drain = drain
     install_problem_handlers(app)
     install_unknown_page(app)
     for part in (
@@ -87,12 +129,20 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         service.solve,
         service.jobs,
         service.health,
+        service.metrics,
         service.docs,
         service.explorer,
     ):
         app.include_router(part.endpoints.router)
     app.include_router(service.histories.computed.router)
+    # From the innermost to the outermost.
     app.add_middleware(BodyLimit, largest_bytes=LARGEST_BODY_BYTES)
-    for middleware in (HeadAsGet, EncodedSlashes, SecurityHeaders):
-        app.add_middleware(middleware)
+    app.add_middleware(Limits, admission=admission, time_limit_s=settings.time_limit_s)
+    app.add_middleware(Compression)
+    if not settings.read_keys_required:
+        app.add_middleware(AnswerKept, names=names, kept=kept, shelf=shelf)
+    app.add_middleware(HeadAsGet)
+    app.add_middleware(EncodedSlashes)
+    if settings.cors_origins:
+        app.add_middleware(CORSMiddleware, **cors_options(settings.cors_origins))
     return app

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from fastapi import FastAPI
+from starlette.types import ASGIApp
 
 from service.examples.answers import EXAMPLES
 from service.problems import MEDIA_TYPE, Problem
@@ -19,7 +21,16 @@ PROBLEM_RESPONSES: dict[int | str, dict[str, Any]] = {
 
 
 class DescribedApplication(FastAPI):
-    """An application that describes its errors as what they are, problem documents, and its answers by examples."""
+    """An application that describes its errors as what they are, problem documents, and its answers by examples.
+
+    ``outermost`` is put around all layers, also the one that answers what nobody has foreseen.
+    """
+
+    outermost: Callable[[ASGIApp], ASGIApp]
+
+    def build_middleware_stack(self) -> ASGIApp:
+        """All layers, made once."""
+        return self.outermost(super().build_middleware_stack())
 
     def openapi(self) -> dict[str, Any]:
         """The OpenAPI document; made once."""

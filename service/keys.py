@@ -9,10 +9,11 @@ from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 from fastapi.security.utils import get_authorization_scheme_param
 
 from service.database import ReadConnection, engine_of
+from service.metrics.endpoints import PATH as PATH_OF_METRICS
 from threadstate.access.keys import require_key
 from threadstate.access.scope import Scope
 
-GUARDED = "/v1/"
+GUARDED = ("/v1/", PATH_OF_METRICS)
 """Where reading needs a key, if it does; health and the description of the interface stay open."""
 
 _BEARER = HTTPBearer(
@@ -37,12 +38,12 @@ def require_write_key(
 
 
 def guard_reading(request: Request) -> None:
-    """Let a request pass if reading is open, or if it shows a key.
+    """Where reading is closed: let a request pass that shows a key.
 
     Raises:
-        KeyRefusedError: reading is closed, and it shows no key that counts.
+        KeyRefusedError: it shows none that counts.
     """
-    if not (request.app.state.read_keys_required and request.url.path.startswith(GUARDED)):
+    if not request.url.path.startswith(GUARDED):
         return
     scheme, key = get_authorization_scheme_param(request.headers.get("authorization"))
     with engine_of(request).connect() as connection:

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from fastapi import Request
+from fastapi.concurrency import run_in_threadpool
 
 from service.problems import INVALID_VALUE, UNKNOWN_PARAMETER, RefusedParameterError
 
 
-def refuse_unknown_parameters(request: Request) -> None:
+async def refuse_unknown_parameters(request: Request) -> None:
     """Check the names of a request's query parameters against those that its resource documents.
 
     Raises:
         RefusedParameterError: a name is unknown (the valid ones are listed) or is there more than once.
     """
     seen: set[str] = set()
+    if request.app.openapi_schema is None:
+        await run_in_threadpool(request.app.openapi)  # half a second, once
     valid = _documented_parameters(request)
     for name, value in request.query_params.multi_items():
         if name not in valid:

@@ -16,6 +16,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
+from service.edge.request_id import INSTANCE_PREFIX, current_request_id
 from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
 from threadstate.errors import (
     InvalidValueError,
@@ -52,6 +53,9 @@ class Problem(BaseModel):
     title: str = Field(description="the problem in words that do not change", examples=["Not found"])
     status: int = Field(description="the HTTP status", ge=400, le=599, examples=[404])
     detail: str = Field(description="this occurrence of it", examples=["library 7 is not published here"])
+    instance: str | None = Field(
+        default=None, description="the number of the request, as in the log", examples=[f"{INSTANCE_PREFIX}7f3a"]
+    )
     errors: list[ProblemItem] = Field(default=[], description="the values that were refused, where there are any")
 
 
@@ -76,6 +80,10 @@ KEY_REFUSED = Kind("key-refused", HTTPStatus.UNAUTHORIZED, "Key needed")
 SCOPE_REFUSED = Kind("scope-refused", HTTPStatus.FORBIDDEN, "Key not good for this")
 JOB_ENDED = Kind("job-ended", HTTPStatus.CONFLICT, "Job has ended")
 NOT_INSTALLED = Kind("not-installed", HTTPStatus.NOT_IMPLEMENTED, "Not installed here")
+TOO_MANY_REQUESTS = Kind("too-many-requests", HTTPStatus.TOO_MANY_REQUESTS, "Too many requests at once")
+TOO_MANY_STREAMS = Kind("too-many-streams", HTTPStatus.TOO_MANY_REQUESTS, "Too many event streams")
+OUT_OF_TIME = Kind("out-of-time", HTTPStatus.SERVICE_UNAVAILABLE, "Out of time")
+DRAINING = Kind("draining", HTTPStatus.SERVICE_UNAVAILABLE, "About to end")
 INTERNAL = Kind("internal", HTTPStatus.INTERNAL_SERVER_ERROR, "Internal error")
 
 KINDS = (
@@ -91,6 +99,10 @@ KINDS = (
     NOT_READY,
     DATABASE_UNAVAILABLE,
     NOT_INSTALLED,
+    TOO_MANY_REQUESTS,
+    TOO_MANY_STREAMS,
+    OUT_OF_TIME,
+    DRAINING,
     INTERNAL,
 )
 """All kinds of the service's own; any other HTTP error has the type ``about:blank``."""
@@ -140,6 +152,8 @@ def problem_response(
 
 
 def _response(problem: Problem, headers: Mapping[str, str]) -> Response:
+    if (number := current_request_id.get()) is not None:
+        problem = problem.model_copy(update={"instance": INSTANCE_PREFIX + number})
     # Escaped to ASCII: what a client sent may not be encodable otherwise (lone surrogates).
     return Response(
         json.dumps(problem.model_dump(exclude_defaults=True)),

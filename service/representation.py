@@ -7,6 +7,9 @@ import json
 
 from fastapi import Request, Response
 
+from service.accepted import names_etag, takes_gzip
+from service.kept.compression import worth_compressing, zipped_etag
+
 REVALIDATE = "public, no-cache"
 """May be stored, must be asked for again: a stored library does not change, but ``latest`` moves on."""
 REVALIDATE_PRIVATELY = "private, no-cache"
@@ -15,6 +18,13 @@ REVALIDATE_PRIVATELY = "private, no-cache"
 JSON = "application/json"
 NOT_MODIFIED: dict[int | str, dict[str, str]] = {304: {"description": "The client's copy is current (`If-None-Match`)"}}
 CSV = "text/csv; charset=utf-8; header=present"
+VARY_ACCEPT = "Accept"
+"""In the header ``Vary`` of what has a JSON and a CSV form."""
+
+
+def etag_of(content: bytes) -> str:
+    """The strong ETag of these bytes."""
+    return f'"{hashlib.sha256(content).hexdigest()}"'
 
 
 def json_response(request: Request, document: object, headers: dict[str, str] | None = None) -> Response:
@@ -26,11 +36,15 @@ def json_response(request: Request, document: object, headers: dict[str, str] | 
 def representation(
     request: Request, content: bytes, media_type: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """``content`` with its ETag, or an empty 304 where ``If-None-Match`` names that ETag."""
-    etag = f'"{hashlib.sha256(content).hexdigest()}"'
+    """``content`` with the ETag under which it is sent, or an empty 304 where ``If-None-Match`` names that ETag."""
+    headers = headers or {}
+    etag = etag_of(content)
+    will_be_zipped = "Content-Encoding" not in headers and worth_compressing(media_type, len(content))
+    if will_be_zipped and takes_gzip(request.headers.get("accept-encoding", "")):
+        etag = zipped_etag(etag)
     cached = REVALIDATE_PRIVATELY if request.app.state.read_keys_required else REVALIDATE
-    all_headers = {"ETag": etag, "Cache-Control": cached, **(headers or {})}
-    if _matches(request.headers.get("if-none-match", ""), etag):
+    all_headers = {"ETag": etag, "Cache-Control": cached, **headers}
+    if names_etag(request.headers.get("if-none-match", ""), etag):
         return Response(status_code=304, headers=all_headers)
     return Response(content, 200, all_headers, media_type)
 
@@ -40,21 +54,6 @@ def zipped_representation(
 ) -> Response:
     """``content``, or to a client that takes gzip the same as ``zipped``; each has an ETag of its own."""
     all_headers = {"Vary": "Accept-Encoding", **(headers or {})}
-    if _takes_gzip(request.headers.get("accept-encoding", "")):
+    if takes_gzip(request.headers.get("accept-encoding", "")):
         return representation(request, zipped, media_type, {"Content-Encoding": "gzip", **all_headers})
     return representation(request, content, media_type, all_headers)
-
-
-def _takes_gzip(accept_encoding: str) -> bool:
-    """Whether the header names gzip, or anything, and does not refuse it (``q=0``)."""
-    for coding in accept_encoding.lower().split(","):
-        name, _, weight = coding.replace(" ", "").partition(";q=")
-        if name in ("gzip", "*"):
-            return weight.strip("0.") != "" or weight == ""
-    return False
-
-
-def _matches(if_none_match: str, etag: str) -> bool:
-    """Whether the header's list names ``etag``; for this header RFC 9110 has weak tags match as well."""
-    tags = (tag.strip().removeprefix("W/") for tag in if_none_match.split(","))
-    return any(tag in (etag, "*") for tag in tags)

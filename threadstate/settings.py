@@ -7,8 +7,10 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 from pathlib import Path
 
 from threadstate._numba_cache import SETTING as NUMBA_CACHE_DIR
@@ -28,6 +30,15 @@ LEASE_S = "THREADSTATE_LEASE_S"
 HEARTBEAT_FILE = "THREADSTATE_HEARTBEAT_FILE"
 SERVICE = "THREADSTATE_SERVICE"
 KEY = "THREADSTATE_KEY"
+CACHE_MB = "THREADSTATE_CACHE_MB"
+RENDITIONS_MB = "THREADSTATE_RENDITIONS_MB"
+CONCURRENCY = "THREADSTATE_CONCURRENCY"
+STREAMS = "THREADSTATE_STREAMS"
+TIME_LIMIT_S = "THREADSTATE_TIME_LIMIT_S"
+GRACE_S = "THREADSTATE_GRACE_S"
+LOG = "THREADSTATE_LOG"
+LOG_LEVEL = "THREADSTATE_LOG_LEVEL"
+CORS_ORIGINS = "THREADSTATE_CORS_ORIGINS"
 
 NAMES = (
     DATA_DIR,
@@ -42,6 +53,15 @@ NAMES = (
     HEARTBEAT_FILE,
     SERVICE,
     KEY,
+    CACHE_MB,
+    RENDITIONS_MB,
+    CONCURRENCY,
+    STREAMS,
+    TIME_LIMIT_S,
+    GRACE_S,
+    LOG,
+    LOG_LEVEL,
+    CORS_ORIGINS,
     NUMBA_CACHE_DIR,
 )
 """Every setting there is."""
@@ -49,6 +69,29 @@ NAMES = (
 DATABASE_FILE = "threadstate.sqlite3"
 LARGEST_WORKER_COUNT = 256
 DEFAULT_LEASE_S, LARGEST_LEASE_S = 20, 3600
+DEFAULT_CACHE_MB, DEFAULT_RENDITIONS_MB, LARGEST_ROOM_MB = 256, 1024, 1_000_000
+DEFAULT_CONCURRENCY, LARGEST_CONCURRENCY = 32, 1000
+DEFAULT_STREAMS, LARGEST_STREAMS = 100, 10_000
+DEFAULT_TIME_LIMIT_S, LARGEST_TIME_LIMIT_S = 30, 3600
+DEFAULT_GRACE_S, LARGEST_GRACE_S = 20, 3600
+
+_ORIGIN = re.compile(r"https?://[A-Za-z0-9.-]+(:[0-9]{1,5})?")
+
+
+class LogForm(StrEnum):
+    """The form of a line in the log; the first is the default."""
+
+    JSON = "json"
+    TEXT = "text"
+
+
+class LogLevel(StrEnum):
+    """The least that is logged; the first is the default."""
+
+    INFO = "info"
+    DEBUG = "debug"
+    WARNING = "warning"
+    ERROR = "error"
 
 
 @dataclass(frozen=True)
@@ -65,6 +108,15 @@ class Settings:
         read_keys_required: whether reading, too, needs a key.
         lease_s: after how many seconds of silence a worker is taken for dead.
         heartbeat_file: file that a worker touches with every heartbeat; None: none.
+        cache_mb: room for answers that are kept in memory, in megabytes (10^6 bytes).
+        renditions_mb: room for renditions of whole libraries, in files below ``data_dir``, in megabytes.
+        concurrency: how many requests compute at once.
+        streams: how many event streams may be open.
+        time_limit_s: how long a request may take until its answer begins.
+        grace_s: how long requests in flight may take when the process is told to end.
+        log: the form of the log's lines.
+        log_level: the least that is logged.
+        cors_origins: origins whose pages may read the service from elsewhere.
     """
 
     data_dir: Path
@@ -76,6 +128,15 @@ class Settings:
     read_keys_required: bool
     lease_s: int
     heartbeat_file: Path | None
+    cache_mb: int
+    renditions_mb: int
+    concurrency: int
+    streams: int
+    time_limit_s: int
+    grace_s: int
+    log: LogForm
+    log_level: LogLevel
+    cors_origins: tuple[str, ...]
 
 
 def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
@@ -95,6 +156,15 @@ def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
         read_keys_required=_one_of(environment, READ_KEYS, ("open", "required")) == "required",
         lease_s=_integer(environment, LEASE_S, DEFAULT_LEASE_S, LARGEST_LEASE_S),
         heartbeat_file=Path(file) if (file := environment.get(HEARTBEAT_FILE)) else None,
+        cache_mb=_integer(environment, CACHE_MB, DEFAULT_CACHE_MB, LARGEST_ROOM_MB, 0),
+        renditions_mb=_integer(environment, RENDITIONS_MB, DEFAULT_RENDITIONS_MB, LARGEST_ROOM_MB, 0),
+        concurrency=_integer(environment, CONCURRENCY, DEFAULT_CONCURRENCY, LARGEST_CONCURRENCY),
+        streams=_integer(environment, STREAMS, DEFAULT_STREAMS, LARGEST_STREAMS, 0),
+        time_limit_s=_integer(environment, TIME_LIMIT_S, DEFAULT_TIME_LIMIT_S, LARGEST_TIME_LIMIT_S),
+        grace_s=_integer(environment, GRACE_S, DEFAULT_GRACE_S, LARGEST_GRACE_S, 2),
+        log=LogForm(_one_of(environment, LOG, tuple(LogForm))),
+        log_level=LogLevel(_one_of(environment, LOG_LEVEL, tuple(LogLevel))),
+        cors_origins=_origins(environment),
     )
 
 
@@ -130,12 +200,12 @@ def _data_dir(environment: Mapping[str, str]) -> Path:
     return Path("data").absolute()
 
 
-def _integer(environment: Mapping[str, str], name: str, default: int, largest: int) -> int:
+def _integer(environment: Mapping[str, str], name: str, default: int, largest: int, smallest: int = 1) -> int:
     text = environment.get(name)
     if not text:
         return default
-    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= largest):
-        raise InvalidValueError(name, text, f"an integer, 1 to {largest}")
+    if not (text.isascii() and text.isdigit() and smallest <= int(text) <= largest):
+        raise InvalidValueError(name, text, f"an integer, {smallest} to {largest}")
     return int(text)
 
 
@@ -145,6 +215,15 @@ def _one_of(environment: Mapping[str, str], name: str, valid: tuple[str, ...]) -
     if text not in valid:
         raise InvalidValueError(name, text, ", ".join(valid))
     return text
+
+
+def _origins(environment: Mapping[str, str]) -> tuple[str, ...]:
+    """Origins, separated by commas; ``*`` is none, because what writes needs a key."""
+    origins = tuple(one.strip() for one in (environment.get(CORS_ORIGINS) or "").split(",") if one.strip())
+    for origin in origins:
+        if not _ORIGIN.fullmatch(origin):
+            raise InvalidValueError(CORS_ORIGINS, origin, "origins such as https://example.com, separated by commas")
+    return origins
 
 
 def _processors() -> int:

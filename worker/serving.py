@@ -6,10 +6,10 @@ import os
 import sys
 from typing import NoReturn
 
-from threadstate.settings import DATABASE
+from threadstate.settings import DATABASE, HOST, PORT
 from worker.output import tell
 
-SERVICE = "service.app:create_app"
+SERVICE = "service"
 """The service by name: the worker does not import it."""
 
 
@@ -19,10 +19,9 @@ def become_service(database: str, host: str, port: int) -> NoReturn:
     What ``serve`` and ``run`` end with.
     """
     tell(f"Open {address(host, port)} in a browser, or ask {address(host, port)}/v1/libraries/latest.")
-    arguments = [sys.executable, "-m", "uvicorn", SERVICE, "--factory", "--host", host, "--port", str(port)]
-    environment = {**os.environ, DATABASE: database}
+    environment = {**os.environ, DATABASE: database, HOST: host, PORT: str(port)}
     # This very interpreter, and arguments that no shell reads.
-    os.execve(sys.executable, arguments, environment)  # nosec B606
+    os.execve(sys.executable, [sys.executable, "-m", SERVICE], environment)  # nosec B606
 
 
 def address(host: str, port: int) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response
 
 from service.docs.assets import ASSETS, PAGE
+from service.edge.middleware import CONTENT_SECURITY_POLICY
 from service.media_types import HTML
-from service.middleware import CONTENT_SECURITY_POLICY
 from service.representation import json_response, representation
 from threadstate.errors import NotFoundError
 

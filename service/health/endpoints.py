@@ -6,7 +6,8 @@ from fastapi import APIRouter, Request, Response
 from pydantic import BaseModel, Field
 
 from service.database import engine_of
-from service.problems import NOT_READY, problem_response
+from service.edge.drain import drain_of
+from service.problems import DRAINING, NOT_READY, problem_response
 from threadstate.errors import NotFoundError
 from threadstate.library.read import latest_library
 from threadstate.library.schema import SCHEMA_REVISION, check_schema
@@ -37,7 +38,12 @@ def healthz(response: Response) -> Health:
 
 @router.get("/readyz", summary="Can the service answer?", response_model=Readiness)
 def readyz(request: Request, response: Response) -> Readiness | Response:
-    """200 where the database has the schema that this code expects and a library is published, else 503."""
+    """200 where the database has the schema that this code expects and a library is published, else 503.
+
+    503 too from when the process was told to end: no new connections are to come here.
+    """
+    if drain_of(request).begun:
+        return problem_response(DRAINING, "this process was told to end")
     engine = engine_of(request)
     check_schema(engine)
     try:

@@ -6,13 +6,14 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 
+from service.accepted import prefers_csv
 from service.angles import PitchPath, RollPath
 from service.database import ReadConnection
 from service.histories.columns import csv_table, history_columns
 from service.histories.repository import history
 from service.histories.schemas import HistoryColumns, HistoryFormat, HistoryRows
 from service.libraries.identify import IdentifiedLibrary
-from service.representation import CSV, NOT_MODIFIED, json_response, representation
+from service.representation import CSV, NOT_MODIFIED, VARY_ACCEPT, json_response, representation
 from service.units import UNIT_HEADER, UnitQuery
 from threadstate.state.document import state_document
 from threadstate.units import conversion_factor
@@ -48,10 +49,11 @@ def get_history(
     factor = conversion_factor(library.length_unit, shown)
     found = history(connection, library, roll, pitch)
     states = [state_document(state, factor) for state in found.states]
-    headers = {UNIT_HEADER: shown.value, "Vary": "Accept"}
+    headers = {UNIT_HEADER: shown.value, "Vary": VARY_ACCEPT}
     head = {"library": library.id, "unit": shown.value, "roll": roll + 0.0, "pitch": pitch + 0.0}
     tail = {"undecided": [{"phase": pose.phase_deg, "reason": pose.reason} for pose in found.undecided]}
-    match format or _accepted_format(request.headers.get("accept", "")):
+    accepted = HistoryFormat.CSV if prefers_csv(request.headers.get("accept", "")) else HistoryFormat.ROWS
+    match format or accepted:
         case HistoryFormat.CSV:
             return representation(request, csv_table(history_columns(states)), CSV, headers)
         case HistoryFormat.COLUMNS:
@@ -59,14 +61,3 @@ def get_history(
             return json_response(request, {**head, "columns": columns, **tail}, headers)
         case HistoryFormat.ROWS:
             return json_response(request, {**head, "states": states, **tail}, headers)
-
-
-def _accepted_format(accept: str) -> HistoryFormat:
-    """CSV where the header names text/csv before anything that JSON satisfies."""
-    for media_range in accept.split(","):
-        match media_range.partition(";")[0].strip().lower():
-            case "text/csv":
-                return HistoryFormat.CSV
-            case "application/json" | "application/*" | "*/*":
-                return HistoryFormat.ROWS
-    return HistoryFormat.ROWS

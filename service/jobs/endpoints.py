@@ -9,6 +9,7 @@ from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 
 from service.control import RequestedControl
 from service.database import ReadConnection, engine_of
+from service.edge.drain import drain_of
 from service.jobs.schemas import JobDocument, JobPage, JobRequest, job_document
 from service.jobs.stream import HEADERS, EventStream, told
 from service.keys import require_write_key
@@ -108,7 +109,7 @@ def get_events(request: Request, job_id: JobId, last_event_id: LastEventHeader =
         return Response(status_code=204, headers={"Cache-Control": "no-store"})
     if request.scope.get(ASKED_AS_HEAD):
         return Response(media_type=EventStream.media_type, headers=HEADERS)
-    return EventStream(told(engine, job_id, last_event_id), headers=HEADERS)
+    return EventStream(told(engine, job_id, last_event_id, drain_of(request)), headers=HEADERS)
 
 
 @router.delete("/{id}", summary="Cancel a job", response_model=JobDocument, dependencies=[Depends(require_write_key)])

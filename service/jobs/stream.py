@@ -9,6 +9,7 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import StreamingResponse
 from sqlalchemy import Engine
 
+from service.edge.drain import Drain
 from service.jobs.schemas import event_document
 from threadstate.jobs.model import JobEvent, JobRecord
 from threadstate.jobs.read import events_after, job_by_id
@@ -28,8 +29,8 @@ class EventStream(StreamingResponse):
     media_type = "text/event-stream"
 
 
-async def told(engine: Engine, job_id: int, after: int) -> AsyncIterator[str]:
-    """The events of a job after the one of that number, to its end."""
+async def told(engine: Engine, job_id: int, after: int, drain: Drain) -> AsyncIterator[str]:
+    """The events of a job after the one of that number, to its end or the process's: clients connect again then."""
     quiet = 0
     while True:
         job, events = await run_in_threadpool(_look, engine, job_id, after)
@@ -37,7 +38,7 @@ async def told(engine: Engine, job_id: int, after: int) -> AsyncIterator[str]:
             data = event_document(job, event).model_dump_json()
             yield f"id: {event.number}\nevent: {event.kind}\ndata: {data}\n\n"
             after = event.number
-        if job.state.ended:
+        if job.state.ended or drain.begun:
             return
         quiet = 0 if events else quiet + 1
         if quiet == QUIET_POLLS:

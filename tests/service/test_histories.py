@@ -76,7 +76,7 @@ def test_three_formats_agree(client: TestClient, unit: str) -> None:
 def test_accept_header_chooses_the_format(client: TestClient, accept: str, media_type: str) -> None:
     response = client.get(HISTORY, headers={"Accept": accept})
     assert response.headers["Content-Type"].partition(";")[0] == media_type
-    assert response.headers["Vary"] == "Accept"
+    assert response.headers["Vary"] == "Accept, Accept-Encoding"
 
 
 def test_format_wins_over_the_accept_header(client: TestClient) -> None:

@@ -46,6 +46,12 @@ def events_after(connection: Connection, job_id: int, number: int) -> list[JobEv
     ]
 
 
+def job_counts(connection: Connection) -> dict[str, int]:
+    """How many jobs there are of each state that any has."""
+    query = select(job.c.state, func.count()).group_by(job.c.state)
+    return {row[0]: row[1] for row in connection.execute(query)}
+
+
 def _jobs() -> Select[tuple[object, ...]]:
     leases = (
         select(func.count())

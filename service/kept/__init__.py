@@ -1,0 +1,1 @@
+"""Answers about published libraries, which do not change: found without making them again."""

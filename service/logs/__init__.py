@@ -1,0 +1,1 @@
+"""What the process says of itself: one line for each event, on stderr."""

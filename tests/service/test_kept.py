@@ -1,0 +1,145 @@
+from __future__ import annotations
+
+import gzip
+import threading
+
+import pytest
+from fastapi.testclient import TestClient
+from sqlalchemy import Connection
+
+from service.app import create_app
+from service.kept.answers import OVERHEAD_BYTES, Answer, KeptAnswers
+from tests.databases import Databases
+from tests.service.conftest import StoredLibrary, store_library
+from tests.service.made_up_states import made_up_states
+from threadstate.library.engine import writing
+from threadstate.library.grid import Grid
+from threadstate.library.orientations import OrientationSummary, orientation_summaries
+from threadstate.library.tables import library
+from threadstate.settings import CACHE_MB, DATABASE, read_settings
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+HISTORY = "/v1/libraries/latest/histories/1/-1"
+
+
+def _answer(size: int) -> Answer:
+    return Answer("/", '"x"', [], bytes(size))
+
+
+def test_least_recently_asked_for_goes_first() -> None:
+    kept = KeptAnswers(8 * OVERHEAD_BYTES)
+    for i in range(4):
+        kept.put(i, _answer(OVERHEAD_BYTES))
+    assert kept.get(0) is not None
+    kept.put(4, _answer(OVERHEAD_BYTES))
+    assert [kept.get(i) is not None for i in range(5)] == [True, False, True, True, True]
+    assert (kept.bytes, len(kept)) == (8 * OVERHEAD_BYTES, 4)
+    assert (kept.hits, kept.misses) == (5, 1)
+
+
+def test_same_key_again_takes_no_more_room() -> None:
+    kept = KeptAnswers(8 * OVERHEAD_BYTES)
+    for _ in range(9):
+        kept.put(1, _answer(100))
+    assert kept.bytes == OVERHEAD_BYTES + 100
+
+
+def test_what_is_too_large_is_not_kept() -> None:
+    kept = KeptAnswers(8 * OVERHEAD_BYTES)
+    kept.put(1, _answer(OVERHEAD_BYTES + 1))
+    assert len(kept) == 0
+    nothing = KeptAnswers(0)
+    nothing.put(1, _answer(0))
+    assert len(nothing) == 0
+
+
+@pytest.mark.parametrize("room", ["0", "1"])
+def test_kept_answer_is_the_one_that_was_made(made_up: StoredLibrary, room: str) -> None:
+    with TestClient(create_app(read_settings({DATABASE: made_up.database, CACHE_MB: room}))) as client:
+        for path in ("states?limit=3", "orientations", "histories/1/-1", "histories/1/-1?format=csv", "meshes/nut", ""):
+            for encoding in ("gzip", "identity"):
+                headers = {"Accept-Encoding": encoding}
+                first, second = (client.get(f"/v1/libraries/latest/{path}".rstrip("/"), headers=headers) for _ in "ab")
+                assert first.status_code == 200
+                for answer in (first, second):
+                    answer.headers.pop("X-Request-ID")
+                assert first.content == second.content
+                assert sorted(first.headers.items()) == sorted(second.headers.items())
+
+
+def test_compressed_and_plain_are_told_apart(client: TestClient) -> None:
+    for path in (HISTORY, "/v1/libraries", "/openapi.json"):
+        plain, zipped = (client.get(path, headers={"Accept-Encoding": one}) for one in ("identity", "gzip"))
+        assert "Content-Encoding" not in plain.headers
+        assert zipped.headers["Content-Encoding"] == "gzip"
+        assert plain.content == zipped.content
+        assert plain.headers["ETag"] != zipped.headers["ETag"]
+        assert "Accept-Encoding" in plain.headers["Vary"]
+        assert plain.headers["Vary"] == zipped.headers["Vary"]
+        assert int(zipped.headers["Content-Length"]) < int(plain.headers["Content-Length"])
+        for encoding, own, other in (("identity", plain, zipped), ("gzip", zipped, plain)):
+            statuses = [
+                client.get(
+                    path, headers={"Accept-Encoding": encoding, "If-None-Match": one.headers["ETag"]}
+                ).status_code
+                for one in (own, other)
+            ]
+            assert statuses == [304, 200]
+
+
+def test_answers_to_posts_and_problems_are_compressed(client: TestClient) -> None:
+    poses = {"poses": [{"roll": 1, "pitch": 2, "phase": 3}]}
+    with client.stream("POST", "/v1/solve", json=poses, headers={"Accept-Encoding": "gzip"}) as answer:
+        raw = b"".join(answer.iter_raw())
+    assert answer.headers["Content-Encoding"] == "gzip"
+    assert len(gzip.decompress(raw)) > len(raw)
+    small = client.get("/healthz", headers={"Accept-Encoding": "gzip"})
+    assert "Content-Encoding" not in small.headers
+
+
+def test_accept_header_is_part_of_what_is_kept(client: TestClient) -> None:
+    for _ in range(2):
+        assert client.get(HISTORY, headers={"Accept": "text/csv"}).headers["Content-Type"].startswith("text/csv")
+        assert client.get(HISTORY, headers={"Accept": "*/*"}).headers["Content-Type"] == "application/json"
+
+
+@pytest.mark.sqlite_alone
+def test_publication_and_removal_show_at_once(databases: Databases) -> None:
+    database = databases.migrated()
+    pair, grid = quarter_twenty_unc(), Grid(1.0, 1.0, 90.0)
+    with TestClient(create_app(read_settings({DATABASE: database}))) as client:
+        path = "/v1/libraries/latest/orientations"
+        assert client.get(path).status_code == 404
+        first = store_library(database, pair, grid, made_up_states)
+        assert f'"library":{first.id},' in client.get(path).text
+        second = store_library(database, pair, Grid(1.0, 1.0, 120.0), made_up_states)
+        assert f'"library":{second.id},' in client.get(path).text
+        with writing(database) as engine, engine.begin() as connection:
+            connection.execute(library.delete().where(library.c.id == second.id))
+        assert f'"library":{first.id},' in client.get(path).text
+        assert client.get(f"/v1/libraries/{second.id}/orientations").status_code == 404
+
+
+def test_what_several_ask_for_at_once_is_made_once(made_up: StoredLibrary, monkeypatch: pytest.MonkeyPatch) -> None:
+    made, release = [], threading.Event()
+
+    def slow(connection: Connection, library_id: int) -> list[OrientationSummary]:
+        made.append(library_id)
+        release.wait(10.0)
+        return orientation_summaries(connection, library_id)
+
+    monkeypatch.setattr("service.orientations.endpoints.orientation_summaries", slow)
+    with TestClient(create_app(read_settings({DATABASE: made_up.database}))) as client:
+        answers: list[bytes] = []
+        threads = [
+            threading.Thread(target=lambda: answers.append(client.get("/v1/libraries/latest/orientations").content))
+            for _ in range(5)
+        ]
+        for thread in threads:
+            thread.start()
+        threading.Timer(0.5, release.set).start()
+        for thread in threads:
+            thread.join()
+    assert len(made) == 1
+    assert len(set(answers)) == 1
+    assert len(answers) == 5
