@@ -12,6 +12,7 @@
 # make kills      kill workers of jobs a hundred times, and check what is left
 # make fuzz     ask the service whatever its description allows and forbids, 10,000 times and more
 # make audit      ask the advisory services about every locked dependency; fails where they cannot be reached
+# make scale      measure what large libraries and many cost, write the tables of docs/scale.md
 # make lock       renew the lock files after a change of dependencies (needs uv)
 
 PYTHON ?= python3
@@ -22,7 +23,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots kills fuzz audit
+.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots kills fuzz audit scale
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -66,6 +67,10 @@ designer: setup
 screenshots: setup
 	$(BIN)/threadstate rebuild
 	$(BIN)/python -m scripts.write_screenshots
+
+scale: setup
+	$(BIN)/threadstate rebuild
+	$(BIN)/python -m benchmarks.scale
 
 kills: setup
 	$(BIN)/python -m scripts.kill_workers

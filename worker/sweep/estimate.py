@@ -17,10 +17,10 @@ from worker.answers import mesh_answers
 from worker.compute import compute_chunk
 from worker.messages import Chunk
 
-SQLITE_BYTES_A_ROW, POSTGRESQL_BYTES_A_ROW = 150, 250
+SQLITE_BYTES_A_ROW, POSTGRESQL_BYTES_A_ROW = 150, 295
 """Table and indexes, of a full library (docs/scale.md)."""
-WRITING_S_A_ROW = 8e-6
-"""Processor time of the one that writes (docs/scale.md)."""
+SQLITE_S_A_ROW, POSTGRESQL_S_A_ROW = 7e-6, 6e-5
+"""Processor time of committing, the server's too (docs/scale.md)."""
 MESH_POSES = 2
 """How many poses are solved by meshes: one takes up to ten seconds."""
 
@@ -84,9 +84,12 @@ def _estimate(
     published, committed = there
     orientations = inputs.grid.orientation_count
     row_count = round(sample.rows * orientations)
-    bytes_a_row = SQLITE_BYTES_A_ROW if is_sqlite(engine.url) else POSTGRESQL_BYTES_A_ROW
+    if is_sqlite(engine.url):
+        bytes_a_row, a_row_s = SQLITE_BYTES_A_ROW, SQLITE_S_A_ROW
+    else:
+        bytes_a_row, a_row_s = POSTGRESQL_BYTES_A_ROW, POSTGRESQL_S_A_ROW
     missing = 0 if published else orientations - committed
-    an_orientation_s = max(sample.seconds / min(computers, max(missing, 1)), sample.rows * WRITING_S_A_ROW)
+    an_orientation_s = max(sample.seconds / min(computers, max(missing, 1)), sample.rows * a_row_s)
     return Estimate(inputs, published, committed, row_count, row_count * bytes_a_row, missing * an_orientation_s)
 
 
