@@ -34,10 +34,16 @@ CHECKED_TEXT = {
 
 
 def _calls(tree: ast.AST) -> Iterator[ast.Call]:
+    others = {
+        alias.asname or alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and not (node.module or "").startswith("sqlalchemy")
+        for alias in node.names
+    }
     for node in ast.walk(tree):
         if isinstance(node, ast.Call):
             name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-            if name in TAKES_SQL and node.args:
+            if name in TAKES_SQL and node.args and not (isinstance(node.func, ast.Name) and name in others):
                 yield node
 
 

@@ -14,6 +14,6 @@ pytestmark = pytest.mark.sqlite_alone
 def test_every_answer_is_as_described(tmp_path: Path) -> None:
     tally = run(tmp_path, examples=1, seed=20060128, longest_s=3600)
     assert tally.wrong == []
-    assert len(tally.cases) == 27
+    assert len(tally.cases) >= 27, "every operation is asked"
     assert tally.total > 500
-    assert {200, 202, 304, 400, 404, 405} <= set(tally.statuses) | {304}
+    assert {200, 202, 400, 404, 405} <= set(tally.statuses)
