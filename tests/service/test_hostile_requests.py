@@ -109,7 +109,16 @@ def described(client: TestClient) -> Iterator[tuple[str, str, dict[str, Any]]]:
 
 def address(path: str, **values: str) -> str:
     """A path with values in place of its parameters, as they are."""
-    known = {"id": "1", "roll": "0", "pitch": "0", "phase": "0", "key": "0000000000", "part": "bolt", "table": "states"}
+    known = {
+        "id": "1",
+        "roll": "0",
+        "pitch": "0",
+        "phase": "0",
+        "key": "0000000000",
+        "part": "bolt",
+        "table": "states",
+        "format": "ndjson",
+    }
     return path.format(**{**known, **values})
 
 
