@@ -16,7 +16,8 @@ from service.problems import OUT_OF_TIME, TOO_MANY_REQUESTS, TOO_MANY_STREAMS, K
 
 LIMITED = "/v1/"
 """What is below computes, or asks the database; the rest is for those who watch, or comes from memory."""
-QUEUED_PER_PLACE = 4
+QUEUED_PER_PLACE = 16
+"""Threads that read rows hold each other up: few at once answer more than many."""
 RETRY_AFTER_S = 1
 
 _log = logging.getLogger(__name__)
