@@ -2,6 +2,8 @@
 # make run        migrate, compute the library if this very one is not published yet, serve it
 # make test       format, lint, types, bandit, tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
 # make bench      poses per second, beside a mesh collision library
+# make load       questions per second that the service answers, beside Datasette over the same file; writes docs/load.md
+#                 (apt-get install wrk)
 # make paper      put the paper's statements to the test, write docs/paper-claims.md
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
@@ -23,7 +25,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench paper chart stability docs lock designer histories screenshots kills fuzz audit scale
+.PHONY: setup run test bench load paper chart stability docs lock designer histories screenshots kills fuzz audit scale
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -42,6 +44,9 @@ test: setup
 
 bench: setup
 	$(BIN)/python -m benchmarks
+
+load: setup $(VENV)-load/.dependencies
+	$(BIN)/python -m benchmarks.load --datasette $(VENV)-load/bin/python --write docs/load.md
 
 paper: setup
 	$(BIN)/python -m studies.paper
@@ -94,6 +99,11 @@ $(VENV)/.dependencies: requirements.lock $(VENV)/.created
 $(VENV)-audit/.dependencies: requirements-audit.lock
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)-audit
 	$(VENV)-audit/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $<
+	@touch $@
+
+$(VENV)-load/.dependencies: requirements-load.lock
+	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)-load
+	$(VENV)-load/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $<
 	@touch $@
 
 node_modules/.installed: package.json package-lock.json requirements-node.lock $(VENV)/.created

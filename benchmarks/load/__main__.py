@@ -1,0 +1,118 @@
+"""``make load``: how many questions the service answers, beside Datasette over the same file."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import urllib.request
+from pathlib import Path
+
+from benchmarks.load.questions import (
+    HISTORY,
+    HISTORY_BY_DATASETTE,
+    INTERVALS,
+    ONE_HISTORY,
+    POSE,
+    POSE_BY_DATASETTE,
+    ZIPPED_HISTORY,
+    not_modified,
+)
+from benchmarks.load.report import Case, document, table
+from benchmarks.load.servers import (
+    FROM_TABLES,
+    NOTHING_KEPT,
+    datasette,
+    prepare,
+    rebuilding,
+    threadstate_service,
+    wait_until_prepared,
+)
+from benchmarks.load.wrk import Answered, LoadError, Question, load
+
+SEED = 20060501
+_Answers = dict[str, Answered]
+
+
+def main() -> int:
+    """Measure, print, and write the document.
+
+    Returns:
+        0 if every promise was kept.
+    """
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.load", description=__doc__)
+    parser.add_argument("--seconds", type=float, default=5.0, help="for each number [%(default)s]")
+    parser.add_argument(
+        "--datasette", type=Path, default=Path(".venv-load/bin/python"), help="Python that has it [%(default)s]"
+    )
+    parser.add_argument("--library", type=Path, help="a database that has the library [it is computed]")
+    parser.add_argument("--write", type=Path, help="the document that is written [none]")
+    arguments = parser.parse_args()
+    try:
+        with tempfile.TemporaryDirectory(prefix="threadstate-load-") as folder:
+            cases = _measured(Path(folder), arguments)
+    except LoadError as error:
+        sys.stderr.write(f"{error}\n")
+        return 1
+    sys.stdout.write(table(cases))
+    broken = [line for case in cases for line in case.broken]
+    sys.stdout.writelines(f"not kept: {line}\n" for line in broken)
+    if arguments.write is not None:
+        arguments.write.write_text(document(cases, arguments.seconds))
+    return 1 if broken else 0
+
+
+def _measured(folder: Path, arguments: argparse.Namespace) -> list[Case]:
+    seconds = arguments.seconds
+    database = prepare(folder, arguments.library)
+    with datasette(arguments.datasette, database) as address:
+        by_datasette = _asked(address, {"pose": POSE_BY_DATASETTE, "history": HISTORY_BY_DATASETTE}, seconds)
+    alone = _of_service(folder, database, seconds)
+    with threadstate_service(folder, database, FROM_TABLES) as address:
+        wait_until_prepared(address)
+        tables = _asked(address, {"pose": POSE, "history": HISTORY}, seconds)
+    with rebuilding(database):
+        disturbed = _of_service(folder, database, seconds)
+
+    def case(
+        name: str, of: str, least_rate: float | None, most_p99_ms: float | None = None, times: float | None = None
+    ) -> Case:
+        return Case(name, alone[of], disturbed[of], by_datasette.get(of), least_rate, most_p99_ms, times)
+
+    return [
+        case("pose", "pose", 3000.0, 15.0, 8.0),
+        case("history, nothing kept", "history", 300.0, 150.0, 5.0),
+        case("history, kept", "kept", None),
+        case("history, kept, gzip", "zipped", None),
+        case("intervals, kept", "intervals", None),
+        case("history, 304", "unchanged", 6000.0),
+        Case("pose, from tables", tables["pose"], datasette=by_datasette["pose"]),
+        Case("history, from tables", tables["history"], datasette=by_datasette["history"]),
+    ]
+
+
+def _of_service(folder: Path, database: str, seconds: float) -> _Answers:
+    with threadstate_service(folder, database, {}) as address:
+        wait_until_prepared(address)
+        unchanged = not_modified(_fetch(address + ONE_HISTORY))
+        questions = {"pose": POSE, "kept": HISTORY, "zipped": ZIPPED_HISTORY, "intervals": INTERVALS}
+        for warming in (HISTORY, ZIPPED_HISTORY, INTERVALS):
+            load(address, warming, seconds, SEED)
+        found = _asked(address, {**questions, "unchanged": unchanged}, seconds)
+    with threadstate_service(folder, database, NOTHING_KEPT) as address:
+        wait_until_prepared(address)
+        return {**found, **_asked(address, {"history": HISTORY}, seconds)}
+
+
+def _asked(address: str, questions: dict[str, Question], seconds: float) -> _Answers:
+    return {name: load(address, question, seconds, SEED) for name, question in questions.items()}
+
+
+def _fetch(address: str) -> str:
+    """Ask once; the ETag."""
+    with urllib.request.urlopen(address, timeout=60.0) as answer:
+        return str(answer.headers["ETag"])
+
+
+if __name__ == "__main__":
+    sys.exit(main())
