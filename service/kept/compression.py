@@ -89,7 +89,11 @@ class Compression:
 
         async def send_zipped(message: Message) -> None:
             nonlocal held
-            if held is not None:
+            if held is not None and message.get("more_body"):
+                await send(held)
+                await send(message)
+                held = None
+            elif held is not None:
                 content = await zipped(message["body"])
                 await send({**held, "headers": zipped_headers(held["headers"], len(content))})
                 await send({**message, "body": content})

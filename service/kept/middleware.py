@@ -164,6 +164,10 @@ class _Capture:
         """Take a message of the application (ASGI)."""
         if self._start is not None:
             start, self._start = self._start, None
+            if message.get("more_body"):
+                await self._send(start)
+                await self._send(message)
+                return
             self.answer = self._answer(varying(start["headers"]), message["body"])
         elif message["type"] == "http.response.start" and self._is_kept(message["headers"]):
             if message["status"] == 200 and _named(message["headers"], b"content-length"):

@@ -4,6 +4,7 @@ import gzip
 import threading
 
 import pytest
+from fastapi.responses import StreamingResponse
 from fastapi.testclient import TestClient
 from sqlalchemy import Connection
 
@@ -143,3 +144,20 @@ def test_what_several_ask_for_at_once_is_made_once(made_up: StoredLibrary, monke
     assert len(made) == 1
     assert len(set(answers)) == 1
     assert len(answers) == 5
+
+
+def test_stream_of_a_known_length_goes_through_whole(made_up: StoredLibrary) -> None:
+    parts = [b"a" * 2000, b"b" * 2000]
+    app = create_app(read_settings({DATABASE: made_up.database}))
+
+    @app.get("/v1/libraries/{id}/parts")
+    def stream(id: str) -> StreamingResponse:  # noqa: A002 - as in the address
+        headers = {"ETag": f'"{id}"', "Cache-Control": "public, no-cache", "Content-Length": "4000"}
+        return StreamingResponse(iter(parts), headers=headers, media_type="application/json")
+
+    app.openapi_schema = {"paths": {}}
+    with TestClient(app) as client:
+        for encoding in ("identity", "gzip"):
+            for _ in range(2):
+                answer = client.get("/v1/libraries/latest/parts", headers={"Accept-Encoding": encoding})
+                assert answer.content == b"".join(parts)
