@@ -12,7 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 PATIENCE_S = 60.0
-DASK = [sys.executable, "-m", "dask"]
+DASK = ["setpriv", "--pdeathsig", "KILL", sys.executable, "-m", "dask"]
+"""It ends with this process, however that ends."""
 
 
 class Cluster:
