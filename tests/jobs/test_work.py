@@ -14,6 +14,7 @@ from threadstate.jobs.work import (
     MOST_SETBACKS,
     hand_in,
     has_ended,
+    let_go,
     next_work,
     publish_job,
     set_back,
@@ -114,6 +115,22 @@ def test_what_a_removed_worker_was_at_is_free_and_not_counted_twice(engine: Engi
             late(engine, silent)
     with engine.connect() as connection:
         assert len(connection.scalars(select(chunk.c.orientation)).all()) == 9
+
+
+def test_what_a_living_worker_is_not_at_any_more_is_freed_by_it(engine: Engine) -> None:
+    """As where the server has forgotten that a chunk was handed in."""
+    job = ask_for(engine, INPUTS)
+    library_id = opened(engine, job.id)
+    one, other = join(engine, "one"), join(engine, "other")
+    assert list(take_chunks(engine, other, job.id, 1)) == [0]
+    assert list(take_chunks(engine, one, job.id, 9)) == list(range(1, 9))
+    assert next_work(engine, code_versions()) is None
+    let_go(engine, one)
+    assert read_job(engine, job.id).lease_count == 1
+    assert work_off(engine, one, job.id, library_id) == 8
+    let_go(engine, one)
+    assert hand_in(engine, other, job.id, 0)
+    assert read_job(engine, job.id).done_count == 9
 
 
 def test_an_old_owner_cannot_publish(engine: Engine) -> None:

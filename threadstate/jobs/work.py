@@ -103,6 +103,20 @@ def take_chunks(engine: Engine, worker_id: str, job_id: int, count: int) -> Sequ
         return taken
 
 
+def let_go(engine: Engine, worker_id: str) -> None:
+    """Free what a worker holds although it is at nothing: what it handed in, and the database has forgotten since.
+
+    A server that confirms before it has written (``synchronous_commit = off``), or a copy of it that takes over, may
+    lose the last transactions; the worker lives on and would hold these chunks for ever.
+    """
+    held = job_chunk.c.worker_id == worker_id
+    with engine.connect() as connection:
+        if connection.scalar(select(job_chunk.c.orientation).where(held).limit(1)) is None:
+            return
+    with engine.begin() as connection:
+        connection.execute(update(job_chunk).where(held).values(worker_id=None))
+
+
 def hand_in(engine: Engine, worker_id: str, job_id: int, orientation: int) -> bool:
     """Say that a chunk is committed to the library; nothing is counted where it is another's by now.
 

@@ -14,7 +14,17 @@ from pathlib import Path
 from sqlalchemy import Engine
 from sqlalchemy.exc import IntegrityError, SQLAlchemyError
 
-from threadstate.jobs.work import Work, hand_in, has_ended, next_work, open_job, publish_job, set_back, take_chunks
+from threadstate.jobs.work import (
+    Work,
+    hand_in,
+    has_ended,
+    let_go,
+    next_work,
+    open_job,
+    publish_job,
+    set_back,
+    take_chunks,
+)
 from threadstate.jobs.workers import LostLeaseError, join, leave
 from threadstate.library.identity import code_versions
 from threadstate.library.write import IncompleteLibraryError, open_library, write_chunk
@@ -96,6 +106,7 @@ def _work(session: _Session, *, until_idle: bool) -> None:
         elif until_idle and has_ended(session.engine, versions):
             return
         else:
+            let_go(session.engine, session.worker_id)
             time.sleep(POLL_S)
 
 

@@ -20,4 +20,5 @@ class Problem(Answer):
     title: str = ""
     status: int
     detail: str = ""
+    instance: str | None = None
     errors: tuple[ProblemItem, ...] = ()
