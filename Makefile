@@ -12,7 +12,7 @@
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew, write the tables of columns
 # make kills      kill workers of jobs a hundred times, and check what is left
-# make fuzz     ask the service whatever its description allows and forbids, 10,000 times and more
+# make fuzz       ask the service whatever its description allows and forbids, 10,000 times and more
 # make audit      ask the advisory services about every locked dependency; fails where they cannot be reached
 # make scale      measure what large libraries and many cost, write the tables of docs/scale.md
 # make lock       renew the lock files after a change of dependencies (needs uv)

@@ -61,7 +61,7 @@ def test_the_service_says_so_and_recovers(server: PostgresqlServer, database: st
         "/v1/jobs",
         "/readyz",
     )
-    with client_of(database) as client:
+    with client_of(database, cache_mb=0) as client:
         for _ in range(RESTARTS):
             assert [client.get(path).status_code for path in reads] == [200] * len(reads)
             assert client.post("/v1/jobs", headers=headers, json={}).status_code == 202

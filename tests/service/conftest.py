@@ -16,7 +16,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.mesh.options import MeshOptions
-from threadstate.settings import read_settings
+from threadstate.settings import CACHE_MB, DATABASE, read_settings
 from threadstate.state.model import Answer, ContactState
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -72,9 +72,9 @@ def empty_database(databases: Databases) -> str:
     return databases.migrated()
 
 
-def client_of(database: str) -> TestClient:
-    """A client of a service over that database."""
-    return TestClient(create_app(read_settings({"THREADSTATE_DATABASE": database})))
+def client_of(database: str, *, cache_mb: int = 256) -> TestClient:
+    """A client of a service over that database, which keeps up to so many megabytes of answers."""
+    return TestClient(create_app(read_settings({DATABASE: database, CACHE_MB: str(cache_mb)})))
 
 
 @pytest.fixture(scope="session")
