@@ -17,8 +17,10 @@ from threadstate.library.grid import Grid
 GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
 """Of the library that is asked: its poses are known here, so that they are found."""
 LONGEST_REQUEST_S = 120
+STREAM = r"^/v1/jobs/.*/events$"
 EVENTS_READ = 3
-"""Of a stream: a job that nobody works on never ends it."""
+LONGEST_STREAM_S = 1
+"""A job that nobody works on never ends its stream: after so many events, or so long, it has been heard enough."""
 MADE_UP_PER_SLOW = 20
 """An operation that solves a history each time gets one case for so many of the others."""
 SLOW = r"^/v1/histories/"
@@ -121,6 +123,7 @@ def _config(key: str, examples: int, seed: int, longest_s: int) -> dict[str, Any
         "operations": [
             {"include-path-regex": RULES_BETWEEN_VALUES, "checks": {"positive_data_acceptance": {"enabled": False}}},
             {"include-path-regex": SLOW, "generation": {"max-examples": max(examples // MADE_UP_PER_SLOW, 1)}},
+            {"include-path-regex": STREAM, "request-timeout": LONGEST_STREAM_S},
             {
                 "include-path-regex": "^/v1/jobs/",
                 "parameters": {"path.id": {"dictionary": "jobs", "probability": 0.8}},
