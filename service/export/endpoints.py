@@ -9,6 +9,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path, Request, Response
 from fastapi.responses import StreamingResponse
 
+from service.accepted import names_etag
 from service.database import engine_of
 from service.libraries.identify import LibraryId, identified_library
 from service.middleware import ASKED_AS_HEAD
@@ -62,7 +63,7 @@ def get_export(
         "Content-Location": f"/v1/libraries/{library.id}/export/{table}.{format}",
         UNIT_HEADER: shown.value,
     }
-    if _names(request.headers.get("if-none-match", ""), etag):
+    if names_etag(request.headers.get("if-none-match", ""), etag):
         return Response(status_code=304, headers=headers)
     content = () if request.scope.get(ASKED_AS_HEAD) else _begun(file_parts(engine, library, table, format, shown))
     return StreamingResponse(content, headers=headers, media_type=format.media_type)
@@ -72,8 +73,3 @@ def _begun(parts: Iterator[bytes]) -> Iterable[bytes]:
     """The same parts, of which the first is made already: what fails at once is an error and no broken answer."""
     first = next(parts, b"")
     return chain((first,), parts)
-
-
-def _names(if_none_match: str, etag: str) -> bool:
-    """Whether the header's list names ``etag``."""
-    return any(tag.strip().removeprefix("W/") in (etag, "*") for tag in if_none_match.split(","))

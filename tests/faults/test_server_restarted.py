@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import time
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 
 import pytest
 from sqlalchemy import Engine, Table, func, select
@@ -27,6 +28,7 @@ from worker.rebuild import rebuild
 
 RESTARTS = 3
 PATIENCE_S = 300.0
+FAILS = "the database fails, it is tried again"
 UNAVAILABLE = "urn:threadstate:problem:database-unavailable"
 
 
@@ -78,27 +80,27 @@ def test_the_service_says_so_and_recovers(server: PostgresqlServer, database: st
 
 
 def test_workers_end_a_job_whole_after_restarts(
-    server: PostgresqlServer, database: str, environment_of_commands: Mapping[str, str], expected_content: str
+    server: PostgresqlServer,
+    database: str,
+    environment_of_commands: Mapping[str, str],
+    expected_content: str,
+    tmp_path: Path,
 ) -> None:
     environment = {**environment_of_commands, DATABASE: database, LEASE_S: "2"}
+    said = tmp_path / "said"
+    told = 0
     with writing(database) as engine:
         job = ask_for(engine, INPUTS)
-        workers = [
-            subprocess.Popen(
-                [*COMMAND, "worker", "--workers", "1", "--until-idle"],
-                env=environment,
-                stderr=subprocess.PIPE,
-                text=True,
-            )
-            for _ in range(2)
-        ]
+        command = [*COMMAND, "worker", "--workers", "1", "--until-idle"]
+        with said.open("ab") as stderr:
+            workers = [subprocess.Popen(command, env=environment, stderr=stderr) for _ in range(2)]
         for least in range(1, RESTARTS + 1):
             _wait_for(lambda least=least: _count(engine, chunk) >= 2 * least)  # type: ignore[misc]
             server.stop()
+            _wait_for(lambda told=told: said.read_text().count(FAILS) > told)  # type: ignore[misc]
+            told = said.read_text().count(FAILS)
             server.start()
-        said = [worker.communicate(timeout=PATIENCE_S)[1] for worker in workers]
-        assert [worker.returncode for worker in workers] == [0, 0], said
-        assert any("the database fails, it is tried again" in one for one in said)
+        assert [worker.wait(PATIENCE_S) for worker in workers] == [0, 0], said.read_text()
         assert published(engine) == [expected_content]
         assert (_count(engine, chunk), _count(engine, state)) == (GRID.orientation_count, GRID.state_count)
         with engine.connect() as connection:

@@ -82,7 +82,8 @@ def check(response: Any) -> None:
 def test_no_get_fails(
     client: TestClient, path: tuple[str, ...], query: list[tuple[str, str]], etag: str | None
 ) -> None:
-    address = "/" + "/".join(quote(segment, safe="") for segment in path)
+    # The client, not the service, refuses an address that begins with two slashes.
+    address = "/" + "/".join(quote(segment, safe="") for segment in path).lstrip("/")
     query_string = "&".join(f"{quote(name, safe='')}={quote(value, safe='')}" for name, value in query)
     headers = {} if etag is None else {b"If-None-Match": etag.encode("latin-1", "replace").replace(b"\n", b"")}
     check(client.get(f"{address}?{query_string}", headers=headers, follow_redirects=False))

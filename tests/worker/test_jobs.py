@@ -17,8 +17,7 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Engine, select
 
-from tests.databases import Databases, PostgresqlDatabases
-from tests.postgresql_server import running_server
+from tests.databases import Databases
 from tests.worker.conftest import CommandLine
 from threadstate.jobs.ask import ask_for, cancel
 from threadstate.jobs.model import JobRecord
@@ -155,24 +154,6 @@ def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs,
             os.kill(asleep.pid, signal.SIGCONT)
             _end(other, asleep)
     _check_whole(jobs, expected_content)
-
-
-def test_a_server_that_is_restarted_holds_a_worker_up_and_nothing_else(
-    environment: Mapping[str, str], capsys: pytest.CaptureFixture[str], expected_content: str
-) -> None:
-    with running_server() as server:
-        database = PostgresqlDatabases(server).migrated()
-        with writing(database) as engine:
-            jobs = Jobs(engine, CommandLine(database, {**environment, LEASE_S: "1"}, capsys))
-            ask_for(engine, INPUTS)
-            with jobs.start() as worker:
-                _wait_for(lambda: jobs.committed() > 0)
-                server.stop()
-                server.start()
-                _, err = worker.communicate(timeout=PATIENCE_S)
-            assert worker.returncode == 0, err
-            assert "the database fails, it is tried again" in err
-            _check_whole(jobs, expected_content)
 
 
 @pytest.mark.sqlite_alone

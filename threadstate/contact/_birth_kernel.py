@@ -18,6 +18,7 @@ from threadstate.contact._geometry_kernel import (
     field,
     position,
     set_path,
+    stride,
     turn_vector,
     velocity,
 )
@@ -111,6 +112,7 @@ def pin(
     t = theta
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
+    step = stride(motion, row_c)
     before = math.inf
     for _ in range(40):
         set_jet(t, tau, motion, row_c, row_s, path, jet)
@@ -132,9 +134,10 @@ def pin(
         tau += dtau
         if abs(t - theta) > 2.0 * half or abs(tau - 0.5 * (start + end)) > 2.0 * span:
             return False, t, tau
-        size = abs(dt) / (1.0 + abs(t)) + abs(dtau) / (1.0 + abs(tau))
+        size = abs(dt) / (1.0 + abs(t)) + abs(dtau) / (step + abs(tau))
         if size <= 4e-16 or (size < 1e-11 and size >= 0.5 * before):
-            inside = abs(t - theta) <= half * (1.0 + 1e-9) + 1e-13 and start - 1e-13 <= tau <= end + 1e-13
+            slack = 1e-13 * step
+            inside = abs(t - theta) <= half * (1.0 + 1e-9) + 1e-13 and start - slack <= tau <= end + slack
             return inside, t, tau
         before = size
     return False, t, tau

@@ -35,6 +35,15 @@ MOTION_SIZE = 21
 # A path: x(tau) = base + d cos(tau) + e sin(tau) for a turn, base + e tau for a translation; then |dx/dtau|.
 PATH_SIZE = 10
 
+STRIDE_PITCHES = 20.0
+"""What is walked in steps of a radian in a turn is walked in steps of so many thread pitches in a translation."""
+
+
+@njit(cache=True, error_model="numpy")
+def stride(motion: Array, bolt: Array) -> float:
+    """The measure of a motion's steps and tolerances: a radian for a turn, ``STRIDE_PITCHES`` for a translation."""
+    return STRIDE_PITCHES * bolt[pk.P] if motion[M_KIND] == 0.0 else 1.0
+
 
 @njit(cache=True, error_model="numpy")
 def edge_point(theta: float, row: Array) -> tuple[float, float, float, float]:

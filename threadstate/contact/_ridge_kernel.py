@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from threadstate.contact._geometry_kernel import TWO_PI
+from threadstate.contact._geometry_kernel import TWO_PI, stride
 from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
     GRID_SIZE,
@@ -55,7 +55,10 @@ Array = NDArray[np.float64]
 SLICE = math.radians(1.5)
 LATE = math.radians(38.0)
 LATE_SLICE = math.radians(0.2)
-"""Beyond ``LATE`` maxima of phi are narrow, and come and go within tenths of a degree; all azimuths are used there."""
+"""Beyond ``LATE`` maxima of phi are narrow, and come and go within tenths of a degree; all azimuths are used there.
+
+Angles (rad) of a turn; of a translation, parts of its ``stride``.
+"""
 FOLLOW = math.radians(0.5)
 APART = 0.06
 """Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
@@ -64,7 +67,7 @@ ALOFT = 0.1
 ALONG = 24
 """Points of an azimuth, beside its ends, at which the bolt's thread is looked at for overlaps that go on beyond it."""
 WORTH = 3.0 * SLICE
-"""A maximum of phi that by its rate is farther than this (rad) from zero is left to the slices nearer to it."""
+"""A maximum of phi that by its rate is farther than this from zero is left to the slices nearer to it."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -111,6 +114,8 @@ def follow(
     """
     k = bolt[pk.P] / TWO_PI
     p = bolt[pk.P]
+    step = stride(motion, bolt)
+    farthest = FOLLOW * step
     start = tau
     for i in range(60):
         if i > 0:
@@ -119,13 +124,13 @@ def follow(
         if not settled or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
             return count
         move = -jet[J_PHI] / jet[J_RATE]
-        if abs(tau + move - start) > WORTH:
+        if abs(tau + move - start) > WORTH * step:
             return count
-        if abs(move) < 1e-6:
+        if abs(move) < 1e-6 * step:
             return polish(theta, z, tau + move, limit, motion, bolt, nut, moved, jet, found, count)
-        move = min(max(move, -FOLLOW), FOLLOW)
+        move = min(max(move, -farthest), farthest)
         tau += move
-        if tau <= 0.0 or tau > limit + FOLLOW:
+        if tau <= 0.0 or tau > limit + farthest:
             return count
         # The maximum moves along with time such that A and B stay zero.
         det = jet[J_UU] * jet[J_ZZ] - jet[J_UZ] * jet[J_UZ]
@@ -229,11 +234,13 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
     ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MOST_AZIMUTHS`` at the most, is a resolution and not a
     bound: docs/decisions/0001-contacts.md says how it was checked.
     """
-    early = min(limit, LATE)
-    count = between(0.0, early, 1 + int(early / SLICE), azimuths, motion, bolt, nut, limit, found, 0)
-    if limit > LATE:
-        slices = 1 + int((limit - LATE) / LATE_SLICE)
-        count = between(LATE, limit, slices, MOST_AZIMUTHS, motion, bolt, nut, limit, found, count)
+    step = stride(motion, bolt)
+    late = LATE * step
+    early = min(limit, late)
+    count = between(0.0, early, 1 + int(early / (SLICE * step)), azimuths, motion, bolt, nut, limit, found, 0)
+    if limit > late:
+        slices = 1 + int((limit - late) / (LATE_SLICE * step))
+        count = between(late, limit, slices, MOST_AZIMUTHS, motion, bolt, nut, limit, found, count)
     return count
 
 

@@ -23,7 +23,7 @@ from threadstate.contact._birth_kernel import (
     MAX_CANDIDATES,
 )
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
-from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point
+from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point, stride
 from threadstate.contact._sweep_kernel import ENTRY_SIZE, EPS_PUNCTURE, MAX_ENTRIES, OUTSIDE, OVERFLOW, inside_at, sweep
 from threadstate.thread import _profile_kernel as pk
 
@@ -57,7 +57,7 @@ NARROW = 1e-7
 
 SHORTER = 0.25
 SHORTEST_SPAN = 1e-9
-"""How much shorter a span is made that has too many boxes, and where that ends (rad, or the pair's unit)."""
+"""How much shorter a span is made that has too many boxes, and where that ends (of the motion's ``stride``)."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -295,7 +295,7 @@ def earliest(
         )
         if used_b == OVERFLOW or used_n == OVERFLOW:
             span *= SHORTER
-            if span < SHORTEST_SPAN:
+            if span < SHORTEST_SPAN * stride(bolt_walks, bolt):
                 return 0, UNRESOLVED, best
             continue
         since = until

@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from threadstate.contact._geometry_kernel import M_AXIS, M_KIND, M_OFF, M_POINT, M_ROT, TWO_PI
+from threadstate.contact._geometry_kernel import M_AXIS, M_KIND, M_OFF, M_POINT, M_ROT, TWO_PI, stride
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -201,6 +201,7 @@ def polish(
     set_standing(motion, tau, standing)
     set_jet(theta, z, standing, bolt, nut, jet)
     converged = False
+    step = stride(motion, bolt)
     for _ in range(30):
         phi, a, b, rate = jet[J_PHI], jet[J_A], jet[J_B], jet[J_RATE]
         uu, uz, zz, ut, zt = jet[J_UU], jet[J_UZ], jet[J_ZZ], jet[J_UT], jet[J_ZT]
@@ -224,7 +225,7 @@ def polish(
             return count
         set_standing(motion, tau, standing)
         set_jet(theta, z, standing, bolt, nut, jet)
-        small = abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (1.0 + abs(tau))
+        small = abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (step + abs(tau))
         if small or (abs(jet[J_PHI]) < NOISE * bolt[pk.P] and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]):
             converged = True
             break
