@@ -39,7 +39,7 @@ def test_same_and_different_libraries_at_once(
     databases: Databases, environment_of_commands: Mapping[str, str], expected: dict[int, str]
 ) -> None:
     with databases.lent() as database:
-        grid = ("--tilt-max", "1", "--tilt-step", "1", "--workers", "1", "--json")
+        grid = ("--tilt-max", "3", "--tilt-step", "3", "--workers", "1", "--json")
         rebuilds = [
             subprocess.Popen(
                 [*COMMAND, "rebuild", *grid, "--phase-step", str(step)],

@@ -14,7 +14,7 @@ from schemathesis.engine.recorder import ScenarioRecorder
 
 from threadstate.library.grid import Grid
 
-GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
+GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
 """Of the library that is asked: its poses are known here, so that they are found."""
 LONGEST_REQUEST_S = 120
 STREAM = r"^/v1/jobs/.*/events$"

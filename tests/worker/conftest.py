@@ -15,7 +15,7 @@ from worker.cli import run_command_line
 COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
 """The command line as its console script starts it."""
 
-SMALL_GRID = ["--tilt-max", "1", "--tilt-step", "1", "--phase-step", "15"]
+SMALL_GRID = ["--tilt-max", "3", "--tilt-step", "3", "--phase-step", "15"]
 """9 orientations of 24 phases."""
 
 

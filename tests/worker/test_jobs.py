@@ -34,7 +34,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.rebuild import rebuild
 
-GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
+GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
 
@@ -204,7 +204,7 @@ def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
 @pytest.mark.sqlite_alone
 def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, expected_content: str) -> None:
     ask_for(jobs.engine, INPUTS)
-    grid = ("--tilt-max", "1", "--tilt-step", "1", "--phase-step", "15")
+    grid = ("--tilt-max", "3", "--tilt-step", "3", "--phase-step", "15")
     with jobs.start() as worker:
         rebuilt = json.loads(jobs.command_line.out("rebuild", *grid, "--json"))
         _end(worker)

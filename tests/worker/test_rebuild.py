@@ -30,7 +30,7 @@ from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.processes import ComputeError, computing_processes
 
-GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
+GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
 PATIENCE_S = 60.0
 
 

@@ -30,7 +30,7 @@ from worker.cluster.chunks import computing_cluster
 from worker.processes import ASKED_AHEAD
 from worker.rebuild import rebuild
 
-GRID = Grid(tilt_max_deg=1.0, tilt_step_deg=1.0, phase_step_deg=15.0)
+GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
 
