@@ -29,7 +29,7 @@ def expected(sqlite_databases: Databases) -> dict[int, str]:
     with writing(sqlite_databases.migrated()) as engine:
         return {
             step: rebuild(
-                engine, LibraryInputs(quarter_twenty_unc(), Grid(1.0, 1.0, step), SolveOptions()), 1, Unwatched()
+                engine, LibraryInputs(quarter_twenty_unc(), Grid(3.0, 3.0, step), SolveOptions()), 1, Unwatched()
             ).content_sha256
             for step in PHASE_STEPS
         }
