@@ -40,7 +40,7 @@ test: setup
 	$(BIN)/bandit -q -r threadstate service worker migrations -c pyproject.toml
 	$(NODE) node_modules/eslint/bin/eslint.js .
 	$(NODE) --test tests/page/*.test.js
-	$(BIN)/pytest -n 2 --dist loadfile
+	$(BIN)/pytest -n 3 --dist loadfile
 
 bench: setup
 	$(BIN)/python -m benchmarks

@@ -11,9 +11,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from scripts.described import GRID, Tally, fuzz
 from service.app import create_app
 from tests.databases import SqliteDatabases
-from tests.fuzz.described import GRID, Tally, fuzz
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.library.engine import writing

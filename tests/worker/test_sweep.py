@@ -197,20 +197,25 @@ def test_every_key_of_the_file_is_documented(repository_root: Path) -> None:
     assert {key for key in keys if key.removesuffix("_diameter") not in long} <= named
 
 
-def test_the_example_is_computed_once(command_line: CommandLine, repository_root: Path) -> None:
-    file = str(repository_root / EXAMPLE)
-    first = [json.loads(line) for line in command_line.out("sweep", file, "--workers", "1", "--json").splitlines()]
-    assert [one["outcome"] for one in first] == ["published"] * 6
-    again = [json.loads(line) for line in command_line.out("sweep", file, "--json").splitlines()]
-    assert [one["outcome"] for one in again] == ["there"] * 6
+def test_a_sweep_is_computed_once(command_line: CommandLine, small: str) -> None:
+    first = [json.loads(line) for line in command_line.out("sweep", small, "--workers", "1", "--json").splitlines()]
+    assert [one["outcome"] for one in first] == ["published"] * 2
+    again = [json.loads(line) for line in command_line.out("sweep", small, "--json").splitlines()]
+    assert [one["outcome"] for one in again] == ["there"] * 2
     with reading(command_line.database) as engine, engine.connect() as connection:
-        for inputs, one in zip(read_sweep(Path(file)), first, strict=True):
+        for inputs, one in zip(read_sweep(Path(small)), first, strict=True):
             library = library_by_input(connection, inputs.sha256)
             assert library is not None
             assert (library.id, library.content_sha256) == (one["library"], one["content_sha256"])
             assert library.designation == one["pair"] == inputs.pair.designation
-    told = [json.loads(line) for line in command_line.out("sweep", file, "--dry-run", "--json").splitlines()]
-    assert [(one["state"], one["seconds"]) for one in told] == [("there", 0.0)] * 6
+    told = [json.loads(line) for line in command_line.out("sweep", small, "--dry-run", "--json").splitlines()]
+    assert [(one["state"], one["seconds"]) for one in told] == [("there", 0.0)] * 2
+
+
+def test_the_example_is_a_sweep(command_line: CommandLine, repository_root: Path) -> None:
+    code, out, _ = command_line.here("sweep", str(repository_root / EXAMPLE), "--dry-run", "--json")
+    assert code == 0
+    assert [json.loads(line)["state"] for line in out.splitlines()] == ["new"] * 6
 
 
 def test_a_dry_run_writes_nothing_and_counts_what_is_then_there(command_line: CommandLine, small: str) -> None:
