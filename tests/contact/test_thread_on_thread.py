@@ -113,3 +113,17 @@ def test_a_contact_that_leaves_the_edge_of_the_nut_goes_on_below_it(roll: float,
     assert rows(poses, rectangles=True, turn_limit_deg=3.0)[:, record.O_LAMBDA] == pytest.approx(
         found[:, record.O_LAMBDA], abs=1e-10
     )
+
+
+def test_a_maximum_is_found_from_a_place_where_phi_bends_upwards() -> None:
+    """Between two columns the ridge is curved: half way between its crossings is beside it, in the next flank."""
+    beside = np.array(
+        [
+            (0.08860132664636602, 0.07254390603572067, 357.7137523329682),
+            (0.08860131601863616, 0.07254389730259372, 357.7137523329544),
+            (0.08860131430048063, 0.07254389717142203, 357.7137523329532),
+        ]
+    )
+    found = rows(beside, rectangles=False, turn_limit_deg=45.0)
+    assert (found[:, THIRD_PAIR] == THREAD_THREAD).all()
+    assert np.degrees(found[:, record.O_MU]) == pytest.approx(16.69011, abs=1e-5)

@@ -64,6 +64,10 @@ APART = 0.06
 """Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
 ALOFT = 0.1
 """The same where phi differs by more than this part of a pitch, beyond what its slopes explain."""
+STEP_UP = 0.02
+STEP_UP_PITCHES = 0.004
+MOST_STEPS_UP = 8
+"""Steps along a ridge (rad) and towards it (thread pitches) where Newton's method does not lead up; and how many."""
 ALONG = 24
 """Points of an azimuth, beside its ends, at which the bolt's thread is looked at for overlaps that go on beyond it."""
 WORTH = 3.0 * SLICE
@@ -72,18 +76,33 @@ WORTH = 3.0 * SLICE
 
 @njit(cache=True, error_model="numpy")
 def settle(theta: float, z: float, standing: Array, bolt: Array, nut: Array, jet: Array) -> tuple[float, float, bool]:
-    """The highest point of phi on the thread near (theta, z) where the bolt stands (A = B = 0), by Newton's method."""
+    """The highest point of phi on the thread near (theta, z) where the bolt stands (A = B = 0), by Newton's method.
+
+    Where phi bends upwards the way is up by short steps, at most ``MOST_STEPS_UP``: along the axis to the ridge (where
+    curvatures jump, a place between two crossings may be beside it), and then along the ridge.
+    """
     k = bolt[pk.P] / TWO_PI
     p = bolt[pk.P]
+    up = 0
     set_jet(theta, z, standing, bolt, nut, jet)
     for _ in range(20):
         a, b = jet[J_A], jet[J_B]
         uu, uz, zz = jet[J_UU], jet[J_UZ], jet[J_ZZ]
         det = uu * zz - uz * uz
-        if not (zz < 0.0 and det > 0.0):
-            return theta, z, False
-        du = min(max((uz * b - zz * a) / det, -0.1), 0.1)
-        dz = min(max((uz * a - uu * b) / det, -0.02 * p), 0.02 * p)
+        if zz < 0.0 and det > 0.0:
+            du = min(max((uz * b - zz * a) / det, -0.1), 0.1)
+            dz = (uz * a - uu * b) / det
+        else:
+            up += 1
+            if up > MOST_STEPS_UP:
+                return theta, z, False
+            if zz < 0.0:
+                du = STEP_UP if a * zz < uz * b else -STEP_UP
+                dz = -(b + uz * du) / zz
+            else:
+                du = 0.0
+                dz = math.copysign(STEP_UP_PITCHES * p, b)
+        dz = min(max(dz, -0.02 * p), 0.02 * p)
         theta += du
         z += k * du + dz
         set_jet(theta, z, standing, bolt, nut, jet)
