@@ -13,14 +13,16 @@ from fastapi.testclient import TestClient
 
 from benchmarks.sample import SEED
 from service.app import create_app
+from service.logs.configure import configure_logs
 from threadstate.library.grid import Grid
-from threadstate.settings import read_settings
+from threadstate.settings import LogLevel, read_settings
 
 ASKED = 40
 """How often each question is asked, about other orientations, phases and formations each time."""
 
 LIBRARY = "/v1/libraries/latest"
 OBSERVED = ("contact=1:crest:*:edge-edge", "contact=1:*:*:*&class=stable_three_point", "flag=flush")
+PREPARED = "threadstate_prepared_in_full 1.0"
 TILTS = ("ccw", "ccw,roll%2B,roll-,pitch%2B,pitch-")
 
 
@@ -39,13 +41,18 @@ class Question:
 
 
 def answered(database: Path, grid: Grid) -> list[Question]:
-    """Every kind of stored question, put to the latest library of a SQLite file.
+    """Every kind of stored question, put to the latest library of a SQLite file by a service that has prepared itself.
+
+    Its rendition is written beside that file.
 
     Raises:
         QuestionFailedError: an answer has another status than 200.
     """
-    settings = replace(read_settings({}), database=f"sqlite:///{database}")
-    with TestClient(create_app(settings)) as client:
+    settings = replace(read_settings({}), database=f"sqlite:///{database}", data_dir=database.parent)
+    configure_logs(settings.log, LogLevel.ERROR)
+    with TestClient(create_app(settings, serving=True)) as client:
+        while PREPARED not in client.get("/metrics").text:
+            time.sleep(1.0)
         first = client.get(f"{LIBRARY}/histories/{grid.tilts_deg[0]}/{grid.tilts_deg[-1]}")
         if first.status_code != 200:
             raise QuestionFailedError(f"{first.url}: {first.status_code} {first.text}")

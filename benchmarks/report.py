@@ -123,7 +123,13 @@ def _parts(report: Report) -> Table:
 
 
 def _questions(report: Report) -> Table:
-    table = _table("Stored questions on this library, in one process", "question", "first (ms)", "median", "longest")
+    table = _table(
+        "Stored questions on this library, of a service in this process that is prepared",
+        "question",
+        "first (ms)",
+        "median",
+        "longest",
+    )
     for one in report.questions:
         table.add_row(one.name, f"{one.first_ms:.1f}", f"{one.median_ms:.1f}", f"{one.longest_ms:.1f}")
     return table

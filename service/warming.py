@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
-from itertools import islice
+import asyncio
+import time
+from itertools import count, islice
 
 from fastapi import FastAPI
 from fastapi.concurrency import run_in_threadpool
@@ -19,14 +20,22 @@ from threadstate.errors import NotFoundError
 from threadstate.library.read import LibraryRecord
 
 STEPS_AT_START = 3
-"""Of the preparation, those that solve nothing: the rest would take a core from the requests for a minute."""
+"""Of the preparation, those that solve nothing; what solves is done one by one, at leisure."""
+LEISURE = 3.0
+"""After each step at leisure requests have the machine to themselves for so many times as long."""
 
 
 class Warming:
-    """Describes the interface, and prepares the rendition and the network of the latest library, if there is one."""
+    """Describes the interface, and prepares the rendition and the network of the latest library, if there is one.
+
+    Attributes:
+        done: whether that was done, or tried.
+        done_in_full: the same of what is done at leisure, too.
+    """
 
     def __init__(self) -> None:
         self.done = False
+        self.done_in_full = False
 
     async def run(self, app: FastAPI, names: LibraryNames, shelf: RenditionShelf | None) -> None:
         """Do it, once."""
@@ -35,13 +44,32 @@ class Warming:
         if library is not None:
             if shelf is not None:
                 shelf.get(library)
-            await run_in_threadpool(_read_network, app.state.engine, app.state.networks, library)
+            for number in range(STEPS_AT_START):
+                await run_in_threadpool(_prepare, app.state.engine, app.state.networks, library, number)
             if shelf is not None:
                 await shelf.settled()
         self.done = True
+        if library is not None:
+            await _prepare_at_leisure(app, library)
+        self.done_in_full = True
 
 
-def _read_network(engine: Engine, networks: NetworkStore, library: LibraryRecord) -> None:
-    with contextlib.suppress(NotFoundError, SQLAlchemyError), engine.connect() as connection:
-        for step in islice(preparation(connection, networks.of(connection, library)), STEPS_AT_START):
-            step()
+async def _prepare_at_leisure(app: FastAPI, library: LibraryRecord) -> None:
+    for number in count(STEPS_AT_START):
+        began = time.monotonic()
+        if not await run_in_threadpool(_prepare, app.state.engine, app.state.networks, library, number):
+            return
+        await asyncio.sleep(LEISURE * (time.monotonic() - began))
+
+
+def _prepare(engine: Engine, networks: NetworkStore, library: LibraryRecord, number: int) -> bool:
+    """Do one step of the preparation; whether there was one that could be done."""
+    try:
+        with engine.connect() as connection:
+            steps = preparation(connection, networks.of(connection, library))
+            step = next(islice(steps, number, None), None)
+            if step is not None:
+                step()
+    except (NotFoundError, SQLAlchemyError):
+        return False
+    return step is not None

@@ -34,6 +34,8 @@ class StateMetrics(Collector):
     def collect(self) -> Iterator[Metric]:
         """The metrics, with those of the database if it can be read."""
         yield _gauge("prepared", "Whether what is slow the first time was done.", float(self._warming.done))
+        in_full = float(self._warming.done_in_full)
+        yield _gauge("prepared_in_full", "Whether nothing is slow the first time any more.", in_full)
         yield from self._of_memory()
         yield from self._of_limits()
         try:

@@ -75,11 +75,14 @@ WORTH = 3.0 * SLICE
 
 
 @njit(cache=True, error_model="numpy")
-def settle(theta: float, z: float, standing: Array, bolt: Array, nut: Array, jet: Array) -> tuple[float, float, bool]:
+def settle(
+    theta: float, z: float, worth: float, standing: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, float, bool]:
     """The highest point of phi on the thread near (theta, z) where the bolt stands (A = B = 0), by Newton's method.
 
     Where phi bends upwards the way is up by short steps, at most ``MOST_STEPS_UP``: along the axis to the ridge (where
-    curvatures jump, a place between two crossings may be beside it), and then along the ridge.
+    curvatures jump, a place between two crossings may be beside it), and then along the ridge. That is done only where
+    phi rises, and by its rate vanishes within ``worth`` of the motion.
     """
     k = bolt[pk.P] / TWO_PI
     p = bolt[pk.P]
@@ -94,7 +97,7 @@ def settle(theta: float, z: float, standing: Array, bolt: Array, nut: Array, jet
             dz = (uz * a - uu * b) / det
         else:
             up += 1
-            if up > MOST_STEPS_UP:
+            if up > MOST_STEPS_UP or abs(jet[J_PHI]) >= worth * jet[J_RATE]:
                 return theta, z, False
             if zz < 0.0:
                 du = STEP_UP if a * zz < uz * b else -STEP_UP
@@ -139,7 +142,7 @@ def follow(
     for i in range(60):
         if i > 0:
             set_standing(motion, tau, moved)
-        theta, z, settled = settle(theta, z, standing if i == 0 else moved, bolt, nut, jet)
+        theta, z, settled = settle(theta, z, 2.0 * WORTH * step, standing if i == 0 else moved, bolt, nut, jet)
         if not settled or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
             return count
         move = -jet[J_PHI] / jet[J_RATE]
@@ -236,7 +239,7 @@ def thread_inside(
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
         for j in range(highest_places(azimuths, standing, bolt, nut, grid, crossings, maxima)):
-            theta, z, settled = settle(maxima[j, 0], maxima[j, 1], standing, bolt, nut, jet)
+            theta, z, settled = settle(maxima[j, 0], maxima[j, 1], 0.0, standing, bolt, nut, jet)
             depth = min(jet[J_PHI], -jet[J_Z], p + jet[J_Z])
             if settled and depth > deepest and 0.0 <= z <= p:
                 deepest, at_theta, at_z = depth, theta, z

@@ -357,9 +357,12 @@ def threads_touch(contacts: Array) -> bool:
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", nogil=True)
 def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> None:
-    """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE)."""
+    """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE).
+
+    Other threads of Python go on in the meantime.
+    """
     work = new_work()
     for i in range(poses.shape[0]):
         solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, work, rows[i])

@@ -1,0 +1,50 @@
+"""A service prepares itself: at start what solves nothing, then at leisure what does."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+from fastapi.testclient import TestClient
+
+from service.app import create_app
+from service.network.store import NetworkStore
+from tests.archive.history_library import SMALL_GRID, store_histories
+from tests.databases import Databases
+from threadstate.history.model import History
+from threadstate.library.read import latest_library
+from threadstate.settings import DATA_DIR, DATABASE, read_settings
+
+LONGEST_S = 120.0
+
+
+@pytest.mark.sqlite_alone
+def test_a_service_is_prepared_and_then_in_full(
+    databases: Databases, small_histories: list[History], tmp_path: Path
+) -> None:
+    database = databases.migrated()
+    store_histories(database, SMALL_GRID, small_histories)
+    app = create_app(read_settings({DATABASE: database, DATA_DIR: str(tmp_path)}), serving=True)
+    with TestClient(app) as client:
+        _wait_for(client, "threadstate_prepared 1.0")
+        _wait_for(client, "threadstate_prepared_in_full 1.0")
+        store: NetworkStore = app.state.networks
+        with app.state.engine.connect() as connection:
+            library = latest_library(connection)
+            network = store.of(connection, library)
+        assert sorted(network.curves) == list(range(SMALL_GRID.orientation_count))
+
+
+@pytest.mark.sqlite_alone
+def test_without_a_library_there_is_nothing_to_prepare(databases: Databases, tmp_path: Path) -> None:
+    settings = read_settings({DATABASE: databases.migrated(), DATA_DIR: str(tmp_path)})
+    with TestClient(create_app(settings, serving=True)) as client:
+        _wait_for(client, "threadstate_prepared_in_full 1.0")
+
+
+def _wait_for(client: TestClient, line: str) -> None:
+    until = time.monotonic() + LONGEST_S
+    while line not in client.get("/metrics").text:
+        assert time.monotonic() < until, f"{line} never"
+        time.sleep(0.05)
