@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,17 +23,20 @@ EVENTS_READ = 3
 LONGEST_STREAM_S = 1
 """A job that nobody works on never ends its stream: after so many events, or so long, it has been heard enough."""
 MADE_UP_PER_SLOW = 20
-"""An operation that solves a history each time gets one case for so many of the others."""
-SLOW = r"^/v1/histories/"
+"""An operation that solves a history each time, or streams, gets one case for so many of the others."""
+SLOW = rf"^/v1/histories/|{STREAM}"
+MADE_UP_PER_SEQUENCE = 3
+"""A sequence is of several requests: there is one for so many cases of an operation."""
 RULES_BETWEEN_VALUES = r"/(states|transitions|paths|locate|intervals|heights|solve|jobs)$"
 """Where a value may be refused for what no schema says: another value beside it, a cursor's content, a name."""
 
 
 @dataclass
 class Tally:
-    """What came of a run: how many cases each operation had, the statuses, and what was wrong, in words."""
+    """What came of a run: each operation's cases and the seconds they took, the statuses, what was wrong, in words."""
 
     cases: Counter[str] = field(default_factory=Counter)
+    seconds: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
     statuses: Counter[int] = field(default_factory=Counter)
     wrong: list[str] = field(default_factory=list)
 
@@ -42,7 +46,7 @@ class Tally:
         return self.cases.total()
 
 
-def fuzz(app: FastAPI, key: str, *, examples: int, seed: int, longest_s: int) -> Tally:
+def fuzz(app: FastAPI, key: str, *, examples: int, seed: int, told: Callable[[str, Tally], None]) -> Tally:
     """Ask ``app`` whatever its description allows and forbids, in this process, and check each answer.
 
     Every check of Schemathesis holds: no failure of the server, status, media type, headers and content as described,
@@ -53,10 +57,10 @@ def fuzz(app: FastAPI, key: str, *, examples: int, seed: int, longest_s: int) ->
         key: one for writing.
         examples: how many random cases an operation gets, beside those that its description lays out.
         seed: the same seed makes the same cases.
-        longest_s: after so many seconds it ends, and says that it did not finish.
+        told: called with the name of each part that is over, and the tally so far.
     """
     schema = schemathesis.openapi.from_asgi(
-        "/openapi.json", app, config=SchemathesisConfig.from_dict(_config(key, examples, seed, longest_s))
+        "/openapi.json", app, config=SchemathesisConfig.from_dict(_config(key, examples, seed))
     )
     tally = Tally()
     for event in from_schema(schema).execute():
@@ -65,6 +69,8 @@ def fuzz(app: FastAPI, key: str, *, examples: int, seed: int, longest_s: int) ->
                 _count(tally, event.recorder)
                 if event.status is Status.ERROR:
                     tally.wrong.append(f"{event.recorder.label}: the scenario ended with an error")
+            case events.PhaseFinished():
+                told(event.phase.name.value, tally)
             case events.NonFatalError():
                 tally.wrong.append(f"{event.label}: {event.value}")
             case events.FatalError():
@@ -84,6 +90,7 @@ def _count(tally: Tally, recorder: ScenarioRecorder) -> None:
         tally.cases[node.value.operation.label] += 1
         if interaction.response is not None:
             tally.statuses[interaction.response.status_code] += 1
+            tally.seconds[node.value.operation.label] += interaction.response.elapsed
     for case_id, checks in recorder.checks.items():
         label = recorder.cases[case_id].value.operation.label
         for check in checks:
@@ -93,7 +100,7 @@ def _count(tally: Tally, recorder: ScenarioRecorder) -> None:
                 tally.wrong.append(f"{label}: the check {check.name} failed itself")
 
 
-def _config(key: str, examples: int, seed: int, longest_s: int) -> dict[str, Any]:
+def _config(key: str, examples: int, seed: int) -> dict[str, Any]:
     phases = [index * GRID.phase_step_deg for index in range(GRID.phase_count)]
     tilts = list(GRID.tilts_deg)
     words: dict[str, list[float] | list[str] | list[int]] = {
@@ -104,7 +111,6 @@ def _config(key: str, examples: int, seed: int, longest_s: int) -> dict[str, Any
     }
     return {
         "seed": seed,
-        "max-time": longest_s,
         "request-timeout": LONGEST_REQUEST_S,
         "max-stream-events": EVENTS_READ,
         "continue-on-failure": True,
@@ -119,7 +125,10 @@ def _config(key: str, examples: int, seed: int, longest_s: int) -> dict[str, Any
         "generation": {"max-examples": examples, "deterministic": False, "database": "none"},
         # What is cancelled stays, to be asked for.
         "checks": {"use_after_free": {"enabled": False}, "ensure_resource_availability": {"enabled": False}},
-        "phases": {"coverage": {"generate-duplicate-query-parameters": True}},
+        "phases": {
+            "coverage": {"generate-duplicate-query-parameters": True},
+            "stateful": {"generation": {"max-examples": max(examples // MADE_UP_PER_SEQUENCE, 1)}},
+        },
         "operations": [
             {"include-path-regex": RULES_BETWEEN_VALUES, "checks": {"positive_data_acceptance": {"enabled": False}}},
             {"include-path-regex": SLOW, "generation": {"max-examples": max(examples // MADE_UP_PER_SLOW, 1)}},
