@@ -12,6 +12,7 @@
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew, write the tables of columns
 # make kills      kill workers of jobs a hundred times, and check what is left
+# make containers build the image, start the composed containers, lose a worker, use the cluster, stop (needs Docker)
 # make fuzz       ask the service whatever its description allows and forbids, 10,000 times and more
 # make audit      ask the advisory services about every locked dependency; fails where they cannot be reached
 # make scale      measure what large libraries and many cost, write the tables of docs/scale.md
@@ -25,7 +26,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench load paper chart stability docs lock designer histories screenshots kills fuzz audit scale
+.PHONY: setup run test bench load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -79,6 +80,9 @@ scale: setup
 
 kills: setup
 	$(BIN)/python -m scripts.kill_workers
+
+containers: setup
+	$(BIN)/python -m scripts.try_containers
 
 fuzz: setup
 	$(BIN)/python -m scripts.fuzz
