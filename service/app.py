@@ -39,7 +39,7 @@ from service.kept.answers import KeptAnswers
 from service.kept.compression import Compression
 from service.kept.middleware import AnswerKept
 from service.kept.names import LibraryNames
-from service.keys import guard_reading
+from service.keys import guard_reading, may_read
 from service.limits.admission import Admission, Limits
 from service.limits.body import BodyLimit
 from service.metrics.requests import RequestMetrics
@@ -139,8 +139,8 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     app.add_middleware(BodyLimit, largest_bytes=LARGEST_BODY_BYTES)
     app.add_middleware(Limits, admission=admission, time_limit_s=settings.time_limit_s)
     app.add_middleware(Compression)
-    if not settings.read_keys_required:
-        app.add_middleware(AnswerKept, names=names, kept=kept, shelf=shelf)
+    allows = partial(may_read, engine) if settings.read_keys_required else None
+    app.add_middleware(AnswerKept, names=names, kept=kept, shelf=shelf, allows=allows)
     app.add_middleware(HeadAsGet)
     app.add_middleware(EncodedSlashes)
     if settings.cors_origins:

@@ -5,12 +5,15 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Request, Security
+from fastapi.concurrency import run_in_threadpool
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 from fastapi.security.utils import get_authorization_scheme_param
+from sqlalchemy import Engine
+from sqlalchemy.exc import SQLAlchemyError
 
 from service.database import ReadConnection, engine_of
 from service.metrics.endpoints import PATH as PATH_OF_METRICS
-from threadstate.access.keys import require_key
+from threadstate.access.keys import KeyRefusedError, require_key
 from threadstate.access.scope import Scope
 
 GUARDED = ("/v1/", PATH_OF_METRICS)
@@ -45,6 +48,19 @@ def guard_reading(request: Request) -> None:
     """
     if not request.url.path.startswith(GUARDED):
         return
-    scheme, key = get_authorization_scheme_param(request.headers.get("authorization"))
-    with engine_of(request).connect() as connection:
+    _require_for_reading(engine_of(request), request.headers.get("authorization"))
+
+
+async def may_read(engine: Engine, authorization: str | None) -> bool:
+    """Whether such a header shows a key for reading; False where that cannot be found out, too."""
+    try:
+        await run_in_threadpool(_require_for_reading, engine, authorization)
+    except (KeyRefusedError, SQLAlchemyError):
+        return False
+    return True
+
+
+def _require_for_reading(engine: Engine, authorization: str | None) -> None:
+    scheme, key = get_authorization_scheme_param(authorization)
+    with engine.connect() as connection:
         require_key(connection, key if scheme.lower() == "bearer" else None, Scope.READ)

@@ -7,6 +7,7 @@ streams go through untouched.
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -19,7 +20,7 @@ from service.kept.names import LibraryNames
 from service.middleware import ASKED_AS_HEAD
 from service.renditions.answer import rendered_history, rendered_state
 from service.renditions.shelf import RenditionShelf
-from service.representation import REVALIDATE
+from service.representation import REVALIDATE, REVALIDATE_PRIVATELY
 from threadstate.library.read import LibraryRecord
 
 LIBRARIES = "/v1/libraries/"
@@ -29,15 +30,16 @@ NEGOTIATED = "/histories/"
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """What a request's headers ask for."""
+    """What a request's headers ask for, and the key they show."""
 
     gzip: bool
     csv: bool
     if_none_match: str
+    authorization: str | None
 
     @classmethod
     def by(cls, headers: Headers) -> _Asked:
-        gzip, csv, if_none_match = False, False, ""
+        gzip, csv, if_none_match, authorization = False, False, "", None
         for name, value in headers:
             if name == b"accept-encoding":
                 gzip = takes_gzip(value.decode("latin-1"))
@@ -45,7 +47,9 @@ class _Asked:
                 csv = prefers_csv(value.decode("latin-1"))
             elif name == b"if-none-match":
                 if_none_match = value.decode("latin-1")
-        return cls(gzip, csv, if_none_match)
+            elif name == b"authorization":
+                authorization = value.decode("latin-1")
+        return cls(gzip, csv, if_none_match, authorization)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +64,25 @@ class _Key:
 
 
 class AnswerKept:
-    """Answers what is kept or rendered; what several ask for at once is made once."""
+    """Answers what is kept or rendered; what several ask for at once is made once.
 
-    def __init__(self, app: ASGIApp, names: LibraryNames, kept: KeptAnswers, shelf: RenditionShelf | None) -> None:
+    Where reading is closed, ``allows`` says by the header ``Authorization`` who may have it (None: everybody may).
+    """
+
+    def __init__(
+        self,
+        app: ASGIApp,
+        names: LibraryNames,
+        kept: KeptAnswers,
+        shelf: RenditionShelf | None,
+        allows: Callable[[str | None], Awaitable[bool]] | None,
+    ) -> None:
         self._app = app
         self._names = names
         self._kept = kept
         self._shelf = shelf
+        self._allows = allows
+        self._cached = (REVALIDATE if allows is None else REVALIDATE_PRIVATELY).encode()
         self._being_made: dict[_Key, asyncio.Event] = {}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -80,6 +96,9 @@ class AnswerKept:
             await self._app(scope, receive, send)
             return
         asked = _Asked.by(scope["headers"])
+        if self._allows is not None and not await self._allows(asked.authorization):
+            await self._app(scope, receive, send)
+            return
         key = _Key(library.id, slash + path, scope["query_string"], asked.csv)
         answer = self._at_hand(key, library)
         if answer is None and (making := self._being_made.get(key)) is not None:
@@ -98,12 +117,12 @@ class AnswerKept:
         if self._shelf is not None and not key.query and not key.csv:
             rendition = self._shelf.get(library)
         if rendition is not None:
-            answer = rendered_state(rendition, library, key.path)
+            answer = rendered_state(rendition, library, key.path, self._cached)
             if answer is not None:
                 return answer
         answer = self._kept.get(key)
         if answer is None and rendition is not None:
-            answer = rendered_history(rendition, library, key.path)
+            answer = rendered_history(rendition, library, key.path, self._cached)
             if answer is not None:
                 self._kept.put(key, answer)
         return answer
@@ -111,7 +130,7 @@ class AnswerKept:
     async def _make(self, key: _Key, scope: Scope, receive: Receive, send: Send) -> Answer | None:
         """The answer, made and kept; None where it is of another kind and was sent already."""
         made = self._being_made.setdefault(key, asyncio.Event())
-        capture = _Capture(key, scope, send)
+        capture = _Capture(key, scope, send, self._cached)
         try:
             # Compressed here, if at all.
             headers = [(name, value) for name, value in scope["headers"] if name != b"accept-encoding"]
@@ -153,7 +172,8 @@ class AnswerKept:
 class _Capture:
     """Holds back an answer that is to be kept, whole; sends on any other as it comes."""
 
-    def __init__(self, key: _Key, scope: Scope, send: Send) -> None:
+    def __init__(self, key: _Key, scope: Scope, send: Send, cached: bytes) -> None:
+        self._cached = cached
         self._key = key
         self._scope = scope
         self._send = send
@@ -188,7 +208,7 @@ class _Capture:
         negotiated = {b"accept"} if self._key.path.startswith(NEGOTIATED) else set()
         return (
             _named(headers, b"etag") != b""
-            and _named(headers, b"cache-control") == REVALIDATE.encode()
+            and _named(headers, b"cache-control") == self._cached
             and varies <= {b"", b"accept-encoding"} | negotiated
         )
 

@@ -10,7 +10,7 @@ from functools import lru_cache
 
 from service.kept.answers import Answer
 from service.renditions.file import Rendition, compact_json
-from service.representation import JSON, REVALIDATE, VARY_ACCEPT, etag_of
+from service.representation import JSON, VARY_ACCEPT, etag_of
 from service.units import UNIT_HEADER
 from threadstate.library.grid import Grid
 from threadstate.library.read import LibraryRecord
@@ -22,12 +22,14 @@ _ANGLE = r"(-?[0-9]{1,3}(?:\.[0-9]{1,6})?)"
 _STATE = re.compile(f"/states/{_ANGLE}/{_ANGLE}/{_ANGLE}")
 _HISTORY = re.compile(f"/histories/{_ANGLE}/{_ANGLE}")
 _JSON = JSON.encode()
-_REVALIDATE = REVALIDATE.encode()
 _UNIT_HEADER = UNIT_HEADER.lower().encode()
 
 
-def rendered_state(rendition: Rendition, library: LibraryRecord, path: str) -> Answer | None:
-    """The state that ``path``, below the library's address, is about; None where it is not the path of one."""
+def rendered_state(rendition: Rendition, library: LibraryRecord, path: str, cached: bytes) -> Answer | None:
+    """The state that ``path``, below the library's address, is about; None where it is not the path of one.
+
+    ``cached`` is the answer's ``Cache-Control``.
+    """
     match = _STATE.fullmatch(path)
     if match is None:
         return None
@@ -41,12 +43,15 @@ def rendered_state(rendition: Rendition, library: LibraryRecord, path: str) -> A
         return None
     location = f"/v1/libraries/{library.id}/states/{roll:g}/{pitch:g}/{phase:g}"
     return _answer(
-        STATE_ROUTE, library, content, (b"content-location", location.encode()), (b"vary", b"Accept-Encoding")
+        STATE_ROUTE, library, content, cached, (b"content-location", location.encode()), (b"vary", b"Accept-Encoding")
     )
 
 
-def rendered_history(rendition: Rendition, library: LibraryRecord, path: str) -> Answer | None:
-    """The history that ``path``, below the library's address, is about; None where it is not the path of one."""
+def rendered_history(rendition: Rendition, library: LibraryRecord, path: str, cached: bytes) -> Answer | None:
+    """The history that ``path``, below the library's address, is about; None where it is not the path of one.
+
+    ``cached`` is the answer's ``Cache-Control``.
+    """
     match = _HISTORY.fullmatch(path)
     if match is None:
         return None
@@ -59,14 +64,14 @@ def rendered_history(rendition: Rendition, library: LibraryRecord, path: str) ->
         return None
     head = {"library": library.id, "unit": library.length_unit.value, "roll": roll + 0.0, "pitch": pitch + 0.0}
     content = b"".join((compact_json(head)[:-1], b',"states":[', states, b'],"undecided":[]}'))
-    return _answer(HISTORY_ROUTE, library, content, (b"vary", f"{VARY_ACCEPT}, Accept-Encoding".encode()))
+    return _answer(HISTORY_ROUTE, library, content, cached, (b"vary", f"{VARY_ACCEPT}, Accept-Encoding".encode()))
 
 
-def _answer(route: str, library: LibraryRecord, content: bytes, *further: tuple[bytes, bytes]) -> Answer:
+def _answer(route: str, library: LibraryRecord, content: bytes, cached: bytes, *further: tuple[bytes, bytes]) -> Answer:
     etag = etag_of(content)
     headers = [
         (b"etag", etag.encode()),
-        (b"cache-control", _REVALIDATE),
+        (b"cache-control", cached),
         (_UNIT_HEADER, library.length_unit.value.encode()),
         *further,
         (b"content-length", b"%d" % len(content)),

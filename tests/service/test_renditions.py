@@ -15,11 +15,18 @@ from service.app import RENDITIONS, create_app
 from service.renditions.build import build
 from service.renditions.file import Rendition, RenditionError, write_rendition
 from service.renditions.shelf import RenditionShelf
-from tests.service.conftest import StoredLibrary
-from threadstate.library.engine import reading
+from tests.databases import Databases
+from tests.service.conftest import StoredLibrary, store_library
+from tests.service.made_up_states import made_up_states
+from tests.service.test_problems import problem
+from threadstate.access.keys import create_key, revoke_key
+from threadstate.access.scope import Scope
+from threadstate.library.engine import reading, writing
+from threadstate.library.grid import Grid
 from threadstate.library.read import library_by_id
-from threadstate.settings import DATA_DIR, DATABASE, read_settings
+from threadstate.settings import DATA_DIR, DATABASE, READ_KEYS, read_settings
 from threadstate.state.document import state_document
+from threadstate.thread.catalogue import quarter_twenty_unc
 
 LONGEST_S = 60.0
 
@@ -30,12 +37,16 @@ def rendering(made_up: StoredLibrary, tmp_path_factory: pytest.TempPathFactory) 
     folder = tmp_path_factory.mktemp("data")
     settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(folder)})
     with TestClient(create_app(settings, serving=True)) as client:
-        until = time.monotonic() + LONGEST_S
-        while not list((folder / RENDITIONS).glob("*.states")):
-            assert client.get("/v1/libraries/latest/states/0/0/0").status_code == 200
-            assert time.monotonic() < until
-            time.sleep(0.1)
+        _await_rendition(client, folder, {})
         yield client
+
+
+def _await_rendition(client: TestClient, folder: Path, headers: dict[str, str]) -> None:
+    until = time.monotonic() + LONGEST_S
+    while not list((folder / RENDITIONS).glob("*.states")):
+        assert client.get("/v1/libraries/latest/states/0/0/0", headers=headers).status_code == 200
+        assert time.monotonic() < until
+        time.sleep(0.1)
 
 
 @pytest.mark.parametrize("encoding", ["identity", "gzip"])
@@ -78,6 +89,33 @@ def test_what_is_not_rendered_is_answered_as_ever(
     assert [answer.status_code for answer in answers] == [status, status]
     if status == 200:
         assert answers[0].content == answers[1].content
+
+
+def test_where_reading_is_closed_what_is_at_hand_is_for_those_with_a_key(
+    databases: Databases, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with databases.lent() as database:
+        store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)
+        settings = read_settings({DATABASE: database, DATA_DIR: str(tmp_path), READ_KEYS: "required"})
+        with writing(database) as engine, TestClient(create_app(settings, serving=True)) as client:
+            key = create_key(engine, "reader", Scope.READ)
+            shown = {"Authorization": f"Bearer {key}"}
+            _await_rendition(client, tmp_path, shown)
+            addresses = [f"/v1/libraries/latest/{path}" for path in ("states/0/0/30", "histories/1/-1")]
+            before = [client.get(address, headers=shown).content for address in addresses]
+            # Whatever is answered from now on is at hand.
+            monkeypatch.setattr("service.states.endpoints.state_of_pose", None)
+            monkeypatch.setattr("service.histories.endpoints.history", None)
+            for address, content in zip(addresses, before, strict=True):
+                answer = client.get(address, headers=shown)
+                assert (answer.status_code, answer.content) == (200, content)
+                assert answer.headers["Cache-Control"] == "private, no-cache"
+                copy = {"If-None-Match": answer.headers["ETag"]}
+                assert client.get(address, headers={**shown, **copy}).status_code == 304
+                for wrong in ({}, copy, {"Authorization": f"Bearer {key}x"}, {"Authorization": key}):
+                    problem(client.get(address, headers=wrong), 401)
+            revoke_key(engine, key.split("_")[1])
+            problem(client.get("/v1/libraries/latest/states/0/0/30", headers=shown), 401)
 
 
 def test_undecided_pose_has_no_text(tmp_path: Path, made_up: StoredLibrary) -> None:
