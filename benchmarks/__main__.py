@@ -28,9 +28,10 @@ def main() -> None:
     parser.add_argument("--poses", type=int, default=6000, help="poses solved by the exact method [%(default)s]")
     parser.add_argument("--compared", type=int, default=1000, help="first of them, also by meshes [%(default)s]")
     parser.add_argument("--tilt-max", type=float, default=4.0, help="of the library, in degrees [%(default)s]")
+    parser.add_argument("--tilt-step", type=float, default=1.0, help="of the library, in degrees [%(default)s]")
     parser.add_argument("--phase-step", type=float, default=1.0, help="of the library, in degrees [%(default)s]")
     arguments = parser.parse_args()
-    grid = Grid(tilt_max_deg=arguments.tilt_max, phase_step_deg=arguments.phase_step)
+    grid = Grid(tilt_max_deg=arguments.tilt_max, tilt_step_deg=arguments.tilt_step, phase_step_deg=arguments.phase_step)
     report = _measured(arguments.poses, arguments.compared, grid)
     if arguments.json:
         print(as_json(report))

@@ -17,6 +17,8 @@ COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
 
 SMALL_GRID = ["--tilt-max", "3", "--tilt-step", "3", "--phase-step", "15"]
 """9 orientations of 24 phases."""
+ONE_ORIENTATION = ["--tilt-max", "0", "--phase-step", "15"]
+"""The level one, in 24 phases."""
 
 
 class CommandLine:

@@ -8,7 +8,7 @@ import re
 import pytest
 
 from tests.databases import Databases
-from tests.worker.conftest import SMALL_GRID, CommandLine
+from tests.worker.conftest import ONE_ORIENTATION, CommandLine
 from threadstate.library.schema import SCHEMA_REVISION
 from worker.exit_codes import ExitCode
 
@@ -39,17 +39,17 @@ def test_migrate_says_what_it_did(command_line: CommandLine) -> None:
 
 @pytest.mark.sqlite_alone
 def test_the_summary_counts_every_state_once(command_line: CommandLine) -> None:
-    command_line.out("rebuild", *SMALL_GRID)
+    command_line.out("rebuild", *ONE_ORIENTATION)
     summary = json.loads(command_line.here("summary", "--json")[1])
-    assert summary["states"] == 216
-    assert sum(summary["classes"].values()) == 216
+    assert summary["states"] == 24
+    assert sum(summary["classes"].values()) == 24
     readable = command_line.here("summary")[1]
     for name, count in (summary["classes"] | summary["flags"]).items():
         assert re.search(rf"^{name} +{count}$", readable, re.M)
 
 
 def test_a_copy_is_proved_by_its_hash(command_line: CommandLine, databases: Databases) -> None:
-    published = json.loads(command_line.out("rebuild", "--tilt-max", "1", "--phase-step", "180", "--json"))
+    published = json.loads(command_line.out("rebuild", *ONE_ORIENTATION, "--json"))
     target = databases.new()
     code, out, _ = command_line.here("copy", "--to", target, "--json")
     assert (code, json.loads(out)) == (
