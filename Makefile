@@ -41,7 +41,7 @@ test: setup
 	$(BIN)/bandit -q -r threadstate service worker migrations -c pyproject.toml
 	$(NODE) node_modules/eslint/bin/eslint.js .
 	$(NODE) --test tests/page/*.test.js
-	$(BIN)/pytest -n 3 --dist loadfile
+	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder
 
 bench: setup
 	$(BIN)/python -m benchmarks

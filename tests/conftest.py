@@ -14,6 +14,20 @@ from threadstate.history.model import History
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("repeatable")
 
+TAKE_LONGEST = ("worker", "faults", "test_benchmarks.py", "studies", "explorer", "service", "contact")
+"""Folders and files of tests, those first that are begun first, so that no lane is left alone with them at the end."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes longest; a file's tests stay together and in order."""
+    tests = Path(__file__).parent
+
+    def turn(item: pytest.Item) -> int:
+        first = item.path.relative_to(tests).parts[0]
+        return TAKE_LONGEST.index(first) if first in TAKE_LONGEST else len(TAKE_LONGEST)
+
+    items.sort(key=turn)
+
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """A test on databases runs on each kind, unless it is marked as one of one kind alone."""
