@@ -14,7 +14,8 @@ COPY worker worker
 COPY service service
 COPY migrations migrations
 RUN pip wheel --quiet --no-deps --no-build-isolation --no-index --wheel-dir /wheels . \
-    && pip --python /opt/threadstate/bin/python install --quiet --no-deps --no-index /wheels/*.whl
+    && pip --python /opt/threadstate/bin/python install --quiet --no-deps --no-index /wheels/*.whl \
+    && find /opt/threadstate -type d -name tests -prune -exec rm -r {} +
 
 FROM python:3.11-slim-bookworm
 COPY --from=build /opt/threadstate /opt/threadstate
@@ -27,7 +28,6 @@ ENV PATH=/opt/threadstate/bin:$PATH \
     THREADSTATE_DATA_DIR=/data \
     THREADSTATE_NUMBA_CACHE_DIR=/kernels \
     THREADSTATE_HOST=0.0.0.0
-VOLUME ["/data", "/kernels"]
 EXPOSE 8000
 HEALTHCHECK --interval=10s --timeout=5s --start-period=10m \
     CMD ["python", "-c", "import urllib.request; urllib.request.urlopen('http://127.0.0.1:8000/readyz', timeout=4)"]
