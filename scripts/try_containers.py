@@ -40,7 +40,7 @@ class Container:
     """What the engine says of one: ``health`` is empty where nobody looks."""
 
     service: str
-    running: bool
+    ended: bool
     health: str
     exit_code: int
 
@@ -87,7 +87,7 @@ class Composition:
         """All, those that have ended too."""
         lines = self.run("ps", "--all", "--format", "json").splitlines()
         found = [json.loads(line) for line in lines]
-        return [Container(one["Service"], one["State"] == "running", one["Health"], one["ExitCode"]) for one in found]
+        return [Container(one["Service"], one["State"] == "exited", one["Health"], one["ExitCode"]) for one in found]
 
     def settled(self, staying: Sequence[str]) -> bool:
         """Whether the steps have ended well and those services are healthy.
@@ -97,9 +97,9 @@ class Composition:
         """
         containers = self.containers()
         for one in containers:
-            if one.service in STEPS and not one.running and one.exit_code:
+            if one.service in STEPS and one.ended and one.exit_code:
                 sys.exit(f"{one.service} ended with {one.exit_code}: {self.run('logs', one.service)}")
-        ended = {one.service for one in containers if one.service in STEPS and not one.running}
+        ended = {one.service for one in containers if one.service in STEPS and one.ended}
         healthy = {one.service for one in containers if one.health == "healthy"}
         return ended == set(STEPS) and set(staying) <= healthy
 

@@ -13,6 +13,7 @@ import yaml
 from typer.core import TyperGroup
 from typer.main import get_command
 
+from scripts import try_containers
 from threadstate import settings
 from worker.cli import app
 
@@ -50,6 +51,11 @@ def _pins(path: Path) -> dict[tuple[str, str], frozenset[str]]:
 def test_the_services_are_these(services: dict[str, dict[str, Any]]) -> None:
     assert sorted(services) == sorted((*OURS, "database"))
     assert {name for name, one in services.items() if one.get("profiles") == ["dask"]} == {"scheduler", "dask-worker"}
+
+
+def test_the_trial_knows_every_service(services: dict[str, dict[str, Any]]) -> None:
+    assert sorted((*try_containers.STEPS, *try_containers.STAYING, *try_containers.CLUSTER)) == sorted(services)
+    assert {name for name, one in services.items() if "profiles" in one} == set(try_containers.CLUSTER)
 
 
 def test_every_service_is_hardened(services: dict[str, dict[str, Any]]) -> None:
