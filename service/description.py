@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -32,21 +33,34 @@ class DescribedApplication(FastAPI):
         """All layers, made once."""
         return self.outermost(super().build_middleware_stack())
 
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**options)
+        self._describing = threading.Lock()
+
     def openapi(self) -> dict[str, Any]:
-        """The OpenAPI document; made once."""
-        if self.openapi_schema is None:
-            document = super().openapi()
-            for methods in document["paths"].values():
-                for operation in methods.values():
-                    problem = operation["responses"]["default"]
-                    # FastAPI takes an error to be of the media type of the answer.
-                    (schema,) = problem["content"].values()
-                    problem["content"] = {MEDIA_TYPE: schema}
-            # Not among the routes' responses: what FastAPI describes there loses every null.
-            for one in EXAMPLES:
-                answer = document["paths"][one.path][one.method]["responses"]["200"]["content"][one.media_type]
-                answer["examples"] = {
-                    one.name: {"summary": one.summary, "value": one.value},
-                    **answer.get("examples", {}),
-                }
-        return super().openapi()
+        """The OpenAPI document; made once, whoever else asks for it meanwhile."""
+        with self._describing:
+            if self.openapi_schema is None:
+                document = super().openapi()
+                # Not to be seen before it is whole.
+                self.openapi_schema = None
+                _describe_problems(document)
+                _show_examples(document)
+                self.openapi_schema = document
+            return self.openapi_schema
+
+
+def _describe_problems(document: dict[str, Any]) -> None:
+    for methods in document["paths"].values():
+        for operation in methods.values():
+            problem = operation["responses"]["default"]
+            # FastAPI takes an error to be of the media type of the answer.
+            (schema,) = problem["content"].values()
+            problem["content"] = {MEDIA_TYPE: schema}
+
+
+def _show_examples(document: dict[str, Any]) -> None:
+    # Not among the routes' responses: what FastAPI describes there loses every null.
+    for one in EXAMPLES:
+        answer = document["paths"][one.path][one.method]["responses"]["200"]["content"][one.media_type]
+        answer["examples"] = {one.name: {"summary": one.summary, "value": one.value}, **answer.get("examples", {})}
