@@ -29,13 +29,13 @@ class DescribedApplication(FastAPI):
 
     outermost: Callable[[ASGIApp], ASGIApp]
 
-    def build_middleware_stack(self) -> ASGIApp:
-        """All layers, made once."""
-        return self.outermost(super().build_middleware_stack())
-
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
         self._describing = threading.Lock()
+
+    def build_middleware_stack(self) -> ASGIApp:
+        """All layers, made once."""
+        return self.outermost(super().build_middleware_stack())
 
     def openapi(self) -> dict[str, Any]:
         """The OpenAPI document; made once, whoever else asks for it meanwhile."""
