@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager
 from functools import partial
 
 from fastapi import Depends, FastAPI
+from fastapi.telemetry import TelemetryConfig
 from prometheus_client import CollectorRegistry
 from starlette.middleware.cors import CORSMiddleware
 
@@ -55,6 +56,8 @@ from threadstate.settings import Settings, read_settings
 
 RENDITIONS = "renditions"
 """Folder of the renditions, in the data directory."""
+NO_TELEMETRY = TelemetryConfig(tracing=False, metrics=False, logs=False)
+"""FastAPI's own would look at every request whether OpenTelemetry has been set up."""
 LARGEST_BODY_BYTES = 256 * 1024
 """Room for 1,000 poses with all the digits that a double has."""
 
@@ -102,6 +105,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         docs_url=None,
         redoc_url=None,
         openapi_url=None,
+        telemetry=NO_TELEMETRY,
         redirect_slashes=False,
         lifespan=lifespan,
         dependencies=[Depends(one) for one in (note_matched_route, *guards, refuse_unknown_parameters)],

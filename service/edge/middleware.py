@@ -55,12 +55,12 @@ class Edge:
                 sent += len(message.get("body", b""))
             await send(message)
 
-        self._metrics.in_flight.inc()
+        self._metrics.in_flight += 1
         try:
             await self._app(scope, receive, send_last)
         finally:
             seconds = time.perf_counter() - began
-            self._metrics.in_flight.dec()
+            self._metrics.in_flight -= 1
             method, route = method_of(scope), notes.route
             self._metrics.count(method, route, status, seconds)
             if self._logging:

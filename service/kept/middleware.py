@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -28,8 +28,7 @@ NEGOTIATED = "/histories/"
 """Below a library, what has a JSON and a CSV form, by the header ``Accept``."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Asked:
+class _Asked(NamedTuple):
     """What a request's headers ask for, and the key they show."""
 
     gzip: bool
@@ -52,8 +51,7 @@ class _Asked:
         return cls(gzip, csv, if_none_match, authorization)
 
 
-@dataclass(frozen=True, slots=True)
-class _Key:
+class _Key(NamedTuple):
     """What an answer depends on."""
 
     library: int
@@ -154,7 +152,7 @@ class AnswerKept:
             await send({"type": "http.response.body", "body": b""})
             return
         if zipping:
-            answer = await self._zipped(replace(key, zipped=True), answer, answer.body)
+            answer = await self._zipped(key._replace(zipped=True), answer, answer.body)
         await send({"type": "http.response.start", "status": 200, "headers": answer.headers})
         await send({"type": "http.response.body", "body": answer.body})
 

@@ -1,11 +1,12 @@
 """Which library a name in a path means, known without asking the database at every request.
 
-SQLite says by a number whether anybody else has committed since: a name is right as of the request. PostgreSQL's names
-are looked up again after a second.
+SQLite says by a number whether anybody else has committed since: a name is right as of the request. It is asked once
+for all requests that have come meanwhile. PostgreSQL's names are looked up again after a second.
 """
 
 from __future__ import annotations
 
+import asyncio
 import sqlite3
 import time
 from dataclasses import dataclass
@@ -41,13 +42,18 @@ class LibraryNames:
         self._watch: Connection | None = None
         self._cursor: Any = None
         self._seen: _Seen | None = None
+        self._asked = False
         self._known: dict[str, LibraryRecord] = {}
 
     def known(self, name: str) -> LibraryRecord | None:
-        """The library that a name means, if it is known and nothing has changed; does not wait."""
+        """The library that a name means, if it is known and nothing has changed; does not wait.
+
+        To be called within the service's event loop.
+        """
         if self._counting:
-            if self._commits() != self._seen:
+            if not self._asked and self._commits() != self._seen:
                 return None
+            self._trust_until_next_turn()
         elif self._seen is None or time.monotonic() - self._seen.value > LONGEST_AGE_S:
             return None
         return self._known.get(name)
@@ -69,6 +75,15 @@ class LibraryNames:
         if self._watch is not None:
             self._watch.close()
             self._watch = self._cursor = None
+
+    def _trust_until_next_turn(self) -> None:
+        """Take the names for right in what the loop has begun already: it came before the database was asked."""
+        if not self._asked:
+            self._asked = True
+            asyncio.get_running_loop().call_soon(self._ask_again)
+
+    def _ask_again(self) -> None:
+        self._asked = False
 
     def _remember(self, seen: _Seen, name: str, found: LibraryRecord) -> None:
         outdated = self._seen is None or (

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import structlog
 
 _log = structlog.get_logger()
 
 
-@dataclass(frozen=True, slots=True)
-class AccessLine:
+class AccessLine(NamedTuple):
     """What is said of a request; neither its address, nor its query, nor any of its headers but its number.
 
     ``sent_bytes`` are those of the content.

@@ -10,10 +10,15 @@ _BUCKETS_S = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1
 
 
 class RequestMetrics:
-    """By the template of the address, never by the address: there are as many series as routes."""
+    """By the template of the address, never by the address: there are as many series as routes.
+
+    ``in_flight`` is how many are being answered; all of them are begun and ended in one thread.
+    """
 
     def __init__(self, registry: CollectorRegistry) -> None:
-        self.in_flight = Gauge("threadstate_requests_in_flight", "Requests that are being answered.", registry=registry)
+        self.in_flight = 0
+        in_flight = Gauge("threadstate_requests_in_flight", "Requests that are being answered.", registry=registry)
+        in_flight.set_function(lambda: self.in_flight)
         requests = Counter(
             "threadstate_requests", "Requests answered.", ("method", "route", "status"), registry=registry
         )

@@ -3,6 +3,9 @@ from __future__ import annotations
 import json
 import logging
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -74,27 +77,54 @@ def test_fault_is_logged_numbered_and_marked(made_up: StoredLibrary, monkeypatch
     assert [(line["status"], line["log_level"]) for line in lines] == [(500, "error")]
 
 
-def test_lines_are_json_with_the_number_and_the_traceback(capfd: pytest.CaptureFixture[str]) -> None:
+@contextmanager
+def _logging_to_stderr(form: LogForm) -> Iterator[None]:
     before = structlog.get_config()
     root = logging.getLogger()
     handlers, level = root.handlers[:], root.level
     token = current_request_id.set("mine")
     try:
-        configure_logs(LogForm.JSON, LogLevel.INFO)
+        configure_logs(form, LogLevel.INFO)
+        yield
+    finally:
+        current_request_id.reset(token)
+        structlog.configure(**before)
+        root.handlers, root.level = handlers, level
+
+
+def test_lines_are_json_with_the_number_and_the_traceback(capfd: pytest.CaptureFixture[str]) -> None:
+    began = datetime.now(UTC)
+    with _logging_to_stderr(LogForm.JSON):
         structlog.get_logger().info("one", route="/x")
         structlog.get_logger().debug("none")
         try:
             raise ZeroDivisionError("x")
         except ZeroDivisionError:
             logging.getLogger("uvicorn.error").exception("two")
-    finally:
-        current_request_id.reset(token)
-        structlog.configure(**before)
-        root.handlers, root.level = handlers, level
     one, two = (json.loads(line) for line in capfd.readouterr().err.splitlines())
     assert (one["event"], one["route"], one["request_id"], one["level"]) == ("one", "/x", "mine", "info")
+    assert one["timestamp"].endswith("Z")
+    assert began <= datetime.fromisoformat(one["timestamp"]) <= datetime.now(UTC)
     assert (two["event"], two["logger"], two["level"]) == ("two", "uvicorn.error", "error")
     assert "ZeroDivisionError: x" in two["exception"]
+
+
+@pytest.mark.parametrize(("value", "written"), [("\ud800", "\ud800"), (1 << 70, 1 << 70), (1j, "1j")])
+def test_line_is_written_whatever_is_in_it(capfd: pytest.CaptureFixture[str], value: object, written: object) -> None:
+    with _logging_to_stderr(LogForm.JSON):
+        structlog.get_logger().info("one", value=value)
+    line = json.loads(capfd.readouterr().err)
+    assert (line["event"], line["request_id"]) == ("one", "mine")
+    assert line["value"] == written
+
+
+def test_lines_for_people_have_the_same(capfd: pytest.CaptureFixture[str]) -> None:
+    with _logging_to_stderr(LogForm.TEXT):
+        structlog.get_logger().info("one", route="/x")
+    line = capfd.readouterr().err
+    assert re.match(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d+Z ", line)
+    assert "one" in line
+    assert "request_id=mine route=/x" in line
 
 
 def test_metrics_count_requests_by_route(made_up: StoredLibrary) -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import asyncio
 import gzip
 import threading
 
@@ -10,10 +11,11 @@ from sqlalchemy import Connection
 
 from service.app import create_app
 from service.kept.answers import OVERHEAD_BYTES, Answer, KeptAnswers
+from service.kept.names import LibraryNames
 from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
-from threadstate.library.engine import writing
+from threadstate.library.engine import reading, writing
 from threadstate.library.grid import Grid
 from threadstate.library.orientations import OrientationSummary, orientation_summaries
 from threadstate.library.tables import library
@@ -119,6 +121,31 @@ def test_publication_and_removal_show_at_once(databases: Databases) -> None:
             connection.execute(library.delete().where(library.c.id == second.id))
         assert f'"library":{first.id},' in client.get(path).text
         assert client.get(f"/v1/libraries/{second.id}/orientations").status_code == 404
+
+
+@pytest.mark.sqlite_alone
+def test_database_is_asked_once_for_what_came_before(databases: Databases) -> None:
+    database = databases.migrated()
+    pair = quarter_twenty_unc()
+    first = store_library(database, pair, Grid(1.0, 1.0, 90.0), made_up_states)
+
+    async def ask(names: LibraryNames) -> None:
+        assert names.known("latest") is None
+        found = await names.look_up("latest")
+        assert found is not None
+        assert found.id == first.id
+        assert names.known("latest") == found
+        second = store_library(database, pair, Grid(1.0, 1.0, 120.0), made_up_states)
+        assert names.known("latest") == found
+        await asyncio.sleep(0)
+        assert names.known("latest") is None
+        found = await names.look_up("latest")
+        assert found is not None
+        assert found.id == second.id
+        names.close()
+
+    with reading(database) as engine:
+        asyncio.run(ask(LibraryNames(engine)))
 
 
 def test_what_several_ask_for_at_once_is_made_once(made_up: StoredLibrary, monkeypatch: pytest.MonkeyPatch) -> None:
