@@ -428,6 +428,23 @@ def test_keys_choose_and_follow(explorer: Explorer) -> None:
     )
 
 
+def test_focus_that_keys_have_led_on_stays_when_another_formation_is_marked(explorer: Explorer) -> None:
+    explorer.click("#tab-network")
+    marked = explorer.one('#network .formation[aria-selected="true"]')
+    before = marked.get_attribute("data-key")
+    marked.send_keys(Keys.ARROW_DOWN)
+    led_to = explorer.chromium.switch_to.active_element.get_attribute("data-key")
+    assert led_to != before
+    explorer.choose("#phase", "200")
+    explorer.wait(
+        lambda: explorer.one('#network .formation[aria-selected="true"]').get_attribute("data-key") != before,
+        "another formation is not marked",
+    )
+    assert explorer.chromium.switch_to.active_element.get_attribute("data-key") == led_to
+    stops = explorer.all('#network .formation[tabindex="0"]')
+    assert [one.get_attribute("data-key") for one in stops] == [led_to]
+
+
 def test_help_is_shown_at_the_focus_and_hidden_by_escape(explorer: Explorer) -> None:
     explorer.run("document.querySelector('.panel.phase button.help').focus()")
     explorer.wait_for_text("#help:not([hidden])", "the clearance window, in which it falls")

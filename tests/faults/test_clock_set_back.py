@@ -33,6 +33,7 @@ TELL_TIME = {
     "threadstate/library/write.py",
     "threadstate/access/keys.py",
     "threadstate/client/retrying.py",
+    "service/logs/configure.py",
     "service/metrics/state.py",
 }
 """Files that write down when something happened, or show its age; some servers tell a client until when to wait."""

@@ -25,6 +25,8 @@ export class NetworkView {
   #places = new Map();
   #marks = null;
   #here = null;
+  /** The square that Tab leads to. */
+  #stop = null;
 
   constructor(frame, choose, tell) {
     this.#frame = frame;
@@ -57,21 +59,24 @@ export class NetworkView {
     put(this.#frame, root);
   }
 
-  /** Marks the formation of a node, what follows it, and the path from it; null where the pose has none. */
+  /**
+   * Marks the formation of a node, what follows it, and the path from it; null where the pose has none. The focus goes
+   * along, unless keys have led it away from what was marked before.
+   */
   mark(node, path) {
     if (this.#marks === null) return;
     const focused = this.#frame.contains(document.activeElement);
-    this.#here?.element.setAttribute("tabindex", -1);
+    const ledAway = focused && document.activeElement !== this.#here?.element;
     this.#here?.element.setAttribute("aria-selected", false);
     this.#here = this.#places.get(node?.formation.key) ?? this.#places.values().next().value ?? null;
-    this.#here?.element.setAttribute("tabindex", 0);
+    if (!ledAway) this.#stopAt(this.#here?.element ?? null);
     put(this.#marks.links);
     put(this.#marks.way);
     if (node === null || this.#here === null) return;
     this.#here.element.setAttribute("aria-selected", true);
     put(this.#marks.links, ...this.#links(node));
     put(this.#marks.way, ...this.#way(path));
-    if (focused) this.#here.element.focus();
+    if (focused && !ledAway) this.#here.element.focus();
     this.#tell(this.#here.formation.text);
   }
 
@@ -130,9 +135,14 @@ export class NetworkView {
     const next = nearest([...this.#places.values()], at, event.key);
     if (next === null) return;
     event.preventDefault();
-    at.element.setAttribute("tabindex", -1);
-    next.element.setAttribute("tabindex", 0);
+    this.#stopAt(next.element);
     next.element.focus();
+  }
+
+  #stopAt(element) {
+    this.#stop?.setAttribute("tabindex", -1);
+    element?.setAttribute("tabindex", 0);
+    this.#stop = element;
   }
 }
 
