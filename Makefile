@@ -1,6 +1,7 @@
 # make setup      everything that run, test and bench stand on; instant the second time
 # make run        migrate, compute the library if this very one is not published yet, serve it
-# make test       format, lint, types, bandit, tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
+# make test       check, then all tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
+# make check      format, lint, types, bandit, the units of the explorer's JavaScript
 # make bench      poses per second, beside a mesh collision library
 # make load       questions per second that the service answers, beside Datasette over the same file; writes docs/load.md
 #                 (apt-get install wrk)
@@ -26,7 +27,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test bench load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
+.PHONY: setup run test check bench load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -34,14 +35,17 @@ setup: $(VENV)/.kernels
 run: setup
 	$(BIN)/threadstate run
 
-test: setup
+test:
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check setup
+	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder
+
+check: $(VENV)/.project
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/bandit -q -r threadstate service worker migrations -c pyproject.toml
 	$(NODE) node_modules/eslint/bin/eslint.js .
 	$(NODE) --test tests/page/*.test.js
-	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder
 
 bench: setup
 	$(BIN)/python -m benchmarks

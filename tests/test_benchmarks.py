@@ -16,7 +16,7 @@ from benchmarks.rivalry import TUNNELLED_INCH, Rival
 from benchmarks.sample import sample_poses
 from threadstate.library.grid import Grid
 
-SMALL = ["--poses", "40", "--compared", "4", "--tilt-max", "4", "--tilt-step", "4", "--phase-step", "120"]
+SMALL = ["--poses", "40", "--compared", "4", "--tilt-max", "6", "--tilt-step", "6", "--phase-step", "120"]
 
 
 @pytest.fixture(scope="module")

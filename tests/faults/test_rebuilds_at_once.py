@@ -19,7 +19,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.rebuild import rebuild
 
-PHASE_STEPS = (30, 45, 60)
+PHASE_STEPS = (30, 60)
 EACH = 2
 
 
@@ -29,7 +29,7 @@ def expected(sqlite_databases: Databases) -> dict[int, str]:
     with writing(sqlite_databases.migrated()) as engine:
         return {
             step: rebuild(
-                engine, LibraryInputs(quarter_twenty_unc(), Grid(3.0, 3.0, step), SolveOptions()), 1, Unwatched()
+                engine, LibraryInputs(quarter_twenty_unc(), Grid(6.0, 6.0, step), SolveOptions()), 1, Unwatched()
             ).content_sha256
             for step in PHASE_STEPS
         }
@@ -39,7 +39,7 @@ def test_same_and_different_libraries_at_once(
     databases: Databases, environment_of_commands: Mapping[str, str], expected: dict[int, str]
 ) -> None:
     with databases.lent() as database:
-        grid = ("--tilt-max", "3", "--tilt-step", "3", "--workers", "1", "--json")
+        grid = ("--tilt-max", "6", "--tilt-step", "6", "--workers", "1", "--json")
         rebuilds = [
             subprocess.Popen(
                 [*COMMAND, "rebuild", *grid, "--phase-step", str(step)],

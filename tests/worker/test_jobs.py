@@ -18,14 +18,13 @@ import pytest
 from sqlalchemy import Engine, select
 
 from tests.databases import Databases
-from tests.worker.conftest import CommandLine
+from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
 from threadstate.jobs.ask import ask_for, cancel
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.read import events_after, job_by_id
 from threadstate.jobs.workers import beats
 from threadstate.library.engine import writing
-from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import library_by_id, published_libraries
 from threadstate.library.tables import chunk, state
@@ -34,7 +33,6 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.rebuild import rebuild
 
-GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
 
@@ -204,9 +202,8 @@ def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
 @pytest.mark.sqlite_alone
 def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, expected_content: str) -> None:
     ask_for(jobs.engine, INPUTS)
-    grid = ("--tilt-max", "3", "--tilt-step", "3", "--phase-step", "15")
     with jobs.start() as worker:
-        rebuilt = json.loads(jobs.command_line.out("rebuild", *grid, "--json"))
+        rebuilt = json.loads(jobs.command_line.out("rebuild", *SMALL_GRID, "--json"))
         _end(worker)
     assert rebuilt["content_sha256"] == expected_content
     _check_whole(jobs, expected_content)

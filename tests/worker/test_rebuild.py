@@ -13,7 +13,7 @@ import pytest
 from sqlalchemy import select
 
 from tests.archive.history_library import histories_of_grid
-from tests.worker.conftest import ONE_ORIENTATION, SMALL_GRID, CommandLine
+from tests.worker.conftest import GRID, ONE_ORIENTATION, SMALL_GRID, CommandLine
 from threadstate.archive.read import formations, orientation_history, stored_histories
 from threadstate.archive.rows import history_rows
 from threadstate.errors import NotFoundError
@@ -30,7 +30,6 @@ from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.processes import ComputeError, computing_processes
 
-GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
 PATIENCE_S = 60.0
 
 

@@ -14,12 +14,11 @@ from sqlalchemy import func, select
 
 from tests.databases import Databases
 from tests.worker.cluster.clusters import Cluster, running_cluster
-from tests.worker.conftest import SMALL_GRID, CommandLine
+from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
 from threadstate.jobs.ask import ask_for
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.read import events_after, job_by_id
 from threadstate.library.engine import reading, writing
-from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
 from threadstate.library.tables import chunk, state, undecided
@@ -30,7 +29,6 @@ from worker.cluster.chunks import computing_cluster
 from worker.processes import ASKED_AHEAD
 from worker.rebuild import rebuild
 
-GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
 
