@@ -125,3 +125,8 @@ class Explorer:
 def hosts_of(addresses: list[str]) -> set[str]:
     """The hosts of addresses that lead out of the page."""
     return {urlsplit(url).netloc for url in addresses if urlsplit(url).scheme not in ("data", "blob", "about")}
+
+
+def phase_of(explorer: Explorer) -> float:
+    """The phase in degrees that the page is at."""
+    return float(explorer.run("return document.querySelector('#phase').value"))

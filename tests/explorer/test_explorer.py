@@ -9,7 +9,7 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
-from tests.explorer.browser import Explorer, resize
+from tests.explorer.browser import Explorer, phase_of, resize
 
 LIBRARY = "/v1/libraries/latest"
 CLASS_NAMES = {
@@ -217,10 +217,6 @@ def test_a_point_of_the_depth_and_of_a_disk_move_the_phase(explorer: Explorer) -
     explorer.wait(lambda: 60 < phase_of(explorer) < 120, "the phase is not that of the top of the disk")
 
 
-def phase_of(explorer: Explorer) -> float:
-    return float(explorer.run("return document.querySelector('#phase').value"))
-
-
 def test_disks_say_what_touches_at_the_phase(explorer: Explorer) -> None:
     choose_pose(explorer, 4, -4, 0)
     explorer.click("#tab-regions")
@@ -376,78 +372,3 @@ def test_a_link_restores_exactly_the_view(explorer: Explorer) -> None:
     )
     assert explorer.chromium.current_url == link
     wait_for_canvas(explorer, pixels)
-
-
-@pytest.mark.parametrize("tab", ["state", "regions", "follows", "network"])
-def test_keyboard_reaches_everything_and_its_focus_is_seen(explorer: Explorer, tab: str) -> None:
-    explorer.click(f"#tab-{tab}")
-    explorer.one(f"#panel-{tab} svg, #panel-{tab} table")
-    explorer.one("#scene canvas")
-    interactive = explorer.run(
-        "return [...document.querySelectorAll('a, button, select, input, [tabindex=\"0\"]')]"
-        ".filter((one) => !one.disabled && one.tabIndex >= 0 && one.checkVisibility()).length"
-    )
-    explorer.run("document.activeElement.blur(); document.body.tabIndex = -1; document.body.focus()")
-    explorer.run("document.body.removeAttribute('tabindex')")
-    seen = []
-    for _ in range(interactive):
-        ActionChains(explorer.chromium).send_keys(Keys.TAB).perform()
-        seen.append(explorer.run(FOCUSED))
-    assert [one["name"] for one in seen if not one["visible"]] == []
-    assert len({one["index"] for one in seen}) == interactive
-
-
-FOCUSED = """
-const at = document.activeElement;
-const all = [...document.querySelectorAll('*')];
-const outlined = [at, ...at.querySelectorAll('.box, .frame-in, .reach')].some((one) => {
-  const { outlineStyle, outlineWidth, strokeWidth, stroke } = getComputedStyle(one);
-  const drawn = one !== at && parseFloat(strokeWidth) >= 2 && stroke !== 'none';
-  return drawn || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2);
-});
-return { index: all.indexOf(at), name: at.id || at.outerHTML.slice(0, 80), visible: outlined };
-"""
-"""Which element has the focus, and whether that is seen."""
-
-
-def test_keys_choose_and_follow(explorer: Explorer) -> None:
-    explorer.one('#map .cell[aria-selected="true"]').send_keys(Keys.ARROW_UP)
-    explorer.wait_for_text("#state", "roll 0 deg, pitch 0 deg")
-    focused = explorer.chromium.switch_to.active_element
-    assert (focused.get_attribute("data-roll"), focused.get_attribute("data-pitch")) == ("0", "0")
-    explorer.click("#tab-follows")
-    explorer.one('#follows .card[data-move="ccw"]').send_keys(Keys.ENTER)
-    explorer.wait(lambda: phase_of(explorer) != 10, "Enter does not follow")
-    explorer.click("#tab-network")
-    explorer.one('#network .formation[aria-selected="true"]').send_keys(Keys.ARROW_DOWN)
-    key = explorer.chromium.switch_to.active_element.get_attribute("data-key")
-    explorer.chromium.switch_to.active_element.send_keys(Keys.ENTER)
-    explorer.wait(
-        lambda: explorer.one('#network .formation[aria-selected="true"]').get_attribute("data-key") == key,
-        "Enter does not follow",
-    )
-
-
-def test_focus_that_keys_have_led_on_stays_when_another_formation_is_marked(explorer: Explorer) -> None:
-    explorer.click("#tab-network")
-    marked = explorer.one('#network .formation[aria-selected="true"]')
-    before = marked.get_attribute("data-key")
-    marked.send_keys(Keys.ARROW_DOWN)
-    led_to = explorer.chromium.switch_to.active_element.get_attribute("data-key")
-    assert led_to != before
-    explorer.choose("#phase", "200")
-    explorer.wait(
-        lambda: explorer.one('#network .formation[aria-selected="true"]').get_attribute("data-key") != before,
-        "another formation is not marked",
-    )
-    assert explorer.chromium.switch_to.active_element.get_attribute("data-key") == led_to
-    stops = explorer.all('#network .formation[tabindex="0"]')
-    assert [one.get_attribute("data-key") for one in stops] == [led_to]
-
-
-def test_help_is_shown_at_the_focus_and_hidden_by_escape(explorer: Explorer) -> None:
-    explorer.run("document.querySelector('.panel.phase button.help').focus()")
-    explorer.wait_for_text("#help:not([hidden])", "the clearance window, in which it falls")
-    assert explorer.run("return document.activeElement.getAttribute('aria-describedby')") == "help"
-    ActionChains(explorer.chromium).send_keys(Keys.ESCAPE).perform()
-    assert not explorer.one("#help").is_displayed()

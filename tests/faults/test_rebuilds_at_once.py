@@ -19,7 +19,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.rebuild import rebuild
 
-PHASE_STEPS = (30, 60)
+PHASE_STEPS = (30, 45, 60)
 EACH = 2
 
 
