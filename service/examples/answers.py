@@ -56,6 +56,6 @@ EXAMPLES = (
         _JSON,
         "solved",
         "Three contacts, one after another",
-        {"designation": DEFAULT_DESIGNATION, "unit": "in", "states": [SOLVED_STATE]},
+        {"designation": DEFAULT_DESIGNATION, "library": None, "unit": "in", "states": [SOLVED_STATE]},
     ),
 )

@@ -33,6 +33,7 @@ class ComputedIntervals(BaseModel):
     """The same of any orientation, computed when it is asked for."""
 
     designation: str
+    library: int | None = Field(description="number of the library whose pair and tolerances these are")
     unit: LengthUnit = Field(description="unit of all lengths in this answer")
     history: OrientationHistoryDocument
 
@@ -47,6 +48,7 @@ class ComputedHeights(BaseModel):
     """The same of any orientation, computed when it is asked for."""
 
     designation: str
+    library: int | None = Field(description="number of the library whose pair and tolerances these are")
     unit: LengthUnit = Field(description="unit of all lengths in this answer")
     heights: HeightsDocument
 

@@ -10,6 +10,7 @@ from sqlalchemy import Connection, Engine
 from service.app import create_app
 from tests.databases import Databases
 from tests.service.made_up_states import made_up_states
+from tests.service.own_library import store_own_library
 from threadstate.library.engine import reader_engine, writer_engine
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -88,6 +89,15 @@ def client(made_up: StoredLibrary) -> Iterator[TestClient]:
 def solved_client(solved: StoredLibrary) -> Iterator[TestClient]:
     """A client of a service over the library found by the exact solver."""
     with client_of(solved.database) as client:
+        yield client
+
+
+@pytest.fixture(scope="session")
+def own_client(databases: Databases) -> Iterator[TestClient]:
+    """A client of a service over a library of one's own pair, with tolerances of its own."""
+    database = databases.migrated()
+    store_own_library(database)
+    with client_of(database) as client:
         yield client
 
 

@@ -26,6 +26,9 @@ from service.network.schemas import (
 from tests.archive.history_library import histories_of_grid, store_histories
 from tests.databases import Databases
 from tests.service.conftest import client_of
+from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
+from threadstate.answer.heights import computed_heights, heights_document
+from threadstate.answer.histories import computed_history, history_document
 from threadstate.library.grid import Grid
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -235,12 +238,38 @@ def test_a_formation_a_path_and_a_location_belong_together(network_client: TestC
         (f"{LIBRARY}/transitions?colour=red", 400),
         ("/v1/histories/11/0/intervals", 400),
         ("/v1/histories/1/0/intervals?designation=M99", 400),
+        ("/v1/histories/1/0/intervals?designation=1/4-20 UNC&library=1", 400),
+        ("/v1/histories/1/0/heights?library=99", 404),
     ],
 )
 def test_what_is_wrong_is_said(network_client: TestClient, path: str, status: int) -> None:
     response = network_client.get(path)
     assert response.status_code == status, response.text
     assert response.headers["Content-Type"] == "application/problem+json"
+
+
+def test_histories_off_the_grid_are_of_a_librarys_own_pair_and_tolerances(own_client: TestClient) -> None:
+    found = computed_history(OWN_PAIR, -4.0, 1.5, OWN_OPTIONS)
+    intervals = _json(own_client, "/v1/histories/-4/1.5/intervals?library=m6x1")
+    assert ComputedIntervals.model_validate(intervals) == ComputedIntervals(
+        designation="M6x1",
+        library=1,
+        unit=OWN_PAIR.unit,
+        history=history_document(found, -4.0, 1.5, OWN_PAIR.thread_pitch, 1.0),
+    )
+    curve = computed_heights(OWN_PAIR, -4.0, 1.5, OWN_OPTIONS)
+    heights = _json(own_client, "/v1/histories/-4/1.5/heights?library=1")
+    assert ComputedHeights.model_validate(heights) == ComputedHeights(
+        designation="M6x1",
+        library=1,
+        unit=OWN_PAIR.unit,
+        heights=heights_document(curve, -4.0, 1.5, OWN_PAIR.thread_pitch, 1.0),
+    )
+
+
+def test_the_heights_of_a_library_are_solved_with_its_own_tolerances(own_client: TestClient) -> None:
+    stored = _json(own_client, f"{LIBRARY}/histories/-4/0/heights")["heights"]
+    assert stored == _json(own_client, "/v1/histories/-4/0/heights?library=1")["heights"]
 
 
 def test_a_path_needs_both_angles_of_an_orientation(network_client: TestClient) -> None:

@@ -7,9 +7,11 @@ from fastapi.testclient import TestClient
 
 from service.solve.schemas import LARGEST_POSE_COUNT
 from tests.service.conftest import StoredLibrary
+from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.document import state_document
 from threadstate.state.model import ContactState
+from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from threadstate.thread.pair import Pair
@@ -31,6 +33,7 @@ def test_answer_is_the_exact_solvers(client: TestClient) -> None:
     assert response.headers["Cache-Control"] == "no-store"
     assert response.json() == {
         "designation": "1/4-20 UNC",
+        "library": None,
         "unit": "in",
         "states": [state_document(state) for state in solve_poses(quarter_twenty_unc(), POSES)],
     }
@@ -46,7 +49,7 @@ def test_stored_states_are_what_solving_gives(solved_client: TestClient, solved:
 def test_lengths_are_in_the_unit_asked_for(client: TestClient) -> None:
     response = client.post("/v1/solve", params={"unit": "mm"}, json=body(POSES[1]))
     expected = state_document(solve_poses(quarter_twenty_unc(), POSES[1:2])[0], MILLIMETRES_PER_INCH)
-    assert response.json() == {"designation": "1/4-20 UNC", "unit": "mm", "states": [expected]}
+    assert response.json() == {"designation": "1/4-20 UNC", "library": None, "unit": "mm", "states": [expected]}
     assert response.headers["Length-Unit"] == "mm"
 
 
@@ -55,6 +58,38 @@ def test_thread_is_chosen_by_its_designation(client: TestClient) -> None:
     response = client.post("/v1/solve", json=body(POSES[0], designation=pair.designation))
     assert response.json()["designation"] == pair.designation
     assert response.json()["states"] == [state_document(state) for state in solve_poses(pair, POSES[:1])]
+
+
+def test_a_librarys_own_pair_and_tolerances_are_solved(own_client: TestClient) -> None:
+    expected = [state_document(state) for state in solve_poses(OWN_PAIR, POSES, OWN_OPTIONS)]
+    assert expected != [state_document(state) for state in solve_poses(OWN_PAIR, POSES)]
+    for name in (1, "latest", "m6x1", OWN_PAIR.designation):
+        answer = own_client.post("/v1/solve", json=body(*POSES, library=name)).json()
+        assert answer == {"designation": "M6x1", "library": 1, "unit": "mm", "states": expected}, name
+
+
+def test_the_known_thread_stays_where_no_library_is_named(own_client: TestClient) -> None:
+    answer = own_client.post("/v1/solve", json=body(POSES[0])).json()
+    assert (answer["designation"], answer["library"]) == ("1/4-20 UNC", None)
+
+
+@pytest.mark.parametrize(
+    ("others", "status", "named"),
+    [
+        ({"library": 99}, 404, "library 99 is not published here"),
+        ({"library": "m5x0.8"}, 404, "threads with a library: m6x1"),
+        ({"library": 1, "designation": "1/4-20 UNC"}, 400, "a designation or a library, not both"),
+        ({"library": 0}, 400, "library"),
+        ({"library": ""}, 400, "library"),
+        ({"library": 1.5}, 400, "library"),
+    ],
+)
+def test_a_library_that_is_not_there_is_refused(
+    own_client: TestClient, others: dict[str, object], status: int, named: str
+) -> None:
+    response = own_client.post("/v1/solve", json=body(POSES[0], **others))
+    assert response.status_code == status
+    assert named in response.text
 
 
 def test_unknown_thread_is_told_the_known_ones(client: TestClient) -> None:
@@ -102,7 +137,7 @@ def test_what_is_no_number_of_json_is_refused(client: TestClient, number: str) -
 
 
 def test_a_pose_that_cannot_be_decided_is_named(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
-    def undecided(_pair: Pair, poses: list[tuple[float, float, float]]) -> list[ContactState]:
+    def undecided(_pair: Pair, poses: list[tuple[float, float, float]], _options: SolveOptions) -> list[ContactState]:
         raise UnresolvedPoseError(*poses[0])
 
     monkeypatch.setattr("service.solve.endpoints.solve_poses", undecided)

@@ -51,19 +51,29 @@ def heights(
 
 
 def computed_intervals(
-    roll: float, pitch: float, *, designation: str | None = None, unit: str | None = None
+    roll: float,
+    pitch: float,
+    *,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    unit: str | None = None,
 ) -> Call[ComputedIntervals]:
-    """As ``intervals``, of any orientation, computed now: in about a second."""
-    return get(
-        path_of("v1", "histories", roll, pitch, "intervals"), ComputedIntervals, designation=designation, unit=unit
-    )
+    """As ``intervals``, of any orientation, computed now (about a second), of a known thread or of a library's pair."""
+    path = path_of("v1", "histories", roll, pitch, "intervals")
+    return get(path, ComputedIntervals, designation=designation, library=library, unit=unit)
 
 
 def computed_heights(
-    roll: float, pitch: float, *, designation: str | None = None, unit: str | None = None
+    roll: float,
+    pitch: float,
+    *,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    unit: str | None = None,
 ) -> Call[ComputedHeights]:
-    """As ``heights``, of any orientation, computed now: in about a second."""
-    return get(path_of("v1", "histories", roll, pitch, "heights"), ComputedHeights, designation=designation, unit=unit)
+    """As ``heights``, of any orientation, computed now (about a second), of a known thread or of a library's pair."""
+    path = path_of("v1", "histories", roll, pitch, "heights")
+    return get(path, ComputedHeights, designation=designation, library=library, unit=unit)
 
 
 def windows(

@@ -81,11 +81,19 @@ def history_csv(roll: float, pitch: float, *, library: LibraryName = LATEST, uni
 
 
 def solve(
-    poses: Iterable[tuple[float, float, float]], *, designation: str | None = None, unit: str | None = None
+    poses: Iterable[tuple[float, float, float]],
+    *,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    unit: str | None = None,
 ) -> Call[SolveAnswer]:
-    """The states of 1 to 1000 poses (roll, pitch, phase), on a grid or not, by the exact solver, in their order."""
+    """The states of 1 to 1000 poses (roll, pitch, phase), on a grid or not, by the exact solver, in their order.
+
+    Of a known thread, or with the pair and the tolerances of ``library``.
+    """
     body = {
         "designation": designation,
+        "library": library,
         "poses": [{"roll": float(roll), "pitch": float(pitch), "phase": float(phase)} for roll, pitch, phase in poses],
     }
     # Nothing is kept of it, so that it may be asked again.

@@ -29,6 +29,7 @@ class ComputedIntervals(Answer):
     """The same of any orientation, computed when it was asked for."""
 
     designation: str
+    library: int | None
     unit: LengthUnit
     history: OrientationHistoryDocument
 
@@ -45,6 +46,7 @@ class ComputedHeights(Answer):
     """The same of any orientation, computed when it was asked for."""
 
     designation: str
+    library: int | None
     unit: LengthUnit
     heights: HeightsDocument
 

@@ -82,6 +82,7 @@ class SolveAnswer(Answer):
     """The states of poses that were solved, in the order of the poses."""
 
     designation: str
+    library: int | None
     unit: LengthUnit
     states: tuple[State, ...]
 
