@@ -7,23 +7,23 @@ from collections.abc import Sequence
 import numpy as np
 
 from threadstate.errors import UnresolvedPoseError
-from threadstate.history.records import SolvedPoses
+from threadstate.history.records import RecordStore
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.decode import decoded_answers
 from threadstate.state.model import Answer, UndecidedPose
 from threadstate.state.options import SolveOptions
-from threadstate.state.records import solve_records
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
 
 PoseDeg = tuple[float, float, float]
 
 
-def exact_answers(pair: Pair, options: SolveOptions, poses: Sequence[PoseDeg]) -> tuple[list[Answer], SolvedPoses]:
-    """The state of each pose (degrees), or that the exact method cannot decide it; and the records that say so."""
+def exact_answers(
+    pair: Pair, options: SolveOptions, poses: Sequence[PoseDeg], store: RecordStore | None = None
+) -> list[Answer]:
+    """The state of each pose (degrees), or that the exact method cannot decide it; records go into the ``store``."""
     wanted = checked_poses(np.array(poses))
-    solved = SolvedPoses(wanted, solve_records(pair, options, wanted))
-    return decoded_answers(pair, options, wanted, solved.records), solved
+    return decoded_answers(pair, options, wanted, (store or RecordStore(pair, options)).records(wanted))
 
 
 def mesh_answers(pair: Pair, options: SolveOptions, mesh: MeshOptions, poses: Sequence[PoseDeg]) -> list[Answer]:

@@ -7,6 +7,9 @@ from multiprocessing.connection import Connection
 
 from threadstate.archive.rows import history_rows
 from threadstate.history.build import histories_of
+from threadstate.history.descents import falls_of
+from threadstate.history.height_curve import height_curve
+from threadstate.history.records import RecordStore
 from threadstate.history.window import windows_of
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
@@ -21,10 +24,12 @@ def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
     first = grid.first_ordinal(index)
     if inputs.mesh is not None:
         return Chunk(chunk_rows(orientation, first, mesh_answers(pair, inputs.options, inputs.mesh, poses)), None)
-    answers, solved = exact_answers(pair, inputs.options, poses)
+    store = RecordStore(pair, inputs.options)
+    answers = exact_answers(pair, inputs.options, poses, store)
     tilt = (orientation.roll_deg, orientation.pitch_deg)
-    (history,) = histories_of(pair, [tilt], inputs.options, solved=solved)
-    return Chunk(chunk_rows(orientation, first, answers), history_rows(history, windows_of(pair, history)))
+    (history,) = histories_of(pair, [tilt], inputs.options, store=store)
+    falls = falls_of(height_curve(pair, *tilt, inputs.options, store), pair.thread_pitch)
+    return Chunk(chunk_rows(orientation, first, answers), history_rows(history, windows_of(pair, history), falls))
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:

@@ -1,26 +1,35 @@
-"""Bringing a database's schema to the newest revision."""
+"""Bringing a database to the newest revision: its schema, and what older libraries lack."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
 
+from rich.console import Console
+from rich.progress import track
 from sqlalchemy import Engine
 
+from threadstate.archive.complete import completed, incomplete_orientations
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.library.turns import Turn, take_turn
 
 
 @dataclass(frozen=True)
 class Migration:
-    """The schema's revision before and after; ``before`` is None for an empty database."""
+    """The schema's revision before and after; ``before`` is None for an empty database.
+
+    ``completed`` is of how many orientations the falls were added to a stored history.
+    """
 
     before: str | None
     after: str
+    completed: int
 
 
 def migrate(engine: Engine) -> Migration:
-    """Run all migrations that the database lacks, in one transaction.
+    """Run all migrations that the database lacks, in one transaction; then add what stored histories lack, one by one.
+
+    Stopped on its way, the next call goes on.
 
     Raises:
         SchemaError: the database is at a revision that this code does not know.
@@ -30,7 +39,7 @@ def migrate(engine: Engine) -> Migration:
         check_schema(engine)
     if before != SCHEMA_REVISION:
         _upgrade(engine)
-    return Migration(before, SCHEMA_REVISION)
+    return Migration(before, SCHEMA_REVISION, 0 if before is None else _complete(engine))
 
 
 def migrate_empty(engine: Engine) -> None:
@@ -42,6 +51,22 @@ def migrate_empty(engine: Engine) -> None:
     if stored_revision(engine) is None:
         _upgrade(engine)
     check_schema(engine)
+
+
+def _complete(engine: Engine) -> int:
+    """Add to stored histories what they lack, with a progress bar on stderr; of how many orientations."""
+    incomplete = incomplete_orientations(engine)
+    if incomplete:
+        progress = track(
+            completed(engine, incomplete),
+            "descents",
+            len(incomplete),
+            console=Console(stderr=True),
+            refresh_per_second=5,
+        )
+        for _ in progress:
+            pass
+    return len(incomplete)
 
 
 def _upgrade(engine: Engine) -> None:

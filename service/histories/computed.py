@@ -1,4 +1,4 @@
-"""``/v1/histories/{roll}/{pitch}/intervals`` and ``.../heights``: of any orientation."""
+"""``/v1/histories/{roll}/{pitch}/intervals``, ``.../heights`` and ``.../falls``: of any orientation."""
 
 from __future__ import annotations
 
@@ -8,11 +8,23 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 
 from service.angles import PitchPath, RollPath
 from service.libraries.solved_pair import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
-from service.network.schemas import ComputedHeights, ComputedIntervals
+from service.network.parameters import LeastQuery
+from service.network.schemas import ComputedFalls, ComputedHeights, ComputedIntervals
 from service.representation import JSON
 from service.units import UNIT_HEADER, UnitQuery
+from threadstate.answer.documents import FallsDocument
+from threadstate.answer.falls_range import (
+    LARGEST_SPAN_DEG,
+    LARGEST_TOLERANCE_DEG,
+    MOST_STEPS,
+    STEPS,
+    computed_falls,
+    falls_range,
+    tilts_within,
+)
 from threadstate.answer.heights import computed_heights, heights_document
 from threadstate.answer.histories import computed_history, history_document
+from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import conversion_factor
 
@@ -27,6 +39,29 @@ DesignationQuery = Annotated[
     ),
 ]
 LibraryQuery = Annotated[str | None, Query(min_length=1, max_length=100, description=LIBRARY_DESCRIPTION)]
+
+
+ToleranceQuery = Annotated[
+    float | None,
+    Query(
+        gt=0.0,
+        le=LARGEST_TOLERANCE_DEG,
+        allow_inf_nan=False,
+        description="tolerance of roll and of pitch, either way, in degrees",
+    ),
+]
+StepsQuery = Annotated[
+    int, Query(ge=STEPS, le=MOST_STEPS, description="how many values of each angle are looked at, an odd number")
+]
+SpanQuery = Annotated[
+    float,
+    Query(
+        gt=0.0,
+        le=LARGEST_SPAN_DEG,
+        allow_inf_nan=False,
+        description="span of phase, in degrees, within which the steepest fall is looked for",
+    ),
+]
 
 
 def _solved_pair(request: Request, designation: DesignationQuery = None, library: LibraryQuery = None) -> SolvedPair:
@@ -58,6 +93,38 @@ def get_computed_heights(roll: RollPath, pitch: PitchPath, asked: RequestedPair,
     return _computed(ComputedHeights(designation=pair.designation, library=asked.library, unit=shown, heights=heights))
 
 
-def _computed(answer: ComputedIntervals | ComputedHeights) -> Response:
+@router.get("/{roll}/{pitch}/falls", summary="Falls and snap of any orientation", response_model=ComputedFalls)
+def get_computed_falls(
+    roll: RollPath,
+    pitch: PitchPath,
+    asked: RequestedPair,
+    tolerance: ToleranceQuery = None,
+    steps: StepsQuery = STEPS,
+    span: SpanQuery = SPAN_DEG,
+    least: LeastQuery = SNAP_PITCHES,
+    unit: UnitQuery = None,
+) -> Response:
+    """Where the bolt goes down at any roll and pitch, and whether it snaps, from first contacts alone.
+
+    With a tolerance of the two angles also the range of what `steps` by `steps` tilts within it give.
+    """
+    pair = asked.pair
+    shown = unit or pair.unit
+    factor = conversion_factor(pair.unit, shown)
+
+    def falls(roll_deg: float, pitch_deg: float) -> FallsDocument:
+        return computed_falls(pair, asked.options, roll_deg, pitch_deg, factor, span, least)
+
+    within = None
+    if tolerance is not None:
+        within = falls_range(falls, roll, pitch, tolerance, tilts_within(roll, pitch, tolerance, steps))
+    return _computed(
+        ComputedFalls(
+            designation=pair.designation, library=asked.library, unit=shown, falls=falls(roll, pitch), range=within
+        )
+    )
+
+
+def _computed(answer: ComputedIntervals | ComputedHeights | ComputedFalls) -> Response:
     headers = {UNIT_HEADER: answer.unit.value, "Cache-Control": "no-store"}
     return Response(answer.model_dump_json(by_alias=True), headers=headers, media_type=JSON)

@@ -10,6 +10,7 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from service.angles import PhaseQuery, PitchPath, PitchQuery, RollPath, RollQuery
 from service.database import ReadConnection
 from service.network.parameters import (
+    LeastQuery,
     MovesQuery,
     NetworkFormat,
     ObjectiveQuery,
@@ -40,6 +41,7 @@ from threadstate.answer.select import selected
 from threadstate.answer.transitions import transition_documents
 from threadstate.answer.windows import windows_of_histories
 from threadstate.errors import InvalidValueError
+from threadstate.history.falls import SNAP_PITCHES
 from threadstate.network.formation import KEY_DIGITS
 from threadstate.network.locate import locate
 from threadstate.network.paths import best_path
@@ -133,18 +135,21 @@ def list_transitions(
     return _json(request, answer, shown, headers)
 
 
-@router.get("/windows", summary="Clearance windows", response_model=WindowsAnswer, responses=NOT_MODIFIED)
+@router.get(
+    "/windows", summary="Falls, snaps and clearance windows", response_model=WindowsAnswer, responses=NOT_MODIFIED
+)
 def list_windows(
     request: Request,
     network: RequestedNetwork,
     roll: RollQuery = None,
     pitch: PitchQuery = None,
+    least: LeastQuery = SNAP_PITCHES,
     unit: UnitQuery = None,
 ) -> Response:
-    """Where a bolt turned counter-clockwise falls into the nut, how far, how it climbs again and where it leaves."""
+    """Where a bolt turned counter-clockwise goes down and how far, where it snaps, where it can go on down."""
     shown, factor = _unit(network, unit)
-    windows = windows_of_histories(network.histories, roll, pitch, network.pair.thread_pitch, factor)
-    return _json(request, WindowsAnswer(library=network.library.id, unit=shown, windows=windows), shown)
+    found = windows_of_histories(network.histories, roll, pitch, network.pair.thread_pitch, factor, least)
+    return _json(request, WindowsAnswer(library=network.library.id, unit=shown, orientations=found), shown)
 
 
 @router.get(

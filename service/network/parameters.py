@@ -31,6 +31,17 @@ ObjectiveQuery = Annotated[
 ]
 
 
+LeastQuery = Annotated[
+    float,
+    Query(
+        ge=0.0,
+        le=1.0,
+        allow_inf_nan=False,
+        description="a steepest fall of more than so many thread pitches is a snap's",
+    ),
+]
+
+
 class NetworkFormat(StrEnum):
     """The formats of a network."""
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 from pydantic import BaseModel, Field
 
 from threadstate.answer.documents import (
+    FallsDocument,
+    FallsRangeDocument,
     FormationSummaryDocument,
     HeightsDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
     OrientationHistoryDocument,
+    OrientationWindowsDocument,
     PathDocument,
     TransitionDocument,
-    WindowDocument,
 )
 from threadstate.units import LengthUnit
 
@@ -53,6 +55,16 @@ class ComputedHeights(BaseModel):
     heights: HeightsDocument
 
 
+class ComputedFalls(BaseModel):
+    """The falls of any orientation, and their range where a tolerance was given."""
+
+    designation: str
+    library: int | None
+    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    falls: FallsDocument
+    range: FallsRangeDocument | None
+
+
 class TransitionsPage(_OfLibrary):
     """Transitions in order: by orientation of the source, turns before tilts, each by phase."""
 
@@ -62,9 +74,9 @@ class TransitionsPage(_OfLibrary):
 
 
 class WindowsAnswer(_OfLibrary):
-    """Clearance windows by orientation and phase."""
+    """Falls and clearance windows by orientation."""
 
-    windows: list[WindowDocument]
+    orientations: list[OrientationWindowsDocument]
 
 
 class NetworkSummary(BaseModel):

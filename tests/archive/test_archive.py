@@ -8,10 +8,9 @@ import pytest
 from sqlalchemy import func, select
 
 from tests.archive.history_library import SMALL_GRID as GRID
-from tests.archive.history_library import store_histories
+from tests.archive.history_library import falls_at, rows_of, store_histories
 from tests.databases import Databases
 from threadstate.archive.read import formations, orientation_history, stored_histories
-from threadstate.archive.rows import history_rows
 from threadstate.archive.stored import StoredHistories
 from threadstate.history.model import History
 from threadstate.history.window import windows_of
@@ -62,6 +61,7 @@ def test_a_history_is_read_back_as_it_was(stored: StoredHistories, histories: li
         assert [cell.flags for cell in kept.cells] == [one.labels.flags for one in history.intervals]
         assert [cell.margin for cell in kept.cells] == [smallest_margin(one.state) for one in history.intervals]
         assert kept.windows == windows_of(PAIR, history)
+        assert kept.falls == falls_at(history.roll_deg, history.pitch_deg)
 
 
 def test_a_boundary_keeps_both_sides(stored: StoredHistories, histories: list[History]) -> None:
@@ -99,14 +99,16 @@ def test_the_window_is_marked_on_its_intervals(stored: StoredHistories) -> None:
 
 def test_the_hash_of_a_history_knows_every_number(histories: list[History]) -> None:
     history = histories[1]
-    rows = history_rows(history, windows_of(PAIR, history))
-    assert history_rows(histories[1], windows_of(PAIR, history)).content_sha256 == rows.content_sha256
+    rows = rows_of(history)
+    assert rows_of(histories[1]).content_sha256 == rows.content_sha256
     first, *others = rows.intervals
     changed = (first[0], math.nextafter(first[1], 400.0), *first[2:])
     variants = [
         rows,
         replace(rows, intervals=(changed, *others)),
         replace(rows, windows=()),
+        replace(rows, descents=()),
+        replace(rows, steepest_fall=((0.0, None, None),)),
         replace(rows, boundary_contacts=rows.boundary_contacts[1:]),
         replace(rows, formations=rows.formations[1:]),
     ]
@@ -114,7 +116,7 @@ def test_the_hash_of_a_history_knows_every_number(histories: list[History]) -> N
 
 
 def test_rows_alone_give_the_history(histories: list[History], stored: StoredHistories) -> None:
-    rows = history_rows(histories[2], windows_of(PAIR, histories[2]))
+    rows = rows_of(histories[2])
     assert orientation_history(2, rows, formations(rows.formations)) == stored.orientations[2]
 
 

@@ -95,6 +95,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "heights": {"roll": 0, "pitch": -3},
         "computed_intervals": {"roll": 1.5, "pitch": 0},
         "computed_heights": {"roll": 1.5, "pitch": 0},
+        "computed_falls": {"roll": 1.5, "pitch": 0, "tolerance": 0.1},
         "windows": {"roll": 0},
         "network": {},
         "network_node_link": {},

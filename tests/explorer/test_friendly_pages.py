@@ -9,7 +9,7 @@ import pytest
 from selenium import webdriver
 from selenium.webdriver.common.keys import Keys
 
-from tests.archive.history_library import histories_of_grid, store_histories
+from tests.archive.history_library import histories_of_grid, rows_of, store_histories
 from tests.databases import Databases
 from tests.explorer.browser import Explorer
 from tests.explorer.conftest import GRID
@@ -17,8 +17,6 @@ from tests.explorer.test_accessibility import AXE, violations
 from tests.service.running import running_service
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
-from threadstate.archive.rows import history_rows
-from threadstate.history.window import windows_of
 from threadstate.jobs.ask import ask_for
 from threadstate.library.engine import writer_engine, writing
 from threadstate.library.identity import LibraryInputs
@@ -109,7 +107,7 @@ def build(database: str) -> Iterator[int]:
     histories = histories_of_grid(GRID)
     for index in range(GRID.orientation_count):
         rows = chunk_rows(GRID.orientation(index), GRID.first_ordinal(index), solve_poses(pair, GRID.poses(index)))
-        write_chunk(engine, library, rows, history_rows(histories[index], windows_of(pair, histories[index])))
+        write_chunk(engine, library, rows, rows_of(histories[index]))
         yield index + 1
     publish(engine, library, GRID)
     engine.dispose()

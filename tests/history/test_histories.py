@@ -13,7 +13,7 @@ from threadstate.history import records
 from threadstate.history.build import RESOLUTION, histories_of, history_of
 from threadstate.history.labels import Labels, labels_of
 from threadstate.history.model import POINT_DEG, Boundary, History, Interval
-from threadstate.history.records import SolvedPoses
+from threadstate.history.records import RecordStore
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.state.solve import solve_pose, solve_poses
@@ -115,7 +115,8 @@ def test_ten_times_the_density_finds_nothing_new(histories: list[History]) -> No
 def test_known_records_are_taken_and_change_nothing(histories: list[History], monkeypatch: pytest.MonkeyPatch) -> None:
     roll, pitch = ORIENTATIONS[1]
     poses = np.column_stack([np.full((360, 2), (roll, pitch)), np.arange(360.0)])
-    known = SolvedPoses(poses, solve_records(PAIR, SolveOptions(), poses))
+    known = RecordStore(PAIR, SolveOptions())
+    known.records(poses)
     solved: list[np.ndarray] = []
 
     def recorded(pair: Pair, options: SolveOptions, poses_deg: np.ndarray) -> np.ndarray:
@@ -123,7 +124,7 @@ def test_known_records_are_taken_and_change_nothing(histories: list[History], mo
         return solve_records(pair, options, poses_deg)
 
     monkeypatch.setattr(records, "solve_records", recorded)
-    assert histories_of(PAIR, [(roll, pitch)], solved=known) == [histories[1]]
+    assert histories_of(PAIR, [(roll, pitch)], store=known) == [histories[1]]
     phases = [phase for _, _, phase in np.array(solved).tolist()]
     assert len(phases) == len(set(phases))
     assert not set(phases) & set(range(360))

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from threadstate.history.build import history_of
+from threadstate.history.descents import falls_of
+from threadstate.history.height_curve import height_curve
 from threadstate.history.labels import UNDECIDED
-from threadstate.history.window import deepest_window, windows_of
+from threadstate.history.window import windows_of
 from threadstate.state.model import FeaturePair
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -20,10 +22,10 @@ PAIR = quarter_twenty_unc()
 
 
 def test_the_snap_at_roll_0_pitch_minus_4() -> None:
-    window = deepest_window(PAIR, history_of(PAIR, 0.0, -4.0))
-    assert window is not None
-    assert window.snap is not None
-    snap = window.snap
+    (window,) = windows_of(PAIR, history_of(PAIR, 0.0, -4.0))
+    (descent,) = falls_of(height_curve(PAIR, 0.0, -4.0), PAIR.thread_pitch).descents
+    snap = descent.largest_jump
+    assert snap is not None
     assert 357.0 < snap.phase_deg < 358.0
     assert snap.width_deg <= 1e-8
     before, after, later = (
@@ -38,8 +40,7 @@ def test_the_snap_at_roll_0_pitch_minus_4() -> None:
 
 
 def test_the_edge_climbs_on_the_nut_s_thread_by_the_lead() -> None:
-    window = deepest_window(PAIR, history_of(PAIR, 0.0, -4.0))
-    assert window is not None
+    (window,) = windows_of(PAIR, history_of(PAIR, 0.0, -4.0))
     rates = [c.rate_per_lead(PAIR.thread_pitch) for c in window.courses if c.features is FeaturePair.EDGE_THREAD]
     assert rates
     assert rates == pytest.approx([1.0] * len(rates), abs=1e-6)
@@ -59,12 +60,9 @@ def test_the_mirror_of_a_pose_has_the_same_height_where_edges_meet(roll: float, 
     assert compared > 30
 
 
-def test_a_level_bolt_drops_by_its_play_and_climbs_by_the_lead() -> None:
-    window = deepest_window(PAIR, history_of(PAIR, 0.0, 0.0))
-    assert window is not None
-    assert window.snap is not None
+def test_a_level_bolt_climbs_by_the_lead_over_twice_its_play() -> None:
+    (window,) = windows_of(PAIR, history_of(PAIR, 0.0, 0.0))
     play = axial_play(PAIR)
-    assert window.snap.fall == pytest.approx(2.0 * play, abs=1e-10)
     assert window.enter_deg == pytest.approx(360.0 * (1.0 - play / PAIR.thread_pitch), abs=3e-7)
     assert window.width_deg == pytest.approx(720.0 * play / PAIR.thread_pitch, abs=3e-7)
     assert [c.rate_per_lead(PAIR.thread_pitch) for c in window.courses] == pytest.approx([1.0], abs=1e-6)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import math
 import tracemalloc
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import pytest
 from sqlalchemy import Engine, Table, update
@@ -18,15 +18,13 @@ from threadstate.history.model import History
 from threadstate.library import copying, write
 from threadstate.library.copying import CopyError, copy_library
 from threadstate.library.engine import reading, writing
-from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
-from threadstate.library.history_rows import content_sha256_of
-from threadstate.library.history_tables import clearance_window, history_interval
+from threadstate.library.history_tables import history_interval
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import library_by_id, published_libraries
 from threadstate.library.rows import chunk_rows
 from threadstate.library.stored_chunk import stored_chunk
-from threadstate.library.tables import chunk, contact, library
+from threadstate.library.tables import contact, library
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -87,24 +85,6 @@ def test_a_copy_is_the_same_to_the_last_bit(way: Way) -> None:
     again = copy_library(way.source, way.target, LIBRARY)
     assert again.was_there
     assert again.library_id == copied.library_id
-
-
-def test_a_library_of_before_the_errors_of_snaps_is_copied(way: Way, databases: Databases) -> None:
-    """Its windows were hashed without the column that came later, which is null there."""
-    with databases.lent() as older, writing(older) as source:
-        copy_library(way.source, source, LIBRARY)
-        with source.begin() as connection:
-            connection.execute(update(clearance_window).values(snap_height_error=None))
-            hashes = []
-            for index in range(GRID.orientation_count):
-                rows = stored_chunk(connection, LIBRARY, GRID, index)
-                assert rows.history is not None
-                windows = tuple(row[:-1] for row in rows.history.windows)
-                hashes.append(content_sha256_of(rows.rows, replace(rows.history, windows=windows)))
-                connection.execute(update(chunk).where(chunk.c.orientation == index).values(content_sha256=hashes[-1]))
-            content = library_sha256(hashes)
-            connection.execute(update(library).values(content_sha256=content))
-        assert copy_library(source, way.target, LIBRARY).content_sha256 == content
 
 
 def test_undecided_poses_are_copied(databases: Databases) -> None:

@@ -7,7 +7,7 @@ import pytest
 from tests.network.test_graph import walked
 from threadstate.history.build import history_of
 from threadstate.history.model import History
-from threadstate.history.window import Window, deepest_window
+from threadstate.history.window import Window, windows_of
 from threadstate.network.analysis import dead_ends, snap_reach
 from threadstate.network.cells import CellMap
 from threadstate.network.formation import formation_of
@@ -26,8 +26,7 @@ def history() -> History:
 
 @pytest.fixture(scope="module")
 def window(history: History) -> Window:
-    window = deepest_window(quarter_twenty_unc(), history)
-    assert window is not None
+    (window,) = windows_of(quarter_twenty_unc(), history)
     return window
 
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from threadstate.archive.rows import history_rows
+from tests.archive.history_library import rows_of
 from threadstate.history.build import histories_of
-from threadstate.history.window import windows_of
 from threadstate.library.engine import writer_engine
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -40,7 +39,7 @@ def store_own_library(database: str, grid: Grid = OWN_GRID, options: SolveOption
     for index, history in enumerate(histories):
         states = solve_poses(OWN_PAIR, grid.poses(index), options)
         rows = chunk_rows(grid.orientation(index), grid.first_ordinal(index), states)
-        write_chunk(engine, library, rows, history_rows(history, windows_of(OWN_PAIR, history)))
+        write_chunk(engine, library, rows, rows_of(history, OWN_PAIR, options))
     publish(engine, library, grid)
     engine.dispose()
     return library

@@ -10,6 +10,7 @@ from fastapi.testclient import TestClient
 from pydantic import BaseModel
 
 from service.network.schemas import (
+    ComputedFalls,
     ComputedHeights,
     ComputedIntervals,
     FormationsAnswer,
@@ -70,6 +71,7 @@ def test_answers_have_the_documented_shape(network_client: TestClient) -> None:
         (f"{LIBRARY}/histories/0/-4/heights", HeightsAnswer),
         ("/v1/histories/1.5/-0.5/intervals", ComputedIntervals),
         ("/v1/histories/1.5/-0.5/heights", ComputedHeights),
+        ("/v1/histories/1.5/-0.5/falls?tolerance=0.1", ComputedFalls),
         (f"{LIBRARY}/windows", WindowsAnswer),
         (f"{LIBRARY}/transitions", TransitionsPage),
         (f"{LIBRARY}/network", NetworkSummary),
@@ -99,27 +101,84 @@ def test_states_have_the_labels_of_their_interval(network_client: TestClient) ->
 def test_heights_stored_and_solved_are_those_computed(network_client: TestClient) -> None:
     stored = _json(network_client, f"{LIBRARY}/histories/0/-4/heights")["heights"]
     assert stored == _json(network_client, "/v1/histories/0/-4/heights")["heights"]
-    by_phase = dict(
-        zip(stored["phases"], zip(stored["first_heights"], stored["last_heights"], strict=True), strict=True)
-    )
+    first = dict(zip(stored["phases"], stored["first_heights"], strict=True))
+    rest = dict(zip(stored["phases"], stored["rest_heights"], strict=True))
     for boundary in _json(network_client, f"{LIBRARY}/histories/0/-4/intervals")["history"]["boundaries"]:
         for phase, side in ((boundary["low"], 0), (boundary["high"], 1)):
-            assert by_phase[phase] == (boundary["first_height"][side], boundary["last_height"][side])
+            assert first[phase] == boundary["first_height"][side]
+            assert rest[phase] in (None, boundary["last_height"][side])
+    assert {height is None for height in stored["rest_heights"]} == {True, False}
     millimetres = _json(network_client, f"{LIBRARY}/histories/0/-4/heights?unit=mm")["heights"]
-    assert millimetres["last_heights"] == [25.4 * height for height in stored["last_heights"]]
+    assert millimetres["first_heights"] == [25.4 * height for height in stored["first_heights"]]
     assert millimetres["tolerance"] == pytest.approx(25.4 * stored["tolerance"], rel=1e-12)
 
 
 def test_the_snap_of_pitch_minus_four(network_client: TestClient) -> None:
     answer = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4")
-    (window,) = answer["windows"]
-    snap = window["snap"]
-    assert 357.0 < snap["phase"] < 358.0
-    assert snap["phase_uncertainty"] <= 5e-7
-    assert window["drop"] >= snap["fall"] > 0.005
-    millimetres = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4&unit=mm")["windows"][0]
-    assert millimetres["drop"] == pytest.approx(25.4 * window["drop"], rel=1e-12)
-    assert millimetres["enter"] == window["enter"]
+    (orientation,) = answer["orientations"]
+    snap = orientation["snap"]
+    assert set(snap) == {"from", "to", "fall", "steepest", "steepest_from", "jump", "jump_at"}
+    assert (round(snap["fall"], 4), round(snap["jump"], 4)) == (0.0110, 0.0075)
+    assert 356.0 < snap["from"] < snap["jump_at"] <= snap["to"] < 358.0
+    assert snap["fall"] >= snap["steepest"] == orientation["steepest"] >= snap["jump"]
+    (descent,) = [one for one in orientation["descents"] if one["from"] == snap["from"]]
+    assert (descent["to"], descent["fall"]) == (snap["to"], snap["fall"])
+    assert max(jump["fall"] for jump in descent["jumps"]) == snap["jump"]
+    history = _json(network_client, f"{LIBRARY}/histories/0/-4/intervals")["history"]
+    assert {name: history[name] for name in orientation} == orientation
+    millimetres = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4&unit=mm")["orientations"][0]
+    assert millimetres["snap"]["fall"] == pytest.approx(25.4 * snap["fall"], rel=1e-12)
+    assert millimetres["windows"][0]["enter"] == orientation["windows"][0]["enter"]
+
+
+def test_what_counts_as_a_snap_can_be_chosen(network_client: TestClient) -> None:
+    for least, snaps in ((0.0, 9), (0.2, 1), (1.0, 0)):
+        found = _json(network_client, f"{LIBRARY}/windows?least={least}")["orientations"]
+        assert len(found) == GRID.orientation_count
+        assert sum(one["snap"] is not None for one in found) == snaps, least
+        assert all(one["snap"] is None or one["steepest"] > least * PAIR.thread_pitch for one in found)
+
+
+def test_falls_of_any_tilt_are_those_of_its_history(network_client: TestClient) -> None:
+    falls = _json(network_client, "/v1/histories/0/-4/falls?library=latest")
+    (stored,) = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4")["orientations"]
+    assert falls["falls"] == {name: stored[name] for name in falls["falls"]}
+    assert falls["range"] is None
+    narrow = _json(network_client, "/v1/histories/0/-4/falls?span=0.5&least=0")["falls"]
+    assert narrow["steepest"] < falls["falls"]["steepest"]
+    assert narrow["snap"]["fall"] == falls["falls"]["snap"]["fall"]
+
+
+def test_a_tolerance_of_the_angles_gives_a_range(network_client: TestClient) -> None:
+    within = _json(network_client, "/v1/histories/2.5/-1.2/falls?tolerance=0.3")
+    centre, found = within["falls"], within["range"]
+    assert (found["tilts"], found["snaps"]) == (9, 6)
+    corner = _json(network_client, "/v1/histories/2.8/-1.5/falls")["falls"]
+    for one in (centre, corner):
+        for name in ("fall", "jump"):
+            low, high = found[name]
+            assert low <= one["snap"][name] <= high, name
+        low, high = found["steepest"]
+        assert low <= one["steepest"] <= high
+        low, high = found["snap_from"]
+        assert low <= one["snap"]["from"] <= high
+    assert found["steepest"][0] < 0.05 * PAIR.thread_pitch < found["fall"][0] < found["fall"][1]
+
+
+@pytest.mark.parametrize(
+    ("query", "name"),
+    [("tolerance=0", "tolerance"), ("tolerance=3", "tolerance"), ("steps=4&tolerance=1", "steps"), ("span=0", "span")],
+)
+def test_a_range_that_cannot_be_asked_for_is_refused(network_client: TestClient, query: str, name: str) -> None:
+    response = network_client.get(f"/v1/histories/0/-4/falls?{query}")
+    assert response.status_code == 400
+    assert name in response.text
+
+
+def test_a_tolerance_beyond_the_tilts_of_the_solver_is_refused(network_client: TestClient) -> None:
+    response = network_client.get("/v1/histories/9.9/0/falls?tolerance=0.3")
+    assert response.status_code == 400
+    assert "9.9 +- 0.3" in response.text
 
 
 def test_pages_of_transitions_hold_each_once(network_client: TestClient) -> None:

@@ -12,12 +12,10 @@ from pathlib import Path
 import pytest
 from sqlalchemy import select
 
-from tests.archive.history_library import histories_of_grid
+from tests.archive.history_library import histories_of_grid, rows_of
 from tests.worker.conftest import GRID, ONE_ORIENTATION, SMALL_GRID, CommandLine
 from threadstate.archive.read import formations, orientation_history, stored_histories
-from threadstate.archive.rows import history_rows
 from threadstate.errors import NotFoundError
-from threadstate.history.window import windows_of
 from threadstate.library.engine import reader_engine
 from threadstate.library.fingerprint import answers_sha256, chunk_sha256, library_sha256
 from threadstate.library.grid import Grid
@@ -36,8 +34,7 @@ PATIENCE_S = 60.0
 @pytest.fixture(scope="module")
 def expected_histories() -> list[HistoryRows]:
     """The rows of the histories of the small library, computed in this process."""
-    pair = quarter_twenty_unc()
-    return [history_rows(history, windows_of(pair, history)) for history in histories_of_grid(GRID)]
+    return [rows_of(history) for history in histories_of_grid(GRID)]
 
 
 @pytest.fixture(scope="module")

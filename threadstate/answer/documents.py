@@ -15,9 +15,12 @@ from threadstate.thread.regions import Region
 
 Vector = tuple[float, float, float]
 Sides = tuple[float | None, float | None]
+Range = tuple[float, float]
 
 _CLASS = AliasChoices("class", "state_class")
 """``class`` is a Python keyword."""
+_FROM, _TO = AliasChoices("from", "start"), AliasChoices("to", "end")
+"""So is ``from``."""
 
 
 class _Document(BaseModel):
@@ -88,17 +91,56 @@ class BoundaryDocument(_Document):
     changes: list[ContactChangeDocument]
 
 
-class SnapDocument(_Document):
+class JumpDocument(_Document):
     """A fall of the height of first contact at a single phase, turning counter-clockwise."""
 
     phase: float
     phase_uncertainty: float = Field(description="half of the bracket in which the phase is certain to lie")
     height_before: float
     height_after: float
-    height_uncertainty: float | None = Field(
-        description="by how much either height may be wrong, an estimate; null in libraries of older versions"
-    )
+    height_uncertainty: float = Field(description="by how much either height may be wrong, an estimate")
     fall: float
+
+
+class DescentDocument(_Document):
+    """A longest stretch of phase over which the height of first contact does not rise, turning counter-clockwise.
+
+    It begins and ends where the bolt goes down: level stretches at its ends are left out.
+    """
+
+    start: float = Field(serialization_alias="from", validation_alias=_FROM)
+    end: float = Field(serialization_alias="to", validation_alias=_TO, description="above 360 where it holds phase 0")
+    fall: float = Field(description="height at `from` less height at `to`")
+    from_height: float
+    to_height: float
+    fall_uncertainty: float = Field(description="by how much the fall may be wrong, an estimate")
+    undecided: float = Field(description="how much of its phase the solver does not decide")
+    jumps: list[JumpDocument]
+
+
+class SnapDocument(_Document):
+    """The descent that holds the steepest fall, where that is large enough to be felt as a snap."""
+
+    start: float = Field(serialization_alias="from", validation_alias=_FROM)
+    end: float = Field(serialization_alias="to", validation_alias=_TO, description="above 360 where it holds phase 0")
+    fall: float = Field(description="the whole fall, of all the descent")
+    steepest: float = Field(description="the largest fall within 3 deg of phase")
+    steepest_from: float = Field(description="where those 3 deg begin")
+    jump: float = Field(description="the largest part of the fall that happens at one phase; 0 where nothing jumps")
+    jump_at: float | None
+
+
+class FallsDocument(_Document):
+    """Where the bolt of one orientation, turned counter-clockwise, goes down (method, section 8)."""
+
+    roll: float
+    pitch: float
+    steepest: float = Field(description="the largest fall within 3 deg of phase; 0 where it never goes down")
+    steepest_from: float | None = Field(description="where those 3 deg begin")
+    snap: SnapDocument | None = Field(
+        description="the descent that holds the steepest fall; null where that is at most 5 % of the thread pitch"
+    )
+    descents: list[DescentDocument]
 
 
 class CourseDocument(_Document):
@@ -120,24 +162,43 @@ class WindowDocument(_Document):
     enter: float
     leave: float
     width: float
-    drop: float = Field(description="from the height at the entry to the lowest")
     climb: float = Field(description="from the lowest height to that at the exit")
     enter_height: float
     leave_height: float
     lowest_phase: float
     lowest_height: float
-    snap: SnapDocument | None = Field(description="the largest fall at one phase; null where the height never jumps")
     courses: list[CourseDocument]
 
 
-class OrientationHistoryDocument(_Document):
-    """The history of an orientation: `boundaries[i]` is where `intervals[i]` begins."""
+class OrientationWindowsDocument(FallsDocument):
+    """The falls of an orientation and its clearance windows."""
+
+    windows: list[WindowDocument]
+
+
+class FallsRangeDocument(_Document):
+    """The range, least and most, of what the tilts within a tolerance give; null where none of them snaps.
+
+    It is that of the tilts that were looked at: between them falls may lie beyond it.
+    """
 
     roll: float
     pitch: float
+    tolerance: float = Field(description="of roll and of pitch, either way, in degrees")
+    tilts: int = Field(description="how many tilts were looked at, evenly spaced, the corners among them")
+    snaps: int = Field(description="how many of them snap")
+    steepest: Range = Field(description="the largest fall within 3 deg of phase, of all tilts")
+    fall: Range | None = Field(description="the snap's whole fall")
+    snap_from: Range | None = Field(description="where the snap begins; phases of one turn, that may leave 0 to 360")
+    snap_to: Range | None = Field(description="where it ends, likewise")
+    jump: Range | None = Field(description="the largest part of the snap that happens at one phase")
+
+
+class OrientationHistoryDocument(OrientationWindowsDocument):
+    """The history of an orientation: `boundaries[i]` is where `intervals[i]` begins."""
+
     intervals: list[IntervalDocument]
     boundaries: list[BoundaryDocument]
-    windows: list[WindowDocument]
 
 
 class HeightsDocument(_Document):
@@ -148,7 +209,7 @@ class HeightsDocument(_Document):
     tolerance: float = Field(description="how far a straight line between two neighbours is off, at most")
     phases: list[float] = Field(description="ascending from 0 to 360; a jump is between two that all but coincide")
     first_heights: list[float | None] = Field(description="at first contact")
-    last_heights: list[float | None] = Field(description="in the last pose")
+    rest_heights: list[float | None] = Field(description="where the bolt rests; null where it does not")
 
 
 class PlaceDocument(_Document):

@@ -8,9 +8,8 @@ from sqlalchemy import Connection
 
 from threadstate.answer.documents import HeightsDocument
 from threadstate.answer.library_network import LibraryNetwork
-from threadstate.archive.stored import OrientationHistory
 from threadstate.history.build import history_of
-from threadstate.history.heights import Floats, Heights, KnownHeights, heights_of
+from threadstate.history.heights import Floats, Heights, heights_of
 from threadstate.library.read import heights_between
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
@@ -55,7 +54,7 @@ def heights_document(
         tolerance=TOLERANCE * thread_pitch * factor,
         phases=heights.phases_deg.tolist(),
         first_heights=_scaled(heights.first, factor),
-        last_heights=_scaled(heights.last, factor),
+        rest_heights=_scaled(heights.rest, factor),
     )
 
 
@@ -65,29 +64,16 @@ def _curve(connection: Connection, network: LibraryNetwork, number: int) -> Heig
     first = grid.first_ordinal(number)
     on_grid = heights_between(connection, network.library.id, first, first + grid.phase_count - 1)
     known = {phase: on_grid.get(first + i, _UNDECIDED) for i, phase in enumerate(grid.phases_deg)}
-    history = network.histories.orientations[number]
+    boundaries = network.histories.orientations[number].boundaries
     return heights_of(
         network.pair,
         roll_deg,
         pitch_deg,
-        _sides(history, known),
+        [phase for one in boundaries for phase in (one.low_deg, one.high_deg)],
         TOLERANCE * network.pair.thread_pitch,
         known,
         network.options,
     )
-
-
-def _sides(history: OrientationHistory, known: KnownHeights) -> list[float]:
-    """Both phases of every boundary; their stored heights are added to those ``known``."""
-    sides = []
-    for one in history.boundaries:
-        for phase, first, last in (
-            (one.low_deg, one.first_height_before, one.last_height_before),
-            (one.high_deg, one.first_height_after, one.last_height_after),
-        ):
-            sides.append(phase)
-            known[phase % 360.0] = _UNDECIDED if first is None or last is None else (first, last)
-    return sides
 
 
 def _scaled(heights: Floats, factor: float) -> list[float | None]:

@@ -6,11 +6,14 @@ from threadstate.answer.changes import change_documents
 from threadstate.answer.documents import BoundaryDocument, IntervalDocument, OrientationHistoryDocument
 from threadstate.answer.formations import formation_document
 from threadstate.answer.lengths import scaled, sides
-from threadstate.answer.windows import window_document
+from threadstate.answer.windows import windows_document
 from threadstate.archive.read import formations, orientation_history
 from threadstate.archive.rows import history_rows
 from threadstate.archive.stored import OrientationHistory, StoredBoundary, StoredHeights
-from threadstate.history.build import history_of
+from threadstate.history.build import histories_of
+from threadstate.history.descents import falls_of
+from threadstate.history.height_curve import height_curve
+from threadstate.history.records import RecordStore
 from threadstate.history.window import windows_of
 from threadstate.network.cells import Cell
 from threadstate.state.options import SolveOptions
@@ -25,8 +28,11 @@ def computed_history(
     Raises:
         InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
     """
-    history = history_of(pair, roll_deg, pitch_deg, options)
-    rows = history_rows(history, windows_of(pair, history))
+    options = options or SolveOptions()
+    store = RecordStore(pair, options)
+    (history,) = histories_of(pair, [(roll_deg, pitch_deg)], options, store=store)
+    falls = falls_of(height_curve(pair, roll_deg, pitch_deg, options, store), pair.thread_pitch)
+    rows = history_rows(history, windows_of(pair, history), falls)
     return orientation_history(0, rows, formations(rows.formations))
 
 
@@ -36,13 +42,11 @@ def history_document(
     """The document of an orientation's history, lengths multiplied by ``factor``; ``thread_pitch`` before that."""
     keys = [cell.formation.key for cell in history.cells]
     return OrientationHistoryDocument(
-        roll=roll_deg + 0.0,
-        pitch=pitch_deg + 0.0,
+        **dict(windows_document(history, roll_deg, pitch_deg, thread_pitch, factor)),
         intervals=[
             _interval(cell, heights, factor) for cell, heights in zip(history.cells, history.heights, strict=True)
         ],
         boundaries=[_boundary(boundary, keys[i - 1], keys[i], factor) for i, boundary in enumerate(history.boundaries)],
-        windows=[window_document(one, roll_deg, pitch_deg, thread_pitch, factor) for one in history.windows],
     )
 
 

@@ -14,12 +14,15 @@ from threadstate.archive.stored import (
     StoredHeights,
     StoredHistories,
 )
+from threadstate.errors import SchemaError
+from threadstate.history.falls import Descent, Falls, Jump, SteepestFall
 from threadstate.history.labels import ContactLabels
-from threadstate.history.window import Course, Snap, Window
+from threadstate.history.window import Course, Window
 from threadstate.library import history_tables as tables
 from threadstate.library.grid import Grid
 from threadstate.library.history_rows import FormationRows, HistoryRows
 from threadstate.library.rows import Row
+from threadstate.library.schema import MENDING_COMMAND
 from threadstate.network.cells import Cell
 from threadstate.network.formation import Formation
 from threadstate.state.model import FeaturePair, Flag, StateClass, Vector
@@ -27,7 +30,11 @@ from threadstate.thread.regions import Region
 
 
 def stored_histories(connection: Connection, library_id: int, grid: Grid) -> StoredHistories | None:
-    """The histories of a published library; None where it has none, as a library by meshes."""
+    """The histories of a published library; None where it has none, as a library by meshes.
+
+    Raises:
+        SchemaError: they lack falls; the message names what adds them.
+    """
     parts = [
         _by_orientation(connection, table, library_id, grid)
         for table in (
@@ -36,10 +43,17 @@ def stored_histories(connection: Connection, library_id: int, grid: Grid) -> Sto
             tables.history_boundary_contact,
             tables.clearance_window,
             tables.clearance_window_course,
+            tables.descent,
+            tables.descent_jump,
+            tables.steepest_fall,
         )
     ]
     if not parts[0][0]:
         return None
+    if not all(parts[-1]):
+        raise SchemaError(
+            f"histories of library {library_id} lack the descents that this threadstate reads: run `{MENDING_COMMAND}`"
+        )
     known = formations(_formation_rows(connection, library_id))
     histories = tuple(
         orientation_history(index, HistoryRows((), *(part[index] for part in parts)), known)
@@ -71,6 +85,7 @@ def orientation_history(index: int, rows: HistoryRows, known: Mapping[str, Forma
         heights=tuple(StoredHeights(row[6], row[7]) for row in rows.intervals),
         boundaries=tuple(_boundary(row, tuple(changes[row[0]])) for row in rows.boundaries),
         windows=tuple(_window(row, tuple(courses[row[0]])) for row in rows.windows),
+        falls=_falls(rows),
     )
 
 
@@ -130,6 +145,16 @@ def _side(stage: int, values: list[str | float | None]) -> tuple[ContactLabels, 
 
 
 def _window(row: Row, courses: tuple[Course, ...]) -> Window:
-    _, enter, leave, enter_height, leave_height, lowest_deg, lowest_height, *snap = row
-    fallen = None if snap[0] is None else Snap(*snap)
-    return Window(enter, leave, enter_height, leave_height, fallen, lowest_deg, lowest_height, courses)
+    _, enter, leave, enter_height, leave_height, lowest_deg, lowest_height = row
+    return Window(enter, leave, enter_height, leave_height, lowest_deg, lowest_height, courses)
+
+
+def _falls(rows: HistoryRows) -> Falls:
+    jumps: defaultdict[int, list[Jump]] = defaultdict(list)
+    for position, _, *numbers in rows.descent_jumps:
+        jumps[position].append(Jump(*numbers))
+    ((fall, start, descent),) = rows.steepest_fall
+    return Falls(
+        tuple(Descent(*numbers, tuple(jumps[position])) for position, *numbers in rows.descents),
+        None if descent is None else SteepestFall(fall, start, descent),
+    )

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypedDict
 
 from threadstate.archive.stored import StoredContactChange, stored_changes
+from threadstate.history.falls import Falls
 from threadstate.history.labels import ContactLabels
 from threadstate.history.model import Boundary, History
 from threadstate.history.window import Window
@@ -18,8 +20,16 @@ from threadstate.state.model import ContactState, Vector
 _NOTHING = (None,) * 6
 
 
-def history_rows(history: History, windows: Sequence[Window]) -> HistoryRows:
-    """The rows of an orientation's history and of its clearance windows."""
+class FallsRows(TypedDict):
+    """The rows of an orientation's falls, by their tables."""
+
+    descents: tuple[Row, ...]
+    descent_jumps: tuple[Row, ...]
+    steepest_fall: tuple[Row, ...]
+
+
+def history_rows(history: History, windows: Sequence[Window], falls: Falls) -> HistoryRows:
+    """The rows of an orientation's history, of its clearance windows and of its falls."""
     # The number of the orientation is in none of the rows.
     cells = cells_of(0, history, [(window.enter_deg, window.leave_deg) for window in windows])
     formations = sorted({cell.formation for cell in cells}, key=lambda one: one.key)
@@ -36,6 +46,26 @@ def history_rows(history: History, windows: Sequence[Window]) -> HistoryRows:
             (i, place, course.features.value, course.start_deg, course.end_deg, course.start_height, course.end_height)
             for i, one in enumerate(windows)
             for place, course in enumerate(one.courses)
+        ),
+        **falls_rows(falls),
+    )
+
+
+def falls_rows(falls: Falls) -> FallsRows:
+    """The rows of an orientation's falls."""
+    steepest = falls.steepest
+    return FallsRows(
+        descents=tuple(
+            (i, one.start_deg, one.end_deg, one.start_height, one.end_height, one.fall_error, one.undecided_deg)
+            for i, one in enumerate(falls.descents)
+        ),
+        descent_jumps=tuple(
+            (i, place, jump.phase_deg, jump.width_deg, jump.height_before, jump.height_after, jump.height_error)
+            for i, one in enumerate(falls.descents)
+            for place, jump in enumerate(one.jumps)
+        ),
+        steepest_fall=(
+            (0.0, None, None) if steepest is None else (steepest.fall, steepest.start_deg, steepest.descent),
         ),
     )
 
@@ -81,9 +111,5 @@ def _side(labels: ContactLabels | None, normal: Vector | None) -> Row:
 
 
 def _window(position: int, one: Window) -> Row:
-    snap: Row = (None,) * 5
-    if one.snap is not None:
-        sides = (one.snap.height_before, one.snap.height_after)
-        snap = (one.snap.phase_deg, one.snap.width_deg, *sides, one.snap.height_error)
     heights = (one.enter_height, one.leave_height, one.lowest_deg, one.lowest_height)
-    return position, one.enter_deg, one.leave_deg, *heights, *snap
+    return position, one.enter_deg, one.leave_deg, *heights

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from threadstate.history.falls import Falls
 from threadstate.history.labels import ContactLabels
 from threadstate.history.model import ContactChange
 from threadstate.history.window import Window
@@ -75,6 +76,7 @@ class OrientationHistory:
     heights: tuple[StoredHeights, ...]
     boundaries: tuple[StoredBoundary, ...]
     windows: tuple[Window, ...]
+    falls: Falls
 
 
 @dataclass(frozen=True)

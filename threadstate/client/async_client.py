@@ -114,6 +114,7 @@ class AsyncClient:
     heights = _answered(network_calls.heights)
     computed_intervals = _answered(network_calls.computed_intervals)
     computed_heights = _answered(network_calls.computed_heights)
+    computed_falls = _answered(network_calls.computed_falls)
     windows = _answered(network_calls.windows)
     transitions = _listed(network_calls.transitions)
     network = _answered(network_calls.network)

@@ -8,6 +8,7 @@ from typing import Any
 
 from threadstate.answer.documents import (
     IntervalDocument,
+    OrientationWindowsDocument,
     SnapDocument,
     StretchDocument,
     TransitionDocument,
@@ -41,8 +42,8 @@ def columns_and_sources(kind: type[object], items: Sequence[object]) -> tuple[Co
     return COLUMNS[kind], items
 
 
-def _snap(cell: Callable[[SnapDocument], Cell]) -> Callable[[WindowDocument], Cell]:
-    return lambda window: None if window.snap is None else cell(window.snap)
+def _snap(cell: Callable[[SnapDocument], Cell]) -> Callable[[OrientationWindowsDocument], Cell]:
+    return lambda one: None if one.snap is None else cell(one.snap)
 
 
 _UNDECIDED: tuple[Column[UndecidedDocument], ...] = (
@@ -73,16 +74,27 @@ _WINDOWS: tuple[Column[WindowDocument], ...] = (
     degrees("enter", "phase at which the bolt enters", lambda one: one.enter),
     degrees("leave", "phase at which it leaves; above 360 past phase 0", lambda one: one.leave),
     degrees("width", "from the one to the other", lambda one: one.width),
-    length("drop", "from the height at the entry to the lowest", lambda one: one.drop),
     length("climb", "from the lowest height to that at the exit", lambda one: one.climb),
     length("enter_height", "height at the entry", lambda one: one.enter_height),
     length("leave_height", "height at the exit", lambda one: one.leave_height),
     degrees("lowest_phase", "phase at which it is lowest", lambda one: one.lowest_phase),
     length("lowest_height", "height there", lambda one: one.lowest_height),
-    degrees("snap_phase", "phase of the largest fall", _snap(lambda snap: snap.phase)),
-    degrees("snap_phase_uncertainty", "half of the bracket of that phase", _snap(lambda snap: snap.phase_uncertainty)),
-    length("snap_fall", "how far it falls there", _snap(lambda snap: snap.fall)),
-    length("snap_height_uncertainty", "of its heights, an estimate", _snap(lambda snap: snap.height_uncertainty)),
+)
+
+_FALLS: tuple[Column[OrientationWindowsDocument], ...] = (
+    degrees("roll", "roll of the orientation", lambda one: one.roll),
+    degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
+    length("steepest", "largest fall within 3 deg of phase", lambda one: one.steepest),
+    degrees(
+        "steepest_from", "where these begin; missing where it never goes down", lambda one: one.steepest_from
+    ),
+    degrees("snap_from", "phase at which the snap begins; missing where there is none", _snap(lambda snap: snap.start)),
+    degrees("snap_to", "phase at which it ends; above 360 past phase 0", _snap(lambda snap: snap.end)),
+    length("snap_fall", "its whole fall", _snap(lambda snap: snap.fall)),
+    length("snap_jump", "largest part of it that happens at one phase", _snap(lambda snap: snap.jump)),
+    degrees("snap_jump_at", "that phase; missing where nothing jumps", _snap(lambda snap: snap.jump_at)),
+    integer("descents", "how many descents there are", lambda one: len(one.descents)),
+    integer("windows", "how many clearance windows there are", lambda one: len(one.windows)),
 )
 
 _INTERVALS: tuple[Column[IntervalDocument], ...] = (
@@ -145,6 +157,7 @@ COLUMNS: Mapping[type[object], Columns] = MappingProxyType(
         UndecidedDocument: _UNDECIDED,
         OrientationDocument: _ORIENTATIONS,
         WindowDocument: _WINDOWS,
+        OrientationWindowsDocument: _FALLS,
         IntervalDocument: _INTERVALS,
         StretchDocument: _STRETCHES,
         TransitionDocument: _TRANSITIONS,

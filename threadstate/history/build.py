@@ -21,7 +21,7 @@ from threadstate.history.differences import contact_changes
 from threadstate.history.flicker import widened
 from threadstate.history.labels import labels_of
 from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
-from threadstate.history.records import RecordStore, SolvedPoses
+from threadstate.history.records import RecordStore
 from threadstate.state.decode import decoded_answers
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
@@ -45,11 +45,11 @@ def histories_of(
     orientations_deg: Sequence[tuple[float, float]],
     options: SolveOptions | None = None,
     resolution: Resolution = RESOLUTION,
-    solved: SolvedPoses | None = None,
+    store: RecordStore | None = None,
 ) -> list[History]:
     """The histories of orientations, (roll, pitch) in degrees, in their order; ``resolution`` in degrees.
 
-    The same orientation gives the same bits whatever the others are, and whatever poses are known as ``solved``.
+    The same orientation gives the same bits whatever the others are, and whatever poses are in the ``store``.
 
     Raises:
         InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
@@ -58,8 +58,8 @@ def histories_of(
     orientations = checked_poses([(roll, pitch, 0.0) for roll, pitch in orientations_deg])[:, :2]
     histories: list[History] = []
     for first in range(0, len(orientations), TOGETHER):
-        store = RecordStore(pair, options, solved)
-        histories += _histories(pair, options, orientations[first : first + TOGETHER], resolution, store)
+        together = orientations[first : first + TOGETHER]
+        histories += _histories(pair, options, together, resolution, store or RecordStore(pair, options))
     return histories
 
 

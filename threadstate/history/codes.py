@@ -40,13 +40,15 @@ BESIDE = 1e-3
 class LabelCodes:
     """Samples poses; a code is the place of its labels in the order in which they were met.
 
-    Codes differ between two objects of this class, whether two of them are equal does not.
+    Codes differ between two objects of this class, whether two of them are equal does not. With ``first_alone`` labels
+    and numbers are those of the first contact, and class and flags of the state count for nothing.
     """
 
-    def __init__(self, pair: Pair, options: SolveOptions, store: RecordStore) -> None:
+    def __init__(self, pair: Pair, options: SolveOptions, store: RecordStore, *, first_alone: bool = False) -> None:
         self._pair = pair
         self._store = store
         self._options = options
+        self._first_alone = first_alone
         self._codes: dict[bytes, int] = {}
 
     def samples(self, poses_deg: Floats) -> Samples:
@@ -78,15 +80,20 @@ class LabelCodes:
         used = np.arange(rk.MOST_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
         used[undecided] = False
         labels = np.zeros((len(records), 3 + 4 * rk.MOST_CONTACTS), dtype=np.uint8)
-        labels[:, 0] = self._classes(records)
-        labels[:, 1] = records[:, rk.O_FLAGS]
-        labels[:, 2] = records[:, rk.O_CONTACTS]
+        pose_count = records[:, rk.O_POSES]
+        if self._first_alone:
+            used &= contacts[:, :, rk.P_STAGE] == 1.0
+            pose_count = np.minimum(pose_count, 1.0)
+        else:
+            labels[:, 0] = self._classes(records)
+            labels[:, 1] = records[:, rk.O_FLAGS]
+        labels[:, 2] = used.sum(axis=1)
         named = contacts[:, :, _LABEL_COLUMNS]
         labels[:, 3:] = np.where(used[..., np.newaxis], named, 0.0).reshape(len(records), -1)
 
         values = np.full((len(records), _MOST_NUMBERS), np.nan)
         heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
-        reached = (np.arange(3) < records[:, rk.O_POSES, np.newaxis]) & ~undecided[:, np.newaxis]
+        reached = (np.arange(3) < pose_count[:, np.newaxis]) & ~undecided[:, np.newaxis]
         values[:, :3] = np.where(reached, heights / (HEIGHT_JUMP * self._pair.thread_pitch), np.nan)
         points = contacts[:, :, rk.P_POINT : rk.P_POINT + 3] / (PLACE_JUMP * self._pair.thread_pitch)
         placed = used & (contacts[:, :, rk.P_PAIR] != FLUSH)

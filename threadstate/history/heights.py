@@ -1,4 +1,8 @@
-"""The height of the bolt against its phase, as exact as is asked for at every phase (the paper's figures 7 to 10)."""
+"""The height of the bolt against its phase, as exact as is asked for at every phase (the paper's figures 7 to 10).
+
+At first contact, and where the bolt rests: the last pose of a state that does not rest is no place of the bolt and has
+no height here (method, section 8).
+"""
 
 from __future__ import annotations
 
@@ -33,16 +37,17 @@ LEAST_DEG = 1e-6
 class Heights:
     """Arrays of shape (n,), read-only: phases in degrees, strictly ascending, and heights of the bolt's origin there.
 
-    ``first`` is the height at first contact, ``last`` that in the last pose, in the pair's unit; NaN where undecided.
+    ``first`` is the height at first contact, NaN where undecided; ``rest`` that at which the bolt rests, NaN where it
+    does not. Both are in the pair's unit.
     """
 
     phases_deg: Floats
     first: Floats
-    last: Floats
+    rest: Floats
 
 
 Solved = tuple[float, float]
-"""Height at first contact and in the last pose."""
+"""Height at first contact, and where the bolt rests; NaN where there is none."""
 
 KnownHeights = dict[float, Solved]
 """Heights by their phases in [0, 360)."""
@@ -88,17 +93,25 @@ def _bent(heights: Callable[[Floats], Floats], phases: Floats, tolerance: float)
     low, high = phases[:-1], phases[1:]
     while len(low):
         at_low, at_high = heights(low), heights(high)
-        rises = (np.abs(at_high - at_low) > tolerance).any(axis=1)
-        unsure = (high - low > NARROW_DEG) | (rises & (high - low > LEAST_DEG))
+        changes = (np.abs(at_high - at_low) > tolerance).any(axis=1)
+        changes |= _rest_differs(at_low, at_high)
+        unsure = (high - low > NARROW_DEG) | (changes & (high - low > LEAST_DEG))
         low, high, at_low, at_high = low[unsure], high[unsure], at_low[unsure], at_high[unsure]
         middle = _middles(low, high)
         share = ((middle - low) / (high - low))[:, np.newaxis]
         at_middle = heights(middle)
         bends = (np.abs(at_middle - (1.0 - share) * at_low - share * at_high) > tolerance).any(axis=1)
         bends |= np.isnan(at_middle).any(axis=1) & ~np.isnan(at_low + at_high).any(axis=1)
+        bends |= _rest_differs(at_low, at_middle) | _rest_differs(at_middle, at_high)
         kept.append(middle)
         low, high = np.concatenate([low[bends], middle[bends]]), np.concatenate([middle[bends], high[bends]])
     return np.sort(np.concatenate(kept))
+
+
+def _rest_differs(one: Floats, other: Floats) -> NDArray[np.bool_]:
+    """Where the bolt rests at one of two decided phases alone."""
+    decided = ~np.isnan(one[:, 0]) & ~np.isnan(other[:, 0])
+    return decided & (np.isnan(one[:, 1]) != np.isnan(other[:, 1]))
 
 
 def _middles(low: Floats, high: Floats) -> Floats:
@@ -109,10 +122,21 @@ def _middles(low: Floats, high: Floats) -> Floats:
 
 
 def _solved(pair: Pair, options: SolveOptions, poses_deg: Floats) -> list[Solved]:
-    """The heights of poses of shape (n, 3); NaN where undecided."""
+    """The heights of poses of shape (n, 3)."""
     records = solve_records(pair, options, poses_deg)
     heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
     last = heights[np.arange(len(heights)), np.maximum(records[:, rk.O_POSES].astype(np.intp) - 1, 0)]
-    both = np.column_stack([heights[:, 0], last])
+    at_rest = np.where(_resting(pair, options, records), last, np.nan)
+    both = np.column_stack([heights[:, 0], at_rest])
     both[records[:, rk.O_STATUS] != 0.0] = np.nan
-    return [(first, last) for first, last in both.tolist()]
+    return [(first, rest) for first, rest in both.tolist()]
+
+
+def _resting(pair: Pair, options: SolveOptions, records: Floats) -> NDArray[np.bool_]:
+    """Whether each record is of a state that rests, as ``threadstate.state.rest`` has it.
+
+    A third contact and no embedment are enough: a state with both is of one of the stable classes.
+    """
+    flush = (records[:, rk.O_FLAGS].astype(np.int64) & rk.FLAG_FLUSH) != 0
+    embedment = records[:, rk.O_EMBEDMENT]
+    return flush | (~np.isnan(records[:, rk.O_MU]) & (embedment <= options.embedment_tolerance * pair.thread_pitch))

@@ -16,13 +16,12 @@ from threadstate.thread.pair import Pair
 class Limit:
     """The height of first contact at a boundary, seen from one side, in the pair's unit; its error is an estimate.
 
-    Where it nears the boundary as a root does it is that of the ``fold``. Elsewhere it is that of the solved phase at
+    Where it nears the boundary as a root does it is that of the fold. Elsewhere it is that of the solved phase at
     the bracket's end, and the error what the height changes over the bracket at its mean rate beside it.
     """
 
     height: float
     error: float
-    fold: Fold | None = None
 
 
 def limit_before(pair: Pair, history: History, number: int) -> Limit | None:
@@ -45,7 +44,7 @@ def _limit(
     if abs(boundary.first_height_jump or 0.0) > HEIGHT_JUMP * pair.thread_pitch:
         fold = _fold(pair, history, boundary, side, phase_deg)
         if fold is not None:
-            return Limit(fold.height, fold.height_error, fold)
+            return Limit(fold.height, fold.height_error)
     height = side.poses[0].translation[2]
     if beside.state is None:
         return Limit(height, HEIGHT_JUMP * pair.thread_pitch)
@@ -60,8 +59,15 @@ def _fold(pair: Pair, history: History, boundary: Boundary, side: ContactState, 
     if first.features is not FeaturePair.EDGE_EDGE:
         return None
     azimuth = math.atan2(first.point_bolt[1], first.point_bolt[0])
-    fold = fold_near(pair, history.roll_deg, history.pitch_deg, phase_deg, azimuth)
+    return fold_in(pair, history.roll_deg, history.pitch_deg, boundary.low_deg, boundary.high_deg, phase_deg, azimuth)
+
+
+def fold_in(
+    pair: Pair, roll_deg: float, pitch_deg: float, low_deg: float, high_deg: float, phase_deg: float, azimuth: float
+) -> Fold | None:
+    """The fold near a phase and an azimuth (rad) on the bolt's edge, None where there is none in the bracket."""
+    fold = fold_near(pair, roll_deg, pitch_deg, phase_deg, azimuth)
     if fold is None:
         return None
-    slack = boundary.width_deg + fold.phase_error_deg
-    return fold if boundary.low_deg - slack <= fold.phase_deg <= boundary.high_deg + slack else None
+    slack = high_deg - low_deg + fold.phase_error_deg
+    return fold if low_deg - slack <= fold.phase_deg <= high_deg + slack else None

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,26 +14,13 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-@dataclass(frozen=True, slots=True)
-class SolvedPoses:
-    """Poses of shape (n, 3), roll, pitch, phase in degrees, and their records of shape (n, RECORD_SIZE).
-
-    The records are those of ``threadstate.state.records.solve_records`` for the same pair and options.
-    """
-
-    poses_deg: Floats
-    records: Floats
-
-
 class RecordStore:
-    """The records of one pair's poses; those in ``solved`` are taken from there."""
+    """The records of one pair's poses, as ``threadstate.state.records.solve_records`` gives them for these options."""
 
-    def __init__(self, pair: Pair, options: SolveOptions, solved: SolvedPoses | None = None) -> None:
+    def __init__(self, pair: Pair, options: SolveOptions) -> None:
         self._pair = pair
         self._options = options
         self._rows: dict[bytes, Floats] = {}
-        if solved is not None:
-            self._rows.update(zip(_keys(solved.poses_deg), solved.records, strict=True))
 
     def records(self, poses_deg: Floats) -> Floats:
         """Records of shape (n, RECORD_SIZE) of valid poses of shape (n, 3)."""

@@ -17,26 +17,6 @@ WITHIN_THREAD = (FeaturePair.EDGE_THREAD, FeaturePair.THREAD_EDGE, FeaturePair.T
 
 
 @dataclass(frozen=True, slots=True)
-class Snap:
-    """A fall of the height of first contact at a single phase, turning counter-clockwise.
-
-    The phase is certain to half of ``width_deg``. Heights, in the pair's unit, are the limits from both sides;
-    ``height_error`` estimates by how much either may be wrong, None where that was not stored.
-    """
-
-    phase_deg: float
-    width_deg: float
-    height_before: float
-    height_after: float
-    height_error: float | None
-
-    @property
-    def fall(self) -> float:
-        """How far the bolt falls."""
-        return self.height_before - self.height_after
-
-
-@dataclass(frozen=True, slots=True)
 class Course:
     """A stretch of a window over which the first contact is of the same features and its height does not jump.
 
@@ -66,17 +46,16 @@ class Window:
     (the paper's section 5: the bolt's radius is less than the nut's all round).
 
     The bolt enters at ``enter_deg`` in [0, 360) and leaves at ``leave_deg``, which is larger (above 360 where the
-    window holds phase 0); heights are those of its origin at first contact. ``snap`` is the largest fall at one phase
-    from the entry to the exit, both included; None where the height never falls by a jump. ``lowest_height`` is the
-    least height at an end or in the middle of an interval of the window, ``lowest_deg`` its phase, from which on the
-    bolt climbs by ``climb`` up to the exit. ``courses`` are the parts of the window in order, undecided ones left out.
+    window holds phase 0); heights are those of its origin at first contact. ``lowest_height`` is the least height at
+    an end or in the middle of an interval of the window, ``lowest_deg`` its phase, from which on the bolt climbs by
+    ``climb`` up to the exit. ``courses`` are the parts of the window in order, undecided ones left out. How far the
+    bolt goes down on its way is for ``threadstate.history.descents`` to say.
     """
 
     enter_deg: float
     leave_deg: float
     enter_height: float
     leave_height: float
-    snap: Snap | None
     lowest_deg: float
     lowest_height: float
     courses: tuple[Course, ...]
@@ -85,11 +64,6 @@ class Window:
     def width_deg(self) -> float:
         """How much phase the window covers."""
         return self.leave_deg - self.enter_deg
-
-    @property
-    def drop(self) -> float:
-        """How far the bolt sinks from the entry to its lowest height, by the snap and beside it."""
-        return self.enter_height - self.lowest_height
 
     @property
     def climb(self) -> float:
@@ -111,15 +85,6 @@ def windows_of(pair: Pair, history: History) -> tuple[Window, ...]:
         length = next(n for n in range(1, count) if not inside[(entry + n) % count])
         windows.append(_window(pair, history, [(entry + n) % count for n in range(length + 1)]))
     return tuple(windows)
-
-
-def deepest_window(pair: Pair, history: History) -> Window | None:
-    """The window in which the bolt sinks farthest, None where there is none.
-
-    Of those in which it sinks equally far, to the least height that counts as a jump, it is the widest.
-    """
-    least = HEIGHT_JUMP * pair.thread_pitch
-    return max(windows_of(pair, history), key=lambda window: (window.drop // least, window.width_deg), default=None)
 
 
 def _inside(intervals: Sequence[Interval]) -> list[bool]:
@@ -152,18 +117,14 @@ def _window(pair: Pair, history: History, cut: list[int]) -> Window:
     within += [(boundary.low_deg, boundary.before) for boundary in boundaries[1:]]
     heights = [(_height(state), _later(phase, start)) for phase, state in within if state is not None]
     lowest, lowest_deg = min(heights)
-    least_fall = HEIGHT_JUMP * pair.thread_pitch
-    steepest = min(cut, key=lambda number: history.boundaries[number].first_height_jump or 0.0)
-    snaps = -(history.boundaries[steepest].first_height_jump or 0.0) > least_fall
     return Window(
         enter_deg=start,
         leave_deg=_later(leave.phase_deg, start),
         enter_height=_known(limit_before(pair, history, cut[0]), limit_after(pair, history, cut[0])).height,
         leave_height=_known(limit_after(pair, history, cut[-1]), limit_before(pair, history, cut[-1])).height,
-        snap=_snap(pair, history, steepest) if snaps else None,
         lowest_deg=lowest_deg,
         lowest_height=lowest,
-        courses=_courses(boundaries, intervals, start, least_fall),
+        courses=_courses(boundaries, intervals, start, HEIGHT_JUMP * pair.thread_pitch),
     )
 
 
@@ -192,20 +153,6 @@ def _courses(
         else:
             courses.append(course)
     return tuple(courses)
-
-
-def _snap(pair: Pair, history: History, number: int) -> Snap:
-    """The fall at the boundary of that number, both sides of which are decided."""
-    boundary = history.boundaries[number]
-    before, after = _known(limit_before(pair, history, number), None), _known(limit_after(pair, history, number), None)
-    fold = before.fold or after.fold
-    return Snap(
-        boundary.phase_deg if fold is None else fold.phase_deg % CIRCLE_DEG,
-        boundary.width_deg if fold is None else 2.0 * fold.phase_error_deg,
-        before.height,
-        after.height,
-        max(before.error, after.error),
-    )
 
 
 Known = TypeVar("Known")

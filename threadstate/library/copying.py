@@ -57,7 +57,7 @@ def copy_library(source: Engine, target: Engine, library_id: int) -> LibraryCopy
     for index in range(record.grid.orientation_count):
         if index not in committed:
             chunk = _chunk(source, library_id, record, index)
-            write_chunk(target, copy_id, chunk.rows, chunk.history, chunk.content_sha256)
+            write_chunk(target, copy_id, chunk.rows, chunk.history)
     arrived = library_sha256(
         [_chunk(target, copy_id, record, index).content_sha256 for index in range(record.grid.orientation_count)]
     )

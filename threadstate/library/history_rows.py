@@ -33,6 +33,9 @@ class HistoryRows:
     boundary_contacts: tuple[Row, ...]
     windows: tuple[Row, ...]
     window_courses: tuple[Row, ...]
+    descents: tuple[Row, ...]
+    descent_jumps: tuple[Row, ...]
+    steepest_fall: tuple[Row, ...]
 
     def of_orientation(self) -> Iterator[tuple[Table, tuple[Row, ...]]]:
         """The tables that hold the orientation's own rows, in an order in which they can be written."""
@@ -41,6 +44,9 @@ class HistoryRows:
         yield tables.history_boundary_contact, self.boundary_contacts
         yield tables.clearance_window, self.windows
         yield tables.clearance_window_course, self.window_courses
+        yield tables.descent, self.descents
+        yield tables.descent_jump, self.descent_jumps
+        yield tables.steepest_fall, self.steepest_fall
 
     @property
     def content_sha256(self) -> str:

@@ -28,6 +28,7 @@ _OF_CHUNK = ("library_id", "orientation")
 _OF_FORMATION = ("library_id", "formation")
 _OF_BOUNDARY = ("library_id", "orientation", "position")
 _OF_WINDOW = ("library_id", "orientation", "position")
+_OF_DESCENT = ("library_id", "orientation", "position")
 
 formation = Table(
     "formation",
@@ -151,8 +152,6 @@ clearance_window = Table(
     Column("position", Integer, nullable=False),
     *(Column(name, Double, nullable=False) for name in ("enter_deg", "leave_deg", "enter_height", "leave_height")),
     *(Column(name, Double, nullable=False) for name in ("lowest_deg", "lowest_height")),
-    # All null where no height jumps; the error is null, too, where an older threadstate computed the window.
-    *(Column(f"snap_{name}", Double) for name in ("deg", "width_deg", "height_before", "height_after", "height_error")),
     # Serves: the windows of an orientation, and of all, in order.
     PrimaryKeyConstraint(*_OF_WINDOW),
     ForeignKeyConstraint(_OF_CHUNK, ["chunk.library_id", "chunk.orientation"], ondelete="CASCADE"),
@@ -177,3 +176,52 @@ clearance_window_course = Table(
     sqlite_with_rowid=False,
 )
 """A stretch of a window over which the first contact is of the same features and its height does not jump."""
+
+descent = Table(
+    "descent",
+    metadata,
+    Column("library_id", Integer, nullable=False),
+    Column("orientation", Integer, nullable=False),
+    Column("position", Integer, nullable=False),
+    *(Column(name, Double, nullable=False) for name in ("start_deg", "end_deg", "start_height", "end_height")),
+    *(Column(name, Double, nullable=False) for name in ("fall_error", "undecided_deg")),
+    # Serves: the descents of an orientation, and of all, in order.
+    PrimaryKeyConstraint(*_OF_DESCENT),
+    ForeignKeyConstraint(_OF_CHUNK, ["chunk.library_id", "chunk.orientation"], ondelete="CASCADE"),
+    CheckConstraint("start_deg >= 0 AND start_deg < 360 AND end_deg >= start_deg", name="phases_in_order"),
+    CheckConstraint("start_height > end_height", name="falls"),
+    sqlite_with_rowid=False,
+)
+"""Where the bolt, turned counter-clockwise, goes down; one that holds phase 0 ends above 360."""
+
+descent_jump = Table(
+    "descent_jump",
+    metadata,
+    Column("library_id", Integer, nullable=False),
+    Column("orientation", Integer, nullable=False),
+    Column("position", Integer, nullable=False),
+    Column("place", Integer, nullable=False),
+    *(Column(name, Double, nullable=False) for name in ("phase_deg", "width_deg")),
+    *(Column(name, Double, nullable=False) for name in ("height_before", "height_after", "height_error")),
+    # Serves: the jumps of a descent, and of all, in order.
+    PrimaryKeyConstraint(*_OF_DESCENT, "place"),
+    ForeignKeyConstraint(_OF_DESCENT, [f"descent.{column}" for column in _OF_DESCENT], ondelete="CASCADE"),
+    sqlite_with_rowid=False,
+)
+"""A fall of the height at one phase, within a descent."""
+
+steepest_fall = Table(
+    "steepest_fall",
+    metadata,
+    Column("library_id", Integer, nullable=False),
+    Column("orientation", Integer, nullable=False),
+    Column("fall", Double, nullable=False),
+    # Null where the bolt never goes down.
+    Column("start_deg", Double),
+    Column("descent", Integer),
+    # Serves: the steepest fall of an orientation, and of all, in order.
+    PrimaryKeyConstraint(*_OF_CHUNK),
+    ForeignKeyConstraint(_OF_CHUNK, ["chunk.library_id", "chunk.orientation"], ondelete="CASCADE"),
+    sqlite_with_rowid=False,
+)
+"""An orientation's largest fall within three degrees of phase; one row for every orientation that has a history."""

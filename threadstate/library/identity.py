@@ -20,7 +20,7 @@ from threadstate.thread.pair import Pair
 PHYSICS = ("thread/*.py", "contact/*.py", "state/*.py")
 MESH_PHYSICS = (*PHYSICS, "mesh/*.py")
 COLLISION_LIBRARY = "python-fcl"
-NOT_PHYSICS = ("state/document.py",)
+NOT_PHYSICS = ("state/document.py", "state/rest.py")
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -14,6 +15,7 @@ from threadstate.library.method import Method
 from threadstate.library.rows import Row, states_from_rows
 from threadstate.library.tables import contact, library, stage_pose, state, state_flag, undecided
 from threadstate.state.model import ContactState, Flag, StateClass, UndecidedPose
+from threadstate.state.rest import rests
 from threadstate.units import LengthUnit
 
 LARGEST_ID = 2**31 - 1
@@ -117,18 +119,20 @@ def states_between(connection: Connection, library_id: int, first: int, last: in
 
 
 def heights_between(connection: Connection, library_id: int, first: int, last: int) -> dict[int, tuple[float, float]]:
-    """Heights of the bolt's origin at first contact and in the last pose, of states with ordinals in that range.
+    """Heights of the bolt's origin at first contact and where it rests, of states with ordinals in that range.
 
-    By ordinal, ``first`` and ``last`` included; in the library's unit.
+    By ordinal, ``first`` and ``last`` included; in the library's unit, NaN where the bolt does not rest.
     """
     query = (
-        select(stage_pose.c.ordinal, stage_pose.c.tz)
-        .where(stage_pose.c.library_id == library_id, stage_pose.c.ordinal.between(first, last))
-        .order_by(stage_pose.c.ordinal, stage_pose.c.stage)
+        select(state.c.ordinal, state.c.state_class, state.c.embedment_margin, stage_pose.c.tz)
+        .join(stage_pose, (stage_pose.c.library_id == state.c.library_id) & (stage_pose.c.ordinal == state.c.ordinal))
+        .where(state.c.library_id == library_id, state.c.ordinal.between(first, last))
+        .order_by(state.c.ordinal, stage_pose.c.stage)
     )
     found: dict[int, tuple[float, float]] = {}
-    for ordinal, height in connection.execute(query):
-        found[ordinal] = (found[ordinal][0] if ordinal in found else height, height)
+    for ordinal, state_class, embedment_margin, height in connection.execute(query):
+        at_first = found[ordinal][0] if ordinal in found else height
+        found[ordinal] = at_first, height if rests(StateClass(state_class), embedment_margin) else math.nan
     return found
 
 

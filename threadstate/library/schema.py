@@ -10,7 +10,7 @@ from sqlalchemy.exc import DatabaseError
 from threadstate.errors import SchemaError, UnreadableDatabaseError
 from threadstate.library.address import is_sqlite, shown
 
-SCHEMA_REVISION = "0005"
+SCHEMA_REVISION = "0006"
 """The newest migration, which the tables of ``threadstate.library.tables`` mirror."""
 
 MENDING_COMMAND = "threadstate migrate"

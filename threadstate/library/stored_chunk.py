@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from sqlalchemy import Connection, Table, select
 
@@ -12,7 +12,6 @@ from threadstate.library.grid import Grid
 from threadstate.library.history_rows import FormationRows, HistoryRows, content_sha256_of
 from threadstate.library.read import states_between, undecided_between
 from threadstate.library.rows import ChunkRows, Row, chunk_rows
-from threadstate.library.tables import chunk
 from threadstate.state.model import Answer
 
 
@@ -38,15 +37,7 @@ def stored_chunk(connection: Connection, library_id: int, grid: Grid, index: int
             answers.append(answer)
     rows = chunk_rows(grid.orientation(index), first, answers)
     history = _history(connection, library_id, index)
-    said = connection.scalar(
-        select(chunk.c.content_sha256).where(chunk.c.library_id == library_id, chunk.c.orientation == index)
-    )
-    found = content_sha256_of(rows, history)
-    if found != said and history is not None and all(row[-1] is None for row in history.windows):
-        # A threadstate that did not know how certain a snap's heights are hashed windows without that column.
-        before = content_sha256_of(rows, replace(history, windows=tuple(row[:-1] for row in history.windows)))
-        found = before if before == said else found
-    return StoredChunk(rows, history, found)
+    return StoredChunk(rows, history, content_sha256_of(rows, history))
 
 
 def _history(connection: Connection, library_id: int, index: int) -> HistoryRows | None:
@@ -61,6 +52,9 @@ def _history(connection: Connection, library_id: int, index: int) -> HistoryRows
         boundary_contacts=_of_orientation(connection, tables.history_boundary_contact, library_id, index),
         windows=_of_orientation(connection, tables.clearance_window, library_id, index),
         window_courses=_of_orientation(connection, tables.clearance_window_course, library_id, index),
+        descents=_of_orientation(connection, tables.descent, library_id, index),
+        descent_jumps=_of_orientation(connection, tables.descent_jump, library_id, index),
+        steepest_fall=_of_orientation(connection, tables.steepest_fall, library_id, index),
     )
 
 

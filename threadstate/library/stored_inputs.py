@@ -15,12 +15,22 @@ from threadstate.thread.pair import Pair
 
 def library_pair(record: LibraryRecord) -> Pair:
     """The pair of a library, lengths in the library's own unit."""
-    return _adapter().validate_json(record.pair)
+    return pair_of(record.pair)
 
 
 def library_options(record: LibraryRecord) -> SolveOptions:
     """The options of a library's solver; of a library by meshes those that every method has."""
-    stored = json.loads(record.options)
+    return options_of(record.options)
+
+
+def pair_of(pair_json: str) -> Pair:
+    """The pair whose canonical JSON is given."""
+    return _adapter().validate_json(pair_json)
+
+
+def options_of(options_json: str) -> SolveOptions:
+    """The options of every method among those whose canonical JSON is given."""
+    stored = json.loads(options_json)
     return SolveOptions(**{field.name: stored[field.name] for field in fields(SolveOptions)})
 
 

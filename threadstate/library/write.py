@@ -119,11 +119,8 @@ def write_chunk(
     library_id: int,
     rows: ChunkRows,
     history: HistoryRows | None = None,
-    content_sha256: str | None = None,
 ) -> bool:
     """Write a chunk, with its history if it has one, in one transaction; one that is there is left as it is.
-
-    ``content_sha256`` is its hash where it is copied: an older threadstate may have hashed other columns.
 
     Returns:
         Whether it was written.
@@ -152,7 +149,7 @@ def write_chunk(
                     orientation.roll_deg,
                     orientation.pitch_deg,
                     rows.pose_count,
-                    content_sha256 or content_sha256_of(rows, history),
+                    content_sha256_of(rows, history),
                 )
             ],
         )

@@ -17,6 +17,7 @@ from threadstate.client.call import (
     path_of,
 )
 from threadstate.client.models.network import (
+    ComputedFalls,
     ComputedHeights,
     ComputedIntervals,
     FormationsAnswer,
@@ -81,10 +82,43 @@ def windows(
     library: LibraryName = LATEST,
     roll: float | None = None,
     pitch: float | None = None,
+    least: float | None = None,
     unit: str | None = None,
 ) -> Call[WindowsAnswer]:
-    """Where a bolt turned counter-clockwise falls into the nut, how far, how it climbs again and where it leaves."""
-    return get(library_path(library, "windows"), WindowsAnswer, roll=roll, pitch=pitch, unit=unit)
+    """Where a bolt turned counter-clockwise goes down and how far, where it snaps, where it can go on down.
+
+    A steepest fall of more than ``least`` thread pitches is a snap's.
+    """
+    return get(library_path(library, "windows"), WindowsAnswer, roll=roll, pitch=pitch, least=least, unit=unit)
+
+
+def computed_falls(
+    roll: float,
+    pitch: float,
+    *,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    tolerance: float | None = None,
+    steps: int | None = None,
+    span: float | None = None,
+    least: float | None = None,
+    unit: str | None = None,
+) -> Call[ComputedFalls]:
+    """Falls and snap of any orientation, computed now; with a ``tolerance`` of roll and pitch their range within it.
+
+    The steepest fall is that within ``span`` degrees of phase; more than ``least`` thread pitches make a snap.
+    """
+    return get(
+        path_of("v1", "histories", roll, pitch, "falls"),
+        ComputedFalls,
+        designation=designation,
+        library=library,
+        tolerance=tolerance,
+        steps=steps,
+        span=span,
+        least=least,
+        unit=unit,
+    )
 
 
 def transitions(

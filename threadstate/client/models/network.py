@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from threadstate.answer.documents import (
+    FallsDocument,
+    FallsRangeDocument,
     FormationSummaryDocument,
     HeightsDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
     OrientationHistoryDocument,
+    OrientationWindowsDocument,
     PathDocument,
     TransitionDocument,
     WindowDocument,
@@ -51,6 +54,16 @@ class ComputedHeights(Answer):
     heights: HeightsDocument
 
 
+class ComputedFalls(Answer):
+    """The falls of any orientation, computed when it was asked for; their range where a tolerance was given."""
+
+    designation: str
+    library: int | None
+    unit: LengthUnit
+    falls: FallsDocument
+    range: FallsRangeDocument | None
+
+
 class TransitionsPage(Answer):
     """One page of transitions; ``count`` is how many there are on all pages."""
 
@@ -67,11 +80,16 @@ class TransitionsPage(Answer):
 
 
 class WindowsAnswer(Answer):
-    """Clearance windows by orientation and phase."""
+    """Falls and clearance windows by orientation."""
 
     library: int
     unit: LengthUnit
-    windows: tuple[WindowDocument, ...]
+    orientations: tuple[OrientationWindowsDocument, ...]
+
+    @property
+    def windows(self) -> tuple[WindowDocument, ...]:
+        """The clearance windows of all orientations."""
+        return tuple(window for one in self.orientations for window in one.windows)
 
 
 class NetworkSummary(Answer):

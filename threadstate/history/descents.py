@@ -1,0 +1,213 @@
+"""Finds where a bolt that is turned counter-clockwise goes down, from its curve of height (method, section 8).
+
+A descent ends and begins where the bolt goes down: where the height is level at its ends is not a part of it, a level
+stretch between two falls is. Heights are those of first contact.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from threadstate.history.falls import SPAN_DEG, Descent, Falls, Jump, SteepestFall
+from threadstate.history.height_curve import Gap, HeightCurve, Segment
+from threadstate.history.model import CIRCLE_DEG
+
+LEAST_FALL = 2e-8
+"""A descent by no more than so many thread pitches is none: 1e-9 in of 1/4-20."""
+
+NARROW_DEG = 0.25
+"""Stretches on which the steepest fall may lie are halved to this width, and then searched by its slope."""
+
+STEEPEST_DEG = 1e-8
+"""To this the phase of the steepest fall is narrowed where the slopes at its two ends agree."""
+
+
+def falls_of(curve: HeightCurve, thread_pitch: float, span_deg: float = SPAN_DEG) -> Falls:
+    """The falls of an orientation from its curve; ``thread_pitch`` in the curve's unit."""
+    descents = _descents(curve, LEAST_FALL * thread_pitch)
+    if not descents:
+        return Falls((), None)
+    fall, start, end = _Steepest(curve, span_deg).found()
+    shares = [_fall_within(curve, descent, start, end) for descent in descents]
+    return Falls(descents, SteepestFall(fall, start % CIRCLE_DEG, int(np.argmax(shares))))
+
+
+Step = Segment | Gap
+
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    """The steps of a curve one after the other, turn after turn: a step's number says in which turn it is."""
+
+    steps: tuple[Step, ...]
+
+    def step(self, number: int) -> Step:
+        return self.steps[number % len(self.steps)]
+
+    def turn_deg(self, number: int) -> float:
+        """The phase to be added to that of the step."""
+        return CIRCLE_DEG * (number // len(self.steps))
+
+
+def _descents(curve: HeightCurve, least_fall: float) -> tuple[Descent, ...]:
+    """The descents in order of their starts."""
+    course = _Course(tuple(step for both in zip(curve.gaps, curve.segments, strict=True) for step in both))
+    rises = [step.end_height - step.start_height > curve.round_off for step in course.steps]
+    if not any(rises):
+        return ()  # what never rises over a whole turn is level
+    first = rises.index(True)
+    after_rises = [first + k for k in range(len(rises) + 1) if rises[(first + k) % len(rises)]]
+    runs = [range(one + 1, other) for one, other in pairwise(after_rises)]
+    found = [_descent(course, run, curve.round_off) for run in runs]
+    kept = [one for one in found if one is not None and one.fall > least_fall]
+    return tuple(sorted(kept, key=lambda one: one.start_deg))
+
+
+def _descent(course: _Course, run: range, round_off: float) -> Descent | None:
+    """The descent of consecutive steps, none of which rises; None where all are level."""
+    falling = [n for n in run if course.step(n).start_height - course.step(n).end_height > round_off]
+    if not falling:
+        return None
+    first, last = falling[0], falling[-1]
+    start = course.step(first).start_deg + course.turn_deg(first)
+    turns = CIRCLE_DEG * (start // CIRCLE_DEG)
+    gaps = [gap for n in range(first, last + 1) if isinstance(gap := course.step(n), Gap)]
+    return Descent(
+        start_deg=start - turns,
+        end_deg=course.step(last).end_deg + course.turn_deg(last) - turns,
+        start_height=course.step(first).start_height,
+        end_height=course.step(last).end_height,
+        fall_error=_error(course, first - 1, first) + _error(course, last, last + 1) + 2.0 * round_off,
+        undecided_deg=sum((gap.end_deg - gap.start_deg for gap in gaps if gap.undecided), 0.0),
+        jumps=tuple(
+            Jump(gap.start_deg % CIRCLE_DEG, gap.width_deg, gap.start_height, gap.end_height, gap.height_error)
+            for gap in gaps
+            if gap.jumps
+        ),
+    )
+
+
+def _error(course: _Course, *numbers: int) -> float:
+    """By how much a height beside these steps may be wrong."""
+    return max((step.height_error for n in numbers if isinstance(step := course.step(n), Gap)), default=0.0)
+
+
+class _Steepest:
+    """The search for the largest fall within a span of phase.
+
+    Over a stretch of phase both ends of the span stay within one segment each. As these are monotone, the fall there is
+    at most the difference of the heights at the stretch's ends: stretches that cannot hold more than was found are left
+    out, the others halved. On narrow ones the fall is largest at an end, or where the slopes at the span's ends agree.
+    """
+
+    def __init__(self, curve: HeightCurve, span_deg: float) -> None:
+        self._curve = curve
+        self._span = span_deg
+        self._fall = 0.0
+        self._start = self._end = 0.0
+
+    def found(self) -> tuple[float, float, float]:
+        """The fall, and the phases at which it begins and ends."""
+        self._between_ends()
+        once = self._curve.segments
+        again = [_turned(segment) for segment in once]
+        for low in once:
+            for high in (*once, *again):
+                start = max(low.start_deg, high.start_deg - self._span)
+                end = min(low.end_deg, high.end_deg - self._span)
+                if start < end and _highest(low) - _lowest(high) > self._fall + self._curve.round_off:
+                    self._within(start, end)
+        return self._fall, self._start, self._end
+
+    def _between_ends(self) -> None:
+        """Falls from an end of a step to another, as where both are extremes."""
+        curve = self._curve
+        marks = [
+            (phase, height)
+            for gap, segment in zip(curve.gaps, curve.segments, strict=True)
+            for phase, height in (
+                (gap.start_deg, gap.start_height),
+                (gap.end_deg, gap.end_height),
+                (segment.start_deg, segment.start_height),
+                (segment.end_deg, segment.end_height),
+            )
+        ]
+        marks += [(phase + CIRCLE_DEG, height) for phase, height in marks]
+        for number, (start, height) in enumerate(marks[: len(marks) // 2]):
+            for end, lower in marks[number + 1 :]:
+                if end - start > self._span:
+                    break
+                self._offer(height - lower, start, end)
+
+    def _within(self, start_deg: float, end_deg: float) -> None:
+        """Falls that begin within a stretch and are a whole span wide."""
+        waiting = [(start_deg, end_deg)]
+        while waiting:
+            low, high = waiting.pop()
+            heights, later = self._heights(low, high)
+            self._offer(heights[0] - later[0], low, low + self._span)
+            self._offer(heights[1] - later[1], high, high + self._span)
+            if not max(heights) - min(later) > self._fall + self._curve.round_off:
+                continue
+            if high - low > NARROW_DEG:
+                middle = 0.5 * (low + high)
+                waiting += [(middle, high), (low, middle)]
+            elif self._grows(low) and not self._grows(high):
+                start = self._where_slopes_agree(low, high)
+                (height, _), (lower, _) = self._heights(start, start)
+                self._offer(height - lower, start, start + self._span)
+
+    def _where_slopes_agree(self, low: float, high: float) -> float:
+        while high - low > STEEPEST_DEG:
+            middle = 0.5 * (low + high)
+            if self._grows(middle):
+                low = middle
+            else:
+                high = middle
+        return 0.5 * (low + high)
+
+    def _grows(self, start: float) -> bool:
+        """Whether the fall grows as the span is moved on."""
+        at_start, at_end = self._curve.slope(np.array([start, start + self._span])).tolist()
+        return bool(at_start > at_end)
+
+    def _heights(self, low: float, high: float) -> tuple[list[float], list[float]]:
+        heights = self._curve.height(np.array([low, high, low + self._span, high + self._span])).tolist()
+        return heights[:2], heights[2:]
+
+    def _offer(self, fall: float, start: float, end: float) -> None:
+        """Keep a fall that is larger than what was found, or as large within a narrower stretch."""
+        more = fall - self._fall
+        level = self._curve.round_off
+        if more > level or (abs(more) <= level and self._fall > 0.0 and end - start < self._end - self._start):
+            self._fall, self._start, self._end = fall, start, end
+
+
+def _fall_within(curve: HeightCurve, descent: Descent, start_deg: float, end_deg: float) -> float:
+    """How much of a fall from one phase to another belongs to a descent."""
+    largest = 0.0
+    for turn in (-CIRCLE_DEG, 0.0, CIRCLE_DEG):
+        low, high = descent.start_deg + turn, descent.end_deg + turn
+        if max(low, start_deg) <= min(high, end_deg):
+            ends = curve.height(np.array([start_deg, end_deg])).tolist()
+            upper = descent.start_height if low >= start_deg else ends[0]
+            lower = descent.end_height if high <= end_deg else ends[1]
+            largest = max(largest, upper - lower)
+    return largest
+
+
+def _turned(segment: Segment) -> Segment:
+    return Segment(
+        segment.start_deg + CIRCLE_DEG, segment.end_deg + CIRCLE_DEG, segment.start_height, segment.end_height
+    )
+
+
+def _highest(segment: Segment) -> float:
+    return max(segment.start_height, segment.end_height)
+
+
+def _lowest(segment: Segment) -> float:
+    return min(segment.start_height, segment.end_height)
