@@ -250,6 +250,7 @@ def test_where_there_is_no_snap_the_button_says_why(explorer: Explorer) -> None:
 
 
 def test_a_point_of_the_depth_and_of_a_disk_move_the_phase(explorer: Explorer) -> None:
+    explorer.wait_for_text("#depth", "snap: falls")
     picture = explorer.one("#depth svg")
     ActionChains(explorer.chromium).move_to_element(picture).click().perform()
     explorer.wait(

@@ -9,8 +9,9 @@ import { picture, pointIn, put, svg } from "./svg.js";
 import { className } from "./terms.js";
 import { angleTicks, decimalsOf, ticks } from "./ticks.js";
 import { angle, angleNumber, fixed, inTurn } from "./units.js";
+import { wrapped } from "./wrap.js";
 
-const LEAST = { width: 320, height: 180 };
+const LEAST = { width: 320, height: 130 };
 const LEFT = 86;
 const RIGHT = 14;
 const LINE = 15;
@@ -18,7 +19,9 @@ const BOTTOM = 38;
 const RIBBON = 12;
 const CLIP = "depth-clip";
 /** About how wide a letter is: lines of the key that do not fit beside each other are put below each other. */
-const LETTER = 6.1;
+const LETTER = 6.3;
+const BOLD_LETTER = 6.9;
+const MARK = 27;
 /** How many steps of the phase a key with Shift goes. */
 const MANY_STEPS = 10;
 
@@ -165,17 +168,34 @@ function isOf(state, view) {
   return state !== null && ["roll", "pitch", "phase"].every((name) => state.pose[name] === view[name]);
 }
 
-/** The lines of the key, each with entries {name, text}: one line where they fit beside each other. */
+/**
+ * The lines of the key, each with entries {name, text, x}: beside each other where they fit. A text that is longer than the
+ * picture is wide goes on in the next line, without a mark.
+ */
 function keyOf(history, beside, view, width) {
-  const curves = [
+  const entries = [
     { name: "first", text: "first contact" },
     { name: "rest", text: "at rest" },
     ...(beside ? [{ name: "beside", text: `first contact at ${beside.text}` }] : []),
+    ...(history?.snap ? [{ name: "snap", text: snapText(history.snap, view.unit) }] : []),
   ];
-  if (!history?.snap) return [curves];
-  const snap = { name: "snap", text: snapText(history.snap, view.unit) };
-  const taken = [...curves, snap].reduce((sum, { text }) => sum + 40 + text.length * LETTER, LEFT);
-  return taken < width ? [[...curves, snap]] : [curves, [snap]];
+  const lines = [[]];
+  let x = LEFT + MARK / 4;
+  for (const { name, text } of entries) {
+    const letters = Math.floor((width - LEFT - MARK) / (name === "snap" ? BOLD_LETTER : LETTER));
+    const parts = wrapped(text, letters, 3);
+    const taken = MARK + 12 + text.length * (name === "snap" ? BOLD_LETTER : LETTER);
+    if (x + taken > width && lines.at(-1).length > 0) {
+      lines.push([]);
+      x = LEFT + MARK / 4;
+    }
+    parts.forEach((part, k) => {
+      if (k > 0) lines.push([]);
+      lines.at(-1).push({ name, text: part, x, marked: k === 0 });
+    });
+    x += taken;
+  }
+  return lines;
 }
 
 function scaleOf(curves, { from, span }, { width, height }, keyLines) {
@@ -299,13 +319,12 @@ function jumpMarks(intervals, scale) {
 
 /** A line of the key: each entry's mark and text, beside each other. */
 function key(entries, y) {
-  let x = LEFT + 6;
-  return entries.flatMap(({ name, text }) => {
-    const at = x;
-    x += 40 + text.length * LETTER;
+  return entries.flatMap(({ name, text, x, marked }) => {
+    const words = svg("text", { x: x + MARK, y, class: name === "snap" ? "snap-text" : null }, text);
+    if (!marked) return [words];
     const mark = name === "snap"
-      ? svg("rect", { x: at, y: y - 9, width: 22, height: 10, class: "snap-span" })
-      : svg("line", { x1: at, x2: at + 22, y1: y - 4, y2: y - 4, class: `curve ${name}` });
-    return [mark, svg("text", { x: at + 27, y, class: name === "snap" ? "snap-text" : null }, text)];
+      ? svg("rect", { x, y: y - 9, width: 22, height: 10, class: "snap-span" })
+      : svg("line", { x1: x, x2: x + 22, y1: y - 4, y2: y - 4, class: `curve ${name}` });
+    return [mark, words];
   });
 }

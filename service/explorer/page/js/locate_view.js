@@ -6,13 +6,16 @@ import { CLASSES, FEATURES, FLAGS, REGIONS } from "./terms.js";
 import { angleNumber, inTurn, percent } from "./units.js";
 
 const MOST_SHOWN = 24;
+/** The ends of shorter stretches of phase are told apart by more decimals. */
+const SHORT_STRETCH = 0.2;
+const CONTACTS = ["a contact", "another", "a third"];
 const ANY = ["", "any"];
 const named = (names) => [ANY, ...Object.entries(names)];
-const CLASS_NAMES = Object.fromEntries(Object.entries(CLASSES).map(([key, { name }]) => [key, name]));
+const CLASS_NAMES = Object.fromEntries(Object.entries(CLASSES).map(([key, { short }]) => [key, short]));
 const FLAG_NAMES = Object.fromEntries(Object.entries(FLAGS).map(([key, text]) => [key, text.split(":")[0]]));
 const without = (left) => Object.fromEntries(Object.entries(REGIONS).filter(([region]) => region !== left));
 const PARTS = [
-  ["stage", "made at stage", [ANY, ["1", "1"], ["2", "2"], ["3", "3"]]],
+  ["stage", "stage", [ANY, ["1", "1"], ["2", "2"], ["3", "3"]]],
   ["bolt", "bolt", named(without("surface"))],
   ["nut", "nut", named(without("base"))],
   ["features", "features", [ANY, ...FEATURES.map((name) => [name, name])]],
@@ -26,13 +29,13 @@ export class LocateView {
     this.#goTo = goTo;
     const form = byId("locate-form");
     form.append(
-      html("div", { class: "choices" }, [
+      html("div", { class: "fields" }, [
         field("class", "class", named(CLASS_NAMES)),
         field("flag", "flag", named(FLAG_NAMES)),
-        field("contacts", "number of contacts", [ANY, ...["1", "2", "3", "4", "5", "6"].map((count) => [count, count])]),
+        field("contacts", "contacts", [ANY, ...["1", "2", "3", "4", "5", "6"].map((count) => [count, count])]),
       ]),
       ...Array.from({ length: MOST_CONTACTS }, (_, k) =>
-        html("fieldset", { class: "choices" }, [html("legend", {}, `a contact${k > 0 ? `, ${["", "another", "a third"][k]}` : ""}`), ...PARTS.map(([part, text, options]) => field(`${part}-${k}`, text, options))]),
+        html("fieldset", { class: "fields" }, [html("legend", {}, CONTACTS[k]), ...PARTS.map(([part, text, options]) => field(`${part}-${k}`, text, options))]),
       ),
       html("div", { class: "choices" }, [
         html("label", {}, [html("input", { type: "checkbox", name: "ordered" }), " these are the first contacts, in their order"]),
@@ -104,7 +107,10 @@ export function summaryText({ share, undecided_share: undecided, orientations },
 }
 
 function stretchesText(stretches) {
-  const shown = stretches.slice(0, 3).map(({ start, end }) => `${angleNumber(inTurn(start), 1)}–${angleNumber(inTurn(end), 1)}`);
+  const shown = stretches.slice(0, 3).map(({ start, end }) => {
+    const decimals = end - start < SHORT_STRETCH ? 4 : 1;
+    return `${angleNumber(inTurn(start), decimals)}–${angleNumber(inTurn(end), decimals)}`;
+  });
   const more = stretches.length > 3 ? ` and ${stretches.length - 3} more` : "";
   return `${shown.join(", ")}${more} deg`;
 }

@@ -8,14 +8,14 @@ import { picture, put, svg } from "./svg.js";
 import { CLASSES, className } from "./terms.js";
 import { angle, angleNumber } from "./units.js";
 
-const LEAST = { width: 300, height: 260 };
+const LEAST = { width: 280, height: 190 };
 const LEFT = 46;
 const RIGHT = 2;
 const TOP = 4;
 const BELOW = 62;
 const LETTERS_FROM = 14;
-const LEGEND_PLACES = [0, 64, 158];
-const LEGEND_WIDTH = 232;
+const LEGEND_PLACES = [0, 66, 166];
+const LEGEND_WIDTH = 240;
 const UNDECIDED_WIDTH = 84;
 const NONE = "–";
 const CROSS = 7;
@@ -219,7 +219,7 @@ function ownClass(model, view, [x, y], side) {
 function remainingMarks(remaining, placed, side) {
   return remaining.map((one) => {
     const [x, y] = placed(one);
-    return svg("circle", { cx: x + side / 2 - 6, cy: y - side / 2 + 6, r: 3.4, class: "remains" });
+    return svg("circle", { cx: x + side / 2 - 4.6, cy: y - side / 2 + 4.6, r: 2.6, class: "remains" });
   });
 }
 

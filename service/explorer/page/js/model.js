@@ -20,7 +20,7 @@ const UNRESOLVED = 422;
 const NOT_FOUND = 404;
 /** The parts that belong to one library. */
 const OF_LIBRARY = [
-  "orientations", "windows", "map", "history", "heights", "intervals", "state", "node", "path", "formations", "falls",
+  "orientations", "windows", "map", "history", "depth", "state", "node", "path", "formations", "falls",
   "measured", "located",
 ];
 
@@ -34,8 +34,8 @@ export class Model {
   windows = null;
   map = null;
   history = null;
-  heights = null;
-  intervals = null;
+  /** Heights and intervals of the orientation: they come together, as where the picture begins follows from both. */
+  depth = null;
   state = null;
   node = null;
   path = null;
@@ -61,6 +61,16 @@ export class Model {
     this.#failed = failed;
   }
 
+  /** Heights along the phase; null until they have come. */
+  get heights() {
+    return this.depth?.heights ?? null;
+  }
+
+  /** The intervals of the phase; null until they have come, and where the library has none. */
+  get intervals() {
+    return this.depth?.intervals ?? null;
+  }
+
   /** Address of the library that is shown. */
   get root() {
     return `/v1/libraries/${this.library.id}`;
@@ -82,8 +92,7 @@ export class Model {
     const where = `${library} ${unit} ${view.roll} ${view.pitch}`;
     if (needsSummaries(view)) this.#askForSummaries(unit);
     this.#want("state", `${where} ${view.phase}`, () => this.#state(view));
-    this.#want("heights", where, () => this.#heights(view));
-    this.#want("intervals", where, () => this.#intervals(view, this.library));
+    this.#want("depth", where, () => this.#depth(view, this.library));
     this.#followMap(view);
     this.#followTolerance(view);
     this.#followBeside(view);
@@ -165,7 +174,7 @@ export class Model {
       const library = await this.#optional(this.#api.get(`/v1/libraries/${id}`, { unit }));
       if (library === null) return { library: null, id, roll, pitch };
       const view = { unit, library: id, roll, pitch };
-      const [heights, intervals] = await Promise.all([this.#heights(view, library), this.#intervals(view, library)]);
+      const { heights, intervals } = await this.#depth(view, library);
       return { library, id, roll, pitch, heights, history: intervals?.history ?? null };
     });
   }
@@ -226,8 +235,13 @@ export class Model {
     return { phase, states };
   }
 
+  async #depth(view, library) {
+    const [heights, intervals] = await Promise.all([this.#heights(view, library), this.#intervals(view, library)]);
+    return { heights, intervals };
+  }
+
   /** Stored where the orientation is on the grid, else computed now. */
-  async #heights({ roll, pitch, unit }, library = this.library) {
+  async #heights({ roll, pitch, unit }, library) {
     if (!isOnGrid(library.grid, { roll, pitch })) return (await this.#computed("heights", { roll, pitch, unit }, library)).heights;
     const answer = await this.#optional(this.#api.get(`/v1/libraries/${library.id}/histories/${roll}/${pitch}/heights`, { unit }));
     return answer?.heights ?? heightsOf(await this.#history({ unit, roll, pitch }, library));

@@ -113,7 +113,7 @@ export class Pictures {
   redraw(part) {
     const view = this.#view.value;
     if (["map", "orientations", "windows", "library", "measured", "located"].includes(part)) this.#drawMap();
-    if (["heights", "intervals", "beside", "measured"].includes(part)) this.#drawCurves();
+    if (["depth", "beside", "measured"].includes(part)) this.#drawCurves();
     if (part === "falls") this.#showFalls();
     if (["located", "measured"].includes(part)) this.#drawLists();
     if (part === "state") {

@@ -5,7 +5,7 @@ import { byId, html } from "./html.js";
 import { say } from "./messages.js";
 import { posesOf, posesText } from "./poses.js";
 import { restHeight } from "./resting.js";
-import { className } from "./terms.js";
+import { CLASSES } from "./terms.js";
 import { angleNumber, length } from "./units.js";
 
 const MOST_FAULTS = 4;
@@ -62,7 +62,7 @@ export class PosesView {
     const rest = state && restHeight(state);
     const cells = [
       ...[pose.roll, pose.pitch, pose.phase].map((one) => angleNumber(one)),
-      state ? className(state.class) : "undecided",
+      state ? CLASSES[state.class].short : "undecided",
       state ? length(firstHeight(state), unit) : "",
       state ? (rest === null ? "does not rest" : length(rest, unit)) : "",
     ];
