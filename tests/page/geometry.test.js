@@ -4,6 +4,7 @@ import { test } from "node:test";
 import { inkOn, scaleColour } from "../../service/explorer/page/js/colours.js";
 import { depthCurves, heightAt, heightsOf, intervalAt, nextFormations, seen } from "../../service/explorer/page/js/curve.js";
 import { atPhase, phaseOf, sectors } from "../../service/explorer/page/js/disks.js";
+import { notesOf } from "../../service/explorer/page/js/follows_view.js";
 import { meshesOf } from "../../service/explorer/page/js/glb.js";
 import { behind, isOnGrid, nearestPhase, steppedPhase, steppedTilt, tilts } from "../../service/explorer/page/js/grid.js";
 import { poseAt } from "../../service/explorer/page/js/motion.js";
@@ -181,7 +182,10 @@ test("what comes next here stands first; the rest by its share", () => {
   const groups = groupsOf(node, 2, { ccw: "a", cw: null });
   const ccw = groups.find(({ move }) => move === "ccw");
   assert.deepEqual(ccw.shown.map(({ formation, here }) => [formation, here]), [["a", true], ["b", false]]);
-  assert.deepEqual([ccw.more, ccw.rest], [1, 0.4]);
+  assert.deepEqual([ccw.more, ccw.rest, ccw.unchanged], [1, 0.4, 0]);
+  assert.deepEqual(notesOf(ccw), ["and 1 more, 40 % together"]);
+  const [tilted] = groupsOf({ following: [one("a", "roll+", 0.3)] }, 2, {}).filter(({ move }) => move === "roll+");
+  assert.deepEqual(notesOf(tilted), ["70 %: the same, or the grid ends"]);
 });
 
 test("a formation is followed to where it occurs nearest", () => {

@@ -21,6 +21,7 @@ const CLIP = "depth-clip";
 /** About how wide a letter is: lines of the key that do not fit beside each other are put below each other. */
 const LETTER = 6.3;
 const BOLD_LETTER = 6.9;
+/** The mark before an entry of the key, with the room behind it. */
 const MARK = 27;
 /** How many steps of the phase a key with Shift goes. */
 const MANY_STEPS = 10;
