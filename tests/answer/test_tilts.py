@@ -30,7 +30,7 @@ def test_what_is_kept_is_what_is_solved_alone(network: LibraryNetwork, tilts: li
     kept = network.tilts.of(tilts)
     assert network.tilts.of(tilts) == kept
     for place in range(0, len(tilts), 97):
-        assert TiltChanges(network.histories, network.pair).of([tilts[place]]) == [kept[place]]
+        assert TiltChanges(network.histories, network.pair, network.options).of([tilts[place]]) == [kept[place]]
 
 
 def test_the_tilt_back_changes_the_same_the_other_way_round(network: LibraryNetwork, tilts: list[Transition]) -> None:

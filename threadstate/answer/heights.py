@@ -12,6 +12,7 @@ from threadstate.archive.stored import OrientationHistory
 from threadstate.history.build import history_of
 from threadstate.history.heights import Floats, Heights, KnownHeights, heights_of
 from threadstate.library.read import heights_between
+from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
 TOLERANCE = 2e-4
@@ -33,15 +34,15 @@ def stored_heights(connection: Connection, network: LibraryNetwork, roll_deg: fl
     return found
 
 
-def computed_heights(pair: Pair, roll_deg: float, pitch_deg: float) -> Heights:
+def computed_heights(pair: Pair, roll_deg: float, pitch_deg: float, options: SolveOptions | None = None) -> Heights:
     """The curve of any orientation.
 
     Raises:
         InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
     """
-    boundaries = history_of(pair, roll_deg, pitch_deg).boundaries
+    boundaries = history_of(pair, roll_deg, pitch_deg, options).boundaries
     sides = [phase for one in boundaries for phase in (one.low_deg, one.high_deg)]
-    return heights_of(pair, roll_deg, pitch_deg, sides, TOLERANCE * pair.thread_pitch)
+    return heights_of(pair, roll_deg, pitch_deg, sides, TOLERANCE * pair.thread_pitch, options=options)
 
 
 def heights_document(
@@ -66,7 +67,13 @@ def _curve(connection: Connection, network: LibraryNetwork, number: int) -> Heig
     known = {phase: on_grid.get(first + i, _UNDECIDED) for i, phase in enumerate(grid.phases_deg)}
     history = network.histories.orientations[number]
     return heights_of(
-        network.pair, roll_deg, pitch_deg, _sides(history, known), TOLERANCE * network.pair.thread_pitch, known
+        network.pair,
+        roll_deg,
+        pitch_deg,
+        _sides(history, known),
+        TOLERANCE * network.pair.thread_pitch,
+        known,
+        network.options,
     )
 
 

@@ -13,16 +13,19 @@ from threadstate.archive.stored import OrientationHistory, StoredBoundary, Store
 from threadstate.history.build import history_of
 from threadstate.history.window import windows_of
 from threadstate.network.cells import Cell
+from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
 
-def computed_history(pair: Pair, roll_deg: float, pitch_deg: float) -> OrientationHistory:
+def computed_history(
+    pair: Pair, roll_deg: float, pitch_deg: float, options: SolveOptions | None = None
+) -> OrientationHistory:
     """The history of any orientation, as a library stores it; its cells have orientation 0.
 
     Raises:
         InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
     """
-    history = history_of(pair, roll_deg, pitch_deg)
+    history = history_of(pair, roll_deg, pitch_deg, options)
     rows = history_rows(history, windows_of(pair, history))
     return orientation_history(0, rows, formations(rows.formations))
 

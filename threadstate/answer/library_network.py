@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from pydantic import TypeAdapter
 from sqlalchemy import Connection
 
 from threadstate.answer.documents import FormationSummaryDocument, NetworkSummaryDocument
@@ -16,13 +15,13 @@ from threadstate.archive.stored import StoredHistories
 from threadstate.errors import NotFoundError
 from threadstate.history.heights import Heights
 from threadstate.library.read import LibraryRecord, not_on_the_grid
+from threadstate.library.stored_inputs import library_options, library_pair
 from threadstate.network.cells import CellMap
 from threadstate.network.export import dot, graphml, node_link_json
 from threadstate.network.graph import ConstraintNetwork, constraint_network
 from threadstate.network.transitions import Transition, transitions
+from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
-
-_PAIR = TypeAdapter(Pair)
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,12 @@ class LibraryNetwork:
     @cached_property
     def pair(self) -> Pair:
         """The pair of the library."""
-        return _PAIR.validate_json(self.library.pair)
+        return library_pair(self.library)
+
+    @cached_property
+    def options(self) -> SolveOptions:
+        """The options of the library's solver."""
+        return library_options(self.library)
 
     @cached_property
     def cell_map(self) -> CellMap:
@@ -60,7 +64,7 @@ class LibraryNetwork:
     @cached_property
     def tilts(self) -> TiltChanges:
         """What tilts change, as far as it was asked for."""
-        return TiltChanges(self.histories, self.pair)
+        return TiltChanges(self.histories, self.pair, self.options)
 
     @cached_property
     def summary(self) -> NetworkSummaryDocument:

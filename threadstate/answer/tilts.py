@@ -11,6 +11,7 @@ from threadstate.history.differences import contact_changes
 from threadstate.network.moves import Move
 from threadstate.network.transitions import Transition
 from threadstate.state.model import ContactState
+from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.pair import Pair
 
@@ -47,9 +48,10 @@ UPWARDS = (Move.ROLL_UP, Move.PITCH_UP)
 class TiltChanges:
     """What the tilts of a library change, each half way through the stretch of phase over which it can be made."""
 
-    def __init__(self, histories: StoredHistories, pair: Pair) -> None:
+    def __init__(self, histories: StoredHistories, pair: Pair, options: SolveOptions) -> None:
         self._histories = histories
         self._pair = pair
+        self._options = options
         self._known: dict[tuple[PoseDeg, PoseDeg], TiltChange] = {}
 
     def of(self, tilts: Sequence[Transition]) -> list[TiltChange]:
@@ -57,7 +59,7 @@ class TiltChanges:
         sides = [self._sides(one) for one in tilts]
         unknown = [poses for poses in dict.fromkeys(sides) if poses is not None and poses not in self._known]
         if unknown:
-            states = iter(_solved(self._pair, [pose for poses in unknown for pose in poses]))
+            states = iter(_solved(self._pair, self._options, [pose for poses in unknown for pose in poses]))
             self._known.update((poses, _change(next(states), next(states))) for poses in unknown)
         return [self._change_of(one, poses) for one, poses in zip(tilts, sides, strict=True)]
 
@@ -89,16 +91,16 @@ def _height(state: ContactState | None, stage: int) -> float | None:
     return None if state is None else state.poses[stage].translation[2]
 
 
-def _solved(pair: Pair, poses: list[PoseDeg]) -> list[ContactState | None]:
+def _solved(pair: Pair, options: SolveOptions, poses: list[PoseDeg]) -> list[ContactState | None]:
     """The states of poses in order; None where undecided."""
     try:
-        return list(solve_poses(pair, poses))
+        return list(solve_poses(pair, poses, options))
     except UnresolvedPoseError:
-        return [_state(pair, pose) for pose in poses]
+        return [_state(pair, options, pose) for pose in poses]
 
 
-def _state(pair: Pair, pose: PoseDeg) -> ContactState | None:
+def _state(pair: Pair, options: SolveOptions, pose: PoseDeg) -> ContactState | None:
     try:
-        return solve_poses(pair, [pose])[0]
+        return solve_poses(pair, [pose], options)[0]
     except UnresolvedPoseError:
         return None

@@ -55,6 +55,7 @@ def heights_of(
     boundaries_deg: Iterable[float],
     tolerance: float,
     known: KnownHeights | None = None,
+    options: SolveOptions | None = None,
 ) -> Heights:
     """Heights from phase 0 to 360 between which straight lines are right.
 
@@ -69,7 +70,7 @@ def heights_of(
         unknown = sorted({phase for phase in (phases_deg % CIRCLE_DEG).tolist() if phase not in found})
         if unknown:
             poses = np.column_stack([np.full((len(unknown), 2), (roll_deg, pitch_deg)), unknown])
-            found.update(zip(unknown, _solved(pair, poses), strict=True))
+            found.update(zip(unknown, _solved(pair, options or SolveOptions(), poses), strict=True))
         return np.array([found[phase] for phase in (phases_deg % CIRCLE_DEG).tolist()]).reshape(-1, 2)
 
     even = np.linspace(0.0, CIRCLE_DEG, 1 + round(CIRCLE_DEG / START_DEG))
@@ -107,9 +108,9 @@ def _middles(low: Floats, high: Floats) -> Floats:
     return np.where((low < whole) & (whole < high), whole, middle)
 
 
-def _solved(pair: Pair, poses_deg: Floats) -> list[Solved]:
+def _solved(pair: Pair, options: SolveOptions, poses_deg: Floats) -> list[Solved]:
     """The heights of poses of shape (n, 3); NaN where undecided."""
-    records = solve_records(pair, SolveOptions(), poses_deg)
+    records = solve_records(pair, options, poses_deg)
     heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
     last = heights[np.arange(len(heights)), np.maximum(records[:, rk.O_POSES].astype(np.intp) - 1, 0)]
     both = np.column_stack([heights[:, 0], last])

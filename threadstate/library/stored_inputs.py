@@ -1,0 +1,29 @@
+"""The pair and the solver's options that a library was computed with, read back from its record."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields
+from functools import cache
+
+from pydantic import TypeAdapter
+
+from threadstate.library.read import LibraryRecord
+from threadstate.state.options import SolveOptions
+from threadstate.thread.pair import Pair
+
+
+def library_pair(record: LibraryRecord) -> Pair:
+    """The pair of a library, lengths in the library's own unit."""
+    return _adapter().validate_json(record.pair)
+
+
+def library_options(record: LibraryRecord) -> SolveOptions:
+    """The options of a library's solver; of a library by meshes those that every method has."""
+    stored = json.loads(record.options)
+    return SolveOptions(**{field.name: stored[field.name] for field in fields(SolveOptions)})
+
+
+@cache
+def _adapter() -> TypeAdapter[Pair]:
+    return TypeAdapter(Pair)
