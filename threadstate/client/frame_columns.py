@@ -103,6 +103,7 @@ _STRETCHES: tuple[Column[StretchDocument], ...] = (
     degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
     degrees("start", "phase at which the stretch begins", lambda one: one.start),
     degrees("end", "phase at which it ends; above 360 where it holds phase 0", lambda one: one.end),
+    words("formation", "key of its contact formation", lambda one: one.formation),
 )
 
 _TRANSITIONS: tuple[Column[TransitionDocument], ...] = (
