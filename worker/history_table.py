@@ -16,33 +16,34 @@ from threadstate.answer.documents import (
 )
 from threadstate.units import LengthUnit
 from worker.output import print_line
-from worker.tables import angle, console, length, table
+from worker.tables import angle, interval_end, length, phase, table
 
 
 def print_history(history: OrientationHistoryDocument, unit: LengthUnit) -> None:
     """One row an interval, and what changes where it begins; then the windows."""
-    rows = table("from", "to", "formation", f"height ({unit})", "in window", "begins with", "contacts")
+    rows = table("from", "to", "formation", f"height ({unit})", "in window", "begins with", "contacts", words_last=True)
     for i, interval in enumerate(history.intervals):
         begins = history.boundaries[i] if history.boundaries else None
         rows.add_row(
-            angle(interval.start),
-            angle(interval.end),
+            phase(interval.start),
+            interval_end(interval.start, interval.end),
             interval.formation.key,
-            length(interval.first_height),
+            length(interval.first_height, unit),
             "yes" if interval.in_window else "",
             "" if begins is None else ", ".join(sorted({kind for one in begins.changes for kind in one.kinds})),
             interval.formation.text,
         )
-    console().print(rows)
+    rows.print()
     print_windows(history.windows, unit)
 
 
 def print_heights(heights: HeightsDocument, unit: LengthUnit) -> None:
     """One row a phase."""
     rows = table("phase", f"first contact ({unit})", "last pose")
-    for phase, first, last in zip(heights.phases, heights.first_heights, heights.last_heights, strict=True):
-        rows.add_row(f"{phase:.9f}", length(first), length(last))
-    console().print(rows)
+    for at, first, last in zip(heights.phases, heights.first_heights, heights.last_heights, strict=True):
+        # A jump is between two phases that all but coincide.
+        rows.add_row(f"{at:.9f}", length(first, unit), length(last, unit))
+    rows.print()
 
 
 def print_windows(windows: Sequence[WindowDocument], unit: LengthUnit) -> None:
@@ -52,34 +53,45 @@ def print_windows(windows: Sequence[WindowDocument], unit: LengthUnit) -> None:
         rows.add_row(
             f"{one.roll:g}",
             f"{one.pitch:g}",
-            angle(one.enter),
-            angle(one.leave),
+            phase(one.enter),
+            interval_end(one.enter, one.leave),
             f"{one.width:.3f}",
-            length(one.drop),
-            length(one.climb),
-            angle(None if one.snap is None else one.snap.phase),
-            length(None if one.snap is None else one.snap.fall),
+            length(one.drop, unit),
+            length(one.climb, unit),
+            phase(None if one.snap is None else one.snap.phase),
+            length(None if one.snap is None else one.snap.fall, unit),
         )
-    console().print(rows)
+    rows.print()
 
 
 def print_transitions(transitions: Sequence[TransitionDocument], unit: LengthUnit) -> None:
     """One row a transition."""
-    rows = table("move", "roll", "pitch", "phase", "to", "from", "to", f"height changes by ({unit})", "what changes")
+    rows = table(
+        "move",
+        "roll",
+        "pitch",
+        "phase",
+        "to",
+        "from",
+        "to",
+        f"height changes by ({unit})",
+        "what changes",
+        words_last=True,
+    )
     for one in transitions:
         before, after = one.first_height
         rows.add_row(
             one.move.value,
             f"{one.source.roll:g}",
             f"{one.source.pitch:g}",
-            angle(one.phase),
-            angle(one.phase_end) if one.phase_end != one.phase else "",
+            phase(one.phase),
+            interval_end(one.phase, one.phase_end) if one.phase_end != one.phase else "",
             one.source.formation,
             one.target.formation,
-            "-" if before is None or after is None else f"{after - before:+.9f}",
+            length(None if before is None or after is None else after - before, unit, signed=True),
             one.text,
         )
-    console().print(rows)
+    rows.print()
 
 
 def print_summary(summary: NetworkSummaryDocument) -> None:
@@ -110,7 +122,7 @@ def print_node(node: NodeDocument) -> None:
     rows = table("move", "next formation", "share")
     for one in node.following:
         rows.add_row(one.move.value, one.formation, f"{100.0 * one.share:.2f} %")
-    console().print(rows)
+    rows.print()
 
 
 def print_path(path: PathDocument | None, unit: LengthUnit) -> None:
@@ -118,27 +130,33 @@ def print_path(path: PathDocument | None, unit: LengthUnit) -> None:
     if path is None:
         print_line("no path: the moves allowed lead to no window")
         return
-    margin = f"worst margin {length(path.worst_margin)} {unit}"
+    margin = f"worst margin {length(path.worst_margin, unit)} {unit}"
     print_line(f"{path.turning:.6f} deg of turning, {path.transitions} transitions, {margin}")
-    rows = table("move", "roll", "pitch", "phase", "turned", "margin", "formation", "contacts")
+    rows = table("move", "roll", "pitch", "phase", "turned", "margin", "formation", "contacts", words_last=True)
     for step in path.steps:
         rows.add_row(
             "" if step.move is None else step.move.value,
             f"{step.roll:g}",
             f"{step.pitch:g}",
-            angle(step.phase),
+            phase(step.phase),
             angle(step.turning),
-            length(step.margin),
+            length(step.margin, unit),
             step.formation,
             step.text,
         )
-    console().print(rows)
+    rows.print()
 
 
 def print_location(location: LocationDocument) -> None:
-    """What remains, one row a stretch."""
+    """What remains: one row a formation, then one row a stretch."""
     print_line(f"{100.0 * location.share:.3f} % of all phases remain, at {location.orientations} orientations")
-    rows = table("roll", "pitch", "from", "to")
+    formations = table("formation", "share", "contacts", words_last=True)
+    for formation in location.formations:
+        formations.add_row(formation.key, f"{100.0 * formation.share:.3f} %", formation.text)
+    formations.print()
+    print_line("")
+    rows = table("roll", "pitch", "from", "to", "formation")
     for one in location.stretches:
-        rows.add_row(f"{one.roll:g}", f"{one.pitch:g}", angle(one.start), angle(one.end))
-    console().print(rows)
+        end = interval_end(one.start, one.end)
+        rows.add_row(f"{one.roll:g}", f"{one.pitch:g}", phase(one.start), end, one.formation)
+    rows.print()
