@@ -27,6 +27,7 @@ class LibraryRecord:
     """A published library: what it was computed from, and what it holds. ``pair`` and ``options`` are JSON.
 
     ``state_count`` is how many states it has; its method could not decide ``undecided_count`` more poses of the grid.
+    ``is_pinned``: ``latest`` means this library, whatever is published later.
     """
 
     id: int
@@ -43,6 +44,7 @@ class LibraryRecord:
     undecided_count: int
     created_at: datetime
     published_at: datetime
+    is_pinned: bool
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ def library_by_input(connection: Connection, input_sha256: str) -> LibraryRecord
 def latest_library(
     connection: Connection, designation: str | None = None, method: Method | None = Method.EXACT
 ) -> LibraryRecord:
-    """The library published last, of all or of one designation, by a method or (None) by any.
+    """The pinned library, or else the one published last: of all or of one designation, by a method or (None) by any.
 
     Raises:
         NotFoundError: none is published.
@@ -92,7 +94,7 @@ def latest_library(
     which = [] if method is None else [library.c.method == method.value]
     if designation is not None:
         which.append(library.c.designation == designation)
-    row = _published(connection, *which)
+    row = _published(connection, library.c.pinned_at.is_not(None), *which) or _published(connection, *which)
     if row is None:
         of = "" if designation is None else f" of {designation!r}"
         chosen = f" --method {method.value}" if method is Method.MESH else ""
@@ -253,4 +255,5 @@ def _record(row: RowMapping) -> LibraryRecord:
         undecided_count=row["undecided_count"],
         created_at=row["created_at"],
         published_at=row["published_at"],
+        is_pinned=row["pinned_at"] is not None,
     )
