@@ -71,14 +71,14 @@ def print_falls(orientations: Sequence[FallsDocument], unit: LengthUnit, span: f
     )
     for one in orientations:
         snap = one.snap
+        told = ["-"] * 5
+        if snap is not None:
+            ends = phase(snap.start), interval_end(snap.start, snap.end)
+            told = [*ends, length(snap.fall, unit), length(snap.jump, unit), phase(snap.jump_at)]
         rows.add_row(
             f"{one.roll:g}",
             f"{one.pitch:g}",
-            phase(snap and snap.start),
-            "-" if snap is None else interval_end(snap.start, snap.end),
-            length(snap and snap.fall, unit),
-            length(snap and snap.jump, unit),
-            phase(snap and snap.jump_at),
+            *told,
             length(one.steepest, unit),
             phase(one.steepest_from),
         )

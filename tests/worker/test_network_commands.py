@@ -57,8 +57,11 @@ def test_tables_name_what_the_objects_hold(ask: Callable[..., str]) -> None:
     history = json.loads(ask("history", "--roll", "0", "--pitch", "-2", "--stored", "--json"))
     shown = ask("history", "--roll", "0", "--pitch", "-2", "--stored")
     assert all(one["formation"]["key"] in shown for one in history["intervals"])
-    (window,) = (json.loads(line) for line in ask("windows", "--roll", "0", "--pitch", "-2", "--json").splitlines())
-    assert f"{window['snap']['phase']:.6f}" in ask("windows", "--roll", "0", "--pitch", "-2")
+    (orientation,) = json.loads(ask("windows", "--roll", "0", "--pitch", "-2", "--json"))["orientations"]
+    shown = ask("windows", "--roll", "0", "--pitch", "-2")
+    assert f"{orientation['snap']['fall']:.6f}" in shown
+    assert f"{orientation['snap']['from']:.6f}" in shown
+    assert f"{orientation['windows'][0]['enter']:.6f}" in shown
     key = next(one for one in history["intervals"] if not one["in_window"])["formation"]["key"]
     node = json.loads(ask("formation", "--key", key, "--json"))
     assert all(one["formation"] in ask("formation", "--key", key) for one in node["following"])
@@ -74,6 +77,74 @@ def test_tables_name_what_the_objects_hold(ask: Callable[..., str]) -> None:
     lines = ask("transitions", "--roll", "0", "--pitch", "-2", "--move", "ccw", "--limit", "5", "--json").splitlines()
     assert [json.loads(line)["move"] for line in lines] == ["ccw"] * 5
     assert json.loads(lines[0])["target"]["formation"] in ask("transitions", "--roll", "0", "--pitch", "-2")
+
+
+def test_windows_of_all_orientations_are_one_object(ask: Callable[..., str]) -> None:
+    found = json.loads(ask("windows", "--json"))
+    assert (found["library"], found["unit"]) == (1, "in")
+    tilts = [(one["roll"], one["pitch"]) for one in found["orientations"]]
+    assert tilts == [(roll, pitch) for roll in GRID.tilts_deg for pitch in GRID.tilts_deg]
+    names = {"from", "to", "fall", "steepest", "steepest_from", "jump", "jump_at"}
+    assert {None if one["snap"] is None else frozenset(one["snap"]) for one in found["orientations"]} == {
+        None,
+        frozenset(names),
+    }
+    mm = json.loads(ask("windows", "--json", "--unit", "mm"))
+    for one, other in zip(found["orientations"], mm["orientations"], strict=True):
+        assert other["steepest"] == pytest.approx(25.4 * one["steepest"], rel=1e-12)
+
+
+def test_falls_of_any_tilt_are_computed(ask: Callable[..., str]) -> None:
+    asked = ("windows", "--roll", "2.5", "--pitch", "-1.2", "--json")
+    (found,) = json.loads(ask(*asked))["orientations"]
+    history = json.loads(ask("history", "--roll", "2.5", "--pitch", "-1.2", "--json"))
+    assert found == {name: history[name] for name in found}
+    (narrow,) = json.loads(ask(*asked, "--span", "0.5", "--least", "0.06"))["orientations"]
+    assert 0.0 < narrow["steepest"] < found["steepest"]
+    assert (narrow["snap"], narrow["windows"]) == (None, found["windows"])
+
+
+def test_a_tolerance_gives_a_range(ask: Callable[..., str]) -> None:
+    asked = ("windows", "--roll", "0", "--pitch", "-2", "--tolerance", "0.2")
+    found = json.loads(ask(*asked, "--json"))
+    low, high = found["range"]["fall"]
+    assert low < found["orientations"][0]["snap"]["fall"] < high
+    assert f"{low:.6f}" in ask(*asked)
+    assert "9 of 9 tilts" in ask(*asked)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--roll", "2.5"], "one of -2, 0, 2 deg"),
+        (["--tolerance", "0.3"], "with --roll and --pitch"),
+        (["--roll", "0", "--pitch", "0", "--tolerance", "3"], "at most 2 deg"),
+        (["--roll", "0", "--pitch", "0", "--span", "0"], "above 0"),
+        (["--roll", "11", "--pitch", "0"], "-10 to 10"),
+    ],
+)
+def test_what_cannot_be_answered_says_what_can(
+    command_line_on: Callable[[str], CommandLine], database: str, arguments: list[str], message: str
+) -> None:
+    code, out, err = command_line_on(database).here("windows", "--database", database, *arguments)
+    assert (code, out) == (2, "")
+    assert message in err
+
+
+def test_orientations_are_compared_side_by_side(ask: Callable[..., str]) -> None:
+    asked = ("compare", "--tilt", "0,-2", "--tilt", "2.5,-1.2", "--library", "1", "--library", "latest")
+    found = json.loads(ask(*asked, "--json"))["orientations"]
+    assert [(one["library"], one["roll"], one["pitch"]) for one in found] == [(1, 0, -2), (1, 2.5, -1.2)] * 2
+    (stored,) = json.loads(ask("windows", "--roll", "0", "--pitch", "-2", "--json"))["orientations"]
+    assert found[0] == {"library": 1, "designation": "1/4-20 UNC", "thread_pitch": 0.05, **stored}
+    assert ask(*asked).count(f"{stored['snap']['fall']:.6f}") == 2
+
+
+def test_a_tilt_that_is_none_is_refused(command_line_on: Callable[[str], CommandLine], database: str) -> None:
+    for tilt in ("0", "0,-4,1", "a,b"):
+        code, _, err = command_line_on(database).here("compare", "--database", database, "--tilt", tilt)
+        assert code == 2
+        assert "two angles in degrees" in err
 
 
 def test_a_library_is_asked_by_its_name(ask: Callable[..., str]) -> None:

@@ -186,8 +186,10 @@ def not_on_the_grid(library: LibraryRecord, roll_deg: float, pitch_deg: float) -
     """The error for an orientation (degrees) that is none of a library's grid."""
     grid = library.grid
     return NotFoundError(
-        f"library {library.id} has no orientation of roll {roll_deg:g}, pitch {pitch_deg:g} deg; "
-        f"its grid: -{grid.tilt_max_deg:g} to {grid.tilt_max_deg:g} deg in steps of {grid.tilt_step_deg:g}"
+        f"library {library.id} has no orientation of roll {roll_deg!r}, pitch {pitch_deg!r} deg; "
+        f"its grid: -{grid.tilt_max_deg:g} to {grid.tilt_max_deg:g} deg in steps of {grid.tilt_step_deg:g}. Any other "
+        f"within 10 deg is computed from its pair: `threadstate windows` and `history`, "
+        f"/v1/histories/{roll_deg!r}/{pitch_deg!r}/falls?library={library.id}"
     )
 
 

@@ -40,7 +40,7 @@ def compare(
     from worker.stored_network import stored_network
 
     angles = [_angles(text) for text in tilts or ["0,-4"]]
-    networks = [stored_network(database, name) for name in libraries or [None]]
+    networks = [stored_network(database, name) for name in libraries or (None,)]
     shown = unit or networks[0].pair.unit
     compared = []
     for network in networks:
