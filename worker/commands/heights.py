@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -26,6 +27,10 @@ def heights(
         bool, typer.Option("--stored", help="From the library's tables alone, never computed.", show_default=False)
     ] = False,
     unit: UnitName = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option("--plot", metavar="FILE", help="Draw it, too, as .svg or .png."),
+    ] = None,
     database: Database = None,
     pair: PairName = None,
     dimension: Dimensions = None,
@@ -42,8 +47,16 @@ def heights(
       threadstate heights --roll 1.5 --pitch -0.7 --json
       threadstate heights --roll 0 --pitch -4 --library latest
       threadstate heights --roll 2.5 --pitch -1.2 --pair examples/m6x1.toml
+      threadstate heights --roll 0 --pitch -4 --library latest --unit mm --plot heights.svg
     """
+    from worker.plots import check_plot_file, plot_heights
+
+    if plot is not None:
+        check_plot_file(plot)
+
     from threadstate.answer.heights import computed_heights, heights_document, stored_heights
+    from threadstate.answer.histories import computed_history
+    from threadstate.answer.windows import windows_document
     from threadstate.units import conversion_factor
     from worker.history_table import print_heights
     from worker.orientation_source import orientation_source
@@ -53,10 +66,16 @@ def heights(
         if source.stored is not None:
             connection, network = source.stored
             found = stored_heights(connection, network, roll, pitch)
+            history = network.histories.orientations[network.orientation(roll, pitch)]
         else:
             found = computed_heights(threads, roll, pitch, source.options)
+            history = None if plot is None else computed_history(threads, roll, pitch, source.options)
     shown = unit or threads.unit
-    document = heights_document(found, roll, pitch, threads.thread_pitch, conversion_factor(threads.unit, shown))
+    factor = conversion_factor(threads.unit, shown)
+    document = heights_document(found, roll, pitch, threads.thread_pitch, factor)
+    if plot is not None and history is not None:
+        windows = windows_document(history, roll, pitch, threads.thread_pitch, factor).windows
+        plot_heights(document, windows, shown, plot)
     if as_json:
         print_json({"unit": shown.value, **document.model_dump(mode="json")})
         return

@@ -56,11 +56,14 @@ def windows(
     from threadstate.units import conversion_factor
     from worker.falls import falls_and_windows
     from worker.history_table import print_falls, print_falls_range, print_windows
+    from worker.plots import check_plot_file, plot_map
     from worker.progress import followed
     from worker.stored_network import stored_network
 
     if tolerance is not None and (roll is None or pitch is None):
         raise InvalidValueError("--tolerance", tolerance, "with --roll and --pitch")
+    if plot is not None:
+        check_plot_file(plot)
     network = stored_network(database, library)
     shown = unit or network.pair.unit
     factor = conversion_factor(network.pair.unit, shown)
@@ -76,8 +79,6 @@ def windows(
             followed(tilts, "tilts"),
         )
     if plot is not None:
-        from worker.plots import plot_map
-
         falls = {(one.roll, one.pitch): None if one.snap is None else one.snap.fall for one in found}
         plot_map(falls, f"{network.pair.designation}: fall of the snap", shown, plot)
     if as_json:
