@@ -12,11 +12,11 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.kept.names import LibraryNames
-from service.libraries.identify import LATEST
 from service.network.store import NetworkStore
 from service.renditions.shelf import RenditionShelf
 from threadstate.answer.prepare import preparation
 from threadstate.errors import NotFoundError
+from threadstate.library.named import LATEST
 from threadstate.library.read import LibraryRecord
 
 STEPS_AT_START = 3

@@ -76,5 +76,5 @@ class MissingExtraError(ThreadstateError):
     """Something needs a package that is not installed; the message names the extra that brings it."""
 
     def __init__(self, purpose: str, extra: str) -> None:
-        super().__init__(f"{purpose} needs the extra `{extra}`: pip install 'threadstate[{extra}]'")
+        super().__init__(f"{purpose} needs the extra `{extra}`: pip install '.[{extra}]' in a checkout of threadstate")
         self.extra = extra

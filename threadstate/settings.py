@@ -23,6 +23,7 @@ DATABASE = "THREADSTATE_DATABASE"
 DATABASE_PASSWORD_FILE = "THREADSTATE_DATABASE_PASSWORD_FILE"  # nosec B105
 WORKERS = "THREADSTATE_WORKERS"
 SCHEDULER = "THREADSTATE_SCHEDULER"
+PAIR = "THREADSTATE_PAIR"
 HOST = "THREADSTATE_HOST"
 PORT = "THREADSTATE_PORT"
 READ_KEYS = "THREADSTATE_READ_KEYS"
@@ -46,6 +47,7 @@ NAMES = (
     DATABASE_PASSWORD_FILE,
     WORKERS,
     SCHEDULER,
+    PAIR,
     HOST,
     PORT,
     READ_KEYS,
@@ -103,6 +105,7 @@ class Settings:
         database: URL of the database.
         workers: how many processes compute.
         scheduler: address of the Dask scheduler whose workers compute in their place; None: they do.
+        pair: designation, or path of a file, of the pair that commands are about; None: the catalogue's first.
         host: address that the service listens on.
         port: port that it listens on.
         read_keys_required: whether reading, too, needs a key.
@@ -123,6 +126,7 @@ class Settings:
     database: str
     workers: int
     scheduler: str | None
+    pair: str | None
     host: str
     port: int
     read_keys_required: bool
@@ -151,6 +155,7 @@ def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
         database=environment.get(DATABASE) or f"sqlite:///{data_dir / DATABASE_FILE}",
         workers=_integer(environment, WORKERS, _processors(), LARGEST_WORKER_COUNT),
         scheduler=environment.get(SCHEDULER) or None,
+        pair=environment.get(PAIR) or None,
         host=environment.get(HOST) or "127.0.0.1",
         port=_integer(environment, PORT, 8000, 65535),
         read_keys_required=_one_of(environment, READ_KEYS, ("open", "required")) == "required",

@@ -6,17 +6,21 @@ import gc
 import inspect
 import os
 import sys
+from typing import Annotated
 
 import typer
 from typer.exceptions import TyperException
 
+import threadstate
 from threadstate.errors import ThreadstateError
+from worker.commands.compare import compare
 from worker.commands.copy import copy
 from worker.commands.export import export
 from worker.commands.formation import formation
 from worker.commands.heights import heights
 from worker.commands.history import history
 from worker.commands.key import key
+from worker.commands.libraries import libraries
 from worker.commands.locate import locate
 from worker.commands.mesh import mesh
 from worker.commands.migrate import migrate
@@ -25,6 +29,7 @@ from worker.commands.path import path
 from worker.commands.rebuild import rebuild
 from worker.commands.run import run
 from worker.commands.serve import serve
+from worker.commands.settings import settings
 from worker.commands.solve import solve
 from worker.commands.summary import summary
 from worker.commands.sweep import sweep
@@ -33,12 +38,13 @@ from worker.commands.windows import windows
 from worker.commands.worker import worker
 from worker.exit_codes import ExitCode, exit_code_of
 from worker.garbage import collect_rarely
+from worker.output import print_line
 
 PROGRAM = "threadstate"
+HELP = "Contact states of a bolt that meets a nut askew: solved one by one, or as a whole library."
 
 app = typer.Typer(
     name=PROGRAM,
-    help="Contact states of a bolt that meets a nut askew: solved one by one, or as a whole library.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -49,10 +55,12 @@ COMMANDS = (
     solve,
     rebuild,
     sweep,
+    libraries,
     summary,
     history,
     heights,
     windows,
+    compare,
     transitions,
     network,
     formation,
@@ -66,11 +74,33 @@ COMMANDS = (
     key,
     serve,
     run,
+    settings,
 )
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print_line(f"{PROGRAM} {threadstate.__version__}")
+        raise typer.Exit
+
+
+@app.callback(help=HELP)
+def _program(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version.", show_default=False
+        ),
+    ] = False,
+) -> None:
+    pass
+
 
 for command in COMMANDS:
     # In a raw docstring the mark that keeps lines apart is two characters; typer wants the one that they stand for.
-    app.command(help=inspect.cleandoc(command.__doc__ or "").replace("\\b", "\b"))(command)
+    text = inspect.cleandoc(command.__doc__ or "").replace("\\b", "\b")
+    # The overview shows a short help as it is, and cuts what it takes from a long one.
+    app.command(help=text, short_help=text.split("\n\n")[0].replace("\n", " "))(command)
 
 
 def main() -> None:

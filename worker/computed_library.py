@@ -1,4 +1,4 @@
-"""A library by name and grid, computed in a database with a progress bar; what ``rebuild`` and ``run`` share."""
+"""A library of a pair and a grid, computed in a database with a progress bar; what ``rebuild`` and ``run`` share."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.schema import check_schema, stored_revision
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
-from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+from threadstate.thread.pair import Pair
 from worker.forkserver import running_forkserver
 from worker.migrate import migrate
 from worker.progress import progress_bar
@@ -18,7 +18,7 @@ from worker.rebuild import Rebuild, rebuild
 def computed_library(
     database: str,
     *,
-    designation: str | None,
+    pair: Pair,
     phase_step_deg: float,
     tilt_max_deg: float,
     tilt_step_deg: float,
@@ -36,7 +36,6 @@ def computed_library(
         ComputeError: a computing process failed.
         ClusterError: the cluster cannot be used, or not any more.
     """
-    pair = pair_by_designation(DEFAULT_DESIGNATION if designation is None else designation)
     inputs = LibraryInputs(pair, Grid(tilt_max_deg, tilt_step_deg, phase_step_deg), SolveOptions(), mesh)
     with writing(database) as engine:
         if stored_revision(engine) is None:

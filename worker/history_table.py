@@ -2,84 +2,185 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
 
 from threadstate.answer.documents import (
+    FallsDocument,
+    FallsRangeDocument,
     HeightsDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
     OrientationHistoryDocument,
+    OrientationWindowsDocument,
     PathDocument,
+    SnapDocument,
     TransitionDocument,
     WindowDocument,
 )
+from threadstate.history.falls import SPAN_DEG
 from threadstate.units import LengthUnit
 from worker.output import print_line
-from worker.tables import angle, console, length, table
+from worker.tables import angle, interval_end, length, phase, table
 
 
 def print_history(history: OrientationHistoryDocument, unit: LengthUnit) -> None:
-    """One row an interval, and what changes where it begins; then the windows."""
-    rows = table("from", "to", "formation", f"height ({unit})", "in window", "begins with", "contacts")
+    """One row an interval, and what changes where it begins; then the falls and the windows."""
+    rows = table("from", "to", "formation", f"height ({unit})", "in window", "begins with", "contacts", words_last=True)
     for i, interval in enumerate(history.intervals):
         begins = history.boundaries[i] if history.boundaries else None
         rows.add_row(
-            angle(interval.start),
-            angle(interval.end),
+            phase(interval.start),
+            interval_end(interval.start, interval.end),
             interval.formation.key,
-            length(interval.first_height),
+            length(interval.first_height, unit),
             "yes" if interval.in_window else "",
             "" if begins is None else ", ".join(sorted({kind for one in begins.changes for kind in one.kinds})),
             interval.formation.text,
         )
-    console().print(rows)
+    rows.print()
+    print_line("")
+    print_falls([history], unit)
+    print_line("")
     print_windows(history.windows, unit)
 
 
 def print_heights(heights: HeightsDocument, unit: LengthUnit) -> None:
     """One row a phase."""
-    rows = table("phase", f"first contact ({unit})", "last pose")
-    for phase, first, last in zip(heights.phases, heights.first_heights, heights.last_heights, strict=True):
-        rows.add_row(f"{phase:.9f}", length(first), length(last))
-    console().print(rows)
+    rows = table("phase", f"first contact ({unit})", "at rest")
+    for at, first, last in zip(heights.phases, heights.first_heights, heights.rest_heights, strict=True):
+        # A jump is between two phases that all but coincide.
+        rows.add_row(f"{at:.9f}", length(first, unit), length(last, unit))
+    rows.print()
+
+
+def print_falls(orientations: Sequence[FallsDocument], unit: LengthUnit, span: float = SPAN_DEG) -> None:
+    """One row an orientation: its snap, and its steepest fall within ``span`` degrees of phase."""
+    rows = table(
+        "roll",
+        "pitch",
+        "snap from",
+        "to",
+        f"falls ({unit})",
+        "jumps",
+        "at",
+        f"steepest in {span:g} deg",
+        "from",
+    )
+    for one in orientations:
+        snap = one.snap
+        told = ["-"] * 5
+        if snap is not None:
+            ends = phase(snap.start), interval_end(snap.start, snap.end)
+            told = [*ends, length(snap.fall, unit), length(snap.jump, unit), phase(snap.jump_at)]
+        rows.add_row(
+            f"{one.roll:g}",
+            f"{one.pitch:g}",
+            *told,
+            length(one.steepest, unit),
+            phase(one.steepest_from),
+        )
+    rows.print()
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """An orientation of a library beside others; lengths in the unit that all are shown in."""
+
+    library: int
+    designation: str
+    thread_pitch: float
+    found: OrientationWindowsDocument
+
+
+def print_compared(compared: Sequence[Compared], unit: LengthUnit) -> None:
+    """One column an orientation of a library."""
+    rows = table("", *(f"{one.designation} (library {one.library})" for one in compared))
+
+    def add(name: str, cell: Callable[[Compared], str]) -> None:
+        rows.add_row(name, *(cell(one) for one in compared))
+
+    def of_snap(cell: Callable[[SnapDocument], str]) -> Callable[[Compared], str]:
+        return lambda one: "-" if one.found.snap is None else cell(one.found.snap)
+
+    add("roll, pitch (deg)", lambda one: f"{one.found.roll:g}, {one.found.pitch:g}")
+    add(f"thread pitch ({unit})", lambda one: length(one.thread_pitch, unit))
+    add("snap from (deg)", of_snap(lambda snap: phase(snap.start)))
+    add("snap to", of_snap(lambda snap: interval_end(snap.start, snap.end)))
+    add(f"snap falls ({unit})", of_snap(lambda snap: length(snap.fall, unit)))
+    add(
+        "... in thread pitches",
+        lambda one: "-" if one.found.snap is None else f"{one.found.snap.fall / one.thread_pitch:.4f}",
+    )
+    add(f"of it jumps ({unit})", of_snap(lambda snap: length(snap.jump, unit)))
+    add("... at (deg)", of_snap(lambda snap: phase(snap.jump_at)))
+    add(f"steepest in {SPAN_DEG:g} deg ({unit})", lambda one: length(one.found.steepest, unit))
+    add("windows (deg)", lambda one: ", ".join(f"{window.width:.3f}" for window in one.found.windows) or "-")
+    rows.print()
+
+
+def print_falls_range(found: FallsRangeDocument, unit: LengthUnit) -> None:
+    """What the tilts within a tolerance give, from least to most."""
+    of = f"of {found.tilts} tilts within +-{found.tolerance:g} deg"
+    print_line(f"roll {found.roll:g}, pitch {found.pitch:g} deg: {found.snaps} {of} snap")
+    rows = table("", "least", "most")
+    for name, within, write in (
+        (f"steepest ({unit})", found.steepest, partial(length, unit=unit)),
+        (f"snap falls ({unit})", found.fall, partial(length, unit=unit)),
+        (f"of it jumps ({unit})", found.jump, partial(length, unit=unit)),
+        ("snap from", found.snap_from, phase),
+        ("snap to", found.snap_to, phase),
+    ):
+        low, high = within or (None, None)
+        rows.add_row(name, write(low), write(high))
+    rows.print()
 
 
 def print_windows(windows: Sequence[WindowDocument], unit: LengthUnit) -> None:
     """One row a window."""
-    rows = table("roll", "pitch", "enter", "leave", "width", f"drop ({unit})", "climb", "snap at", "falls by")
+    rows = table("roll", "pitch", "window from", "to", "width", f"climbs ({unit})")
     for one in windows:
         rows.add_row(
             f"{one.roll:g}",
             f"{one.pitch:g}",
-            angle(one.enter),
-            angle(one.leave),
+            phase(one.enter),
+            interval_end(one.enter, one.leave),
             f"{one.width:.3f}",
-            length(one.drop),
-            length(one.climb),
-            angle(None if one.snap is None else one.snap.phase),
-            length(None if one.snap is None else one.snap.fall),
+            length(one.climb, unit),
         )
-    console().print(rows)
+    rows.print()
 
 
 def print_transitions(transitions: Sequence[TransitionDocument], unit: LengthUnit) -> None:
     """One row a transition."""
-    rows = table("move", "roll", "pitch", "phase", "to", "from", "to", f"height changes by ({unit})", "what changes")
+    rows = table(
+        "move",
+        "roll",
+        "pitch",
+        "phase",
+        "to",
+        "from",
+        "to",
+        f"height changes by ({unit})",
+        "what changes",
+        words_last=True,
+    )
     for one in transitions:
         before, after = one.first_height
         rows.add_row(
             one.move.value,
             f"{one.source.roll:g}",
             f"{one.source.pitch:g}",
-            angle(one.phase),
-            angle(one.phase_end) if one.phase_end != one.phase else "",
+            phase(one.phase),
+            interval_end(one.phase, one.phase_end) if one.phase_end != one.phase else "",
             one.source.formation,
             one.target.formation,
-            "-" if before is None or after is None else f"{after - before:+.9f}",
+            length(None if before is None or after is None else after - before, unit, signed=True),
             one.text,
         )
-    console().print(rows)
+    rows.print()
 
 
 def print_summary(summary: NetworkSummaryDocument) -> None:
@@ -110,7 +211,7 @@ def print_node(node: NodeDocument) -> None:
     rows = table("move", "next formation", "share")
     for one in node.following:
         rows.add_row(one.move.value, one.formation, f"{100.0 * one.share:.2f} %")
-    console().print(rows)
+    rows.print()
 
 
 def print_path(path: PathDocument | None, unit: LengthUnit) -> None:
@@ -118,27 +219,33 @@ def print_path(path: PathDocument | None, unit: LengthUnit) -> None:
     if path is None:
         print_line("no path: the moves allowed lead to no window")
         return
-    margin = f"worst margin {length(path.worst_margin)} {unit}"
+    margin = f"worst margin {length(path.worst_margin, unit)} {unit}"
     print_line(f"{path.turning:.6f} deg of turning, {path.transitions} transitions, {margin}")
-    rows = table("move", "roll", "pitch", "phase", "turned", "margin", "formation", "contacts")
+    rows = table("move", "roll", "pitch", "phase", "turned", "margin", "formation", "contacts", words_last=True)
     for step in path.steps:
         rows.add_row(
             "" if step.move is None else step.move.value,
             f"{step.roll:g}",
             f"{step.pitch:g}",
-            angle(step.phase),
+            phase(step.phase),
             angle(step.turning),
-            length(step.margin),
+            length(step.margin, unit),
             step.formation,
             step.text,
         )
-    console().print(rows)
+    rows.print()
 
 
 def print_location(location: LocationDocument) -> None:
-    """What remains, one row a stretch."""
+    """What remains: one row a formation, then one row a stretch."""
     print_line(f"{100.0 * location.share:.3f} % of all phases remain, at {location.orientations} orientations")
-    rows = table("roll", "pitch", "from", "to")
+    formations = table("formation", "share", "contacts", words_last=True)
+    for formation in location.formations:
+        formations.add_row(formation.key, f"{100.0 * formation.share:.3f} %", formation.text)
+    formations.print()
+    print_line("")
+    rows = table("roll", "pitch", "from", "to", "formation")
     for one in location.stretches:
-        rows.add_row(f"{one.roll:g}", f"{one.pitch:g}", angle(one.start), angle(one.end))
-    console().print(rows)
+        end = interval_end(one.start, one.end)
+        rows.add_row(f"{one.roll:g}", f"{one.pitch:g}", phase(one.start), end, one.formation)
+    rows.print()

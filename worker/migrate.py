@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import track
 from sqlalchemy import Engine
 
 from threadstate.archive.complete import completed, incomplete_orientations
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.library.turns import Turn, take_turn
+from worker.progress import followed
 
 
 @dataclass(frozen=True)
@@ -57,14 +56,7 @@ def _complete(engine: Engine) -> int:
     """Add to stored histories what they lack, with a progress bar on stderr; of how many orientations."""
     incomplete = incomplete_orientations(engine)
     if incomplete:
-        progress = track(
-            completed(engine, incomplete),
-            "descents",
-            len(incomplete),
-            console=Console(stderr=True),
-            refresh_per_second=5,
-        )
-        for _ in progress:
+        for _ in followed(completed(engine, incomplete), "descents", len(incomplete)):
             pass
     return len(incomplete)
 

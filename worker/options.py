@@ -9,6 +9,7 @@ import typer
 from threadstate import settings
 from threadstate.errors import InvalidValueError
 from threadstate.library.method import Method
+from threadstate.units import LengthUnit
 
 Database = Annotated[
     str | None,
@@ -21,13 +22,40 @@ Database = Annotated[
     ),
 ]
 
+LibraryName = Annotated[
+    str | None,
+    typer.Option(
+        "--library",
+        metavar="NAME",
+        help="Which library: its number, its thread's designation or slug, latest, or latest-mesh.",
+        show_default="latest",
+    ),
+]
+
+UnitName = Annotated[
+    LengthUnit | None, typer.Option("--unit", help="Unit of all lengths.", show_default="the thread's own")
+]
+
 MethodName = Annotated[Method, typer.Option("--method", help="How states are found.")]
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.", show_default=False)]
 
-Designation = Annotated[
+PairName = Annotated[
     str | None,
-    typer.Option("--pair", metavar="NAME", help="Designation of the pair.", show_default="the catalogue's first"),
+    typer.Option(
+        "--pair",
+        metavar="NAME",
+        help="Designation of the pair, or a TOML file of its dimensions; with --dimension, a name for it.",
+        show_default=f"{settings.PAIR}, else 1/4-20 UNC",
+    ),
+]
+Dimensions = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--dimension",
+        metavar="KEY=VALUE",
+        help="A dimension of one's own pair, as thread_pitch=1 or fit.nut_pitch_diameter=5.35; any number of times.",
+    ),
 ]
 
 PhaseStep = Annotated[float, typer.Option("--phase-step", metavar="DEG", help="Step of phase; divides 360.")]

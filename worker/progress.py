@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from typing import TypeVar
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TaskID, TextColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TaskID, TextColumn, track
 from rich.progress import TimeRemainingColumn as TimeLeftColumn
 from rich.text import Text
 
@@ -45,6 +46,20 @@ class ProgressBar:
         """Move on."""
         if self._task is not None:
             self._progress.advance(self._task, poses)
+
+
+Item = TypeVar("Item")
+
+
+def followed(items: Iterable[Item], name: str, count: int | None = None) -> Iterable[Item]:
+    """The same items, with a progress bar on stderr while they are gone through; none where it is no terminal.
+
+    ``count`` is how many there are, where the items do not say.
+    """
+    console = Console(stderr=True)
+    return track(
+        items, name, count, console=console, refresh_per_second=5, transient=True, disable=not console.is_terminal
+    )
 
 
 @contextmanager

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import socket
 import sys
 from typing import NoReturn
 
+from threadstate.errors import ThreadstateError
 from threadstate.settings import DATABASE, HOST, PORT
 from worker.output import tell
 
@@ -13,15 +16,48 @@ SERVICE = "service"
 """The service by name: the worker does not import it."""
 
 
+class UnusableAddressError(ThreadstateError):
+    """An address that the service cannot listen on."""
+
+
 def become_service(database: str, host: str, port: int) -> NoReturn:
     """Replace this process by the service, which so gets every signal itself.
 
     What ``serve`` and ``run`` end with.
+
+    Raises:
+        UnusableAddressError: the address cannot be listened on.
     """
+    check_address(host, port)
     tell(f"Open {address(host, port)} in a browser, or ask {address(host, port)}/v1/libraries/latest.")
     environment = {**os.environ, DATABASE: database, HOST: host, PORT: str(port)}
     # This very interpreter, and arguments that no shell reads.
     os.execve(sys.executable, [sys.executable, "-m", SERVICE], environment)  # nosec B606
+
+
+def check_address(host: str, port: int) -> None:
+    """Check that an address can be listened on; not where systemd passes on a socket that listens already.
+
+    Raises:
+        UnusableAddressError: another process listens on the port, or the address is none of this machine.
+    """
+    if os.environ.get("LISTEN_PID") == str(os.getpid()):
+        return
+    try:
+        family, kind, protocol, _, found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        with socket.socket(family, kind, protocol) as listening:
+            # As the service does: a port whose last connections are still being closed is free.
+            listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            listening.bind(found)
+            listening.listen()
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            raise UnusableAddressError(
+                f"port {port} of {host} is taken by another process; --port chooses another one"
+            ) from None
+        raise UnusableAddressError(
+            f"cannot listen on {host}, port {port} ({error.strerror or error}); --host and --port choose others"
+        ) from None
 
 
 def address(host: str, port: int) -> str:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from threadstate.answer.lengths import scaled
 from threadstate.state.model import ContactState
 from threadstate.units import LengthUnit
-from worker.tables import angle, console, length, table
+from worker.tables import angle, length, table
 
 
-def print_states(states: Sequence[ContactState], unit: LengthUnit) -> None:
-    """One row a state: pose, class, turns, lengths, flags."""
+def print_states(states: Sequence[ContactState], unit: LengthUnit, factor: float) -> None:
+    """One row a state: pose, class, turns, lengths (multiplied by ``factor``, in ``unit``), flags."""
     rows = table(
         "roll", "pitch", "phase", "class", "lambda", "mu", f"drop ({unit})", "embedment", "pivot offset", "flags"
     )
@@ -18,27 +19,27 @@ def print_states(states: Sequence[ContactState], unit: LengthUnit) -> None:
         rows.add_row(
             f"{state.roll_deg:g}",
             f"{state.pitch_deg:g}",
-            f"{state.phase_deg:g}",
+            f"{state.phase_deg % 360.0:g}",
             state.state_class.value,
             angle(state.lambda_deg),
             angle(state.mu_deg),
-            length(state.drop),
-            length(state.embedment),
-            length(state.pivot_offset),
+            length(scaled(state.drop, factor), unit),
+            length(scaled(state.embedment, factor), unit),
+            length(scaled(state.pivot_offset, factor), unit),
             ", ".join(state.flags),
         )
-    console().print(rows)
+    rows.print()
 
 
-def print_contacts(state: ContactState, unit: LengthUnit) -> None:
-    """One row a contact: where it is, on what, between which features."""
+def print_contacts(state: ContactState, unit: LengthUnit, factor: float) -> None:
+    """One row a contact: where it is (lengths multiplied by ``factor``, in ``unit``), between which features."""
     rows = table("stage", f"x ({unit})", "y", "z", "bolt region", "nut region", "features")
     for contact in state.contacts:
         rows.add_row(
             str(contact.stage),
-            *(length(coordinate) for coordinate in contact.point),
+            *(length(coordinate * factor, unit) for coordinate in contact.point),
             contact.bolt_region.value,
             contact.nut_region.value,
             contact.features.value,
         )
-    console().print(rows)
+    rows.print()

@@ -1,4 +1,4 @@
-"""The network of the latest library, for the commands that ask about it."""
+"""A library by its name, and its network, for the commands that ask about it."""
 
 from __future__ import annotations
 
@@ -9,26 +9,42 @@ from sqlalchemy import Connection
 
 from threadstate.answer.library_network import LibraryNetwork, library_network
 from threadstate.library.engine import reading
-from threadstate.library.read import latest_library
+from threadstate.library.named import LATEST, named_library
+from threadstate.library.read import LibraryRecord
 from threadstate.library.schema import check_schema
 from threadstate.settings import read_settings
 
 
-def stored_network(database: str | None) -> LibraryNetwork:
-    """The histories and the network of the latest library by the exact method.
+@contextmanager
+def connected_library(database: str | None, name: str | None) -> Iterator[tuple[Connection, LibraryRecord]]:
+    """The library of a name (None: ``latest``), with the connection that it was read by.
 
     Raises:
         SchemaError: the database is at another revision.
-        NotFoundError: no library is published.
+        NotFoundError: no such library is published.
     """
-    with connected_network(database) as (_, network):
-        return network
-
-
-@contextmanager
-def connected_network(database: str | None) -> Iterator[tuple[Connection, LibraryNetwork]]:
-    """As :func:`stored_network`, with the connection that it was read by."""
     with reading(database or read_settings().database) as engine:
         check_schema(engine)
         with engine.connect() as connection:
-            yield connection, library_network(connection, latest_library(connection))
+            yield connection, named_library(connection, LATEST if name is None else name)
+
+
+def checked_database(database: str) -> None:
+    """Check that a database is there and at this code's schema, before something opens it that would make it.
+
+    Raises:
+        SchemaError: it is not.
+    """
+    with reading(database) as engine:
+        check_schema(engine)
+
+
+def stored_network(database: str | None, name: str | None = None) -> LibraryNetwork:
+    """The histories and the network of the library of a name (None: ``latest``).
+
+    Raises:
+        SchemaError: the database is at another revision.
+        NotFoundError: no such library is published, or it has no histories.
+    """
+    with connected_library(database, name) as (connection, record):
+        return library_network(connection, record)

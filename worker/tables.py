@@ -2,32 +2,94 @@
 
 from __future__ import annotations
 
-from rich.console import Console
-from rich.table import Table
+import shutil
+import sys
+import textwrap
+from collections.abc import Sequence
 
-WIDTH_OF_A_FILE = 160
-"""How wide tables are where stdout is no terminal."""
+from threadstate.units import LengthUnit
+from worker.output import print_line
+
+_GAP = "  "
+_INDENT = "      "
+LEAST_WIDTH = 20
+"""Words are not folded to less, however narrow the terminal."""
+
+LENGTH_DECIMALS = {LengthUnit.INCH: 6, LengthUnit.MILLIMETRE: 5}
+"""Decimals of a length in a table: finer than any measurement, coarser than round-off."""
+ANGLE_DECIMALS = 6
+
+PAST_360 = "-> "
+"""Stands before the end of an interval that goes on past phase 360."""
 
 
-def table(*columns: str) -> Table:
-    """An empty table without lines."""
-    made = Table(box=None, pad_edge=False)
-    for column in columns:
-        made.add_column(column)
-    return made
+class Table:
+    """A table without lines. A row is one line.
+
+    Where the last column holds words, and the terminal is narrower than the table, these words go below their row.
+    """
+
+    def __init__(self, columns: Sequence[str], *, words_last: bool) -> None:
+        self._rows: list[Sequence[str]] = [columns]
+        self._words_last = words_last
+
+    def add_row(self, *cells: str) -> None:
+        """Add a row, one cell a column."""
+        assert len(cells) == len(self._rows[0])
+        self._rows.append(cells)
+
+    def print(self) -> None:
+        """Print the table, at the width of the terminal where there is one."""
+        widths = [max(len(row[i]) for row in self._rows) for i in range(len(self._rows[0]))]
+        available = terminal_width()
+        if not self._words_last or available is None or sum(widths) + len(_GAP) * (len(widths) - 1) <= available:
+            for row in self._rows:
+                print_line(_line(row, widths))
+            return
+        for row in self._rows:
+            print_line(_line(row[:-1], widths))
+            width = max(available - len(_INDENT), LEAST_WIDTH)
+            for line in textwrap.wrap(row[-1], width, break_long_words=False, break_on_hyphens=False):
+                print_line(f"{_INDENT}{line}")
 
 
-def console() -> Console:
-    """Where tables are printed."""
-    found = Console(highlight=False)
-    return found if found.is_terminal else Console(highlight=False, width=WIDTH_OF_A_FILE)
+def table(*columns: str, words_last: bool = False) -> Table:
+    """An empty table of these columns; ``words_last``: the last one holds words, of any length."""
+    return Table(columns, words_last=words_last)
+
+
+def terminal_width() -> int | None:
+    """How many characters a line of the terminal has; None where stdout is none."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
 def angle(value: float | None) -> str:
     """An angle in degrees."""
-    return "-" if value is None else f"{value:.6f}"
+    return "-" if value is None else _fixed(value, ANGLE_DECIMALS)
 
 
-def length(value: float | None) -> str:
-    """A length."""
-    return "-" if value is None else f"{value + 0.0:.9f}"
+def phase(value: float | None) -> str:
+    """A phase in degrees, in [0, 360)."""
+    return "-" if value is None else _fixed(round(value, ANGLE_DECIMALS) % 360.0, ANGLE_DECIMALS)
+
+
+def interval_end(start: float, end: float) -> str:
+    """The phase at which an interval ends, in [0, 360), with a mark where the interval goes on past 360."""
+    goes_on = round(end, ANGLE_DECIMALS) >= 360.0 > start
+    return f"{PAST_360 if goes_on else ''}{phase(end)}"
+
+
+def length(value: float | None, unit: LengthUnit, *, signed: bool = False) -> str:
+    """A length in its unit, to the decimals of tables; 0 for what is less than half of the last one."""
+    if value is None:
+        return "-"
+    rounded = round(value, LENGTH_DECIMALS[unit])
+    return "0" if rounded == 0.0 else f"{rounded:{'+' if signed else ''}.{LENGTH_DECIMALS[unit]}f}"
+
+
+def _fixed(value: float, decimals: int) -> str:
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"
+
+
+def _line(cells: Sequence[str], widths: Sequence[int]) -> str:
+    return _GAP.join(cell.ljust(width) for cell, width in zip(cells, widths, strict=False)).rstrip()

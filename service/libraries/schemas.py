@@ -8,8 +8,8 @@ from datetime import datetime
 
 from pydantic import BaseModel, Field, TypeAdapter
 
-from service.libraries.identify import slug
 from threadstate.library.method import Method
+from threadstate.library.named import slug
 from threadstate.library.read import Counts, LibraryRecord
 from threadstate.state.model import Flag, StateClass
 from threadstate.thread.pair import Pair

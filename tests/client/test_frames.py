@@ -75,7 +75,7 @@ def test_a_library_that_is_not_installed_is_named_with_its_extra(
     monkeypatch: pytest.MonkeyPatch, module: str, make: Any
 ) -> None:
     monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(MissingExtraError, match=rf"pip install 'threadstate\[{module}\]'"):
+    with pytest.raises(MissingExtraError, match=rf"pip install '\.\[{module}\]'"):
         make([])
 
 
@@ -83,5 +83,5 @@ def test_without_its_extra_the_client_says_which(monkeypatch: pytest.MonkeyPatch
     for name in [name for name in sys.modules if name.startswith("threadstate.client")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "httpx2", None)
-    with pytest.raises(MissingExtraError, match=r"pip install 'threadstate\[client\]'"):
+    with pytest.raises(MissingExtraError, match=r"pip install '\.\[client\]'"):
         __import__("threadstate.client")

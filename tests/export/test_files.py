@@ -185,7 +185,7 @@ def test_a_library_that_is_removed_meanwhile_is_no_file(
 def test_without_pyarrow_the_extra_is_named(engine: Engine, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     library = record(engine, 1)
-    with pytest.raises(MissingExtraError, match=r"pip install 'threadstate\[parquet\]'"):
+    with pytest.raises(MissingExtraError, match=r"pip install '\.\[parquet\]'"):
         content(engine, library, TableName.STATES, FileFormat.PARQUET)
     with pytest.raises(MissingExtraError):
         file_sha256(library, TableName.STATES, FileFormat.PARQUET, INCH)

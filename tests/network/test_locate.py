@@ -26,20 +26,28 @@ CELLS = (
 CELL_MAP = CellMap((0.0, 1.0), CELLS)
 
 
-def test_cells_that_touch_are_one_stretch_through_phase_0() -> None:
+def test_cells_of_a_formation_that_touch_are_one_stretch_through_phase_0() -> None:
     found = locate(CELL_MAP, Observation(state_class=StateClass.STABLE_THREE_POINT, contact_count=3))
-    assert found.stretches == (Stretch(0, 10.0, 370.0), Stretch(3, 0.0, 90.0))
+    assert found.stretches == (
+        Stretch(0, 200.0, 300.0, C),
+        Stretch(0, 300.0, 560.0, B),
+        Stretch(3, 0.0, 90.0, B),
+    )
+    assert found.width_by_formation == {B: 350.0, C: 100.0}
     assert found.share == 450.0 / 1440.0
     assert found.undecided_share == 0.125
     assert found.orientations == (0, 3)
     on_surface = Observation(contact_count=3, contacts=(ContactObservation(nut_region=Region.SURFACE),))
-    assert locate(CELL_MAP, on_surface).stretches == (Stretch(0, 300.0, 560.0), Stretch(3, 0.0, 90.0))
+    assert locate(CELL_MAP, on_surface).stretches == (Stretch(0, 300.0, 560.0, B), Stretch(3, 0.0, 90.0, B))
 
 
 def test_flags_and_features() -> None:
-    assert locate(CELL_MAP, Observation(flags=frozenset(TIE))).stretches == (Stretch(0, 100.0, 300.0),)
+    assert locate(CELL_MAP, Observation(flags=frozenset(TIE))).stretches == (
+        Stretch(0, 100.0, 200.0, B),
+        Stretch(0, 200.0, 300.0, C),
+    )
     edge = ContactObservation(stage=1, features=FeaturePair.EDGE_EDGE)
-    assert locate(CELL_MAP, Observation(contacts=(edge,))).stretches == (Stretch(0, 200.0, 300.0),)
+    assert locate(CELL_MAP, Observation(contacts=(edge,))).stretches == (Stretch(0, 200.0, 300.0, C),)
 
 
 def test_what_was_observed_twice_is_two_contacts() -> None:

@@ -19,6 +19,7 @@ from threadstate.library.engine import reading, writing
 from threadstate.library.grid import Grid
 from threadstate.library.orientations import OrientationSummary, orientation_summaries
 from threadstate.library.tables import library
+from threadstate.library.write import pin_library
 from threadstate.settings import CACHE_MB, DATABASE, read_settings
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -121,6 +122,20 @@ def test_publication_and_removal_show_at_once(databases: Databases) -> None:
             connection.execute(library.delete().where(library.c.id == second.id))
         assert f'"library":{first.id},' in client.get(path).text
         assert client.get(f"/v1/libraries/{second.id}/orientations").status_code == 404
+
+
+@pytest.mark.sqlite_alone
+def test_pinning_shows_at_once(databases: Databases) -> None:
+    database = databases.migrated()
+    first = store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 90.0), made_up_states)
+    second = store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 120.0), made_up_states)
+    path = "/v1/libraries/latest/orientations"
+    with TestClient(create_app(read_settings({DATABASE: database}))) as client, writing(database) as engine:
+        for pinned, latest in ((None, second), (first.id, first), (second.id, second), (first.id, first)):
+            pin_library(engine, pinned)
+            assert f'"library":{latest.id},' in client.get(path).text
+            assert client.get("/v1/libraries/latest").json()["id"] == latest.id
+            assert client.get("/v1/libraries/1-4-20-unc").json()["id"] == latest.id
 
 
 @pytest.mark.sqlite_alone

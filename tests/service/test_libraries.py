@@ -5,7 +5,6 @@ from collections import Counter
 import pytest
 from fastapi.testclient import TestClient
 
-from service.libraries.identify import slug
 from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, client_of, store_library
 from tests.service.made_up_states import made_up_states
@@ -63,8 +62,3 @@ def test_list_has_published_libraries_alone_and_the_latest_first(databases: Data
         assert client.get("/v1/libraries/latest").json()["id"] == second.id
         assert client.get("/v1/libraries/1-4-20-unc").json()["id"] == first.id
         assert client.get(f"/v1/libraries/{unfinished}").status_code == 404
-
-
-def test_slug_is_lower_case_with_single_hyphens() -> None:
-    assert slug("1/4-20 UNC") == "1-4-20-unc"
-    assert slug("  M6 x 1 (6g) ") == "m6-x-1-6g"

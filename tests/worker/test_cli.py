@@ -11,24 +11,33 @@ import pytest
 from typer.core import TyperGroup
 from typer.main import get_command
 
+import threadstate
 from tests.worker.conftest import COMMAND, CommandLine
 from threadstate.errors import UnresolvedPoseError
 from threadstate.mesh.options import Descent, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solve import solve_poses_by_mesh
-from threadstate.state.document import state_json
+from threadstate.state.document import state_document
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
+from threadstate.units import LengthUnit, conversion_factor
 from worker.cli import PROGRAM, app
 from worker.commands.solve import BATCH
 from worker.exit_codes import ExitCode
 
 pytestmark = pytest.mark.sqlite_alone
 
+UNC = quarter_twenty_unc()
 POSE = ["--roll", "4", "--pitch", "0", "--phase", "185"]
+
+
+def _line(state: ContactState, unit: LengthUnit = LengthUnit.INCH) -> str:
+    """The line that a state is printed as."""
+    document = state_document(state, conversion_factor(LengthUnit.INCH, unit))
+    return json.dumps({**document, "unit": unit.value}, separators=(",", ":")) + "\n"
 
 
 def _commands() -> TyperGroup:
@@ -53,7 +62,7 @@ def _sections(text: str) -> dict[str, str]:
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_and_option_is_documented(repository_root: Path, name: str) -> None:
     section = _sections((repository_root / "docs" / "cli.md").read_text())[name].split("## Exit codes")[0]
-    documented = set(re.findall(r"`(--[a-z-]+)(?: [A-Z]+)?`", section))
+    documented = set(re.findall(r"`(--[a-z-]+)(?: [A-Z=]+)?`", section))
     assert documented - {"--json"} == set(_options(name)) - {"--json"}
     assert ("--json" in documented) == ("--json" in set(_options(name))) or name == "run"
 
@@ -87,6 +96,20 @@ def test_help_lists_the_commands(command_line: CommandLine, arguments: list[str]
     assert all(re.search(rf"^  {name} ", out, re.M) for name in COMMANDS)
 
 
+@pytest.mark.parametrize("columns", ["40", "80", "200"])
+def test_no_description_of_the_overview_is_cut(
+    command_line: CommandLine, monkeypatch: pytest.MonkeyPatch, columns: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", columns)
+    _, out, _ = command_line.here("--help")
+    assert "..." not in out.partition("Commands:")[2]
+    told = " ".join(out.split())
+    for name in COMMANDS:
+        text = _commands().commands[name].help
+        assert text is not None
+        assert " ".join(text.split("\n\n")[0].split()) in told
+
+
 def test_help_loads_nothing_heavy(environment: Mapping[str, str]) -> None:
     script = (
         "import sys; from worker.cli import run_command_line; run_command_line(['rebuild', '--help'])\n"
@@ -99,7 +122,7 @@ def test_help_loads_nothing_heavy(environment: Mapping[str, str]) -> None:
 def test_a_pose_is_one_object(command_line: CommandLine) -> None:
     code, out, err = command_line.here("solve", *POSE, "--json")
     assert (code, err) == (0, "")
-    assert out == state_json(solve_pose(quarter_twenty_unc(), 4.0, 0.0, 185.0)) + "\n"
+    assert out == _line(solve_pose(UNC, 4.0, 0.0, 185.0))
     assert list(json.loads(out))[:4] == ["roll", "pitch", "phase", "class"]
 
 
@@ -109,13 +132,13 @@ def test_poses_of_a_file_are_one_object_a_line_in_its_order(command_line: Comman
     path.write_text("roll,pitch,phase\n" + "".join(f"{roll},{pitch},{phase}\n" for roll, pitch, phase in poses))
     code, out, _ = command_line.here("solve", "--poses", str(path), "--json")
     assert code == 0
-    assert out.splitlines() == [state_json(solve_pose(quarter_twenty_unc(), *pose)) for pose in poses]
+    assert out == "".join(_line(solve_pose(UNC, *pose)) for pose in poses)
 
 
 def test_a_named_pair_is_solved(command_line: CommandLine) -> None:
     name = "1/4-20 UNC newer root"
     _, out, _ = command_line.here("solve", *POSE, "--pair", name, "--json")
-    assert out == state_json(solve_pose(pair_by_designation(name), 4.0, 0.0, 185.0)) + "\n"
+    assert out == _line(solve_pose(pair_by_designation(name), 4.0, 0.0, 185.0))
 
 
 def test_a_pose_is_solved_by_meshes(command_line: CommandLine) -> None:
@@ -124,7 +147,7 @@ def test_a_pose_is_solved_by_meshes(command_line: CommandLine) -> None:
     code, out, err = command_line.here("solve", *POSE, "--method", "mesh", *chosen, "--json")
     options = MeshOptions(Preset.COARSE.tessellation, Descent.DECADES, 2e-4, Tangent.AZIMUTHAL, Scene.EDGES)
     assert (code, err) == (0, "")
-    assert out == state_json(solve_poses_by_mesh(quarter_twenty_unc(), [(4.0, 0.0, 185.0)], options)[0]) + "\n"
+    assert out == _line(solve_poses_by_mesh(UNC, [(4.0, 0.0, 185.0)], options)[0])
     assert "stable" in command_line.here("solve", *POSE, "--method", "mesh")[1]
 
 
@@ -140,8 +163,21 @@ def test_without_json_a_pose_is_a_table(command_line: CommandLine) -> None:
     state = solve_pose(quarter_twenty_unc(), 4.0, 0.0, 185.0)
     assert code == 0
     assert state.state_class.value in out
-    assert f"{state.contacts[0].point[0]:.9f}" in out
+    assert f"{state.contacts[0].point[0]:.6f}" in out
     assert len(out.splitlines()) == 3 + len(state.contacts)
+    in_mm = command_line.here("solve", *POSE, "--unit", "mm")[1]
+    assert "x (mm)" in in_mm
+    assert f"{state.contacts[0].point[0] * 25.4:.5f}" in in_mm
+    assert command_line.here("solve", *POSE, "--unit", "mm", "--json")[1] == _line(state, LengthUnit.MILLIMETRE)
+
+
+def test_a_phase_of_another_turn_is_shown_in_this_one(command_line: CommandLine) -> None:
+    row = command_line.here("solve", "--roll", "4", "--pitch", "0", "--phase", "-175")[1].splitlines()[1]
+    assert row.split()[:3] == ["4", "0", "185"]
+
+
+def test_the_version_is_the_packages(command_line: CommandLine) -> None:
+    assert command_line.here("--version") == (0, f"{PROGRAM} {threadstate.__version__}\n", "")
 
 
 @pytest.mark.parametrize("options", [[], ["--json"]])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 
@@ -12,13 +13,31 @@ from tests.worker.conftest import ONE_ORIENTATION, CommandLine
 from threadstate.library.schema import SCHEMA_REVISION
 from worker.exit_codes import ExitCode
 
+READING = ["summary", "libraries", "windows", "network", "serve"]
 
-@pytest.mark.parametrize("name", ["summary", "serve"])
-def test_a_database_that_is_not_migrated_ends_with_3(command_line: CommandLine, name: str) -> None:
+
+def _check_refusal(command_line: CommandLine, name: str, words: str) -> None:
     code, out, err = command_line.here(name)
     assert (code, out) == (ExitCode.SCHEMA, "")
-    assert "run `threadstate migrate`" in err
+    assert words in err
     assert len(err.splitlines()) == 1
+
+
+@pytest.mark.postgresql_alone
+@pytest.mark.parametrize("name", READING)
+def test_a_database_that_is_not_migrated_ends_with_3(command_line: CommandLine, name: str) -> None:
+    _check_refusal(command_line, name, "run `threadstate migrate`")
+
+
+@pytest.mark.sqlite_alone
+@pytest.mark.parametrize("name", READING)
+def test_a_file_without_schema_is_told_from_one_that_does_not_exist(command_line: CommandLine, name: str) -> None:
+    file = Path(command_line.database.removeprefix("sqlite:///"))
+    _check_refusal(command_line, name, f"database file {file} does not exist; --database or THREADSTATE_DATABASE")
+    assert not file.exists()
+    file.parent.mkdir(exist_ok=True)
+    file.touch()
+    _check_refusal(command_line, name, "run `threadstate migrate`")
 
 
 def test_nothing_published_ends_with_4(command_line: CommandLine) -> None:

@@ -319,12 +319,22 @@ class PathDocument(_Document):
 
 
 class StretchDocument(_Document):
-    """Phases of an orientation that remain."""
+    """Phases of an orientation that remain, all of one formation."""
 
     roll: float
     pitch: float
     start: float
     end: float
+    formation: str = Field(description="its key")
+
+
+class LocatedFormationDocument(_Document):
+    """A formation that remains."""
+
+    key: str
+    state_class: StateClass | None = Field(serialization_alias="class", validation_alias=_CLASS)
+    text: str = Field(description="its class and contacts in words")
+    share: float = Field(description="where it remains, of all phases of all orientations")
 
 
 class LocationDocument(_Document):
@@ -333,6 +343,7 @@ class LocationDocument(_Document):
     share: float = Field(description="of all phases of all orientations")
     undecided_share: float = Field(description="where the solver decides no state, so that nothing excludes it")
     orientations: int
+    formations: list[LocatedFormationDocument] = Field(description="the most frequent first")
     stretches: list[StretchDocument]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from threadstate.answer.documents import (
     FollowingDocument,
     FormationSummaryDocument,
+    LocatedFormationDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
@@ -127,11 +128,22 @@ def location_document(location: Location, cell_map: CellMap) -> LocationDocument
     stretches = []
     for one in location.stretches:
         roll, pitch = cell_map.tilt_deg(one.orientation)
-        stretches.append(StretchDocument(roll=roll, pitch=pitch, start=one.start_deg, end=one.end_deg))
+        stretches.append(
+            StretchDocument(roll=roll, pitch=pitch, start=one.start_deg, end=one.end_deg, formation=one.formation.key)
+        )
     return LocationDocument(
         share=location.share,
         undecided_share=location.undecided_share,
         orientations=len(location.orientations),
+        formations=[
+            LocatedFormationDocument(
+                key=formation.key,
+                state_class=formation.state_class,
+                text=formation.text,
+                share=width / cell_map.total_deg,
+            )
+            for formation, width in location.width_by_formation.items()
+        ],
         stretches=stretches,
     )
 

@@ -149,12 +149,17 @@ def _window(row: Row, courses: tuple[Course, ...]) -> Window:
     return Window(enter, leave, enter_height, leave_height, lowest_deg, lowest_height, courses)
 
 
+def _descent(row: Row, jumps: tuple[Jump, ...]) -> Descent:
+    _, start, end, start_height, end_height, fall_error, undecided = row
+    return Descent(start, end, start_height, end_height, fall_error, undecided, jumps)
+
+
 def _falls(rows: HistoryRows) -> Falls:
     jumps: defaultdict[int, list[Jump]] = defaultdict(list)
     for position, _, *numbers in rows.descent_jumps:
         jumps[position].append(Jump(*numbers))
     ((fall, start, descent),) = rows.steepest_fall
     return Falls(
-        tuple(Descent(*numbers, tuple(jumps[position])) for position, *numbers in rows.descents),
+        tuple(_descent(row, tuple(jumps[row[0]])) for row in rows.descents),
         None if descent is None else SteepestFall(fall, start, descent),
     )

@@ -85,9 +85,7 @@ _FALLS: tuple[Column[OrientationWindowsDocument], ...] = (
     degrees("roll", "roll of the orientation", lambda one: one.roll),
     degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
     length("steepest", "largest fall within 3 deg of phase", lambda one: one.steepest),
-    degrees(
-        "steepest_from", "where these begin; missing where it never goes down", lambda one: one.steepest_from
-    ),
+    degrees("steepest_from", "where these begin; missing where it never goes down", lambda one: one.steepest_from),
     degrees("snap_from", "phase at which the snap begins; missing where there is none", _snap(lambda snap: snap.start)),
     degrees("snap_to", "phase at which it ends; above 360 past phase 0", _snap(lambda snap: snap.end)),
     length("snap_fall", "its whole fall", _snap(lambda snap: snap.fall)),
@@ -115,6 +113,7 @@ _STRETCHES: tuple[Column[StretchDocument], ...] = (
     degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
     degrees("start", "phase at which the stretch begins", lambda one: one.start),
     degrees("end", "phase at which it ends; above 360 where it holds phase 0", lambda one: one.end),
+    words("formation", "key of its contact formation", lambda one: one.formation),
 )
 
 _TRANSITIONS: tuple[Column[TransitionDocument], ...] = (

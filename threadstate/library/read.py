@@ -27,6 +27,7 @@ class LibraryRecord:
     """A published library: what it was computed from, and what it holds. ``pair`` and ``options`` are JSON.
 
     ``state_count`` is how many states it has; its method could not decide ``undecided_count`` more poses of the grid.
+    ``is_pinned``: ``latest`` means this library, whatever is published later.
     """
 
     id: int
@@ -43,6 +44,7 @@ class LibraryRecord:
     undecided_count: int
     created_at: datetime
     published_at: datetime
+    is_pinned: bool
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ def library_by_input(connection: Connection, input_sha256: str) -> LibraryRecord
 def latest_library(
     connection: Connection, designation: str | None = None, method: Method | None = Method.EXACT
 ) -> LibraryRecord:
-    """The library published last, of all or of one designation, by a method or (None) by any.
+    """The pinned library, or else the one published last: of all or of one designation, by a method or (None) by any.
 
     Raises:
         NotFoundError: none is published.
@@ -92,7 +94,7 @@ def latest_library(
     which = [] if method is None else [library.c.method == method.value]
     if designation is not None:
         which.append(library.c.designation == designation)
-    row = _published(connection, *which)
+    row = _published(connection, library.c.pinned_at.is_not(None), *which) or _published(connection, *which)
     if row is None:
         of = "" if designation is None else f" of {designation!r}"
         chosen = f" --method {method.value}" if method is Method.MESH else ""
@@ -184,8 +186,10 @@ def not_on_the_grid(library: LibraryRecord, roll_deg: float, pitch_deg: float) -
     """The error for an orientation (degrees) that is none of a library's grid."""
     grid = library.grid
     return NotFoundError(
-        f"library {library.id} has no orientation of roll {roll_deg:g}, pitch {pitch_deg:g} deg; "
-        f"its grid: -{grid.tilt_max_deg:g} to {grid.tilt_max_deg:g} deg in steps of {grid.tilt_step_deg:g}"
+        f"library {library.id} has no orientation of roll {roll_deg!r}, pitch {pitch_deg!r} deg; "
+        f"its grid: -{grid.tilt_max_deg:g} to {grid.tilt_max_deg:g} deg in steps of {grid.tilt_step_deg:g}. Any other "
+        f"within 10 deg is computed from its pair: `threadstate windows` and `history`, "
+        f"/v1/histories/{roll_deg!r}/{pitch_deg!r}/falls?library={library.id}"
     )
 
 
@@ -253,4 +257,5 @@ def _record(row: RowMapping) -> LibraryRecord:
         undecided_count=row["undecided_count"],
         created_at=row["created_at"],
         published_at=row["published_at"],
+        is_pinned=row["pinned_at"] is not None,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from urllib.parse import unquote
 
 from sqlalchemy import Engine, text
@@ -9,8 +10,9 @@ from sqlalchemy.exc import DatabaseError
 
 from threadstate.errors import SchemaError, UnreadableDatabaseError
 from threadstate.library.address import is_sqlite, shown
+from threadstate.settings import DATABASE
 
-SCHEMA_REVISION = "0006"
+SCHEMA_REVISION = "0007"
 """The newest migration, which the tables of ``threadstate.library.tables`` mirror."""
 
 MENDING_COMMAND = "threadstate migrate"
@@ -40,11 +42,16 @@ def check_schema(engine: Engine) -> None:
     """Check at start-up that the database is migrated.
 
     Raises:
-        SchemaError: it is not; the message names what mends it.
+        SchemaError: it is not, or its file does not exist; the message names what mends it.
     """
     revision = stored_revision(engine)
     if revision == SCHEMA_REVISION:
         return
+    if is_sqlite(engine.url) and not Path(place(engine)).exists():
+        raise SchemaError(
+            f"database file {place(engine)} does not exist; --database or {DATABASE} says which file it is "
+            "(`threadstate settings` shows it), `threadstate rebuild` makes it"
+        )
     if revision is None:
         found, cure = "has no schema yet", f"run `{MENDING_COMMAND}`"
     elif revision < SCHEMA_REVISION:

@@ -78,6 +78,8 @@ library = Table(
     Column("published_at", UtcDateTime),
     # How many of the poses are undecided; 0 until the library is whole.
     Column("undecided_count", Integer, nullable=False, server_default="0"),
+    # Since when "latest" means this library; null in all libraries but one at most.
+    Column("pinned_at", UtcDateTime),
     PrimaryKeyConstraint("id"),
     # Serves: is this very library here already? (worker, before it computes)
     UniqueConstraint("input_sha256"),
@@ -88,6 +90,8 @@ library = Table(
     # Serves: the latest published library, of all or (below) of one designation.
     Index(None, "published_at", "id"),
     Index(None, "designation", "published_at", "id"),
+    # Serves: the pinned library.
+    Index(None, "pinned_at"),
 )
 """A library: one pair over one grid by one method. Rows without ``published_at`` are still being computed."""
 

@@ -204,6 +204,17 @@ def publish_in(connection: Connection, library_id: int, grid: Grid) -> str:
     return content_sha256
 
 
+def pin_library(engine: Engine, library_id: int | None) -> None:
+    """Let ``latest`` mean the library of that id, or with None the one published last again.
+
+    One library is pinned at a time. That it is published, by the exact method, is for the caller to know.
+    """
+    with engine.begin() as connection:
+        connection.execute(update(library).where(library.c.pinned_at.is_not(None)).values(pinned_at=None))
+        if library_id is not None:
+            connection.execute(update(library).where(library.c.id == library_id).values(pinned_at=datetime.now(UTC)))
+
+
 def remove_unpublished(engine: Engine, library_id: int) -> None:
     """Remove a library that is not published, with all its rows."""
     with engine.begin() as connection:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import fsum
 
 from threadstate.errors import InvalidValueError
 from threadstate.history.labels import ContactLabels
 from threadstate.network.cells import CIRCLE_DEG, Cell, CellMap
+from threadstate.network.formation import Formation
 from threadstate.state.model import FeaturePair, Flag, StateClass
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS, Region
 
@@ -87,11 +88,15 @@ class Observation:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Phases of an orientation: from ``start_deg`` in [0, 360) to ``end_deg``, above 360 where phase 0 lies between."""
+    """Phases of an orientation that have one formation.
+
+    From ``start_deg`` in [0, 360) to ``end_deg``, above 360 where phase 0 lies between.
+    """
 
     orientation: int
     start_deg: float
     end_deg: float
+    formation: Formation
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +116,14 @@ class Location:
         """The orientations that remain, ascending."""
         return tuple(sorted({stretch.orientation for stretch in self.stretches}))
 
+    @property
+    def width_by_formation(self) -> dict[Formation, float]:
+        """The formations that remain, each with the phase in degrees that it covers, the widest first."""
+        widths: dict[Formation, float] = {}
+        for one in self.stretches:
+            widths[one.formation] = widths.get(one.formation, 0.0) + one.end_deg - one.start_deg
+        return dict(sorted(widths.items(), key=lambda item: (-item[1], item[0].key)))
+
 
 def locate(cell_map: CellMap, observation: Observation) -> Location:
     """The orientations and phases at which a state has all that was observed."""
@@ -122,17 +135,21 @@ def locate(cell_map: CellMap, observation: Observation) -> Location:
 
 
 def _stretches(cells: list[Cell]) -> list[Stretch]:
-    """The cells of an orientation, those that touch joined, by start."""
+    """The cells of an orientation, those that touch and have the same formation joined, by start."""
     joined: list[Stretch] = []
     for cell in cells:
-        if joined and joined[-1].end_deg == cell.start_deg:
-            joined[-1] = Stretch(cell.orientation, joined[-1].start_deg, cell.end_deg)
+        if joined and joined[-1].end_deg == cell.start_deg and joined[-1].formation == cell.formation:
+            joined[-1] = replace(joined[-1], end_deg=cell.end_deg)
         else:
-            joined.append(Stretch(cell.orientation, cell.start_deg, cell.end_deg))
-    if len(joined) > 1 and joined[-1].end_deg == joined[0].start_deg + CIRCLE_DEG:
+            joined.append(Stretch(cell.orientation, cell.start_deg, cell.end_deg, cell.formation))
+    if len(joined) > 1 and _meet_at_phase_0(joined[-1], joined[0]):
         first = joined.pop(0)
-        joined[-1] = Stretch(first.orientation, joined[-1].start_deg, first.end_deg + CIRCLE_DEG)
+        joined[-1] = replace(joined[-1], end_deg=first.end_deg + CIRCLE_DEG)
     return joined
+
+
+def _meet_at_phase_0(last: Stretch, first: Stretch) -> bool:
+    return last.end_deg == first.start_deg + CIRCLE_DEG and last.formation == first.formation
 
 
 def _matched(observed: Sequence[ContactObservation], contacts: Sequence[ContactLabels]) -> bool:

@@ -24,8 +24,13 @@ def copy(
         ),
     ] = None,
     library: Annotated[
-        int | None,
-        typer.Option("--library", metavar="ID", min=1, help="Number of the one to copy.", show_default="all published"),
+        str | None,
+        typer.Option(
+            "--library",
+            metavar="NAME",
+            help="The one to copy: its number, its thread's designation or slug, latest, or latest-mesh.",
+            show_default="all published",
+        ),
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -41,7 +46,8 @@ def copy(
     """
     from threadstate.library.copying import copy_library
     from threadstate.library.engine import reading, writing
-    from threadstate.library.read import library_by_id, published_libraries
+    from threadstate.library.named import named_library
+    from threadstate.library.read import published_libraries
     from threadstate.library.schema import check_schema
     from worker.migrate import migrate_empty
 
@@ -51,7 +57,7 @@ def copy(
         with here.connect() as connection:
             records = (
                 # The latest last, so that it is the latest there.
-                published_libraries(connection)[::-1] if library is None else [library_by_id(connection, library)]
+                published_libraries(connection)[::-1] if library is None else [named_library(connection, library)]
             )
         if not records:
             raise NotFoundError("no library is published yet; run `threadstate rebuild`")

@@ -10,8 +10,7 @@ import typer
 from threadstate.errors import InvalidValueError
 from threadstate.export.names import FileFormat, TableName
 from threadstate.settings import read_settings
-from threadstate.units import LengthUnit
-from worker.options import Database, Json
+from worker.options import Database, Json, LibraryName, UnitName
 from worker.output import print_json, print_line
 
 
@@ -22,16 +21,8 @@ def export(
         FileFormat | None,
         typer.Option("--format", help="In which format.", show_default="as the file's name ends"),
     ] = None,
-    library: Annotated[
-        int | None,
-        typer.Option(
-            "--library", metavar="ID", min=1, help="Number of the library.", show_default="the latest, exact method"
-        ),
-    ] = None,
-    unit: Annotated[
-        LengthUnit | None,
-        typer.Option("--unit", help="Unit of all lengths.", show_default="the library's own"),
-    ] = None,
+    library: LibraryName = None,
+    unit: UnitName = None,
     database: Database = None,
     as_json: Json = False,
 ) -> None:
@@ -45,7 +36,7 @@ def export(
     from threadstate.atomic_file import replaced_file
     from threadstate.export.file import file_parts
     from threadstate.library.engine import reading
-    from threadstate.library.read import latest_library, library_by_id
+    from threadstate.library.named import LATEST, named_library
     from threadstate.library.schema import check_schema
 
     chosen = file_format or _format_of(out)
@@ -54,7 +45,7 @@ def export(
     with reading(database or read_settings().database) as engine:
         check_schema(engine)
         with engine.connect() as connection:
-            record = latest_library(connection) if library is None else library_by_id(connection, library)
+            record = named_library(connection, LATEST if library is None else library)
         shown = unit or record.length_unit
         written = 0
         with replaced_file(out) as file:

@@ -6,44 +6,59 @@ from typing import Annotated
 
 import typer
 
-from worker.options import Database, Designation, Json
+from worker.options import Database, Dimensions, Json, PairName, UnitName
 from worker.output import print_json
 
 
 def history(
     roll: Annotated[float, typer.Option("--roll", metavar="DEG", help="Roll, -10 to 10.")],
     pitch: Annotated[float, typer.Option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")],
+    library: Annotated[
+        str | None,
+        typer.Option(
+            "--library",
+            metavar="NAME",
+            help="Of this library: its number, its thread's designation or slug, or latest.",
+            show_default=False,
+        ),
+    ] = None,
     stored: Annotated[
-        bool, typer.Option("--stored", help="From the latest library, in place of computing it.", show_default=False)
+        bool, typer.Option("--stored", help="From the library's tables alone, never computed.", show_default=False)
     ] = False,
+    unit: UnitName = None,
     database: Database = None,
-    pair: Designation = None,
+    pair: PairName = None,
+    dimension: Dimensions = None,
     as_json: Json = False,
 ) -> None:
     r"""Print the history of an orientation: its phase circle, cut where any label changes, and its clearance windows.
 
-    Any orientation is computed, which takes about a second; with --stored one of the library's grid is read.
+    Any orientation is computed, which takes about a second. With --library it is that of a library: read where the
+    orientation is on its grid, else computed by its pair and tolerances.
 
     \b
     Examples:
       threadstate history --roll 0 --pitch -4
       threadstate history --roll 1.5 --pitch -0.7 --json
-      threadstate history --roll 0 --pitch -4 --stored
+      threadstate history --roll 0 --pitch -4 --library latest
+      threadstate history --roll 2.5 --pitch -1.2 --library 1-4-20-unc --unit mm
+      threadstate history --roll 2.5 --pitch -1.2 --pair examples/m6x1.toml
     """
     from threadstate.answer.histories import computed_history, history_document
-    from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+    from threadstate.units import conversion_factor
     from worker.history_table import print_history
-    from worker.stored_network import stored_network
+    from worker.orientation_source import orientation_source
 
-    if stored:
-        network = stored_network(database)
-        threads = network.pair
-        found = network.histories.orientations[network.orientation(roll, pitch)]
-    else:
-        threads = pair_by_designation(DEFAULT_DESIGNATION if pair is None else pair)
-        found = computed_history(threads, roll, pitch)
-    document = history_document(found, roll, pitch, threads.thread_pitch, 1.0)
+    with orientation_source(database, library, pair, dimension, roll, pitch, stored=stored) as source:
+        threads = source.pair
+        if source.stored is not None:
+            _, network = source.stored
+            found = network.histories.orientations[network.orientation(roll, pitch)]
+        else:
+            found = computed_history(threads, roll, pitch, source.options)
+    shown = unit or threads.unit
+    document = history_document(found, roll, pitch, threads.thread_pitch, conversion_factor(threads.unit, shown))
     if as_json:
-        print_json({"unit": threads.unit.value, **document.model_dump(mode="json", by_alias=True)})
+        print_json({"unit": shown.value, **document.model_dump(mode="json", by_alias=True)})
         return
-    print_history(document, threads.unit)
+    print_history(document, shown)

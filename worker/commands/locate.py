@@ -6,8 +6,9 @@ from typing import Annotated
 
 import typer
 
+from threadstate.errors import InvalidValueError
 from threadstate.state.model import Flag, StateClass
-from worker.options import Database, Json
+from worker.options import Database, Json, LibraryName
 from worker.output import print_json
 
 
@@ -28,16 +29,24 @@ def locate(
     ordered: Annotated[
         bool, typer.Option("--ordered", help="The contacts are the first in their order.", show_default=False)
     ] = False,
+    library: LibraryName = None,
     database: Database = None,
     as_json: Json = False,
 ) -> None:
-    r"""Print which orientations and phases remain after labels of a contact state were observed.
+    r"""Print where a contact state with the labels observed can be.
+
+    Which formations remain, with the keys that `threadstate path --from` takes, and at which orientations and phases.
 
     \b
     Examples:
       threadstate locate --class stable_three_point --contact 1:crest_fillet_pos
       threadstate locate --contacts 3 --contact 1:*:*:edge-edge,2:base
     """
+    if state_class is None and contacts is None and not contact and flag is None:
+        raise InvalidValueError(
+            "observation", None, "at least one of --class, --contacts, --contact, --flag; all phases remain without any"
+        )
+
     from threadstate.answer.networks import location_document
     from threadstate.answer.observed import contact_observations
     from threadstate.network.locate import Observation
@@ -47,7 +56,7 @@ def locate(
 
     flags = frozenset() if flag is None else frozenset({flag})
     observation = Observation(state_class, contacts, flags, contact_observations(contact), ordered)
-    cell_map = stored_network(database).cell_map
+    cell_map = stored_network(database, library).cell_map
     document = location_document(located(cell_map, observation), cell_map)
     if as_json:
         print_json(document.model_dump(mode="json", by_alias=True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -11,7 +12,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset, Tessellation
 from threadstate.mesh.scene_name import Scene
-from worker.options import Designation, Json
+from worker.options import Dimensions, Json, PairName, UnitName
 from worker.output import print_json, print_line
 
 
@@ -24,7 +25,7 @@ def mesh(
         typer.Option(
             "--chord",
             metavar="LENGTH",
-            help="Largest distance from the true surface, in the pair's unit.",
+            help="Largest distance from the true surface.",
             show_default="the preset's",
         ),
     ] = None,
@@ -38,13 +39,16 @@ def mesh(
         ),
     ] = None,
     scene: Annotated[Scene, typer.Option("--scene", help="How much of the part is modelled.")] = Scene.FULL,
-    pair: Designation = None,
+    pair: PairName = None,
+    dimension: Dimensions = None,
+    unit: UnitName = None,
     as_json: Json = False,
 ) -> None:
     r"""Write the bolt or the nut as a closed triangle mesh, as STL, PLY or GLB by the file's ending.
 
-    The bolt is hollow, the nut is cut from a prism of 16 sides; each is one thread pitch long, in its own frame, its
-    numbers in the pair's own unit. Scenes other than "full" leave out what cannot touch: their meshes are open.
+    The bolt is hollow, the nut is cut from a prism of 16 sides; each is one thread pitch long and in its own frame.
+    Numbers are in the pair's own unit or in that of --unit. Scenes other than "full" leave out what cannot touch: their
+    meshes are open.
 
     \b
     Examples:
@@ -52,21 +56,27 @@ def mesh(
       threadstate mesh --part nut --preset fine --out nut.glb --json
       threadstate mesh --part bolt --chord 5e-5 --angle-control 1 --out bolt.ply
       threadstate mesh --part nut --preset fine --scene edges --out nut.stl
+      threadstate mesh --part bolt --unit mm --out bolt.stl
+      threadstate mesh --part bolt --pair examples/m6x1.toml --out bolt.stl
     """
     from threadstate.mesh.export import file_ending, mesh_report, write_mesh
     from threadstate.mesh.scene import scene_part
-    from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+    from threadstate.units import conversion_factor
+    from worker.pairs.chosen import chosen_pair
 
     ending = file_ending(out)
     if scene is Scene.CURVES:
         raise InvalidValueError("--scene", scene.value, "full, band, edges (curves has no triangles)")
-    threads = pair_by_designation(DEFAULT_DESIGNATION if pair is None else pair)
+    threads = chosen_pair(pair, dimension or ())
+    shown = unit or threads.unit
+    factor = conversion_factor(threads.unit, shown)
     chosen = preset.tessellation
     tessellation = Tessellation(
-        chosen.chord_height if chord is None else chord / threads.thread_pitch,
+        chosen.chord_height if chord is None else chord / factor / threads.thread_pitch,
         chosen.angle_control if angle_control is None else angle_control,
     )
-    size = write_mesh(scene_part(threads, part, tessellation, scene), out)
+    solid = scene_part(threads, part, tessellation, scene)
+    size = write_mesh(replace(solid, vertices=solid.vertices * factor), out)
     report = mesh_report(threads, part, tessellation, scene)
     if as_json:
         print_json(
@@ -74,28 +84,28 @@ def mesh(
                 "part": part.value,
                 "scene": scene.value,
                 "pair": threads.designation,
-                "unit": threads.unit.value,
+                "unit": shown.value,
                 "file": str(out),
                 "format": ending,
                 "bytes": size,
-                "chord_height": tessellation.chord_height * threads.thread_pitch,
+                "chord_height": tessellation.chord_height * threads.thread_pitch * factor,
                 "angle_control": tessellation.angle_control,
                 "vertices": report.vertices,
                 "triangles": report.triangles,
                 "watertight": report.watertight,
-                "volume": report.volume,
-                "chord_deviation": report.chord_deviation,
-                "edge_deviation": report.edge_deviation,
+                "volume": report.volume * factor**3,
+                "chord_deviation": report.chord_deviation * factor,
+                "edge_deviation": report.edge_deviation * factor,
             }
         )
         return
-    unit = threads.unit.value
     print_line(f"{out}: {part.value} of {threads.designation}, {report.triangles} triangles, {size} bytes")
     if scene is Scene.FULL:
-        print_line(f"{'watertight' if report.watertight else 'NOT watertight'}, volume {report.volume:.6g} {unit}^3")
+        closed = "watertight" if report.watertight else "NOT watertight"
+        print_line(f"{closed}, volume {report.volume * factor**3:.6g} {shown}^3")
     else:
         print_line(f"scene {scene.value}: open where nothing can touch")
     print_line(
-        f"at most {report.chord_deviation:.2g} {unit} from the true surface, "
-        f"{report.edge_deviation:.2g} {unit} from the true edge curve"
+        f"at most {report.chord_deviation * factor:.2g} {shown} from the true surface, "
+        f"{report.edge_deviation * factor:.2g} {shown} from the true edge curve"
     )

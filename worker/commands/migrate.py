@@ -8,7 +8,9 @@ from worker.output import print_json, print_line
 
 
 def migrate(database: Database = None, as_json: Json = False) -> None:
-    r"""Bring the database's schema up to date; makes the database if there is none.
+    r"""Bring the database up to date; make it if there is none.
+
+    Older libraries are kept, and what their histories lack is computed: a quarter to one second an orientation.
 
     \b
     Examples:
@@ -24,8 +26,10 @@ def migrate(database: Database = None, as_json: Json = False) -> None:
         migration = bring_up_to_date(engine)
         where = place(engine)
     if as_json:
-        print_json({"before": migration.before, "after": migration.after})
+        print_json({"before": migration.before, "after": migration.after, "completed": migration.completed})
     elif migration.before == migration.after:
         print_line(f"{where} is at revision {migration.after} already")
     else:
         print_line(f"{where} is now at revision {migration.after}")
+    if migration.completed and not as_json:
+        print_line(f"descents of {migration.completed} orientations were added to their histories")

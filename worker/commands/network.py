@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from worker.options import Database, Json
+from worker.options import Database, Json, LibraryName
 from worker.output import print_json, print_text
 
 
@@ -21,20 +21,22 @@ class NetworkFormat(StrEnum):
 
 def network(
     export: Annotated[NetworkFormat | None, typer.Option("--export", help="Print all of it in this format.")] = None,
+    library: LibraryName = None,
     database: Database = None,
     as_json: Json = False,
 ) -> None:
-    r"""Print the size of the latest library's constraint network and what holds it together, or all of it.
+    r"""Print the size of a library's constraint network and what holds it together, or all of it.
 
     \b
     Examples:
       threadstate network
       threadstate network --export graphml > network.graphml
+      threadstate network --library 2 --json
     """
     from worker.history_table import print_summary
     from worker.stored_network import stored_network
 
-    found = stored_network(database)
+    found = stored_network(database, library)
     match export:
         case NetworkFormat.NODE_LINK:
             print_text(found.node_link)

@@ -9,7 +9,7 @@ import typer
 from threadstate.errors import InvalidValueError
 from threadstate.network.moves import Move
 from threadstate.network.search import Objective
-from worker.options import Database, Json
+from worker.options import Database, Json, LibraryName, UnitName
 from worker.output import print_json
 
 
@@ -24,6 +24,8 @@ def path(
     roll: Annotated[float | None, typer.Option("--roll", metavar="DEG", help="Only from this roll.")] = None,
     pitch: Annotated[float | None, typer.Option("--pitch", metavar="DEG", help="Only from this pitch.")] = None,
     phase: Annotated[float | None, typer.Option("--phase", metavar="DEG", help="Only from this phase.")] = None,
+    library: LibraryName = None,
+    unit: UnitName = None,
     database: Database = None,
     as_json: Json = False,
 ) -> None:
@@ -34,6 +36,7 @@ def path(
       threadstate path --from 14c84cf806
       threadstate path --from 14c84cf806 --objective margin --moves ccw,roll+,roll-,pitch+,pitch-
       threadstate path --from 14c84cf806 --roll 4 --pitch 0 --phase 200
+      threadstate path --from 14c84cf806 --library m6x1 --unit mm
     """
     if (roll is None) != (pitch is None) or (phase is not None and roll is None):
         raise InvalidValueError("--roll, --pitch, --phase", (roll, pitch, phase), "none, roll and pitch, or all three")
@@ -41,16 +44,20 @@ def path(
     from threadstate.answer.networks import path_document
     from threadstate.answer.observed import named_moves
     from threadstate.network.paths import best_path
+    from threadstate.units import conversion_factor
     from worker.history_table import print_path
     from worker.stored_network import stored_network
 
     allowed = named_moves(moves)
-    found = stored_network(database)
+    found = stored_network(database, library)
+    shown = unit or found.pair.unit
     orientation = None if roll is None or pitch is None else found.orientation(roll, pitch)
     start = found.network.node(source).formation
     best = best_path(found.cell_map, start, objective, allowed, orientation=orientation, phase_deg=phase)
-    document = None if best is None else path_document(best, found.cell_map, 1.0)
+    document = None if best is None else path_document(best, found.cell_map, conversion_factor(found.pair.unit, shown))
     if as_json:
-        print_json(None if document is None else document.model_dump(mode="json", by_alias=True))
+        print_json(
+            None if document is None else {"unit": shown.value, **document.model_dump(mode="json", by_alias=True)}
+        )
         return
-    print_path(document, found.pair.unit)
+    print_path(document, shown)

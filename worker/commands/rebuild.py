@@ -17,9 +17,10 @@ from worker.mesh_options import (
 )
 from worker.options import (
     Database,
-    Designation,
+    Dimensions,
     Json,
     MethodName,
+    PairName,
     PhaseStep,
     Scheduler,
     TiltMax,
@@ -32,7 +33,8 @@ from worker.output import print_json, print_line
 
 def rebuild(
     database: Database = None,
-    pair: Designation = None,
+    pair: PairName = None,
+    dimension: Dimensions = None,
     phase_step: PhaseStep = 1.0,
     tilt_max: TiltMax = 4.0,
     tilt_step: TiltStep = 1.0,
@@ -59,17 +61,19 @@ def rebuild(
       threadstate rebuild
       threadstate rebuild --database sqlite:////tmp/threads.sqlite3 --workers 2
       threadstate rebuild --phase-step 5 --tilt-max 2 --json
+      threadstate rebuild --pair examples/m6x1.toml
       threadstate rebuild --scheduler tcp://scheduler.example:8786
       threadstate rebuild --phase-step 30 --tilt-max 1 --method mesh --preset coarse
     """
     began = time.perf_counter()
     from worker.computed_library import computed_library
+    from worker.pairs.chosen import chosen_pair
 
     settings = read_settings()
     mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
     result = computed_library(
         database or settings.database,
-        designation=pair,
+        pair=chosen_pair(pair, dimension or ()),
         phase_step_deg=phase_step,
         tilt_max_deg=tilt_max,
         tilt_step_deg=tilt_step,

@@ -20,8 +20,8 @@ from worker.mesh_options import (
     Unchecked,
     mesh_options,
 )
-from worker.options import Designation, Json, MethodName
-from worker.output import print_line
+from worker.options import Dimensions, Json, MethodName, PairName, UnitName
+from worker.output import print_json
 
 BATCH = 1024
 """How many poses are solved before their answers are printed."""
@@ -35,7 +35,9 @@ def solve(
         Path | None,
         typer.Option("--poses", metavar="FILE", help="CSV file of poses, header roll,pitch,phase; /dev/stdin works."),
     ] = None,
-    pair: Designation = None,
+    pair: PairName = None,
+    dimension: Dimensions = None,
+    unit: UnitName = None,
     method: MethodName = Method.EXACT,
     preset: PresetName = None,
     descent: DescentName = None,
@@ -47,13 +49,14 @@ def solve(
 ) -> None:
     r"""Solve the contact state of one pose, or of every pose of a file.
 
-    With --json, one object a line in the order of the file. Lengths are in the pair's own unit.
+    With --json, one object a line in the order of the file.
 
     \b
     Examples:
       threadstate solve --roll 4 --pitch -3 --phase 185
       threadstate solve --roll 4 --pitch -3 --phase 185 --json
       threadstate solve --poses poses.csv --json
+      threadstate solve --roll 2.5 --pitch -1.2 --phase 357 --pair examples/m6x1.toml
       threadstate solve --roll 4 --pitch -3 --phase 185 --method mesh --preset medium
       threadstate solve --roll 4 --pitch -3 --phase 185 --method mesh --preset fine --scene curves
       threadstate solve --roll 0 --pitch -4 --phase 350 --method mesh --descent decades
@@ -62,13 +65,16 @@ def solve(
     mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
     batch = BATCH if method is Method.EXACT else 1
 
-    from threadstate.state.document import state_json
+    from threadstate.state.document import state_document
     from threadstate.state.model import ContactState
     from threadstate.state.solve import solve_poses
-    from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+    from threadstate.units import conversion_factor
+    from worker.pairs.chosen import chosen_pair
     from worker.state_table import print_contacts, print_states
 
-    threads = pair_by_designation(DEFAULT_DESIGNATION if pair is None else pair)
+    threads = chosen_pair(pair, dimension or ())
+    shown = unit or threads.unit
+    factor = conversion_factor(threads.unit, shown)
     if mesh is not None:
         from threadstate.mesh.solve import solve_poses_by_mesh
 
@@ -78,12 +84,12 @@ def solve(
     if as_json:
         for start in range(0, len(wanted), batch):
             for state in found(threads, wanted[start : start + batch]):
-                print_line(state_json(state))
+                print_json({**state_document(state, factor), "unit": shown.value})
         return
     states = found(threads, wanted) if wanted else []
-    print_states(states, threads.unit)
+    print_states(states, shown, factor)
     if poses is None:
-        print_contacts(states[0], threads.unit)
+        print_contacts(states[0], shown, factor)
 
 
 def _wanted(

@@ -2,53 +2,67 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+import typer
+
+from threadstate.errors import InvalidValueError
 from threadstate.library.method import Method
-from threadstate.settings import read_settings
-from worker.options import Database, Json, MethodName
+from worker.options import Database, Json, LibraryName
 from worker.output import print_json, print_line
 
 
-def summary(database: Database = None, method: MethodName = Method.EXACT, as_json: Json = False) -> None:
-    r"""Print what the latest library of a method holds: how many states of each class, and with each flag.
+def summary(
+    library: LibraryName = None,
+    database: Database = None,
+    method: Annotated[
+        Method | None,
+        typer.Option("--method", help="In place of --library: the latest by this method.", show_default="exact"),
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    r"""Print what a library holds: how many states of each class, and with each flag.
 
     \b
     Examples:
       threadstate summary
+      threadstate summary --library 1-4-20-unc
       threadstate summary --database sqlite:////tmp/threads.sqlite3 --json
     """
-    from threadstate.library.engine import reading
-    from threadstate.library.read import counts, latest_library, undecided_reasons
-    from threadstate.library.schema import check_schema
+    if library is not None and method is not None:
+        raise InvalidValueError("--method", method.value, "without --library, which names one library")
 
-    with reading(database or read_settings().database) as engine:
-        check_schema(engine)
-        with engine.connect() as connection:
-            library = latest_library(connection, method=method)
-            counted = counts(connection, library.id)
-            reasons = undecided_reasons(connection, library.id)
+    from threadstate.library.named import LATEST, LATEST_MESH
+    from threadstate.library.read import counts, undecided_reasons
+    from worker.stored_network import connected_library
+
+    name = library or (LATEST_MESH if method is Method.MESH else LATEST)
+    with connected_library(database, name) as (connection, record):
+        counted = counts(connection, record.id)
+        reasons = undecided_reasons(connection, record.id)
     if as_json:
         print_json(
             {
-                "library": library.id,
-                "pair": library.designation,
-                "unit": library.length_unit.value,
-                "input_sha256": library.input_sha256,
-                "content_sha256": library.content_sha256,
-                "code_version": library.code_version,
-                "published_at": library.published_at.isoformat(),
-                "method": library.method.value,
-                "states": library.state_count,
+                "library": record.id,
+                "pair": record.designation,
+                "unit": record.length_unit.value,
+                "input_sha256": record.input_sha256,
+                "content_sha256": record.content_sha256,
+                "code_version": record.code_version,
+                "published_at": record.published_at.isoformat(),
+                "method": record.method.value,
+                "states": record.state_count,
                 "undecided": dict(reasons),
                 "classes": {name.value: count for name, count in counted.of_class},
                 "flags": {name.value: count for name, count in counted.of_flag},
             }
         )
         return
-    method_and_unit = f"{library.method.value} method, unit {library.length_unit}"
-    print_line(f"library {library.id}: {library.designation}, {library.state_count} states, {method_and_unit}")
-    print_line(f"published {library.published_at:%Y-%m-%d %H:%M:%S} UTC by {library.code_version}")
-    print_line(f"inputs  {library.input_sha256}")
-    print_line(f"content {library.content_sha256}")
+    method_and_unit = f"{record.method.value} method, unit {record.length_unit}"
+    print_line(f"library {record.id}: {record.designation}, {record.state_count} states, {method_and_unit}")
+    print_line(f"published {record.published_at:%Y-%m-%d %H:%M:%S} UTC by {record.code_version}")
+    print_line(f"inputs  {record.input_sha256}")
+    print_line(f"content {record.content_sha256}")
     for title, rows in (("class", counted.of_class), ("flag", counted.of_flag)):
         print_line(f"\n{title:<24}{'states':>8}")
         for name, count in rows:

@@ -9,7 +9,7 @@ import typer
 from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.model import StateClass
-from worker.options import Database, Json
+from worker.options import Database, Json, LibraryName, UnitName
 from worker.output import print_json, tell
 
 
@@ -24,30 +24,36 @@ def transitions(
     change: Annotated[ChangeKind | None, typer.Option("--change", help="Only where this changes.")] = None,
     state_class: Annotated[StateClass | None, typer.Option("--class", help="Only from this class.")] = None,
     limit: Annotated[int, typer.Option("--limit", metavar="N", min=1, help="How many at most.")] = 50,
+    library: LibraryName = None,
+    unit: UnitName = None,
     database: Database = None,
     as_json: Json = False,
 ) -> None:
-    r"""Print transitions of the latest library: along phase, and to the orientations beside at the same phase.
+    r"""Print transitions of a library: along phase, and to the orientations beside at the same phase.
 
     \b
     Examples:
       threadstate transitions --roll 0 --pitch -4 --move ccw
       threadstate transitions --change class --move roll+ --limit 10
       threadstate transitions --roll 0 --pitch -4 --phase-min 357 --phase-max 358 --json
+      threadstate transitions --library 2 --unit mm --limit 5
     """
     from threadstate.answer.select import TransitionFilter, selected
     from threadstate.answer.transitions import transition_documents
+    from threadstate.units import conversion_factor
     from worker.history_table import print_transitions
     from worker.stored_network import stored_network
 
     which = TransitionFilter(move, roll, pitch, phase_min, phase_max, source, target, change, state_class)
-    network = stored_network(database)
+    network = stored_network(database, library)
     found = selected(network, which)
-    documents = transition_documents(found[:limit], network.histories, network.tilts, 1.0)
+    shown = unit or network.pair.unit
+    factor = conversion_factor(network.pair.unit, shown)
+    documents = transition_documents(found[:limit], network.histories, network.tilts, factor)
     if as_json:
         for one in documents:
-            print_json(one.model_dump(mode="json", by_alias=True))
+            print_json({"unit": shown.value, **one.model_dump(mode="json", by_alias=True)})
     else:
-        print_transitions(documents, network.pair.unit)
+        print_transitions(documents, shown)
     if len(found) > limit:
         tell(f"{limit} of {len(found)} transitions; --limit shows more")

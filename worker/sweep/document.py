@@ -2,68 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from threadstate.library.method import Method
 from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
 from threadstate.state.options import SolveOptions
-from threadstate.units import LengthUnit
+from worker.pairs.document import TABLES as TABLES_OF_PAIRS
+from worker.pairs.document import Name, Number, PairPart, Part
 
-LARGEST_DESIGNATION = 100
-
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Name = Annotated[str, Field(min_length=1, max_length=LARGEST_DESIGNATION)]
 _DEFAULTS = SolveOptions()
-
-
-class Part(BaseModel):
-    """A table of the file, which may hold the keys below and no others."""
-
-    model_config = ConfigDict(extra="forbid")
-
-    def given(self) -> dict[str, Any]:
-        """The values that the file gives."""
-        return {name: getattr(self, name) for name in self.model_fields_set}
-
-
-class FormPart(Part):
-    """A thread form; fillets in multiples of the thread pitch."""
-
-    name: Name | None = None
-    flank_half_angle_deg: Number | None = None
-    bolt_root_fillet: Number | None = None
-    bolt_crest_fillet: Number | None = None
-    nut_root_fillet: Number | None = None
-    nut_crest_fillet: Number | None = None
-
-
-class FitPart(Part):
-    """A fit, in the pair's unit."""
-
-    name: Name | None = None
-    bolt_major_diameter: Number | None = None
-    bolt_pitch_diameter: Number | None = None
-    bolt_minor_diameter: Number | None = None
-    nut_major_diameter: Number | None = None
-    nut_pitch_diameter: Number | None = None
-    nut_minor_diameter: Number | None = None
-
-
-class PairPart(Part):
-    """A pair: a known one by its designation, or one's own by its dimensions, which ``like`` may give in part."""
-
-    designation: Name
-    like: str | None = None
-    unit: LengthUnit | None = None
-    nominal_diameter: Number | None = None
-    thread_pitch: Number | None = None
-    form: FormPart | None = None
-    fit: FitPart | None = None
-    fits: Annotated[list[FitPart], Field(min_length=1)] | None = None
 
 
 class GridPart(Part):
@@ -113,17 +64,14 @@ class LibraryPart(Part):
 class SweepDocument(Part):
     """The file: every pair over every grid by every method, or a list of libraries."""
 
-    pair: list[PairPart] = []
-    grid: list[GridPart] = []
-    method: list[MethodPart] = []
-    library: list[LibraryPart] = []
+    pair: list[PairPart] = Field(default_factory=list)
+    grid: list[GridPart] = Field(default_factory=list)
+    method: list[MethodPart] = Field(default_factory=list)
+    library: list[LibraryPart] = Field(default_factory=list)
 
 
 TABLES: dict[str, type[Part]] = {
-    "pair": PairPart,
-    "form": FormPart,
-    "fit": FitPart,
-    "fits": FitPart,
+    **TABLES_OF_PAIRS,
     "grid": GridPart,
     "method": MethodPart,
     "tolerances": TolerancesPart,

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
-
-from pydantic import ValidationError
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
@@ -16,9 +13,10 @@ from threadstate.library.method import Method
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
+from worker.pairs.build import known, pairs_of
+from worker.pairs.place import Place
+from worker.pairs.toml import checked, read_toml
 from worker.sweep.document import TABLES, GridPart, MeshPart, MethodPart, SweepDocument
-from worker.sweep.pairs import known, pairs_of
-from worker.sweep.place import Place
 
 MOST_LIBRARIES = 100_000
 
@@ -30,16 +28,7 @@ def read_sweep(path: Path) -> tuple[LibraryInputs, ...]:
         InvalidValueError: the file cannot be read, or something in it is not valid; the name says file and key.
     """
     place = Place(f"{path}: ")
-    try:
-        document = SweepDocument.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
-    except OSError as error:
-        raise InvalidValueError("file", str(path), f"a file that can be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise InvalidValueError("file", str(path), "TOML, which is UTF-8") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InvalidValueError("file", str(path), f"TOML ({error})") from None
-    except ValidationError as error:
-        raise _refused(error, place) from None
+    document = checked(SweepDocument, read_toml(path), TABLES, place)
     pairs = _pairs(document, place)
     libraries = tuple(_listed(document, pairs, place) if document.library else _crossed(document, pairs, place))
     if not libraries:
@@ -103,39 +92,3 @@ def _mesh(part: MeshPart) -> MeshOptions:
         scene=part.scene,
         checked=part.checked,
     )
-
-
-def _refused(error: ValidationError, place: Place) -> InvalidValueError:
-    """What is wrong with the file's keys and the kinds of their values, the first of it."""
-    first = error.errors()[0]
-    *tables, key = first["loc"]
-    inner = place
-    for one in _numbered(tables):
-        inner = inner / one
-    if first["type"] == "extra_forbidden":
-        table = next((TABLES[one] for one in reversed(tables) if isinstance(one, str)), SweepDocument)
-        return inner.invalid(str(key), first["input"], f"one of the keys {', '.join(table.model_fields)}")
-    if first["type"] == "missing":
-        return inner.invalid(str(key), None, "a value")
-    value = first["input"]
-    valid = (
-        first["msg"].removeprefix("Input should be ").partition(" or instance of ")[0].replace("dictionary", "table")
-    )
-    if isinstance(key, int):
-        *outer, last = _numbered([*tables, key])
-        inner = place
-        for one in outer:
-            inner = inner / one
-        return inner.invalid(last, value, valid)
-    return inner.invalid(key, value, valid)
-
-
-def _numbered(parts: list[str | int]) -> list[str]:
-    """Keys, with the numbers, from 1, that follow them."""
-    found: list[str] = []
-    for part in parts:
-        if isinstance(part, int):
-            found[-1] += f"[{part + 1}]"
-        else:
-            found.append(part)
-    return found

@@ -8,7 +8,7 @@ from threadstate.library.identity import LibraryInputs
 from worker.output import print_json, print_line
 from worker.sweep.estimate import Estimate
 from worker.sweep.run import Swept
-from worker.tables import console, table
+from worker.tables import table
 
 MINUTE_S, HOUR_S, DAY_S = 60.0, 3600.0, 86400.0
 DECIMAL_PREFIXES = ("", "k", "M", "G", "T", "P")
@@ -51,7 +51,7 @@ def print_estimates(estimates: Sequence[Estimate], *, as_json: bool) -> None:
         _short(sum(one.bytes for one in estimates)),
         _time(sum(one.seconds for one in estimates)),
     )
-    console().print(rows)
+    rows.print()
 
 
 def print_swept(one: Swept, *, as_json: bool) -> None:

@@ -260,7 +260,7 @@ def test_without_the_extra_it_is_said_what_to_install(command_line: CommandLine)
     )
     done = subprocess.run([sys.executable, "-c", script], env=os.environ, capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert "pip install 'threadstate[dask]'" in done.stderr.splitlines()[-1]
+    assert "pip install '.[dask]'" in done.stderr.splitlines()[-1]
 
 
 def test_dask_is_loaded_only_when_asked_for() -> None:

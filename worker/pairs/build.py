@@ -1,4 +1,4 @@
-"""The pairs that a file of a sweep describes."""
+"""The pairs that tables of a file describe."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from threadstate.thread.catalogue import designations, pair_by_designation
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.pair import Pair
-from worker.sweep.document import LARGEST_DESIGNATION, FitPart, FormPart, PairPart
-from worker.sweep.place import Place
+from worker.pairs.document import LARGEST_DESIGNATION, FitPart, FormPart, PairPart
+from worker.pairs.place import Place
 
 
 def pairs_of(part: PairPart, place: Place) -> Iterator[Pair]:

@@ -1,0 +1,60 @@
+"""Which published library a name means; one place for the service and the command line."""
+
+from __future__ import annotations
+
+import re
+
+from sqlalchemy import Connection
+
+from threadstate.errors import NotFoundError
+from threadstate.library.method import Method
+from threadstate.library.read import LibraryRecord, latest_library, library_by_id, published_libraries
+
+LATEST = "latest"
+LATEST_MESH = "latest-mesh"
+
+_NUMBER = re.compile(r"[0-9]{1,18}")
+
+
+def slug(designation: str) -> str:
+    """A designation in lower-case letters, digits and single hyphens: "1/4-20 UNC" is "1-4-20-unc"."""
+    return re.sub("[^a-z0-9]+", "-", designation.lower()).strip("-")
+
+
+def named_library(connection: Connection, name: str) -> LibraryRecord:
+    """The published library that a name means.
+
+    Args:
+        connection: to the database.
+        name: ``latest``, the pinned library or else the one published last by the exact method; ``latest-mesh``, the
+            one published last by meshes; a library's number; a designation or its slug, the library of that thread that
+            is pinned or else published last by the exact method.
+
+    Raises:
+        NotFoundError: there is none; the message names those that there are.
+    """
+    if name == LATEST:
+        return latest_library(connection)
+    if name == LATEST_MESH:
+        return latest_library(connection, method=Method.MESH)
+    published = published_libraries(connection)
+    if _NUMBER.fullmatch(name):
+        try:
+            return library_by_id(connection, int(name))
+        except NotFoundError as error:
+            raise NotFoundError(f"{error}; published are: {_listed(published)}") from None
+    by_exact_method = [one for one in published if one.method is Method.EXACT]
+    for record in sorted(by_exact_method, key=lambda one: not one.is_pinned):
+        if name in (record.designation, slug(record.designation)):
+            return record
+    raise NotFoundError(f"no library of {name!r} is published; published are: {_listed(published)}")
+
+
+def _listed(published: list[LibraryRecord]) -> str:
+    """Libraries by number and designation, for people; not all of very many."""
+    most = 20
+    shown = [
+        f"{one.id} ({slug(one.designation)}{'' if one.method is Method.EXACT else ', by meshes'})" for one in published
+    ]
+    more = [f"and {len(shown) - most} more"] if len(shown) > most else []
+    return ", ".join(shown[:most] + more) or "none yet"

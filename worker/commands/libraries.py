@@ -1,0 +1,126 @@
+"""``threadstate libraries``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from threadstate.errors import InvalidValueError
+from threadstate.settings import read_settings
+from worker.options import Database, Json
+from worker.output import print_json, tell
+
+if TYPE_CHECKING:
+    from threadstate.library.read import LibraryRecord
+
+
+def libraries(
+    pin: Annotated[
+        str | None,
+        typer.Option(
+            "--pin", metavar="NAME", help="First let latest mean this library: its number, designation or slug."
+        ),
+    ] = None,
+    unpin: Annotated[
+        bool, typer.Option("--unpin", help="First let latest mean the one published last again.", show_default=False)
+    ] = False,
+    database: Database = None,
+    as_json: Json = False,
+) -> None:
+    r"""List the published libraries, and say which one "latest" means.
+
+    That is the library published last by the exact method, unless one is pinned: then it is that one, whatever is
+    published later. A designation means the pinned library, too, where that is one of this thread.
+
+    \b
+    Examples:
+      threadstate libraries
+      threadstate libraries --json
+      threadstate libraries --pin 1-4-20-unc
+      threadstate libraries --unpin
+    """
+    if pin is not None and unpin:
+        raise InvalidValueError("--pin", pin, "without --unpin")
+
+    from threadstate.library.engine import reading
+    from threadstate.library.method import Method
+    from threadstate.library.read import published_libraries
+    from threadstate.library.schema import check_schema
+
+    where = database or read_settings().database
+    if pin is not None or unpin:
+        _pin(where, pin)
+    with reading(where) as engine:
+        check_schema(engine)
+        with engine.connect() as connection:
+            published = published_libraries(connection)
+    by_exact_method = [one for one in published if one.method is Method.EXACT]
+    latest = next((one for one in by_exact_method if one.is_pinned), next(iter(by_exact_method), None))
+    if as_json:
+        print_json({"libraries": [_document(one, is_latest=one is latest) for one in published]})
+    else:
+        _print(published, latest)
+
+
+def _pin(database: str, name: str | None) -> None:
+    """Pin the library of a name; with None none is pinned any more."""
+    from threadstate.library.engine import writing
+    from threadstate.library.method import Method
+    from threadstate.library.write import pin_library
+    from worker.stored_network import checked_database, connected_library
+
+    library_id = None
+    if name is None:
+        checked_database(database)
+    else:
+        with connected_library(database, name) as (_, record):
+            if record.method is not Method.EXACT:
+                raise InvalidValueError("--pin", name, "a library by the exact method")
+            library_id = record.id
+    with writing(database) as engine:
+        pin_library(engine, library_id)
+
+
+def _document(record: LibraryRecord, *, is_latest: bool) -> dict[str, object]:
+    from threadstate.library.named import slug
+
+    return {
+        "id": record.id,
+        "designation": record.designation,
+        "slug": slug(record.designation),
+        "method": record.method.value,
+        "unit": record.length_unit.value,
+        "tilt_max": record.grid.tilt_max_deg,
+        "tilt_step": record.grid.tilt_step_deg,
+        "phase_step": record.grid.phase_step_deg,
+        "states": record.state_count,
+        "undecided": record.undecided_count,
+        "published_at": record.published_at.isoformat(),
+        "code_version": record.code_version,
+        "content_sha256": record.content_sha256,
+        "pinned": record.is_pinned,
+        "latest": is_latest,
+    }
+
+
+def _print(published: list[LibraryRecord], latest: LibraryRecord | None) -> None:
+    from worker.tables import table
+
+    if not published:
+        tell("no library is published yet; run `threadstate rebuild`")
+    rows = table("id", "designation", "method", "grid", "states", "unit", "published (UTC)", "")
+    for one in published:
+        grid = one.grid
+        mark = ("latest, pinned" if one.is_pinned else "latest") if one is latest else ""
+        rows.add_row(
+            str(one.id),
+            one.designation,
+            one.method.value,
+            f"+-{grid.tilt_max_deg:g} by {grid.tilt_step_deg:g}, phase by {grid.phase_step_deg:g} deg",
+            str(one.state_count),
+            one.length_unit.value,
+            f"{one.published_at:%Y-%m-%d %H:%M:%S}",
+            mark,
+        )
+    rows.print()

@@ -1,0 +1,52 @@
+"""``threadstate settings``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from worker.options import Dimensions, Json, PairName
+from worker.output import print_json, print_line
+
+
+def settings(pair: PairName = None, dimension: Dimensions = None, as_json: Json = False) -> None:
+    r"""Print all settings, and the pair in force with its dimensions.
+
+    Passwords and keys are not shown.
+
+    \b
+    Examples:
+      threadstate settings
+      threadstate settings --json
+      threadstate settings --pair examples/m6x1.toml
+    """
+    from dataclasses import asdict
+
+    from worker.pairs.chosen import chosen_pair
+    from worker.settings_in_force import settings_in_force
+    from worker.tables import table
+
+    found = settings_in_force()
+    dimensions = asdict(chosen_pair(pair, dimension or ()))
+    if as_json:
+        told = [{"name": one.name, "value": one.value, "source": one.source.value} for one in found]
+        print_json({"settings": told, "pair": dimensions})
+        return
+    rows = table("setting", "from", "value", words_last=True)
+    for one in found:
+        rows.add_row(one.name, one.source.value, "-" if one.value is None else str(one.value))
+    rows.print()
+    print_line("")
+    of_pair = table("pair", dimensions["designation"], words_last=True)
+    for key, value in _flat(dimensions, ""):
+        if key != "designation":
+            of_pair.add_row(key, f"{value:.12g}" if isinstance(value, float) else str(value))
+    of_pair.print()
+
+
+def _flat(values: Mapping[str, object], outside: str) -> Iterator[tuple[str, object]]:
+    """Values by their keys, those of tables behind a dot, as ``--dimension`` takes them."""
+    for key, value in values.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{key}.")
+        else:
+            yield f"{outside}{key}", value

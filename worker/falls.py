@@ -1,0 +1,56 @@
+"""Falls and windows of a library's orientations, stored or computed, for the commands that print them."""
+
+from __future__ import annotations
+
+from threadstate.answer.documents import OrientationWindowsDocument
+from threadstate.answer.falls_range import computed_falls
+from threadstate.answer.histories import computed_history
+from threadstate.answer.library_network import LibraryNetwork
+from threadstate.answer.windows import windows_document, windows_of_histories
+from threadstate.errors import InvalidValueError
+from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
+from worker.output import tell
+from worker.progress import followed
+
+
+def falls_and_windows(
+    network: LibraryNetwork,
+    roll_deg: float | None,
+    pitch_deg: float | None,
+    factor: float,
+    span_deg: float = SPAN_DEG,
+    least_pitches: float = SNAP_PITCHES,
+) -> list[OrientationWindowsDocument]:
+    """Of all orientations of the grid, of one roll or pitch of it, or of any one orientation.
+
+    Lengths are multiplied by ``factor``. Computed is what the library does not hold, with a word on stderr: an
+    orientation off its grid, and steepest falls within another span than the stored ones are.
+
+    Raises:
+        InvalidValueError: an angle alone that is not on the grid, or a value out of range.
+    """
+    pair, tilts = network.pair, network.library.grid.tilts_deg
+    off_grid = [
+        (name, angle)
+        for name, angle in (("roll", roll_deg), ("pitch", pitch_deg))
+        if angle is not None and angle not in tilts
+    ]
+    if off_grid and roll_deg is not None and pitch_deg is not None:
+        name, angle = off_grid[0]
+        tell(f"computed: {name} {angle:g} is not on the grid of library {network.library.id}")
+        history = computed_history(pair, roll_deg, pitch_deg, network.options)
+        found = [windows_document(history, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)]
+    elif off_grid:
+        name, angle = off_grid[0]
+        valid = f"one of {', '.join(f'{tilt:g}' for tilt in tilts)} deg; any angle where roll and pitch are both given"
+        raise InvalidValueError(f"--{name}", angle, valid)
+    else:
+        found = windows_of_histories(network.histories, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)
+    if span_deg == SPAN_DEG:
+        return found
+    return [
+        one.model_copy(
+            update=dict(computed_falls(pair, network.options, one.roll, one.pitch, factor, span_deg, least_pitches))
+        )
+        for one in followed(found, "orientations")
+    ]
