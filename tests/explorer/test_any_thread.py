@@ -40,6 +40,7 @@ def page(chromium: webdriver.Chrome, two_libraries: str) -> Iterator[Explorer]:
     page.one("#depth .curve")
     page.complaints()
     yield page
+    page.run("localStorage.clear()")
     assert page.complaints() == []
 
 
@@ -245,6 +246,7 @@ def test_nothing_is_wider_than_a_small_screen(page: Explorer, width: int) -> Non
             f"/#library={OWN}&beside_library={UNC}&beside_roll=0&beside_pitch=-4&poses=2.5,-1.2,357&tolerance=0.1"
         )
         page.one("#depth path.beside")
+        assert page.run("return document.querySelector('#beside-library').value") == str(UNC)
         for tab in ("state", "regions", "follows", "network", "locate", "poses"):
             page.click(f"#tab-{tab}")
             assert (
