@@ -35,6 +35,8 @@ def violations(explorer: Explorer, axe: str) -> list[str]:
         ("regions", "#disks .disk"),
         ("follows", "#path .step"),
         ("network", "#network .way .ring-in"),
+        ("locate", "#locate-form select"),
+        ("poses", "#poses-text"),
     ],
 )
 def test_axe_finds_nothing_serious(explorer: Explorer, repository_root: Path, theme: str, tab: str, shown: str) -> None:

@@ -91,8 +91,8 @@ def wait_for_another_canvas(explorer: Explorer, pixels: list[int]) -> None:
 
 
 def test_an_orientation_and_a_phase_lead_to_the_numbers_that_the_interface_gives(explorer: Explorer) -> None:
-    choose_pose(explorer, -4, 0, 130)
-    state = explorer.fetched(f"{LIBRARY}/states/-4/0/130")
+    choose_pose(explorer, -4, 0, 180)
+    state = explorer.fetched(f"{LIBRARY}/states/-4/0/180")
     shown = shown_numbers(explorer)
     assert shown["class"].startswith(CLASS_NAMES[state["class"]])
     assert shown["first contact at"] == length_shown(state["poses"][0]["translation"][2])
@@ -101,23 +101,44 @@ def test_an_orientation_and_a_phase_lead_to_the_numbers_that_the_interface_gives
     assert explorer.text("#state-line").startswith(CLASS_NAMES[state["class"]])
 
 
+def test_what_does_not_rest_is_given_no_place(explorer: Explorer) -> None:
+    state = explorer.fetched(f"{LIBRARY}/states/4/0/0")
+    assert (state["class"], len(state["poses"])) == ("unstable_two_point", 3)
+    choose_pose(explorer, 4, 0, 0)
+    shown = shown_numbers(explorer)
+    assert shown["at rest"] == "ends unstable: does not rest"
+    assert "at rest at" not in shown
+    ended = "where the procedure ended (no place of rest)"
+    assert shown[ended] == length_shown(state["poses"][-1]["translation"][2])
+    assert [caption.text for caption in explorer.all("#state caption")][-1] == ended
+    wait_for_scene(explorer, "second contact; from here the bolt does not come to rest")
+    assert explorer.run("return document.querySelector('#stage').max") == "2"
+    assert explorer.all("#depth .cursor .at-first") and not explorer.all("#depth .cursor .at-rest")
+
+
 def test_every_contact_and_pose_of_a_state_is_shown(explorer: Explorer) -> None:
     choose_pose(explorer, 4, -4, 90)
     state = explorer.fetched(f"{LIBRARY}/states/4/-4/90")
     captions = [caption.text for caption in explorer.all("#state caption")]
     assert len([caption for caption in captions if caption.startswith("contact")]) == len(state["contacts"])
-    assert len([caption for caption in captions if caption.startswith("bolt's pose")]) == len(state["poses"])
+    poses = [caption for caption in captions if caption.startswith(("bolt's pose", "where the procedure ended"))]
+    assert len(poses) == len(state["poses"])
     point = f"{state['contacts'][0]['point'][0]:.6f}".replace("-", MINUS)
     assert point in explorer.text("#state")
 
 
 def test_lengths_follow_the_unit(explorer: Explorer) -> None:
-    choose_pose(explorer, -4, 0, 130)
+    choose_pose(explorer, -4, 0, 180)
     explorer.choose("#unit", "mm")
     explorer.wait_for_text("#depth", "z (mm)")
     explorer.wait_for_text("#state", " mm")
-    state = explorer.fetched(f"{LIBRARY}/states/-4/0/130?unit=mm")
+    state = explorer.fetched(f"{LIBRARY}/states/-4/0/180?unit=mm")
     assert shown_numbers(explorer)["at rest at"] == length_shown(state["poses"][-1]["translation"][2], "mm")
+    explorer.open("/")
+    explorer.wait_for_text("#depth", "z (mm)")
+    explorer.open("/#unit=in")
+    explorer.wait_for_text("#depth", "z (in)")
+    explorer.run("localStorage.clear()")
 
 
 def test_a_phase_beside_the_grid_is_solved(explorer: Explorer) -> None:
@@ -135,10 +156,14 @@ def test_a_phase_beside_the_grid_is_solved(explorer: Explorer) -> None:
 
 
 def test_map_shows_each_quantity_with_its_values(explorer: Explorer) -> None:
-    windows = explorer.fetched(f"{LIBRARY}/windows")["windows"]
-    (window,) = [one for one in windows if (one["roll"], one["pitch"]) == (0, -4)]
+    entries = explorer.fetched(f"{LIBRARY}/windows")["orientations"]
+    (entry,) = [one for one in entries if (one["roll"], one["pitch"]) == (0, -4)]
     explorer.choose("#quantity", "window_width")
-    explorer.wait_for_text("#map-readout", f"{window['width']:.3f} deg")
+    explorer.wait_for_text("#map-readout", f"{entry['windows'][0]['width']:.3f} deg")
+    explorer.choose("#quantity", "snap")
+    explorer.wait_for_text("#map-readout", f"fall at the snap {length_shown(entry['snap']['fall'])}")
+    explorer.choose("#quantity", "steepest")
+    explorer.wait_for_text("#map-readout", f"steepest fall {length_shown(entry['steepest'])}")
     explorer.choose("#quantity", "drop")
     explorer.choose("#over", "all")
     summary = explorer.fetched(f"{LIBRARY}/orientations")["orientations"]
@@ -146,7 +171,7 @@ def test_map_shows_each_quantity_with_its_values(explorer: Explorer) -> None:
     explorer.wait_for_text("#map-readout", f"greatest drop {length_shown(one['drop_most'])}")
 
 
-def test_history_is_fetched_once_and_nothing_while_the_phase_moves(explorer: Explorer) -> None:
+def test_history_is_fetched_once_and_while_the_phase_moves_the_map_alone_at_its_pace(explorer: Explorer) -> None:
     explorer.click('#map .cell[data-roll="4"][data-pitch="4"]')
     explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg")
     history = f"{explorer.address}/v1/libraries/1/histories/4/4?unit=in"
@@ -159,13 +184,15 @@ def test_history_is_fetched_once_and_nothing_while_the_phase_moves(explorer: Exp
     explorer.wait(is_fetched, "the history is not fetched")
     explorer.choose("#phase-slider", "5")
     explorer.wait_for_text("#state", "phase 5 deg")
-    explorer.wait_for_text("#map-readout", "roll 4, pitch 4")
+    explorer.wait_for_text("#map-phase", "at phase 5 of the grid.")
+    explorer.addresses_asked()
     explorer.run(MOVE)
     explorer.wait_for_text("#state", "phase 345 deg")
-    asked.extend(explorer.addresses_asked())
-    assert asked.count(history) == 1
-    moved = [one for one in asked if "/states/" in one or "phase=1" in one or "phase=2" in one]
-    assert moved == [] or moved == [one for one in moved if "/states/4/4/10" in one]
+    explorer.wait_for_text("#map-phase", "at phase 345 of the grid.")
+    moved = [one.partition("/v1/")[2] for one in explorer.addresses_asked()]
+    assert all(one.startswith("libraries/1/states?phase=") for one in moved), moved
+    assert len(moved) <= 2, moved
+    assert (asked + moved).count(history) == 1
 
 
 MOVE = """
@@ -182,7 +209,7 @@ def test_motion_is_reduced_where_that_is_preferred(explorer: Explorer) -> None:
     media = {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]}
     explorer.chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
     try:
-        choose_pose(explorer, -4, 0, 130)
+        choose_pose(explorer, -4, 0, 180)
         explorer.choose("#stage", "0")
         wait_for_scene(explorer, "above the nut")
         explorer.click("#play-stages")
@@ -198,19 +225,38 @@ STAGE = "return Number(document.querySelector('#stage').value)"
 
 
 def test_depth_shows_intervals_window_and_snap(explorer: Explorer) -> None:
-    explorer.wait_for_text("#depth", "snap at")
+    explorer.wait_for_text("#depth", "snap: falls")
     history = explorer.fetched(f"{LIBRARY}/histories/0/-4/intervals")["history"]
     assert len(explorer.all("#depth .boundary")) == len(history["boundaries"])
-    snap = history["windows"][0]["snap"]
-    assert f"{snap['phase']:.3f} deg: falls {length_shown(snap['fall'])}" in explorer.text("#depth")
+    assert len(explorer.all("#depth rect.window")) == len(history["windows"])
+    snap = history["snap"]
+    assert f"snap: falls {snap['fall']:.4f} in from {snap['from']:.1f}" in explorer.text("#depth")
+    assert f"of it {snap['jump']:.4f} at {snap['jump_at']:.2f} deg" in explorer.text("#depth")
     explorer.click("#to-snap")
     explorer.wait_for_text("#depth-readout", "in the clearance window")
+    assert 0 < phase_of(explorer) - snap["jump_at"] < 1e-5
+
+
+def test_where_there_is_no_snap_the_button_says_why(explorer: Explorer) -> None:
+    entries = explorer.fetched(f"{LIBRARY}/windows")["orientations"]
+    level = next(one for one in entries if one["snap"] is None)
+    explorer.click(f'#map .cell[data-roll="{level["roll"]:g}"][data-pitch="{level["pitch"]:g}"]')
+    explorer.wait_for_text("#state", f"roll {level['roll']:g} deg".replace("-", MINUS))
+    button = explorer.one("#to-snap")
+    explorer.wait(lambda: button.get_attribute("aria-disabled") == "true", "the button is offered")
+    explorer.click("#to-snap")
+    explorer.wait_for_text("#toast", "There is no snap here")
+    assert phase_of(explorer) == 10
 
 
 def test_a_point_of_the_depth_and_of_a_disk_move_the_phase(explorer: Explorer) -> None:
+    explorer.wait_for_text("#depth", "snap: falls")
     picture = explorer.one("#depth svg")
     ActionChains(explorer.chromium).move_to_element(picture).click().perform()
-    explorer.wait(lambda: 150 < phase_of(explorer) < 190, "the phase is not that of the middle of the picture")
+    explorer.wait(
+        lambda: phase_of(explorer) < 20 or phase_of(explorer) > 340,
+        "the phase is not that of the middle of the picture, where the snap is",
+    )
     explorer.click("#tab-regions")
     disk = explorer.one("#disks .disk")
     ActionChains(explorer.chromium).move_to_element_with_offset(disk, 0, -60).click().perform()
@@ -227,8 +273,8 @@ def test_disks_say_what_touches_at_the_phase(explorer: Explorer) -> None:
 
 
 def test_stages_are_played_and_the_scene_is_orbited(explorer: Explorer) -> None:
-    choose_pose(explorer, -4, 0, 130)
-    wait_for_scene(explorer, "roll -4, pitch 0, phase 130 deg, third contact")
+    choose_pose(explorer, -4, 0, 180)
+    wait_for_scene(explorer, "roll -4, pitch 0, phase 180 deg, third contact")
     at_rest = canvas_content(explorer)
     assert len(colours_of(at_rest)) > 100
     explorer.click("#play-stages")
@@ -297,8 +343,8 @@ def test_network_shows_every_formation_and_the_way_from_here(explorer: Explorer)
 def test_tabs_are_part_of_the_view_and_obey_arrows(explorer: Explorer) -> None:
     explorer.click("#tab-state")
     explorer.one("#tab-state").send_keys(Keys.ARROW_LEFT)
-    explorer.one("#network .formation")
-    explorer.wait(lambda: "tab=network" in explorer.chromium.current_url, "the address does not follow the tab")
+    explorer.one("#poses-text")
+    explorer.wait(lambda: "tab=poses" in explorer.chromium.current_url, "the address does not follow the tab")
     explorer.open("/#tab=regions")
     explorer.one("#disks .disk")
     assert [one.get_attribute("id") for one in explorer.all('[role="tabpanel"]') if one.is_displayed()] == [
@@ -314,7 +360,7 @@ def test_map_depth_and_solids_are_seen_at_once_and_nothing_is_cut(explorer: Expl
     try:
         explorer.one("#scene canvas")
         explorer.one("#depth .curve")
-        for tab in ("state", "regions", "follows", "network"):
+        for tab in ("state", "regions", "follows", "network", "locate", "poses"):
             explorer.click(f"#tab-{tab}")
             assert explorer.run(OUTSIDE) == [], tab
     finally:

@@ -21,13 +21,13 @@ return { index: all.indexOf(at), name: at.id || at.outerHTML.slice(0, 80), visib
 """Which element has the focus, and whether that is seen."""
 
 
-@pytest.mark.parametrize("tab", ["state", "regions", "follows", "network"])
+@pytest.mark.parametrize("tab", ["state", "regions", "follows", "network", "locate", "poses"])
 def test_keyboard_reaches_everything_and_its_focus_is_seen(explorer: Explorer, tab: str) -> None:
     explorer.click(f"#tab-{tab}")
-    explorer.one(f"#panel-{tab} svg, #panel-{tab} table")
+    explorer.one(f"#panel-{tab} :is(svg, table, select, textarea)")
     explorer.one("#scene canvas")
     interactive = explorer.run(
-        "return [...document.querySelectorAll('a, button, select, input, [tabindex=\"0\"]')]"
+        "return [...document.querySelectorAll('a, button, select, input, textarea, [tabindex=\"0\"]')]"
         ".filter((one) => !one.disabled && one.tabIndex >= 0 && one.checkVisibility()).length"
     )
     explorer.run("document.activeElement.blur(); document.body.tabIndex = -1; document.body.focus()")
@@ -77,7 +77,35 @@ def test_focus_that_keys_have_led_on_stays_when_another_formation_is_marked(expl
 
 def test_help_is_shown_at_the_focus_and_hidden_by_escape(explorer: Explorer) -> None:
     explorer.run("document.querySelector('.panel.phase button.help').focus()")
-    explorer.wait_for_text("#help:not([hidden])", "the clearance window, in which it falls")
+    explorer.wait_for_text("#help:not([hidden])", "the descent with the steepest fall")
     assert explorer.run("return document.activeElement.getAttribute('aria-describedby')") == "help"
     ActionChains(explorer.chromium).send_keys(Keys.ESCAPE).perform()
     assert not explorer.one("#help").is_displayed()
+
+
+def test_help_does_not_stay_where_something_was_chosen(explorer: Explorer) -> None:
+    button = explorer.one("#zoom-in")
+    explorer.run("arguments[0].dataset.help = 'Shows less.'", button)
+    ActionChains(explorer.chromium).move_to_element(button).perform()
+    explorer.wait_for_text("#help:not([hidden])", "Shows less.")
+    button.click()
+    assert not explorer.one("#help").is_displayed()
+
+
+def test_keys_move_the_phase_and_zoom_in_the_picture_of_the_depth(explorer: Explorer) -> None:
+    explorer.one("#depth .curve")
+    explorer.run("document.querySelector('#depth svg').focus()")
+    keys = ActionChains(explorer.chromium)
+    keys.send_keys(Keys.ARROW_RIGHT).key_down(Keys.SHIFT).send_keys(Keys.ARROW_LEFT).key_up(Keys.SHIFT).perform()
+    assert phase_of(explorer) == 325
+    ActionChains(explorer.chromium).send_keys("+").perform()
+    explorer.wait(lambda: "span=180" in explorer.chromium.current_url, "the picture is not zoomed")
+    ActionChains(explorer.chromium).send_keys("0").perform()
+    explorer.wait(lambda: "span=" not in explorer.chromium.current_url, "the whole turn is not shown")
+
+
+def test_arrows_step_the_tilts_through_the_grid(explorer: Explorer) -> None:
+    explorer.one("#roll").send_keys(Keys.ARROW_UP)
+    explorer.wait_for_text("#state", "roll 4 deg")
+    explorer.one("#pitch").send_keys(Keys.ARROW_UP)
+    explorer.wait_for_text("#state", "pitch 0 deg")

@@ -15,6 +15,7 @@ import pytest
 
 from tests.explorer.browser import Explorer
 from tests.explorer.test_explorer import choose_pose, wait_for_scene
+from threadstate.client.models.states import State
 
 PNG = b"\x89PNG\r\n\x1a\n"
 TABS = {"disks": "regions", "follows": "follows", "path": "follows", "network": "network", "state": "state"}
@@ -69,7 +70,7 @@ def test_tables_are_saved_with_the_numbers_of_the_interface(save: Save, explorer
     library = "/v1/libraries/latest"
     heights = explorer.fetched(f"{library}/histories/-4/0/heights")["heights"]
     shown = [[float(cell) if cell else None for cell in row] for row in rows("phase")[1:]]
-    columns = (heights["phases"], heights["first_heights"], heights["last_heights"])
+    columns = (heights["phases"], heights["first_heights"], heights["rest_heights"])
     assert shown == [list(row) for row in zip(*columns, strict=True)]
     classes = {
         (one["roll"], one["pitch"]): one["class"] for one in explorer.fetched(f"{library}/states?phase=130")["states"]
@@ -130,7 +131,9 @@ def test_copied_lines_fetch_the_state_that_is_shown(explorer: Explorer) -> None:
         assert json.load(answer) == state
     found: dict[str, object] = {}
     exec(copied(explorer, "#copy-python"), found)
-    assert found["state"] == state
+    shown = found["state"]
+    assert isinstance(shown, State)
+    assert shown.model_dump(mode="json", by_alias=True) == state
     link = copied(explorer, "#copy-link")
     assert "roll=-4&pitch=0&phase=130" in link
     assert link.startswith(explorer.address)

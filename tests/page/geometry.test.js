@@ -2,14 +2,15 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { inkOn, scaleColour } from "../../service/explorer/page/js/colours.js";
-import { depthCurves, heightsOf, intervalAt, nextFormations, seen } from "../../service/explorer/page/js/curve.js";
+import { depthCurves, heightAt, heightsOf, intervalAt, nextFormations, seen } from "../../service/explorer/page/js/curve.js";
 import { atPhase, phaseOf, sectors } from "../../service/explorer/page/js/disks.js";
+import { notesOf } from "../../service/explorer/page/js/follows_view.js";
 import { meshesOf } from "../../service/explorer/page/js/glb.js";
-import { behind, nearestPhase, steppedPhase, tilts } from "../../service/explorer/page/js/grid.js";
+import { behind, isOnGrid, nearestPhase, steppedPhase, steppedTilt, tilts } from "../../service/explorer/page/js/grid.js";
 import { poseAt } from "../../service/explorer/page/js/motion.js";
 import { followed, groupsOf } from "../../service/explorer/page/js/neighbours.js";
 import { dragged, firstCamera, keyed, standpoint, zoomed as nearer } from "../../service/explorer/page/js/orbit.js";
-import { aroundWindow, middleOf, zoomed } from "../../service/explorer/page/js/zoom.js";
+import { aroundEvent, middleOf, rangeOf, zoomed } from "../../service/explorer/page/js/zoom.js";
 
 const near = (a, b, tolerance = 1e-12) => assert.ok(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
 
@@ -89,22 +90,30 @@ test("depth breaks where it jumps and where a phase is undecided, and nowhere el
   const heights = {
     phases: [0, 40, 40.0000005, 90, 90.0000005, 180, 200, 220, 360],
     first_heights: [1, 2, 2.00001, 2, 1, 1, null, 1, 1],
-    last_heights: [0, 0, 0, 0, 0, 0, 0, 0, 0],
+    rest_heights: [0, 0, 0, 0, null, null, 0, 0, 0],
   };
-  const { first, last } = depthCurves(heights, 0.05);
+  const { first, rest } = depthCurves(heights, 0.05);
   assert.deepEqual(first.map((run) => run.map(({ phase }) => phase)), [[0, 40, 40.0000005, 90], [90.0000005, 180], [220, 360]]);
-  assert.equal(last.length, 1);
+  assert.deepEqual(rest.map((run) => run.map(({ phase }) => phase)), [[0, 40, 40.0000005, 90], [200, 220, 360]]);
+  assert.equal(heightAt(first, 20), 1.5);
+  assert.equal(heightAt(first, 200), null);
+  assert.deepEqual(depthCurves({ ...heights, rest_heights: undefined }, 0.05).rest, []);
 });
 
 test("a history without heights of its own gives those of its states", () => {
-  const at = (phase, ...heights) => ({ phase, poses: heights.map((z) => ({ translation: [0, 0, z] })) });
-  const history = { roll: 1, pitch: 2, states: [at(0, 3, 1), at(180, 4)], undecided: [{ phase: 90 }] };
+  const at = (phase, embedment, ...heights) => ({
+    phase,
+    class: "stable_three_point",
+    margins: { embedment },
+    poses: heights.map((z) => ({ translation: [0, 0, z] })),
+  });
+  const history = { roll: 1, pitch: 2, states: [at(0, 1e-9, 3, 1), at(180, -1e-3, 4, 2)], undecided: [{ phase: 90 }] };
   assert.deepEqual(heightsOf(history), {
     roll: 1,
     pitch: 2,
     phases: [0, 90, 180, 360],
     first_heights: [3, null, 4, 3],
-    last_heights: [1, null, 4, 1],
+    rest_heights: [1, null, null, 1],
   });
 });
 
@@ -129,17 +138,32 @@ test("phases of the grid are stepped through in turn, from beside the grid too",
   assert.equal(steppedPhase(grid, 0, -1), 359);
   assert.equal(steppedPhase(grid, 12.4, 1), 13);
   assert.equal(steppedPhase(grid, 12.4, -1), 12);
+  assert.equal(steppedTilt(grid, 0.25, 1), 0.3);
+  assert.equal(steppedTilt(grid, 0.3, 1), 0.4);
+  assert.equal(steppedTilt(grid, -10, -1), -10);
+  assert.ok(isOnGrid(grid, { roll: 0.3, pitch: -0.1 }) && !isOnGrid(grid, { roll: 0.25, pitch: 0 }) && !isOnGrid(grid, { roll: 0.4, pitch: 0 }));
   assert.ok(behind(357.38089147) > 357.38089147 && behind(357.38089147) < 357.380894);
 });
 
 test("a zoom keeps the phase under the pointer and never shows more than a turn", () => {
   const range = zoomed({ from: 0, span: 360 }, 0.5, 90);
   assert.deepEqual(range, { from: 45, span: 180 });
-  assert.deepEqual(zoomed(range, 4, 90), { from: 0, span: 360 });
+  assert.deepEqual(zoomed(range, 4, 90), { from: null, span: 360 });
   assert.equal(middleOf({ from: -20, span: 40, phase: 350 }), -10);
   assert.equal(middleOf({ from: 100, span: 40, phase: 350 }), 120);
-  const { from, span } = aroundWindow({ enter: 357, width: 40 });
-  assert.deepEqual([from, span], [-9, 52]);
+  const window = { enter: 357, leave: 397 };
+  assert.deepEqual(aroundEvent({ snap: null, windows: [window] }), { from: -9, span: 52 });
+  assert.deepEqual(aroundEvent({ snap: { from: 337, to: 360 }, windows: [window] }), { from: -32, span: 78 });
+  assert.equal(aroundEvent({ snap: null, windows: [] }), null);
+});
+
+test("a whole turn begins where its main event is in the middle, and any other range where it is said", () => {
+  const turn = { from: null, span: 360 };
+  assert.deepEqual(rangeOf(turn, { snap: { from: 351, to: 359 }, windows: [] }), { from: -180, span: 360 });
+  assert.deepEqual(rangeOf(turn, { snap: null, windows: [{ enter: 80, leave: 120 }] }), { from: -90, span: 360 });
+  assert.deepEqual(rangeOf(turn, { snap: null, windows: [] }), { from: 0, span: 360 });
+  assert.deepEqual(rangeOf(turn, null), { from: 0, span: 360 });
+  assert.deepEqual(rangeOf({ from: 12, span: 3 }, null), { from: 12, span: 3 });
 });
 
 test("the camera stays above and below the poles, and its keys lead back", () => {
@@ -158,7 +182,10 @@ test("what comes next here stands first; the rest by its share", () => {
   const groups = groupsOf(node, 2, { ccw: "a", cw: null });
   const ccw = groups.find(({ move }) => move === "ccw");
   assert.deepEqual(ccw.shown.map(({ formation, here }) => [formation, here]), [["a", true], ["b", false]]);
-  assert.deepEqual([ccw.more, ccw.rest], [1, 0.4]);
+  assert.deepEqual([ccw.more, ccw.rest, ccw.unchanged], [1, 0.4, 0]);
+  assert.deepEqual(notesOf(ccw), ["and 1 more, 40 % together"]);
+  const [tilted] = groupsOf({ following: [one("a", "roll+", 0.3)] }, 2, {}).filter(({ move }) => move === "roll+");
+  assert.deepEqual(notesOf(tilted), ["70 %: the same, or the grid ends"]);
 });
 
 test("a formation is followed to where it occurs nearest", () => {

@@ -6,15 +6,21 @@ import { stepLabels } from "../../service/explorer/page/js/path_view.js";
 import { nearestThreshold, stableShare } from "../../service/explorer/page/js/quantities.js";
 import { stateLine } from "../../service/explorer/page/js/terms.js";
 import { csvOf } from "../../service/explorer/page/js/csv.js";
-import { angle, angleNumber, fixed, inTurn, length, percent } from "../../service/explorer/page/js/units.js";
+import { angle, angleNumber, fixed, inTurn, length, percent, shortLength } from "../../service/explorer/page/js/units.js";
 import { wrapped } from "../../service/explorer/page/js/wrap.js";
 
 test("lengths have the decimals of their unit, and are never rounded to nothing", () => {
   assert.equal(length(0.0012345678, "in"), "0.001235 in");
   assert.equal(length(-0.0012345678, "mm"), "−0.00123 mm");
-  assert.equal(length(8.7e-19, "in"), "8.7e−19 in");
+  assert.equal(length(2.4e-9, "in"), "2.4e−9 in");
   assert.equal(length(0, "in"), "0.000000 in");
   assert.equal(length(null, "in"), "none");
+});
+
+test("round-off among lengths is zero", () => {
+  assert.equal(length(8.7e-19, "in"), "0.000000 in");
+  assert.equal(length(-8.7e-19, "mm"), "0.00000 mm");
+  assert.deepEqual([shortLength(0.01099, "in"), shortLength(0.2791, "mm"), shortLength(3e-6, "in")], ["0.0110", "0.279", "3.0e−6"]);
 });
 
 test("angles lose trailing zeros and nothing else", () => {

@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { curlLine, pythonLines } from "../../service/explorer/page/js/snippets.js";
-import { fragmentOf, viewOf } from "../../service/explorer/page/js/url_state.js";
+import { isStep } from "../../service/explorer/page/js/address_bar.js";
+import { fragmentOf, readFragment } from "../../service/explorer/page/js/url_state.js";
 import { DEFAULTS, View } from "../../service/explorer/page/js/view.js";
 
 const CHOSEN = {
@@ -23,7 +24,15 @@ const CHOSEN = {
   azimuth: 12.5,
   elevation: -30,
   distance: 0.75,
+  tolerance: 0.3,
+  beside_library: 2,
+  beside_roll: 2.5,
+  beside_pitch: -1.2,
+  poses: "2.5,-1.2,357;0,-4,10.25",
+  observed: "class=stable_three_point&contact=1:crest:*:edge-edge,*:*:flank_pos:*&ordered=true",
 };
+
+const viewOf = (fragment) => readFragment(fragment).view;
 
 test("a fragment restores exactly the view that made it", () => {
   for (const view of [CHOSEN, { ...DEFAULTS, library: 1, unit: "in" }]) {
@@ -38,9 +47,31 @@ test("every part of a view is in its fragment", () => {
   }
 });
 
-test("what is not valid in a fragment is left out", () => {
-  const bad = "roll=11&pitch=&phase=360&unit=ft&theme=red&span=0&library=-1&stage=NaN&nut=&tab=numbers&x=1&constructor=1&distance=1e999";
-  assert.deepEqual(viewOf(bad), {});
+test("what is not valid in a fragment is left out and said, the rest is kept", () => {
+  const bad = {
+    roll: "11", pitch: "", phase: "x", unit: "ft", theme: "red", span: "0", library: "-1", stage: "NaN", nut: "", tab: "numbers",
+    distance: "1e999", quantity: "colour", tolerance: "-0.1", beside_roll: "12", poses: "1,2", observed: "class=x", from: "400",
+  };
+  for (const [key, text] of Object.entries(bad)) {
+    const { view, remarks } = readFragment(`${key}=${text}&azimuth=3&x=1&constructor=1`);
+    assert.deepEqual(view, { azimuth: 3 }, key);
+    assert.equal(remarks.length, 1, key);
+  }
+  assert.deepEqual(readFragment("#roll=12").remarks, ["roll in the link is 12; valid: -10 to 10 deg"]);
+});
+
+test("any angle is kept exactly; a phase is brought into the turn and said", () => {
+  assert.deepEqual(readFragment("#roll=2.5&pitch=-1.2&phase=357.38"), { view: { roll: 2.5, pitch: -1.2, phase: 357.38 }, remarks: [] });
+  assert.deepEqual(readFragment("#phase=400"), { view: { phase: 40 }, remarks: ["phase 400 deg is 40 deg within the turn"] });
+  assert.deepEqual(readFragment("#phase=-5"), { view: { phase: 355 }, remarks: ["phase -5 deg is 355 deg within the turn"] });
+});
+
+test("what one goes to is a step of the history, what one moves is not", () => {
+  const step = (...names) => isStep(new Set(names), null);
+  assert.ok(step("roll") && step("pitch") && step("tab") && step("library"));
+  assert.ok(!step("phase") && !step("azimuth", "elevation") && !step("from", "span") && !step("unit"));
+  assert.ok(isStep(new Set(["phase"]), "entry"));
+  assert.ok(!isStep(new Set(["roll"]), "restored"));
 });
 
 test("followers hear of what differs, and of nothing else", () => {
@@ -52,25 +83,28 @@ test("followers hear of what differs, and of nothing else", () => {
   assert.deepEqual(heard, [[11, ["phase"]]]);
 });
 
-const LIBRARY = { id: 3, designation: "1/4-20 UNC", stored_unit: "in" };
+const LIBRARY = { id: 3, designation: "M6x1", stored_unit: "in" };
 const POSE = { roll: 4, pitch: -3, phase: 185 };
 
 test("a stored state is fetched by its address, in the unit shown", () => {
-  assert.equal(curlLine("http://h", LIBRARY, { pose: POSE, unit: "in", stored: true }), 'curl "http://h/v1/libraries/3/states/4/-3/185"');
-  assert.match(pythonLines("http://h", LIBRARY, { pose: POSE, unit: "mm", stored: true }), /states\/4\/-3\/185\?unit=mm"/);
+  const stored = { pose: POSE, unit: "in", stored: true };
+  assert.equal(curlLine("http://h", LIBRARY, stored), 'curl "http://h/v1/libraries/3/states/4/-3/185"');
+  assert.match(curlLine("http://h", LIBRARY, { ...stored, unit: "mm" }), /states\/4\/-3\/185\?unit=mm"/);
+  assert.match(pythonLines("http://h", LIBRARY, stored), /state = client\.state\(4, -3, 185, library=3, unit="in"\)/);
 });
 
 test("where a key is needed the lines show it, from a variable and not itself", () => {
   for (const stored of [true, false]) {
     const state = { pose: POSE, unit: "in", stored };
     assert.match(curlLine("http://h", LIBRARY, state, true), / -H "Authorization: Bearer \$KEY"/);
-    assert.match(pythonLines("http://h", LIBRARY, state, true), /"Authorization": f"Bearer {os.environ\['KEY'\]}"/);
-    assert.doesNotMatch(curlLine("http://h", LIBRARY, state, false) + pythonLines("http://h", LIBRARY, state, false), /Authorization/);
+    assert.match(pythonLines("http://h", LIBRARY, state, true), /Client\("http:\/\/h", key=os\.environ\["KEY"\]\)/);
+    assert.doesNotMatch(curlLine("http://h", LIBRARY, state, false) + pythonLines("http://h", LIBRARY, state, false), /Authorization|KEY/);
   }
 });
 
-test("a solved state is fetched by its pose", () => {
-  const line = curlLine("http://h", LIBRARY, { pose: POSE, unit: "mm", stored: false });
-  const body = JSON.parse(line.match(/-d '(.*)'/)[1]);
-  assert.deepEqual(body, { poses: [POSE], designation: "1/4-20 UNC" });
+test("a solved state is fetched by its pose, with the pair and the tolerances of the library", () => {
+  const solved = { pose: POSE, unit: "mm", stored: false };
+  const body = JSON.parse(curlLine("http://h", LIBRARY, solved).match(/-d '(.*)'/)[1]);
+  assert.deepEqual(body, { library: 3, poses: [POSE] });
+  assert.match(pythonLines("http://h", LIBRARY, solved), /client\.solve\(\[\(4, -3, 185\)\], library=3, unit="mm"\)\.states\[0\]/);
 });

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import re
+from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
@@ -54,6 +55,10 @@ def test_page_names_files_that_there_are(client: TestClient) -> None:
     assert len(names) > 4
     assert {version for version, _ in names} == {page().version}
     assert {name for _, name in names} <= set(page().files)
+
+
+def test_the_picture_of_the_axes_is_that_of_the_documents(repository_root: Path) -> None:
+    assert page().files["axes.svg"].content == (repository_root / "docs/axes.svg").read_bytes()
 
 
 def test_modules_import_files_that_there_are() -> None:

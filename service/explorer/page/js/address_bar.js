@@ -1,18 +1,62 @@
-// The view in the browser's address, written when it has come to rest: browsers limit how often it may change.
+// The view in the browser's address and history. What one goes to is a step that Back takes back; what one moves is not.
 
-import { fragmentOf, viewOf } from "./url_state.js";
+import { fragmentOf, readFragment } from "./url_state.js";
+import { DEFAULTS } from "./view.js";
 
+/** Browsers limit how often the address may change. */
 const REST_MS = 200;
+/** Changes of the same kind that follow one another sooner are one step. */
+const ONE_STEP_MS = 800;
+const STEPS = ["library", "roll", "pitch", "tab"];
 
-/** Keeps the address and a view the same; returns the address of exactly the present view. */
-export function keepAddress(view) {
+/** Whether a change of the view is a step of the browser's history. */
+export function isStep(changed, how) {
+  return how === "entry" || (how !== "restored" && STEPS.some((name) => changed.has(name)));
+}
+
+/** Keeps the address and a view the same; `remark` is told what of an address is not valid. Returns the present address. */
+export function keepAddress(view, remark) {
   let timer = null;
-  const write = () => history.replaceState(null, "", `#${fragmentOf(view.value)}`);
-  view.follow(() => {
+  let written = view.value;
+  let last = { names: "", at: -Infinity };
+  const addressOf = (value) => `#${fragmentOf(value)}`;
+  const write = () => {
     clearTimeout(timer);
-    timer = setTimeout(write, REST_MS);
+    timer = null;
+    written = view.value;
+    history.replaceState(null, "", addressOf(written));
+  };
+  view.follow((now, changed, how) => {
+    if (how === "restored") {
+      written = now;
+      return;
+    }
+    const names = [...changed].sort().join(" ");
+    const goesOn = names === last.names && performance.now() - last.at < ONE_STEP_MS;
+    if (isStep(changed, how)) last = { names, at: performance.now() };
+    if (isStep(changed, how) && !goesOn) {
+      // What was moved since the last step belongs to that one.
+      if (timer !== null) history.replaceState(null, "", addressOf(written));
+      clearTimeout(timer);
+      timer = null;
+      history.pushState(null, "", addressOf(now));
+    } else {
+      clearTimeout(timer);
+      timer = setTimeout(write, REST_MS);
+    }
+    written = now;
   });
-  window.addEventListener("hashchange", () => view.set(viewOf(location.hash)));
+  window.addEventListener("popstate", () => {
+    clearTimeout(timer);
+    timer = null;
+    const { library, unit } = view.value;
+    const { view: found, remarks } = readFragment(location.hash);
+    view.set({ ...DEFAULTS, library, unit, ...found }, "restored");
+    if (remarks.length > 0) {
+      remark(remarks);
+      write();
+    }
+  });
   write();
-  return () => `${location.origin}${location.pathname}#${fragmentOf(view.value)}`;
+  return () => `${location.origin}${location.pathname}${addressOf(view.value)}`;
 }

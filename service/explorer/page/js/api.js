@@ -50,9 +50,9 @@ export class Api {
     return this.#ask(path);
   }
 
-  /** The states of poses, on the grid or not, by the exact solver. */
-  async solve(poses, designation, unit) {
-    const body = JSON.stringify({ poses, designation });
+  /** The states of poses, on the grid or not, by the exact solver with the pair and the tolerances of a library. */
+  async solve(poses, library, unit) {
+    const body = JSON.stringify({ library, poses });
     const answer = await this.#ask(addressOf("/v1/solve", { unit }), {
       method: "POST",
       headers: { "Content-Type": "application/json" },

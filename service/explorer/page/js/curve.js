@@ -1,5 +1,6 @@
 // Depth against phase, and the intervals along it.
 
+import { restHeight } from "./resting.js";
 import { inTurn } from "./units.js";
 
 /** Between two phases nearer than this a step of the height by more than that part of the thread's pitch is a jump. */
@@ -11,28 +12,35 @@ export function firstHeight(state) {
   return state.poses[0].translation[2];
 }
 
-/** Height at which a state comes to rest. */
-export function lastHeight(state) {
-  return state.poses.at(-1).translation[2];
-}
-
 /** The heights of a history's states, in the form of the service's heights: for a library that has none of its own. */
 export function heightsOf({ roll, pitch, states, undecided }) {
   const points = [
-    ...states.map((state) => [state.phase, firstHeight(state), lastHeight(state)]),
+    ...states.map((state) => [state.phase, firstHeight(state), restHeight(state)]),
     ...undecided.map(({ phase }) => [phase, null, null]),
   ].sort(([a], [b]) => a - b);
   if (points.length > 0) points.push([360, points[0][1], points[0][2]]);
-  const [phases, first, last] = [0, 1, 2].map((k) => points.map((point) => point[k]));
-  return { roll, pitch, phases, first_heights: first, last_heights: last };
+  const [phases, first, rest] = [0, 1, 2].map((k) => points.map((point) => point[k]));
+  return { roll, pitch, phases, first_heights: first, rest_heights: rest };
 }
 
 /**
- * The curves of an orientation over one turn, `first` and `last`: arrays of unbroken runs of {phase, height}, phases
- * ascending from 0 to 360. A run ends where a phase is undecided and where the height jumps.
+ * The curves of an orientation over one turn, `first` and `rest`: arrays of unbroken runs of {phase, height}, phases
+ * ascending from 0 to 360. A run ends where a phase is undecided, where the bolt does not rest and where the height jumps.
  */
-export function depthCurves({ phases, first_heights: first, last_heights: last }, threadPitch) {
-  return { first: runs(phases, first, threadPitch), last: runs(phases, last, threadPitch) };
+export function depthCurves({ phases, first_heights: first, rest_heights: rest }, threadPitch) {
+  return { first: runs(phases, first, threadPitch), rest: rest ? runs(phases, rest, threadPitch) : [] };
+}
+
+/** The height of a curve at a phase, by straight lines; null where it has none. */
+export function heightAt(found, phase) {
+  for (const run of found) {
+    const k = run.findIndex((point) => point.phase >= phase);
+    if (k < 0 || (k === 0 && run[0].phase > phase)) continue;
+    if (run[k].phase === phase) return run[k].height;
+    const [a, b] = [run[k - 1], run[k]];
+    return a.height + ((phase - a.phase) / (b.phase - a.phase)) * (b.height - a.height);
+  }
+  return null;
 }
 
 function runs(phases, heights, threadPitch) {

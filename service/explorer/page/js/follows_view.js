@@ -13,7 +13,7 @@ const MOST = 3;
 const LINES = 3;
 const LETTERS = 22;
 const TITLE = 17;
-const REST = 18;
+const REST = 15;
 const CENTRE_HEIGHT = 122;
 const SHARE_HEIGHT = 3;
 
@@ -30,7 +30,7 @@ export class FollowsView {
   /** Draws a formation's node; `next` has the keys of what comes next at this orientation, by move. */
   draw(node, next) {
     const rows = pairs(groupsOf(node, MOST, next));
-    const heights = rows.map((row) => TITLE + Math.max(...row.map(({ shown }) => shown.length)) * (CARD.height + CARD.gap) + REST);
+    const heights = rows.map((row) => TITLE + Math.max(...row.map((group) => group.shown.length * (CARD.height + CARD.gap) + REST * notesOf(group).length)));
     const height = CENTRE_HEIGHT + heights.reduce((sum, one) => sum + one, 0) + 8 * rows.length;
     const root = picture(WIDTH, height, "The formation and those that turns and tilts lead to", { class: "follows", role: "group" });
     root.append(centre(node));
@@ -50,13 +50,12 @@ export class FollowsView {
     put(this.#frame, line);
   }
 
-  #group({ title, shown, more, rest, move }, x, y) {
+  #group(group, x, y) {
+    const { title, shown, move } = group;
     const parts = [svg("text", { x, y: y + 12, class: "group" }, title)];
     shown.forEach((one, k) => parts.push(this.#card(one, move, x, y + TITLE + k * (CARD.height + CARD.gap))));
     const below = y + TITLE + shown.length * (CARD.height + CARD.gap) + 11;
-    if (shown.length === 0) parts.push(svg("text", { x, y: below, class: "title" }, "nothing: the grid ends here"));
-    if (more > 0) parts.push(svg("text", { x, y: below, class: "title" }, `and ${more} more, ${percent(rest)} together`));
-    return parts;
+    return [...parts, ...notesOf(group).map((note, k) => svg("text", { x, y: below + REST * k, class: "title" }, note))];
   }
 
   #card({ formation, class: stateClass, change, share, here }, move, x, y) {
@@ -89,6 +88,16 @@ export function changeText(change, stateClass) {
   const name = className(stateClass);
   if (first.endsWith(` to ${name}`) && !first.startsWith("contact")) return [`to ${name}`, ...rest].join("; ");
   return change || "the same contacts";
+}
+
+/** What is to be said below a group's cards, so that all its shares add up. */
+export function notesOf({ move, shown, more, rest, unchanged }) {
+  const turns = move === "ccw" || move === "cw";
+  return [
+    ...(more > 0 ? [`and ${more} more, ${percent(rest)} together`] : []),
+    ...(shown.length === 0 ? [turns ? "no other formation" : "no other formation, or the grid ends"] : []),
+    ...(shown.length > 0 && unchanged > 0 ? [`${percent(unchanged)}: the same, or the grid ends`] : []),
+  ];
 }
 
 /** The groups two by two: opposite senses stand beside each other. */

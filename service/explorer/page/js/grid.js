@@ -1,11 +1,22 @@
-// The poses that a library holds.
+// The poses that a library holds, and those that can be asked for.
 
 import { inTurn } from "./units.js";
+
+/** Roll and pitch go to this either way, in degrees. */
+export const TILT_LIMIT = 10;
+/** The largest tolerance on measured angles, in degrees. */
+export const TOLERANCE_LIMIT = 2;
 
 /** The values of roll, and of pitch, of a grid: -tilt_max to tilt_max. */
 export function tilts(grid) {
   const steps = Math.round(grid.tilt_max / grid.tilt_step);
   return Array.from({ length: 2 * steps + 1 }, (_, k) => decimal((k - steps) * grid.tilt_step));
+}
+
+/** Whether an orientation is one of a grid's. */
+export function isOnGrid(grid, { roll, pitch }) {
+  const angles = tilts(grid);
+  return angles.includes(roll) && angles.includes(pitch);
 }
 
 /** The phase of the grid nearest to a phase. */
@@ -15,9 +26,12 @@ export function nearestPhase(grid, phase) {
 
 /** The next phase of the grid in the sense of `steps`, so many steps on. */
 export function steppedPhase(grid, phase, steps) {
-  const at = phase / grid.phase_step;
-  const first = steps > 0 ? Math.floor(at + 1e-9) : Math.ceil(at - 1e-9);
-  return inTurn(decimal((first + steps) * grid.phase_step));
+  return inTurn(stepped(phase, grid.phase_step, steps));
+}
+
+/** The next multiple of the grid's step of tilt in the sense of `steps`, so many steps on; within what can be asked for. */
+export function steppedTilt(grid, tilt, steps) {
+  return Math.min(Math.max(stepped(tilt, grid.tilt_step, steps), -TILT_LIMIT), TILT_LIMIT);
 }
 
 /** The tilt of the grid nearest to a tilt. */
@@ -29,6 +43,17 @@ export function nearestTilt(grid, tilt) {
 /** A phase just behind another one, with six decimals: where a state changes no pose may be decided. */
 export function behind(phase) {
   return inTurn((Math.ceil(phase * 1e6) + 1) / 1e6);
+}
+
+/** A grid in few words. */
+export function gridText({ tilt_max: most, tilt_step: tilt, phase_step: phase }) {
+  return `±${most} by ${tilt}°, phase by ${phase}°`;
+}
+
+function stepped(value, step, steps) {
+  const at = value / step;
+  const first = steps > 0 ? Math.floor(at + 1e-9) : Math.ceil(at - 1e-9);
+  return decimal((first + steps) * step);
 }
 
 /** The decimal number that a reader would write: 0.3 and not 0.30000000000000004. */

@@ -1,4 +1,4 @@
-// A line of help beside whatever has one, while the pointer or the focus is on it; Escape hides it.
+// A line of help beside whatever has one, while the pointer is on it or keys have led the focus there; Escape hides it.
 
 import { byId } from "./html.js";
 
@@ -14,21 +14,34 @@ export function wireHelp() {
     owner = null;
     shown.hidden = true;
   };
-  const show = (event) => {
-    const next = event.target.closest?.("[data-help]") ?? null;
+  const show = (element) => {
+    const next = element.closest?.("[data-help]") ?? null;
     if (next === owner) return;
     hide();
-    if (next === null) return;
+    if (next === null || next.dataset.help === "") return;
     owner = next;
     owner.setAttribute("aria-describedby", shown.id);
     shown.textContent = owner.dataset.help;
     shown.hidden = false;
     place(shown, owner.getBoundingClientRect());
   };
-  document.addEventListener("pointerover", show);
-  document.addEventListener("focusin", show);
+  document.addEventListener("pointerover", ({ target, pointerType }) => {
+    if (pointerType !== "touch") show(target);
+  });
+  document.documentElement.addEventListener("pointerleave", hide);
+  document.addEventListener("pointerdown", hide);
+  // A finger has no other way to ask for it; what it chooses needs no help.
+  document.addEventListener("click", ({ target }) => {
+    const asked = target.closest?.("button.help, button.term");
+    if (asked) show(asked);
+    else hide();
+  });
+  document.addEventListener("focusin", ({ target }) => {
+    if (target.matches(":focus-visible")) show(target);
+  });
   document.addEventListener("focusout", hide);
   document.addEventListener("scroll", hide, true);
+  window.addEventListener("blur", hide);
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape") hide();
   });

@@ -2,45 +2,43 @@
 
 import { keepAddress } from "./address_bar.js";
 import { Api, ProblemError } from "./api.js";
-import { showControls, wireControls } from "./controls.js";
-import { nearestTilt } from "./grid.js";
+import { wireAxes } from "./axes.js";
+import { Busy } from "./busy.js";
+import { fitControls, showControls, showLibraries, wireControls } from "./controls.js";
 import { wireHelp } from "./help.js";
 import { byId } from "./html.js";
 import { forgetKey, keepKey, keptKey } from "./kept_key.js";
-import { KEY_WANTED, hideTrouble, progressOf, say, showExplorer, showTrouble, troubleOf } from "./messages.js";
+import { KEY_WANTED, hideTrouble, progressOf, say, showBusy, showExplorer, showTrouble, troubleOf } from "./messages.js";
 import { Model } from "./model.js";
 import { Pictures } from "./pictures.js";
+import { rememberedUnit } from "./remembered.js";
 import { wireSaving } from "./saving.js";
 import { curlLine, pythonLines } from "./snippets.js";
 import { showTab, wireTabs } from "./tabs.js";
-import { viewOf } from "./url_state.js";
+import { readFragment } from "./url_state.js";
 import { View } from "./view.js";
 
 const RETRY_MS = 2000;
+const NOT_FOUND = 404;
 
-
+const linked = readFragment(location.hash);
 const api = new Api(keptKey());
-const view = new View(viewOf(location.hash));
-const model = new Model(api, (part) => pictures.redraw(part), failed);
+const view = new View({ unit: rememberedUnit(), ...linked.view });
+const model = new Model(api, new Busy(showBusy), came, failed);
 const pictures = new Pictures(api, model, view);
 let troubled = false;
 
 async function begin() {
   document.documentElement.dataset.theme = view.value.theme;
   await model.open(view.value);
-  const { grid, id, unit, designation } = model.library;
-  view.set({
-    library: id,
-    unit: view.value.unit ?? unit,
-    roll: nearestTilt(grid, view.value.roll),
-    pitch: nearestTilt(grid, view.value.pitch),
-  });
-  byId("library").textContent = `${designation}, library ${id}`;
-  wireControls(view, grid);
+  view.set({ library: model.library.id, unit: model.library.unit });
+  wireControls(view, () => model.library.grid);
+  showLibraries({ all: [model.library], latest: null }, model.library);
+  fitControls(model.library.grid);
   wireTabs(view);
   wireHelp();
-  const address = keepAddress(view);
-  wireCopying(address);
+  wireAxes();
+  wireCopying(keepAddress(view, (remarks) => say(remarks.join(". "))));
   byId("forget-key").hidden = !api.hasKey;
   byId("forget-key").addEventListener("click", () => {
     forgetKey();
@@ -50,6 +48,7 @@ async function begin() {
   showControls(view.value);
   showTab(view.value);
   showExplorer();
+  if (linked.remarks.length > 0) say(linked.remarks.join(". "));
   pictures.followSizes();
   view.follow((now, changed) => {
     showControls(now);
@@ -61,8 +60,23 @@ async function begin() {
   pictures.begin();
 }
 
+/** A part of the model has come. */
+function came(part) {
+  if (part === "library") fitControls(model.library.grid);
+  if (part === "libraries") showLibraries(model.libraries, model.library);
+  if (part === "state") model.followLibraries();
+  pictures.redraw(part);
+  if (part === "library") model.follow(view.value);
+  if (part === "libraries") showControls(view.value);
+}
+
 /** Says what is wrong, and tries again until it is not. */
-async function failed(error) {
+async function failed(error, part) {
+  if (part === "library" && error instanceof ProblemError && error.status === NOT_FOUND) {
+    say(error.message);
+    view.set({ library: model.library.id });
+    return;
+  }
   if (troubled) return;
   troubled = true;
   const asks = error instanceof ProblemError && error.status !== KEY_WANTED;
@@ -111,17 +125,17 @@ async function buildingNow() {
 
 function wireCopying(address) {
   const copies = {
-    "copy-link": ["link", address],
-    "copy-json": ["JSON", () => JSON.stringify(model.state.state, null, 1)],
-    "copy-curl": ["curl line", () => curlLine(location.origin, model.library, model.state, api.hasKey)],
-    "copy-python": ["Python lines", () => pythonLines(location.origin, model.library, model.state, api.hasKey)],
+    "copy-link": ["The link is", address],
+    "copy-json": ["The JSON is", () => JSON.stringify(model.state.state, null, 1)],
+    "copy-curl": ["The curl line is", () => curlLine(location.origin, model.library, model.state, api.hasKey)],
+    "copy-python": ["The Python lines are", () => pythonLines(location.origin, model.library, model.state, api.hasKey)],
   };
-  for (const [id, [name, text]] of Object.entries(copies)) {
+  for (const [id, [what, text]] of Object.entries(copies)) {
     byId(id).addEventListener("click", async () => {
       const content = text();
       try {
         await navigator.clipboard.writeText(content);
-        say(`The ${name} is on the clipboard.`);
+        say(`${what} on the clipboard.`);
       } catch {
         say(content);
       }

@@ -7,6 +7,9 @@ import { byId, html } from "./html.js";
 const UNAVAILABLE = 503;
 const NOT_FOUND = "urn:threadstate:problem:not-found";
 export const KEY_WANTED = 401;
+/** How long something said in passing is seen: so long, or as long as it takes to read. */
+const LEAST_TOAST_MS = 4000;
+const LETTER_MS = 70;
 
 /**
  * What keeps the page from showing a library: {kind, detail, building}; `building` is what progressOf lists, `named`
@@ -119,5 +122,11 @@ export function say(text) {
   const toast = byId("toast");
   toast.textContent = text;
   clearTimeout(Number(toast.dataset.timer));
-  toast.dataset.timer = setTimeout(() => (toast.textContent = ""), 4000);
+  toast.dataset.timer = setTimeout(() => (toast.textContent = ""), Math.max(LEAST_TOAST_MS, text.length * LETTER_MS));
+}
+
+/** Says what is being computed; nothing where nothing is. */
+export function showBusy(texts) {
+  byId("busy").hidden = texts.length === 0;
+  byId("busy-text").textContent = texts.length === 0 ? "" : `${texts.join("; ")} …`;
 }

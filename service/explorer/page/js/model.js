@@ -2,41 +2,73 @@
 
 import { ProblemError } from "./api.js";
 import { heightsOf } from "./curve.js";
-import { nearestPhase } from "./grid.js";
+import { isOnGrid, nearestPhase } from "./grid.js";
+import { observationQuery } from "./observed.js";
+import { Pace } from "./pace.js";
+import { posesOfView } from "./poses.js";
 import { needsSummaries } from "./quantities.js";
 import { Rest } from "./rest.js";
+import { turnPath } from "./turn_path.js";
 
 const MAP_FIELDS = "roll,pitch,class,drop,embedment,pivot_offset,margins";
 const MAP_PAGE = 1000;
-/** While the phase moves nothing is asked for; what belongs to a phase is asked for when it has come to rest. */
+/** The map follows a phase that moves, so often. */
+const MAP_MS = 300;
+/** What belongs to a formation is asked for when the phase has come to rest. */
 const REST_MS = 150;
+const UNRESOLVED = 422;
+const NOT_FOUND = 404;
+/** The parts that belong to one library. */
+const OF_LIBRARY = [
+  "orientations", "windows", "map", "history", "depth", "state", "node", "path", "formations", "falls",
+  "measured", "located",
+];
 
 /** The parts of the model, each null until it has come. */
 export class Model {
   library = null;
+  /** All libraries, the latest first, and the number of the one that `latest` means. */
+  libraries = null;
+  beside = null;
   orientations = null;
   windows = null;
   map = null;
   history = null;
-  heights = null;
-  intervals = null;
+  /** Heights and intervals of the orientation: they come together, as where the picture begins follows from both. */
+  depth = null;
   state = null;
   node = null;
   path = null;
   formations = null;
+  falls = null;
+  measured = null;
+  located = null;
 
   #api;
+  #busy;
   #told;
   #failed;
   #wanted = new Map();
-  #mapRest = new Rest(REST_MS);
+  #mapPace = new Pace(MAP_MS);
+  #solvePace = new Pace(0);
   #formationRest = new Rest(REST_MS);
 
-  /** `told` is called with the name of a part that has come, `failed` with an error. */
-  constructor(api, told, failed) {
+  /** `told` is called with the name of a part that has come, `failed` with an error and the part that it keeps away. */
+  constructor(api, busy, told, failed) {
     this.#api = api;
+    this.#busy = busy;
     this.#told = told;
     this.#failed = failed;
+  }
+
+  /** Heights along the phase; null until they have come. */
+  get heights() {
+    return this.depth?.heights ?? null;
+  }
+
+  /** The intervals of the phase; null until they have come, and where the library has none. */
+  get intervals() {
+    return this.depth?.intervals ?? null;
   }
 
   /** Address of the library that is shown. */
@@ -52,31 +84,50 @@ export class Model {
 
   /** Asks for everything of a view that is not here yet. */
   follow(view) {
-    const { roll, pitch, phase } = view;
-    const unit = view.unit;
-    if (this.library.unit !== unit) {
-      this.#want("library", unit, () => this.#api.get(this.root, { unit }));
+    const { unit, library } = view;
+    if (this.library.id !== library || this.library.unit !== unit) {
+      this.#want("library", `${library} ${unit}`, () => this.#api.get(`/v1/libraries/${library}`, { unit }));
     }
+    if (this.library.id !== library) return;
+    const where = `${library} ${unit} ${view.roll} ${view.pitch}`;
     if (needsSummaries(view)) this.#askForSummaries(unit);
-    this.#want("state", `${unit} ${roll} ${pitch} ${phase}`, () => this.#state(view));
-    this.#want("heights", `${unit} ${roll} ${pitch}`, () => this.#heights(view));
-    this.#want("intervals", `${unit} ${roll} ${pitch}`, () =>
-      this.#optional(this.#api.get(`${this.root}/histories/${roll}/${pitch}/intervals`, { unit })),
-    );
+    this.#want("state", `${where} ${view.phase}`, () => this.#state(view));
+    this.#want("depth", where, () => this.#depth(view, this.library));
+    this.#followMap(view);
+    this.#followTolerance(view);
+    this.#followBeside(view);
+    this.#want("measured", `${library} ${unit} ${view.poses}`, () => this.#measured(view));
+    this.#want("located", `${library} ${view.observed}`, () => this.#located(view));
+  }
+
+  #followMap({ phase, unit, library }) {
     const onGrid = nearestPhase(this.library.grid, phase);
-    const askForMap = () => this.#want("map", `${unit} ${onGrid}`, () => this.#map(onGrid, unit));
-    if (this.map === null) askForMap();
-    else this.#mapRest.after(askForMap);
+    const key = `${library} ${unit} ${onGrid}`;
+    if (this.#wanted.get("map") === key) return;
+    this.#mapPace.run(() => this.#want("map", key, () => this.#map(onGrid, unit)));
   }
 
   #askForSummaries(unit) {
-    this.#want("orientations", unit, async () => (await this.#api.get(`${this.root}/orientations`, { unit })).orientations);
-    this.#want("windows", unit, () => this.#optional(this.#api.get(`${this.root}/windows`, { unit })));
+    const key = `${this.library.id} ${unit}`;
+    this.#want("orientations", key, async () => (await this.#api.get(`${this.root}/orientations`, { unit })).orientations);
+    this.#want("windows", key, () => this.#optional(this.#api.get(`${this.root}/windows`, { unit })));
   }
 
-  /** Asks for the history of a view's orientation, whose states then need not be asked for one by one. */
-  followHistory({ unit, roll, pitch }) {
-    this.#want("history", `${unit} ${roll} ${pitch}`, () => this.#history({ unit, roll, pitch }));
+  /** Asks for the history of a view's orientation, whose states then need not be asked for one by one; off the grid there is none. */
+  followHistory({ unit, library, roll, pitch }) {
+    if (this.library.id !== library || !isOnGrid(this.library.grid, { roll, pitch })) return;
+    this.#want("history", `${library} ${unit} ${roll} ${pitch}`, () => this.#history({ unit, roll, pitch }));
+  }
+
+  /** Asks for all libraries, and which of them is the latest. */
+  followLibraries() {
+    this.#want("libraries", "all", async () => {
+      const [{ libraries }, latest] = await Promise.all([
+        this.#api.getAnew("/v1/libraries"),
+        this.#optional(this.#api.getAnew("/v1/libraries/latest")),
+      ]);
+      return { all: libraries, latest: latest?.id ?? null };
+    });
   }
 
   /** Asks for a formation and its way to the window; both null where the pose has none. */
@@ -84,21 +135,48 @@ export class Model {
     this.#formationRest.after(() => this.#askForFormation(view, interval));
   }
 
-  #askForFormation({ unit, roll, pitch }, interval) {
+  #askForFormation({ unit, library, roll, pitch, phase }, interval) {
+    if (this.library.id !== library) return;
     const key = interval?.formation.key ?? null;
-    this.#want("node", `${unit} ${key}`, async () =>
+    const onGrid = isOnGrid(this.library.grid, { roll, pitch });
+    this.#want("node", `${library} ${unit} ${key}`, async () =>
       key === null ? null : this.#optional(this.#api.get(`${this.root}/network/formations/${key}`, { unit })),
     );
-    this.#want("path", `${unit} ${roll} ${pitch} ${interval?.start}`, async () =>
-      key === null
-        ? null
-        : this.#optional(this.#api.get(`${this.root}/network/paths`, { from: key, roll, pitch, phase: interval.inside, unit })),
-    );
+    this.#want("path", `${library} ${unit} ${roll} ${pitch} ${interval?.start} ${onGrid ? "" : phase}`, async () => {
+      if (key === null) return null;
+      if (!onGrid) return { path: turnPath(this.intervals.history, phase) };
+      return this.#optional(this.#api.get(`${this.root}/network/paths`, { from: key, roll, pitch, phase: interval.inside, unit }));
+    });
   }
 
   /** Asks for all formations of the network; null where the library has none. */
   followNetwork() {
-    this.#want("formations", "all", async () => (await this.#optional(this.#api.get(`${this.root}/network/formations`)))?.formations ?? null);
+    this.#want("formations", `${this.library.id}`, async () => (await this.#optional(this.#api.get(`${this.root}/network/formations`)))?.formations ?? null);
+  }
+
+  #followTolerance({ unit, library, roll, pitch, tolerance }) {
+    this.#want("falls", `${library} ${unit} ${roll} ${pitch} ${tolerance}`, async () => {
+      if (tolerance === null) return null;
+      try {
+        const asked = this.#api.get(`/v1/histories/${roll}/${pitch}/falls`, { library, tolerance, unit });
+        return (await this.#busy.during(`computing the falls within ±${tolerance} deg`, asked)).range;
+      } catch (error) {
+        if (!(error instanceof ProblemError) || error.status >= 500) throw error;
+        return { problem: error.message };
+      }
+    });
+  }
+
+  #followBeside({ unit, beside_library: id, beside_roll: roll, beside_pitch: pitch }) {
+    const chosen = [id, roll, pitch].every((value) => value !== null);
+    this.#want("beside", chosen ? `${id} ${unit} ${roll} ${pitch}` : "none", async () => {
+      if (!chosen) return null;
+      const library = await this.#optional(this.#api.get(`/v1/libraries/${id}`, { unit }));
+      if (library === null) return { library: null, id, roll, pitch };
+      const view = { unit, library: id, roll, pitch };
+      const { heights, intervals } = await this.#depth(view, library);
+      return { library, id, roll, pitch, heights, history: intervals?.history ?? null };
+    });
   }
 
   /** Asks again for what has not come, after the service was lost. */
@@ -113,12 +191,21 @@ export class Model {
     try {
       const answer = await ask();
       if (this.#wanted.get(part) !== key) return;
+      if (part === "library" && answer.id !== this.library.id) this.#forget();
       this[part] = answer;
       this.#told(part);
     } catch (error) {
       if (this.#wanted.get(part) !== key) return;
       this.#wanted.delete(part);
-      this.#failed(error);
+      this.#failed(error, part);
+    }
+  }
+
+  /** Forgets what belongs to the library that was shown. */
+  #forget() {
+    for (const part of OF_LIBRARY) {
+      this[part] = null;
+      this.#wanted.delete(part);
     }
   }
 
@@ -127,13 +214,13 @@ export class Model {
     try {
       return await answer;
     } catch (error) {
-      if (error instanceof ProblemError && error.status === 404) return null;
+      if (error instanceof ProblemError && error.status === NOT_FOUND) return null;
       throw error;
     }
   }
 
-  #history({ unit, roll, pitch }) {
-    return this.#api.get(`${this.root}/histories/${roll}/${pitch}`, { unit });
+  #history({ unit, roll, pitch }, { id } = this.library) {
+    return this.#api.get(`/v1/libraries/${id}/histories/${roll}/${pitch}`, { unit });
   }
 
   async #map(phase, unit) {
@@ -148,16 +235,34 @@ export class Model {
     return { phase, states };
   }
 
-  async #heights({ roll, pitch, unit }) {
-    const answer = await this.#optional(this.#api.get(`${this.root}/histories/${roll}/${pitch}/heights`, { unit }));
-    return answer?.heights ?? heightsOf(await this.#history({ unit, roll, pitch }));
+  async #depth(view, library) {
+    const [heights, intervals] = await Promise.all([this.#heights(view, library), this.#intervals(view, library)]);
+    return { heights, intervals };
+  }
+
+  /** Stored where the orientation is on the grid, else computed now. */
+  async #heights({ roll, pitch, unit }, library) {
+    if (!isOnGrid(library.grid, { roll, pitch })) return (await this.#computed("heights", { roll, pitch, unit }, library)).heights;
+    const answer = await this.#optional(this.#api.get(`/v1/libraries/${library.id}/histories/${roll}/${pitch}/heights`, { unit }));
+    return answer?.heights ?? heightsOf(await this.#history({ unit, roll, pitch }, library));
+  }
+
+  #intervals({ roll, pitch, unit }, library) {
+    if (!isOnGrid(library.grid, { roll, pitch })) return this.#computed("intervals", { roll, pitch, unit }, library);
+    return this.#optional(this.#api.get(`/v1/libraries/${library.id}/histories/${roll}/${pitch}/intervals`, { unit }));
+  }
+
+  #computed(what, { roll, pitch, unit }, { id }) {
+    const asked = this.#api.get(`/v1/histories/${roll}/${pitch}/${what}`, { library: id, unit });
+    return this.#busy.during(`computing the history of roll ${roll}, pitch ${pitch} deg`, asked);
   }
 
   /** From the history where that is here; the first state of an orientation does not wait for it. */
-  async #state({ roll, pitch, phase, unit }) {
+  async #state({ library, roll, pitch, phase, unit }) {
     const pose = { roll, pitch, phase };
+    if (!isOnGrid(this.library.grid, pose)) return this.#solvedState(pose, unit);
     const onGrid = nearestPhase(this.library.grid, phase) === phase;
-    if (this.#wanted.get("history") !== `${unit} ${roll} ${pitch}`) {
+    if (this.#wanted.get("history") !== `${library} ${unit} ${roll} ${pitch}`) {
       return onGrid ? this.#storedState(pose, unit) : this.#solvedState(pose, unit);
     }
     const history = await this.#history({ unit, roll, pitch });
@@ -174,20 +279,41 @@ export class Model {
       const state = await this.#api.get(`${this.root}/states/${roll}/${pitch}/${phase}`, { unit });
       return { pose, unit, state, reason: null, stored: true };
     } catch (error) {
-      if (!(error instanceof ProblemError && error.status === 404)) throw error;
+      if (!(error instanceof ProblemError && error.status === NOT_FOUND)) throw error;
       return { pose, unit, state: null, reason: error.message, stored: true };
     }
   }
 
+  /** Solved with the pair and the tolerances of the library; of poses that come faster than that takes, the last. */
   async #solvedState(pose, unit) {
+    const [state, reason] = (await this.#solvePace.run(() => this.#solved([pose], unit)))?.[0] ?? [null, null];
+    return { pose, unit, state, reason, stored: false };
+  }
+
+  /** States of poses, [state, null] each, or [null, reason] where undecided. */
+  async #solved(poses, unit) {
+    const { id } = this.library;
     try {
-      const [state] = await this.#api.solve([pose], this.library.designation, unit);
-      return { pose, unit, state, reason: null, stored: false };
+      return (await this.#api.solve(poses, id, unit)).map((state) => [state, null]);
     } catch (error) {
-      if (error instanceof ProblemError && error.status === 422) {
-        return { pose, unit, state: null, reason: error.message, stored: false };
-      }
-      throw error;
+      if (!(error instanceof ProblemError && error.status === UNRESOLVED)) throw error;
+      if (poses.length === 1) return [[null, error.message]];
+      const found = [];
+      for (const pose of poses) found.push(...(await this.#solved([pose], unit)));
+      return found;
     }
+  }
+
+  async #measured(view) {
+    const poses = posesOfView(view);
+    if (poses.length === 0) return [];
+    const states = await this.#busy.during(`solving ${poses.length} measured poses`, this.#solved(poses, view.unit));
+    return poses.map((pose, k) => ({ pose, state: states[k][0], reason: states[k][1] }));
+  }
+
+  async #located({ observed }) {
+    if (observed === "") return null;
+    const answer = await this.#optional(this.#api.get(`${this.root}/network/locate`, observationQuery(observed)));
+    return answer?.location ?? { missing: true };
   }
 }

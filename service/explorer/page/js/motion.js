@@ -3,11 +3,6 @@
 /** How high above its first contact the bolt begins, in thread pitches. */
 const LIFT_IN_PITCHES = 0.8;
 
-/** How far a state goes: the number of its stages. */
-export function lastStage(state) {
-  return state.poses.length;
-}
-
 /**
  * The bolt's pose at a stage, whole or in between: {rotation, translation} as in the state. 0 is above the first contact,
  * 1 to 3 are the poses of the stages; between them the bolt turns about the axis on which its contacts lie.

@@ -2,6 +2,9 @@
 
 import { inTurn } from "./units.js";
 
+/** A smaller share is round-off of what a percentage shows. */
+const ROUNDED = 0.0005;
+
 /** The moves in pairs of opposite senses. */
 const GROUPS = [
   { move: "cw", title: "turning clockwise" },
@@ -14,7 +17,8 @@ const GROUPS = [
 
 /**
  * The groups of a formation's node: {move, title, shown, more, rest}, where `shown` are the `most` formations with
- * the largest shares, `more` is how many others there are, and `rest` their share. The formation that comes next at this
+ * the largest shares, `more` is how many others there are, `rest` their share, and `unchanged` the share of the formation's
+ * phase at which the move leads to no other formation. The formation that comes next at this
  * very orientation, whose key `next` has by its move, stands first and is marked `here`.
  */
 export function groupsOf(node, most, next) {
@@ -24,11 +28,13 @@ export function groupsOf(node, most, next) {
       .map((one) => ({ ...one, here: one.formation === next[group.move] }))
       .sort((a, b) => b.here - a.here || b.share - a.share);
     const others = members.slice(most);
+    const all = members.reduce((sum, { share }) => sum + share, 0);
     return {
       ...group,
       shown: members.slice(0, most),
       more: others.length,
       rest: others.reduce((sum, { share }) => sum + share, 0),
+      unchanged: 1 - all > ROUNDED ? 1 - all : 0,
     };
   });
 }

@@ -1,25 +1,31 @@
 // All pictures of the page: which is drawn anew when what has come or changed.
 
 import { CLASS_COLOURS } from "./colours.js";
+import { besideText, placeText, showComparison, showSnaps, wireComparison } from "./compare_view.js";
 import { intervalAt, nextFormations } from "./curve.js";
 import { DepthView, depthReadout } from "./depth_view.js";
 import { DisksView } from "./disks_view.js";
+import { behindSnap, noSnapText, toleranceText } from "./falls.js";
 import { FollowsView } from "./follows_view.js";
-import { behind, nearestPhase, steppedPhase } from "./grid.js";
+import { behind, isOnGrid, nearestPhase, steppedPhase } from "./grid.js";
 import { byId } from "./html.js";
-import { MapView } from "./map_view.js";
+import { LocateView } from "./locate_view.js";
+import { MapView, mapPhaseText } from "./map_view.js";
 import { markPainted } from "./marks.js";
-import { lastStage } from "./motion.js";
+import { say } from "./messages.js";
 import { followed } from "./neighbours.js";
 import { NetworkView } from "./network_view.js";
+import { remaining } from "./observed.js";
 import { firstCamera } from "./orbit.js";
 import { drawPath, pathText } from "./path_view.js";
 import { Player } from "./player.js";
+import { PosesView } from "./poses_view.js";
 import { QUANTITIES, needsSummaries } from "./quantities.js";
+import { lastStage, rests } from "./resting.js";
 import { followSize } from "./size.js";
 import { showState } from "./state_panel.js";
 import { stateLine } from "./terms.js";
-import { WHOLE_TURN, aroundWindow, middleOf, zoomed } from "./zoom.js";
+import { WHOLE_TURN, aroundEvent, middleOf, rangeOf, zoomed } from "./zoom.js";
 
 const STAGES_PER_SECOND = 0.55;
 const PHASE_STEPS_PER_SECOND = 30;
@@ -27,6 +33,8 @@ const PHASE_STEPS_PER_SECOND = 30;
 const STILL_STEPS_PER_SECOND = 1;
 const UNITED = ["roll", "pitch"];
 const NO_NETWORK = "There is none: the library was computed by meshes, or the phase is undecided.";
+const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not know it. The way below is by turning alone.";
+const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
 
 /** The pictures, and what is played in them. */
 export class Pictures {
@@ -40,6 +48,9 @@ export class Pictures {
   #follows;
   #network;
   #player;
+  #locate;
+  #poses;
+  /** What the scene has the solids of: a library's number. */
   #solids = null;
 
   constructor(api, model, view) {
@@ -47,12 +58,22 @@ export class Pictures {
     this.#model = model;
     this.#view = view;
     const toPhase = (phase) => view.set({ phase: nearestPhase(model.library.grid, phase) });
-    this.#map = new MapView(
-      byId("map"),
-      (roll, pitch) => view.set({ roll, pitch }),
-      (text) => (byId("map-readout").textContent = text),
-    );
-    this.#depth = new DepthView(byId("depth"), toPhase, (factor, middle) => view.set(zoomed(view.value, factor, middle)));
+    const goTo = ({ roll, pitch, phase }) => view.set({ roll, pitch, phase }, "entry");
+    this.#map = new MapView(byId("map"), {
+      choose: (roll, pitch) => view.set({ roll, pitch }),
+      tell: (text) => (byId("map-readout").textContent = text),
+      goTo,
+    });
+    this.#depth = new DepthView(byId("depth"), {
+      choose: toPhase,
+      zoom: (factor, middle) => this.#zoom(factor, middle),
+      step: (steps) => view.set({ phase: steppedPhase(model.library.grid, view.value.phase, steps) }),
+      goTo,
+    });
+    this.#locate = new LocateView((observed) => view.set({ observed }), goTo);
+    this.#poses = new PosesView((poses) => view.set({ poses }), goTo);
+    wireComparison(view, () => model.library.grid);
+    showComparison(view.value);
     this.#disks = new DisksView(byId("disks"), toPhase);
     this.#follows = new FollowsView(byId("follows"), (key, move) => this.#followFormation(key, move));
     this.#network = new NetworkView(
@@ -77,10 +98,11 @@ export class Pictures {
 
   /** Loads the solids, after the first numbers were seen. */
   async #beginSolids() {
-    if (this.#solids !== null) return;
-    this.#solids = this.#loadScene();
+    const { id } = this.#model.library;
+    if (this.#solids === id) return;
+    this.#solids = id;
     try {
-      await this.#solids;
+      await this.#loadScene();
     } catch (error) {
       this.#solids = null;
       byId("scene").textContent = `The solids cannot be shown: ${error.message}`;
@@ -90,10 +112,13 @@ export class Pictures {
   /** Draws what a part of the model that has come is seen in. */
   redraw(part) {
     const view = this.#view.value;
-    if (["map", "orientations", "windows", "library"].includes(part)) this.#drawMap();
-    if (["heights", "intervals"].includes(part)) this.#drawCurves();
+    if (["map", "orientations", "windows", "library", "measured", "located"].includes(part)) this.#drawMap();
+    if (["depth", "beside", "measured"].includes(part)) this.#drawCurves();
+    if (part === "falls") this.#showFalls();
+    if (["located", "measured"].includes(part)) this.#drawLists();
     if (part === "state") {
       this.#drawState();
+      this.#drawMap();
       this.#model.followHistory(view);
       this.#beginSolids();
     }
@@ -101,14 +126,15 @@ export class Pictures {
     if (part === "path") this.#drawPath();
     if (part === "formations") this.#drawNetwork();
     if (["node", "path"].includes(part)) this.#markNetwork();
-    if (part === "library") this.#model.follow(view);
   }
 
   /** Draws what parts of the view that have changed are seen in. */
   follow(changed) {
     const has = (...names) => names.some((name) => changed.has(name));
-    if (has("roll", "pitch", "quantity", "over")) this.#drawMap();
+    if (has("roll", "pitch", "quantity", "over", "tab")) this.#drawMap();
     if (has("from", "span")) this.#drawCurves();
+    if (has(...BESIDE)) showComparison(this.#view.value);
+    if (has("roll", "pitch", "phase", "tab", "observed", "poses")) this.#drawLists();
     if (has("phase")) this.#moveCursors();
     if (has(...UNITED)) this.#showSnap();
     if (has("stage", "nut", "azimuth", "elevation", "distance")) this.#drawScene();
@@ -122,15 +148,18 @@ export class Pictures {
     const quantity = QUANTITIES[view.quantity];
     byId("quantity").dataset.help = `${quantity.name}: ${quantity.help}.`;
     if (needsSummaries(view) ? !(orientations && (quantity.ofState || windows)) : !map) return;
-    this.#map.draw(this.#model, view);
+    this.#map.draw(this.#model, view, this.#remaining());
+    byId("map-phase").textContent = mapPhaseText(this.#model, view);
     markPainted("map");
   }
 
   #drawCurves() {
-    const { heights, library } = this.#model;
+    const { heights, library, measured } = this.#model;
     if (heights === null) return;
     const intervals = this.#intervals();
-    this.#depth.draw({ heights, intervals, library }, this.#view.value);
+    const beside = this.#beside();
+    this.#depth.draw({ heights, intervals, library, measured, beside }, this.#view.value, this.#range());
+    this.#showBeside(beside);
     if (this.#isSeen("regions")) this.#disks.draw(intervals);
     this.#moveCursors();
     this.#showSnap();
@@ -139,18 +168,19 @@ export class Pictures {
 
   #moveCursors() {
     const view = this.#view.value;
-    const intervals = this.#intervals();
+    const intervals = this.#present();
     const interval = intervalAt(intervals, view.phase);
     this.#depth.moveCursor(this.#model, view);
     if (this.#isSeen("regions")) this.#disks.moveCursor(interval, view.phase);
     byId("depth-readout").textContent = depthReadout({ intervals }, view);
+    byId("map-phase").textContent = mapPhaseText(this.#model, view);
     this.#followInterval(interval);
   }
 
   #followInterval(interval) {
     const { value } = this.#view;
     if (!this.#isSeen("follows", "network")) return;
-    if (UNITED.every((name) => this.#intervals()?.history[name] === value[name])) this.#model.followFormation(value, interval);
+    if (this.#present() !== null) this.#model.followFormation(value, interval);
   }
 
   #isSeen(...tabs) {
@@ -165,7 +195,60 @@ export class Pictures {
       this.#drawFollowing();
       this.#drawPath();
     }
+    this.#drawLists();
     this.#drawState();
+  }
+
+  /** Draws what the tabs hold that ask: what remains of an observation, and measured poses. */
+  #drawLists() {
+    const { value } = this.#view;
+    this.#locate.show(value.observed);
+    if (this.#isSeen("locate")) this.#locate.list(this.#model.located, value);
+    if (this.#isSeen("poses")) this.#poses.list(this.#model.measured, value);
+  }
+
+  /** The orientations that an observation leaves, while it is looked at. */
+  #remaining() {
+    const { located } = this.#model;
+    return this.#isSeen("locate") && located?.stretches ? remaining(located.stretches) : [];
+  }
+
+  #range() {
+    return rangeOf(this.#view.value, this.#intervals()?.history ?? null);
+  }
+
+  #zoom(factor, middle) {
+    const { value } = this.#view;
+    const range = this.#range();
+    this.#view.set(factor === null ? WHOLE_TURN : zoomed(range, factor, middle ?? middleOf({ ...range, phase: value.phase })));
+  }
+
+  /** Another orientation beside, where it has come and is the one that was chosen. */
+  #beside() {
+    const { beside, library } = this.#model;
+    const { value } = this.#view;
+    const isChosen = beside?.library && BESIDE.every((name) => beside[{ beside_library: "id" }[name] ?? name.slice("beside_".length)] === value[name]);
+    return isChosen ? { ...beside, text: besideText(beside, library) } : null;
+  }
+
+  #showBeside(beside) {
+    const frame = byId("snaps");
+    frame.hidden = this.#view.value.beside_library === null;
+    if (frame.hidden) return;
+    if (beside === null) {
+      frame.textContent = this.#model.beside?.library === null ? `There is no library ${this.#model.beside.id} here.` : "";
+      return;
+    }
+    const here = { text: placeText(this.#view.value), history: this.#present()?.history ?? null };
+    showSnaps(frame, here, beside, this.#view.value.unit);
+  }
+
+  #showFalls() {
+    const { falls } = this.#model;
+    const { tolerance, unit } = this.#view.value;
+    byId("falls").hidden = tolerance === null;
+    if (tolerance === null || falls === null) byId("falls").textContent = "";
+    else byId("falls").textContent = falls.problem ? `Nothing is known within ±${tolerance} deg: ${falls.problem}` : toleranceText(falls, unit);
   }
 
   #drawState() {
@@ -174,6 +257,8 @@ export class Pictures {
     showState(byId("state"), state, state.unit);
     byId("state-line").textContent = state.state ? stateLine(state.state) : "undecided";
     byId("state-line").style.setProperty("--class", CLASS_COLOURS[state.state?.class] ?? "transparent");
+    byId("stage").max = state.state ? lastStage(state.state) : 3;
+    byId("stage").value = this.#view.value.stage;
     this.#depth.moveCursor(this.#model, this.#view.value);
     this.#drawScene();
     markPainted("state");
@@ -191,7 +276,7 @@ export class Pictures {
 
   #drawFollowing() {
     if (this.#model.node) this.#follows.draw(this.#model.node.node, nextFormations(this.#intervals(), this.#view.value.phase));
-    else this.#follows.tell(NO_NETWORK);
+    else this.#follows.tell(isOnGrid(this.#model.library.grid, this.#view.value) ? NO_NETWORK : NOT_IN_NETWORK);
   }
 
   #drawNetwork() {
@@ -212,7 +297,7 @@ export class Pictures {
     const path = this.#model.path?.path ?? null;
     byId("path-text").textContent = this.#model.path ? pathText(path) : "";
     byId("path").replaceChildren();
-    if (path) drawPath(byId("path"), path, ({ roll, pitch, phase }) => this.#view.set({ roll, pitch, phase: behind(phase) }));
+    if (path) drawPath(byId("path"), path, ({ roll, pitch, phase }) => this.#view.set({ roll, pitch, phase: behind(phase) }, "entry"));
   }
 
   /** The intervals where they belong to the heights that are drawn. */
@@ -221,28 +306,40 @@ export class Pictures {
     return UNITED.every((name) => intervals?.history[name] === heights?.[name]) ? intervals : null;
   }
 
+  /** The intervals where they belong to the orientation that was chosen. */
+  #present() {
+    const { intervals } = this.#model;
+    return UNITED.every((name) => intervals?.history[name] === this.#view.value[name]) ? intervals : null;
+  }
+
   async #followFormation(key, move) {
     const { unit, roll, pitch, phase } = this.#view.value;
     const { node } = await this.#api.get(`${this.#model.root}/network/formations/${key}`, { unit });
-    this.#view.set(followed(node, { roll, pitch, phase }, move, this.#model.library.grid));
-  }
-
-  #window() {
-    return this.#intervals()?.history.windows[0] ?? null;
+    this.#view.set(followed(node, { roll, pitch, phase }, move, this.#model.library.grid), "entry");
   }
 
   #showSnap() {
-    byId("to-snap").disabled = this.#window() === null;
-    byId("zoom-window").disabled = this.#window() === null;
+    const history = this.#present()?.history ?? null;
+    const noSnap = history?.snap ? null : noSnapText(history, this.#view.value.unit);
+    const noEvent = history && aroundEvent(history) ? null : "There is neither a window nor a snap here.";
+    for (const [id, reason] of [["to-snap", noSnap], ["zoom-window", noEvent]]) {
+      const button = byId(id);
+      button.dataset.can ??= button.dataset.help;
+      button.setAttribute("aria-disabled", reason !== null);
+      button.dataset.help = reason ?? button.dataset.can;
+    }
   }
 
   #wireZoom() {
-    const view = this.#view;
-    byId("to-snap").addEventListener("click", () => view.set({ phase: behind(this.#window().lowest_phase) }));
-    byId("zoom-in").addEventListener("click", () => view.set(zoomed(view.value, 0.5, middleOf(view.value))));
-    byId("zoom-out").addEventListener("click", () => view.set(zoomed(view.value, 2, middleOf(view.value))));
-    byId("zoom-turn").addEventListener("click", () => view.set(WHOLE_TURN));
-    byId("zoom-window").addEventListener("click", () => view.set(aroundWindow(this.#window())));
+    const unless = (id, act) => byId(id).addEventListener("click", () => {
+      if (byId(id).getAttribute("aria-disabled") === "true") say(byId(id).dataset.help);
+      else act(this.#present().history);
+    });
+    unless("to-snap", ({ snap }) => this.#view.set({ phase: behindSnap(snap) }, "entry"));
+    unless("zoom-window", (history) => this.#view.set(aroundEvent(history)));
+    byId("zoom-in").addEventListener("click", () => this.#zoom(0.5, null));
+    byId("zoom-out").addEventListener("click", () => this.#zoom(2, null));
+    byId("zoom-turn").addEventListener("click", () => this.#zoom(null, null));
   }
 
   #wireScene() {
@@ -290,7 +387,8 @@ export class Pictures {
       this.#api.bytes(`${root}/meshes/nut`),
     ]);
     if (!canDrawSolids()) throw new Error("this browser has no WebGL");
-    this.scene = new SceneView(byId("scene"), (camera) => this.#view.set(camera));
+    if (this.#model.library.id !== library.id) return;
+    this.scene ??= new SceneView(byId("scene"), (camera) => this.#view.set(camera));
     this.scene.setSolids(bolt, nut, 1 / nominalOf(library));
     this.#drawScene();
     markPainted("solids");
@@ -309,7 +407,9 @@ function prefersStillness() {
 
 function sceneReadout(state, stage) {
   const names = ["above the nut", "first contact", "second contact", "third contact"];
-  const at = Math.min(stage, lastStage(state));
+  const last = lastStage(state);
+  const at = Math.min(stage, last);
   const whole = Math.floor(at);
-  return at === whole ? names[whole] : `from ${names[whole]} to ${names[whole + 1]}`;
+  if (at !== whole) return `from ${names[whole]} to ${names[whole + 1]}`;
+  return at === last && !rests(state) ? `${names[whole]}; from here the bolt does not come to rest` : names[whole];
 }

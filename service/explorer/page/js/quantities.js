@@ -9,16 +9,15 @@ export function nearestThreshold(margins) {
 }
 
 const ofWindows = (pick) => (orientation) => (orientation.windows.length > 0 ? pick(orientation.windows) : null);
-const greatest = (windows, pick) => Math.max(...windows.map(pick));
 
 /**
  * A quantity: its name, a line of help, how it is written, and how it is read from a state (`ofState`) and from an
- * orientation's summary with its windows (`ofAll`, named by `all`). Without `ofState` it belongs to the orientation.
+ * orientation's summary with its windows and falls (`ofAll`, named by `all`); `none` says what is missing where there is none. Without `ofState` it belongs to the orientation.
  */
 export const QUANTITIES = {
   class: {
     name: "class",
-    help: "whether the bolt can stay where it comes to rest",
+    help: "whether the bolt comes to rest, and how",
     all: "share of phases with a stable state",
     ofState: (state) => state.class,
     ofAll: (orientation) => stableShare(orientation.counts),
@@ -28,12 +27,21 @@ export const QUANTITIES = {
     name: "window width",
     help: "width of the clearance window: how far the bolt can turn while its edge is within the thread",
     ofAll: ofWindows((windows) => windows.reduce((sum, window) => sum + window.width, 0)),
+    none: "no window",
     write: (value) => angle(value, 3),
   },
   snap: {
     name: "fall at the snap",
-    help: "how far the bolt falls at one phase on entering the window",
-    ofAll: ofWindows((windows) => greatest(windows, (window) => window.snap?.fall ?? 0)),
+    help: "how far the bolt goes down in the descent that has its steepest fall; none where that is less than 5 % of the thread pitch",
+    ofAll: (orientation) => orientation.snap?.fall ?? null,
+    none: "no snap",
+    write: length,
+  },
+  steepest: {
+    name: "steepest fall",
+    all: "steepest fall",
+    help: "the largest fall within any 3 deg of phase",
+    ofAll: (orientation) => orientation.steepest ?? null,
     write: length,
   },
   drop: {

@@ -1,10 +1,10 @@
 // The buttons that save each panel's picture and table.
 
-import { lastStage } from "./motion.js";
 import { html } from "./html.js";
 import { say } from "./messages.js";
+import { lastStage } from "./resting.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
-import { depthTable, followingTable, formationTable, intervalTable, mapTable, pathTable, stateTable } from "./tables.js";
+import { depthTable, followingTable, formationTable, intervalTable, mapTable, pathTable, poseTable, stateTable } from "./tables.js";
 
 const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg" };
 const TABLES = {
@@ -15,6 +15,7 @@ const TABLES = {
   path: pathTable,
   network: formationTable,
   state: stateTable,
+  poses: poseTable,
 };
 const NAMES = {
   map: "orientations",
@@ -25,6 +26,7 @@ const NAMES = {
   network: "formations",
   scene: "bolt-and-nut",
   state: "state",
+  poses: "measured-poses",
 };
 
 /** Fills every place for save buttons; `sceneOf` returns the scene, or null. */

@@ -4,8 +4,9 @@ import * as THREE from "../third-party/three.module.js";
 
 import { STAGE_COLOURS } from "./colours.js";
 import { meshesOf } from "./glb.js";
-import { lastStage, poseAt } from "./motion.js";
+import { poseAt } from "./motion.js";
 import { dragged, keyed, standpoint, zoomed } from "./orbit.js";
+import { lastStage } from "./resting.js";
 
 const FIELD_OF_VIEW_DEG = 30;
 const BOLT_COLOUR = 0x9fb4c7;
@@ -83,7 +84,7 @@ export class SceneView {
     if (state !== null) {
       const pose = poseAt(state, Math.min(view.stage, lastStage(state)), threadPitch);
       this.#bolt.matrix.copy(matrixOf(pose, nominal));
-      this.#mark(state, view.stage, nominal);
+      this.#mark(state, Math.min(view.stage, lastStage(state)), nominal);
     }
     this.#draw();
   }

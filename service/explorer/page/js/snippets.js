@@ -10,28 +10,22 @@ function stateAddress(library, pose, unit) {
 export function curlLine(origin, library, { pose, unit, stored }, keyed) {
   const key = keyed ? ' -H "Authorization: Bearer $KEY"' : "";
   if (stored) return `curl "${origin}${stateAddress(library, pose, unit)}"${key}`;
-  const body = JSON.stringify(solveBody(library, pose));
+  const { roll, pitch, phase } = pose;
+  const body = JSON.stringify({ library: library.id, poses: [{ roll, pitch, phase }] });
   return `curl "${origin}/v1/solve?unit=${unit}" -H "Content-Type: application/json"${key} -d '${body}'`;
 }
 
-/** Python lines that fetch a state, with nothing but the standard library; where `keyed`, with the key in the variable KEY. */
-export function pythonLines(origin, library, { pose, unit, stored }, keyed) {
-  const own = stored ? [] : ['"Content-Type": "application/json"'];
-  const headers = [...own, ...(keyed ? ['"Authorization": f"Bearer {os.environ[\'KEY\']}"'] : [])];
-  const request = stored
-    ? [`address = "${origin}${stateAddress(library, pose, unit)}"`, `request = urllib.request.Request(address, headers={${headers.join(", ")}})`]
-    : [
-        `body = json.dumps(${JSON.stringify(solveBody(library, pose))}).encode()`,
-        `request = urllib.request.Request("${origin}/v1/solve?unit=${unit}", body, {${headers.join(", ")}})`,
-      ];
+/** Python lines that fetch a state with the project's client; where `keyed`, with the key in the variable KEY. */
+export function pythonLines(origin, library, { pose: { roll, pitch, phase }, unit, stored }, keyed) {
+  const client = keyed ? `Client("${origin}", key=os.environ["KEY"])` : `Client("${origin}")`;
+  const which = `library=${library.id}, unit="${unit}"`;
+  const state = stored ? `client.state(${roll}, ${pitch}, ${phase}, ${which})` : `client.solve([(${roll}, ${pitch}, ${phase})], ${which}).states[0]`;
   return [
-    `import json, ${keyed ? "os, " : ""}urllib.request`,
+    ...(keyed ? ["import os", ""] : []),
+    "from threadstate.client import Client",
     "",
-    ...request,
-    `state = json.load(urllib.request.urlopen(request))${stored ? "" : '["states"][0]'}`,
+    `with ${client} as client:`,
+    `    state = ${state}`,
+    "print(state.state_class, state.poses[-1].translation)",
   ].join("\n");
-}
-
-function solveBody(library, { roll, pitch, phase }) {
-  return { poses: [{ roll, pitch, phase }], designation: library.designation };
 }

@@ -1,6 +1,7 @@
 // Every number of a state.
 
 import { html } from "./html.js";
+import { rests, restlessness } from "./resting.js";
 import { CLASSES, FLAGS, REGIONS, TERMS, className } from "./terms.js";
 import { angle, length, lengthNumber, fixed } from "./units.js";
 
@@ -13,7 +14,7 @@ export function showState(frame, { state, reason, pose, stored }, unit) {
   frame.replaceChildren(
     table("pose and class", summaryRows(state, pose, stored, unit)),
     ...state.contacts.map((contact, k) => table(`contact ${k + 1} of ${state.contacts.length}`, contactRows(contact, unit))),
-    ...state.poses.map((one, k) => table(`bolt's pose at stage ${k + 1}`, poseRows(one, unit))),
+    ...state.poses.map((one, k) => table(poseCaption(state, k), poseRows(one, unit))),
   );
 }
 
@@ -27,12 +28,24 @@ function summaryRows(state, pose, stored, unit) {
     ["class", `${className(state.class)}: ${CLASSES[state.class].help}`],
     ["flags", state.flags.map((flag) => FLAGS[flag]).join("; ") || "none"],
     ["first contact at", length(state.poses[0].translation[2], unit)],
-    ["at rest at", length(state.poses.at(-1).translation[2], unit)],
+    ...restRows(state, unit),
     ...turns,
     ["drop", length(state.drop, unit) + margin(margins.drop)],
     ["embedment", length(state.embedment, unit) + margin(margins.embedment)],
     ["pivot offset", length(state.pivot_offset, unit) + margin(margins.pivot_offset)],
   ];
+}
+
+/** The last height of a state: where it rests, or else where the procedure ended, which is no place of the bolt. */
+function restRows(state, unit) {
+  const last = length(state.poses.at(-1).translation[2], unit);
+  if (rests(state)) return [["at rest at", last]];
+  return [["at rest", restlessness(state)], ["where the procedure ended (no place of rest)", last]];
+}
+
+function poseCaption(state, k) {
+  if (k === state.poses.length - 1 && !rests(state)) return "where the procedure ended (no place of rest)";
+  return `bolt's pose at stage ${k + 1}`;
 }
 
 function contactRows(contact, unit) {

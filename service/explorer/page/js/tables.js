@@ -1,7 +1,9 @@
 // What is drawn, as tables.
 
+import { firstHeight } from "./curve.js";
 import { mapValues } from "./map_view.js";
 import { QUANTITIES } from "./quantities.js";
+import { restHeight } from "./resting.js";
 
 /** The map's cells. */
 export function mapTable(model, view) {
@@ -12,7 +14,7 @@ export function mapTable(model, view) {
 
 /** Heights along the phase. */
 export function depthTable({ heights }, { unit }) {
-  const rows = heights.phases.map((phase, k) => [phase, heights.first_heights[k], heights.last_heights[k]]);
+  const rows = heights.phases.map((phase, k) => [phase, heights.first_heights[k], heights.rest_heights?.[k] ?? null]);
   return [["phase_deg", `first_contact_z_${unit}`, `at_rest_z_${unit}`], ...rows];
 }
 
@@ -45,6 +47,14 @@ export function formationTable({ formations }) {
     one.key, one.class, one.share, one.window_share, one.orientations, one.to_window.least, one.to_window.most, one.text,
   ]);
   return [["formation", "class", "share", "window_share", "orientations", "least_to_window_deg", "most_to_window_deg", "contacts"], ...rows];
+}
+
+/** Measured poses with the states that they have. */
+export function poseTable({ measured }, { unit }) {
+  const rows = measured.map(({ pose, state }) => [
+    pose.roll, pose.pitch, pose.phase, state?.class, state ? firstHeight(state) : null, state ? restHeight(state) : null,
+  ]);
+  return [["roll_deg", "pitch_deg", "phase_deg", "class", `first_contact_z_${unit}`, `at_rest_z_${unit}`], ...rows];
 }
 
 /** Every number of a state, one a row: what it is of, its name, value and unit. */

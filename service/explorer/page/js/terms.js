@@ -42,11 +42,15 @@ export const FLAGS = {
   no_third: "no third contact within 45 deg",
 };
 
+/** Pairs of features that can touch, the bolt's first. */
+export const FEATURES = ["edge-edge", "edge-surface", "base-edge", "edge-thread", "thread-edge", "thread-thread", "flush"];
+
 /** What is meant by the names of a state's numbers. */
 export const TERMS = {
   flags: "What is out of the ordinary about this state.",
   "first contact at": "Height of the bolt's origin above the nut's surface when it first touches.",
-  "at rest at": "Height of the bolt's origin above the nut's surface in its last pose.",
+  "at rest at": "Height of the bolt's origin above the nut's surface in its last pose, in which it rests.",
+  "at rest": "Only a stable or quasi-stable state that does not overlap the nut rests; its last pose alone is a place of the bolt.",
   "turn to the second contact": "Lambda: how far the bolt turns about its first contact until it touches a second time.",
   "turn to the third contact": "Mu: how far the bolt turns about the pivot axis until it touches a third time.",
   drop: "How far the origin sinks from the second contact to the third.",

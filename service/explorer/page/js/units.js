@@ -4,6 +4,10 @@ const MINUS = "−";
 
 /** Decimals with which lengths are shown, by unit: a ten-thousandth of a thread pitch or so. */
 const LENGTH_DECIMALS = { in: 6, mm: 5 };
+/** Decimals of lengths in a sentence. */
+const SHORT_DECIMALS = { in: 4, mm: 3 };
+/** Round-off of a thread's lengths is some 1e-17: what is less than this is nothing. */
+const ROUND_OFF = 1e-13;
 
 /** A number with so many decimals, with a true minus sign; "none" for null. */
 export function fixed(value, decimals) {
@@ -18,9 +22,18 @@ export function length(value, unit) {
   return `${lengthNumber(value, unit)} ${unit}`;
 }
 
-/** A length without its unit; what would round to nothing is given as a power of ten. */
+/** A length without its unit; what would round to nothing is given as a power of ten, and round-off as zero. */
 export function lengthNumber(value, unit) {
-  const decimals = LENGTH_DECIMALS[unit];
+  return writtenLength(value, LENGTH_DECIMALS[unit]);
+}
+
+/** A length for a sentence, without its unit. */
+export function shortLength(value, unit) {
+  return writtenLength(value, SHORT_DECIMALS[unit]);
+}
+
+function writtenLength(value, decimals) {
+  if (Math.abs(value) < ROUND_OFF) return fixed(0, decimals);
   if (value !== 0 && Math.abs(value) < 0.5 * 10 ** -decimals) return power(value);
   return fixed(value, decimals);
 }

@@ -1,33 +1,48 @@
 // The view as the fragment of an address, so that a link restores it exactly.
 
+import { checkedObservation } from "./observed.js";
+import { checkedPoses } from "./poses.js";
+import { QUANTITIES } from "./quantities.js";
 import { TABS } from "./tabs.js";
+import { TILT_LIMIT, TOLERANCE_LIMIT } from "./grid.js";
+import { inTurn } from "./units.js";
 import { DEFAULTS } from "./view.js";
 
-const between = (low, high) => (text) => {
-  const value = Number(text);
-  return text.trim() !== "" && Number.isFinite(value) && value >= low && value <= high ? value : undefined;
-};
-const among = (...names) => (text) => (names.includes(text) ? text : undefined);
-const whole = (text) => (/^[0-9]{1,15}$/.test(text) ? Number(text) : undefined);
-const word = (text) => (/^[a-z_]{1,40}$/.test(text) ? text : undefined);
+const finite = (text) => (text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) + 0 : undefined);
+const between = (low, high, unit = "") => ({
+  read: (text) => (finite(text) >= low && finite(text) <= high ? finite(text) : undefined),
+  valid: `${low} to ${high}${unit}`,
+});
+const among = (...names) => ({ read: (text) => (names.includes(text) ? text : undefined), valid: names.join(", ") });
+const whole = { read: (text) => (/^[0-9]{1,15}$/.test(text) ? Number(text) : undefined), valid: "the number of a library" };
+const tilt = between(-TILT_LIMIT, TILT_LIMIT, " deg");
 
 const READERS = {
   library: whole,
-  roll: between(-10, 10),
-  pitch: between(-10, 10),
-  phase: between(0, 359.9999999999999),
+  roll: tilt,
+  pitch: tilt,
+  phase: { read: (text) => (finite(text) === undefined ? undefined : inTurn(finite(text))), valid: "an angle in deg" },
+  tolerance: {
+    read: (text) => (finite(text) > 0 && finite(text) <= TOLERANCE_LIMIT ? finite(text) : undefined),
+    valid: `above 0 to ${TOLERANCE_LIMIT} deg`,
+  },
   unit: among("in", "mm"),
   theme: among("auto", "light", "dark"),
-  quantity: word,
+  quantity: among(...Object.keys(QUANTITIES)),
   over: among("phase", "all"),
-  from: between(-360, 360),
-  span: between(1e-6, 360),
+  from: between(-360, 360, " deg"),
+  span: between(1e-6, 360, " deg"),
   stage: between(0, 3),
   tab: among(...TABS),
   nut: among("cut", "glass", "off"),
-  azimuth: between(-1e6, 1e6),
-  elevation: between(-90, 90),
+  azimuth: between(-1e6, 1e6, " deg"),
+  elevation: between(-90, 90, " deg"),
   distance: between(0.01, 100),
+  beside_library: whole,
+  beside_roll: tilt,
+  beside_pitch: tilt,
+  poses: { read: checkedPoses, valid: "poses as the page writes them" },
+  observed: { read: checkedObservation, valid: "an observation as the page writes it" },
 };
 
 /** The fragment, without its #: what differs from the defaults, and the pose and library always. */
@@ -39,12 +54,27 @@ export function fragmentOf(view) {
     .join("&");
 }
 
-/** The part of a view that a fragment (with # or without) holds; what is not valid is left out. */
-export function viewOf(fragment) {
-  const found = {};
+/**
+ * What a fragment (with # or without) holds: {view, remarks}. The part of a view is what is valid; the remarks say what was
+ * left out, and what is valid, or what was brought into the turn.
+ */
+export function readFragment(fragment) {
+  const view = {};
+  const remarks = [];
   for (const [key, text] of new URLSearchParams(fragment.replace(/^#/, ""))) {
-    const value = Object.hasOwn(READERS, key) ? READERS[key](text) : undefined;
-    if (value !== undefined) found[key] = value;
+    if (!Object.hasOwn(READERS, key)) continue;
+    const value = READERS[key].read(text);
+    if (value === undefined) {
+      remarks.push(`${key.replaceAll("_", " ")} in the link is ${text || "empty"}; valid: ${READERS[key].valid}`);
+      continue;
+    }
+    if (key === "phase" && value !== Number(text)) remarks.push(turned(Number(text), value));
+    view[key] = value;
   }
-  return found;
+  return { view, remarks };
+}
+
+/** Says that a phase was brought into the turn. */
+export function turned(given, value) {
+  return `phase ${given} deg is ${value} deg within the turn`;
 }

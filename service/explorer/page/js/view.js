@@ -6,11 +6,13 @@ export const DEFAULTS = Object.freeze({
   roll: 0,
   pitch: -4,
   phase: 10,
+  tolerance: null,
   unit: null,
   theme: "auto",
   quantity: "class",
   over: "phase",
-  from: 0,
+  /** Where the range of phases begins; null: where the main event is in the middle. */
+  from: null,
   span: 360,
   stage: 3,
   tab: "state",
@@ -18,6 +20,13 @@ export const DEFAULTS = Object.freeze({
   azimuth: -60,
   elevation: 25,
   distance: 2.1,
+  beside_library: null,
+  beside_roll: null,
+  beside_pitch: null,
+  /** Measured poses, as `poses.js` writes them. */
+  poses: "",
+  /** What was observed of a state, as `observed.js` writes it. */
+  observed: "",
 });
 
 /** The present view, and who follows it. */
@@ -33,13 +42,16 @@ export class View {
     return this.#value;
   }
 
-  /** Changes some of the view; followers hear of it where anything differs. */
-  set(changes) {
+  /**
+   * Changes some of the view; followers hear of it where anything differs: the view, the names of what changed, and `how`
+   * it came about ("entry": a step of its own in the browser's history; "restored": the browser went back or forward).
+   */
+  set(changes, how = null) {
     const next = Object.freeze({ ...this.#value, ...changes });
     const changed = Object.keys(next).filter((key) => next[key] !== this.#value[key]);
     if (changed.length === 0) return;
     this.#value = next;
-    for (const follower of this.#followers) follower(next, new Set(changed));
+    for (const follower of this.#followers) follower(next, new Set(changed), how);
   }
 
   follow(follower) {

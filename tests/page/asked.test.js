@@ -1,0 +1,119 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { Busy } from "../../service/explorer/page/js/busy.js";
+import { libraryText } from "../../service/explorer/page/js/controls.js";
+import { summaryText } from "../../service/explorer/page/js/locate_view.js";
+import { mapPhaseText, mapValues } from "../../service/explorer/page/js/map_view.js";
+import { checkedObservation, observationOf, observationText, remaining } from "../../service/explorer/page/js/observed.js";
+import { Pace } from "../../service/explorer/page/js/pace.js";
+import { MOST_POSES, posesOf, posesOfView, posesText } from "../../service/explorer/page/js/poses.js";
+
+test("poses are read from tables as people have them", () => {
+  const expected = [{ roll: 2.5, pitch: -1.2, phase: 357 }, { roll: 0, pitch: -4, phase: 40 }];
+  for (const table of [
+    "2.5,-1.2,357\n0,-4,400\n",
+    "roll,pitch,phase\r\n2.5, -1.2, 357\r\n0, -4, 40\r\n",
+    "phase;roll_deg;note;pitch_deg\n357;2.5;a;−1.2\n40;0;b;-4",
+    "# measured on Monday\n\n2.5\t-1.2\t357\n0\t-4\t40",
+    'roll (deg) pitch (deg) phase (deg)\n"2.5" "-1.2" "357"\n0 -4 40',
+  ]) {
+    assert.deepEqual(posesOf(table), { poses: expected, faults: [] }, table);
+  }
+  assert.deepEqual(posesOfView({ poses: posesText(expected) }), expected);
+});
+
+test("a line that is no pose is named with what is valid, the others are taken", () => {
+  const { poses, faults } = posesOf("1,2,3\n12,0,0\n1,x,3\n1,2");
+  assert.deepEqual(poses, [{ roll: 1, pitch: 2, phase: 3 }]);
+  assert.deepEqual(faults, [
+    "line 2: roll is 12; valid: -10 to 10 deg",
+    "line 3: pitch is x; valid: a number",
+    "line 4: there is no phase; a line has roll, pitch and phase in deg",
+  ]);
+  const many = posesOf("0,0,0\n".repeat(MOST_POSES + 1));
+  assert.equal(many.poses.length, MOST_POSES);
+  assert.match(many.faults[0], /501 poses; the first 500/);
+});
+
+test("an observation goes into the link and comes back the same", () => {
+  const observation = {
+    class: "stable_three_point", flag: "tie", contacts: "3", ordered: true,
+    contact: [{ stage: "1", bolt: "crest", nut: "", features: "edge-edge" }, { stage: "", bolt: "", nut: "flank_pos", features: "" }],
+  };
+  const text = observationText(observation);
+  assert.equal(text, "class=stable_three_point&flag=tie&contacts=3&contact=1:crest:*:edge-edge,*:*:flank_pos:*&ordered=true");
+  assert.deepEqual(observationOf(text), observation);
+  assert.equal(checkedObservation(text), text);
+  assert.equal(checkedObservation("class=stable_three_point&contact=1:surface:*:*"), undefined);
+  assert.equal(observationText(observationOf("")), "");
+});
+
+test("what remains is listed by orientation, the most phase first, and its shares add up", () => {
+  const stretch = (roll, pitch, start, end) => ({ roll, pitch, start, end });
+  const found = remaining([stretch(0, 1, 10, 20), stretch(2, 0, 350, 390), stretch(0, 1, 100, 110)]);
+  assert.deepEqual(found.map(({ roll, pitch, degrees, phase }) => [roll, pitch, degrees, phase]), [[2, 0, 40, 10], [0, 1, 20, 15]]);
+  assert.equal(found.reduce((sum, { share }) => sum + share, 0), 1);
+  assert.match(summaryText({ share: 0.05, undecided_share: 0.01, orientations: 2 }, found), /^5\.0 % of all poses remain, at 2 orientations, 1\.0 % of them undecided/);
+  assert.equal(summaryText({ share: 0, undecided_share: 0, orientations: 0 }, []), "Nothing in this library is like that.");
+});
+
+test("of what waits the last is done, and never two at once", async () => {
+  const pace = new Pace(0);
+  const begun = [];
+  let finish = null;
+  const first = pace.run(() => {
+    begun.push(1);
+    return new Promise((done) => (finish = done));
+  });
+  const others = [2, 3].map((number) => pace.run(async () => begun.push(number)));
+  assert.deepEqual(begun, [1]);
+  finish("one");
+  assert.equal(await first, "one");
+  assert.equal(await others[0], undefined);
+  await others[1];
+  assert.deepEqual(begun, [1, 3]);
+});
+
+test("what fails keeps nothing from what comes after", async () => {
+  const pace = new Pace(0);
+  await assert.rejects(pace.run(() => Promise.reject(new Error("no"))), /no/);
+  assert.equal(await pace.run(async () => "yes"), "yes");
+});
+
+test("what takes a moment is not told of, what takes longer is until it ends", async () => {
+  const told = [];
+  const busy = new Busy((texts) => told.push(texts));
+  assert.equal(await busy.during("short", Promise.resolve(1)), 1);
+  assert.deepEqual(told, []);
+  let finish = null;
+  const long = busy.during("long", new Promise((done) => (finish = done)));
+  while (told.length === 0) await new Promise((done) => setTimeout(done, 20));
+  finish();
+  await long;
+  assert.deepEqual(told, [["long"], []]);
+});
+
+test("a library is told by its number, thread, grid and method", () => {
+  const library = { id: 2, designation: "M6x1", grid: { tilt_max: 4, tilt_step: 2, phase_step: 5 }, method: "exact" };
+  assert.equal(libraryText(library, true), "2: M6x1, ±4 by 2°, phase by 5°, exact, latest");
+  assert.equal(libraryText({ ...library, id: 1, method: "mesh" }, false), "1: M6x1, ±4 by 2°, phase by 5°, mesh");
+});
+
+test("the map says which phase it shows and where one is", () => {
+  const model = { map: { phase: 357, states: [] } };
+  assert.equal(mapPhaseText(model, { quantity: "class", over: "phase", phase: 357.38 }), "Squares: at phase 357 of the grid; you are at 357.38.");
+  assert.equal(mapPhaseText(model, { quantity: "class", over: "phase", phase: 357 }), "Squares: at phase 357 of the grid.");
+  assert.equal(mapPhaseText(model, { quantity: "class", over: "all", phase: 357 }), "");
+});
+
+test("falls are those of the orientation: that at the snap, none without one, and the steepest", () => {
+  const model = {
+    orientations: [{ roll: 0, pitch: -4 }, { roll: 1, pitch: 0 }],
+    windows: { orientations: [{ roll: 0, pitch: -4, steepest: 0.0102, snap: { fall: 0.011 }, windows: [{ width: 40 }, { width: 2 }] }] },
+  };
+  const values = (quantity) => [...mapValues(model, { quantity, over: "phase", unit: "in" }).values()].map(({ value }) => value);
+  assert.deepEqual(values("snap"), [0.011, null]);
+  assert.deepEqual(values("steepest"), [0.0102, null]);
+  assert.deepEqual(values("window_width"), [42, null]);
+});
