@@ -32,12 +32,17 @@ SESSION = re.compile(r"(<!-- designer -->\n).*?(<!-- /designer -->)", re.DOTALL)
 LEFT_OUT = "contacts"
 """The last column of tables, whose words wrap: what stands under it is not shown."""
 WIDTH = 120
+LIBRARY = "1-4-20-unc"
+"""The library that the page is about."""
 EDGES = (FeaturePair.EDGE_EDGE, FeaturePair.EDGE_SURFACE)
 
 
 @dataclass(frozen=True)
 class Question:
-    """What a designer wants to know, the command that answers, and how many lines of the answer are shown."""
+    """What a designer wants to know, the command that answers, and how many lines of the answer are shown.
+
+    Of an answer with no first lines nothing is shown: it has times, which are others every time.
+    """
 
     words: str
     command: str
@@ -63,14 +68,33 @@ def questions(rows: Sequence[OrientationWindowsDocument], unit: LengthUnit) -> l
         ),
         Question(
             f"That snap is felt: {snap.fall:.4f} {unit} within {snap.end - snap.start:.1f} deg, {snap.jump:.4f} {unit} "
-            "of it at one phase.\nBack to 4 deg of roll. What is felt before? The sensor says: the bolt's crest on the "
-            "nut's surface, and flush.",
-            "threadstate locate --class stable_three_point --flag flush --contact 1:crest:surface:edge-surface",
+            "of it at one phase.\nThe device's tilt was measured: roll 2.5 deg, pitch -1.2 deg, each to 0.3 deg. Any "
+            "tilt is computed when it is\nasked for, and the range of what the tilts within the tolerance give:",
+            "threadstate windows --roll 2.5 --pitch -1.2 --tolerance 0.3",
         ),
         Question(
-            "So the pitch is 0 and the phase is not near 0. How far must the bolt turn at most, and through which "
-            "states\nmust the device carry it? (Contacts, in words, are left out here.)",
-            "threadstate path --from 12b904af6f --roll 4 --pitch 0",
+            "It may snap, or just not. And with an M6x1 of the drawer? Its library is computed from a file of its "
+            "dimensions,\nand stands beside the other:",
+            "threadstate rebuild --pair examples/m6x1.toml",
+            first=0,
+        ),
+        Question(
+            "The snap of each:",
+            "threadstate compare --library 1-4-20-unc --library m6x1 --tilt 0,-4",
+        ),
+        Question(
+            "The library published last is what `latest` means from now on, unless `threadstate libraries --pin "
+            "1-4-20-unc`\npins another one. Back to that and 4 deg of roll. What is felt before the fall? The sensor "
+            "says: the bolt's crest\non the nut's surface, and flush. (Contacts, in words, are left out here and below.)",
+            "threadstate locate --library 1-4-20-unc --class stable_three_point --flag flush "
+            "--contact 1:crest:surface:edge-surface",
+            first=9,
+        ),
+        Question(
+            "All that remains is at pitch 0 and away from phase 0 (the rows left out say where). How far must the bolt "
+            "turn at most,\nand through which states must the device carry it, if it is in the formation 12b904af6f of "
+            "the list?",
+            "threadstate path --library 1-4-20-unc --from 12b904af6f --roll 4 --pitch 0",
             first=8,
             last=6,
         ),
@@ -79,7 +103,7 @@ def questions(rows: Sequence[OrientationWindowsDocument], unit: LengthUnit) -> l
 
 def main() -> None:
     """Write the session and the page."""
-    network = stored_network(None)
+    network = stored_network(None, LIBRARY)
     rows = windows_of_histories(network.histories, None, None, network.pair.thread_pitch, 1.0)
     session = "\n".join(_asked(question) for question in questions(rows, network.pair.unit))
     README.write_text(SESSION.sub(lambda found: f"{found[1]}{session}{found[2]}", README.read_text()))
@@ -91,12 +115,21 @@ def _asked(question: Question) -> str:
     with contextlib.redirect_stdout(printed):
         code = run_command_line(shlex.split(question.command)[1:])
     assert code == 0, question.command
-    lines = [line.rstrip() for line in printed.getvalue().splitlines()]
-    width = next((line.index(LEFT_OUT) for line in lines if line.endswith(LEFT_OUT)), None)
-    lines = [line[:width].rstrip() for line in lines if line[:width].strip()]
+    if question.first == 0:
+        return f"{question.words}\n\n```\n$ {question.command}\n```\n"
+    tables = printed.getvalue().rstrip().split("\n\n")
+    lines = "\n\n".join(_without_last_column(table) for table in tables).splitlines()
     if len(lines) > question.first + question.last:
         lines = [*lines[: question.first], "...", *lines[len(lines) - question.last :]]
     return f"{question.words}\n\n```\n$ {question.command}\n" + "\n".join(lines) + "\n```\n"
+
+
+def _without_last_column(table: str) -> str:
+    """A table, and lines before it, without the column of words."""
+    lines = table.splitlines()
+    head = next((number for number, line in enumerate(lines) if line.endswith(LEFT_OUT)), len(lines))
+    width = lines[head].index(LEFT_OUT) if head < len(lines) else None
+    return "\n".join([*lines[:head], *(line[:width].rstrip() for line in lines[head:])])
 
 
 def page(network: LibraryNetwork, rows: Sequence[OrientationWindowsDocument]) -> str:
