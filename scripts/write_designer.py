@@ -85,7 +85,7 @@ def questions(rows: Sequence[OrientationWindowsDocument], unit: LengthUnit) -> l
         Question(
             "The library published last is what `latest` means from now on, unless `threadstate libraries --pin "
             "1-4-20-unc`\npins another one. Back to that and 4 deg of roll. What is felt before the fall? The sensor "
-            "says: the bolt's crest\non the nut's surface, and flush. (Contacts, in words, are left out here and below.)",
+            "says: the bolt's crest\non the nut's surface, and flush. (Contacts, in words, are left out from here on.)",
             "threadstate locate --library 1-4-20-unc --class stable_three_point --flag flush "
             "--contact 1:crest:surface:edge-surface",
             first=9,
