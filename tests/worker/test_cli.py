@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
@@ -69,6 +70,16 @@ def test_every_command_and_option_is_documented(repository_root: Path, name: str
 
 def test_no_command_is_documented_that_is_not_there(repository_root: Path) -> None:
     assert sorted(_sections((repository_root / "docs" / "cli.md").read_text())) == COMMANDS
+
+
+def test_every_command_of_the_readme_is_there_with_its_options(repository_root: Path) -> None:
+    blocks = re.findall(r"```\n(.*?)```", (repository_root / "README.md").read_text(), re.DOTALL)
+    lines = [line.removeprefix("$ ") for block in blocks for line in block.splitlines()]
+    commands = [shlex.split(line)[1:] for line in lines if line.startswith("threadstate ")]
+    assert len(commands) > 5
+    for name, *arguments in commands:
+        assert name in COMMANDS
+        assert {one for one in arguments if one.startswith("--")} <= set(_options(name)), name
 
 
 def test_every_exit_code_is_documented(repository_root: Path) -> None:
