@@ -73,9 +73,8 @@ def test_no_command_is_documented_that_is_not_there(repository_root: Path) -> No
 
 
 def test_every_command_of_the_readme_is_there_with_its_options(repository_root: Path) -> None:
-    blocks = re.findall(r"```\n(.*?)```", (repository_root / "README.md").read_text(), re.DOTALL)
-    lines = [line.removeprefix("$ ") for block in blocks for line in block.splitlines()]
-    commands = [shlex.split(line)[1:] for line in lines if line.startswith("threadstate ")]
+    text = (repository_root / "README.md").read_text()
+    commands = [shlex.split(line) for line in re.findall(r"^(?:\$ )?threadstate ([a-z].*)$", text, re.MULTILINE)]
     assert len(commands) > 5
     for name, *arguments in commands:
         assert name in COMMANDS
