@@ -8,7 +8,7 @@ boolean: one contact ends them and none is computed.
 A step tunnels where the meshes part again below the first contact before the step has ended: it passes a barrier that
 is thinner than the step. Over 10,212 poses with roll and pitch within 4 deg (6,000 at random, half of them within
 20 deg of phase 0, and the grid of whole degrees at every seventh phase) the thinnest barrier, looked for in steps of
-1e-4 in, was 1.0e-3 in thick. That is a measurement and no bound: near a snap a barrier can be as thin as one likes, and
+1e-4 in, was 1.0e-3 in thick. That is a measurement and no bound: near a jump a barrier can be as thin as one likes, and
 no fixed step is proven.
 """
 

@@ -9,17 +9,20 @@ import contextlib
 import io
 import re
 import shlex
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
+from textwrap import fill
 
-from threadstate.answer.documents import SnapDocument, WindowDocument
+from threadstate.answer.documents import JumpDocument, OrientationWindowsDocument, SnapDocument, WindowDocument
 from threadstate.answer.library_network import LibraryNetwork
 from threadstate.answer.windows import windows_of_histories
 from threadstate.library.engine import reader_engine
 from threadstate.library.read import states_between
 from threadstate.settings import read_settings
 from threadstate.state.model import ContactState, FeaturePair
+from threadstate.units import LengthUnit
 from worker.cli import run_command_line
 from worker.stored_network import stored_network
 
@@ -28,12 +31,18 @@ README, PAGE = ROOT / "README.md", ROOT / "docs" / "windows.md"
 SESSION = re.compile(r"(<!-- designer -->\n).*?(<!-- /designer -->)", re.DOTALL)
 LEFT_OUT = "contacts"
 """The last column of tables, whose words wrap: what stands under it is not shown."""
+WIDTH = 120
+LIBRARY = "1-4-20-unc"
+"""The library that the page is about."""
 EDGES = (FeaturePair.EDGE_EDGE, FeaturePair.EDGE_SURFACE)
 
 
 @dataclass(frozen=True)
 class Question:
-    """What a designer wants to know, the command that answers, and how many lines of the answer are shown."""
+    """What a designer wants to know, the command that answers, and how many lines of the answer are shown.
+
+    Of an answer with no first lines nothing is shown: it has times, which are others every time.
+    """
 
     words: str
     command: str
@@ -41,36 +50,64 @@ class Question:
     last: int = 0
 
 
-QUESTIONS = (
-    Question(
-        "The device holds the bolt with 4 deg of roll; the phase is not known. Where can it fall into the thread?",
-        "threadstate windows --roll 4 --pitch 0",
-    ),
-    Question(
-        "A window 7.4 deg wide, without a snap: at this tilt the bolt slides in on the thread and climbs by the lead\n"
-        "at once. With a pitch of -4 deg and no roll it is another thing:",
-        "threadstate windows --roll 0 --pitch -4",
-    ),
-    Question(
-        "That snap is felt: 0.0075 in at one phase. Back to 4 deg of roll. What is felt before? The sensor says: the\n"
-        "bolt's crest on the nut's surface, and flush.",
-        "threadstate locate --class stable_three_point --flag flush --contact 1:crest:surface:edge-surface",
-    ),
-    Question(
-        "So the pitch is 0 and the phase is not near 0. How far must the bolt turn at most, and through which states\n"
-        "must the device carry it? (Contacts, in words, are left out here.)",
-        "threadstate path --from 12b904af6f --roll 4 --pitch 0",
-        first=8,
-        last=6,
-    ),
-)
+def questions(rows: Sequence[OrientationWindowsDocument], unit: LengthUnit) -> list[Question]:
+    """What is asked, with the figures of the orientations that are asked about."""
+    rolled = next(one for one in rows if (one.roll, one.pitch) == (4.0, 0.0))
+    snap = next(one.snap for one in rows if (one.roll, one.pitch) == (0.0, -4.0))
+    assert rolled.snap is None
+    assert snap is not None
+    return [
+        Question(
+            "The device holds the bolt with 4 deg of roll; the phase is not known. Where does it fall, and how far?",
+            "threadstate windows --roll 4 --pitch 0",
+        ),
+        Question(
+            f"No snap: within 3 deg of phase the bolt goes down by {rolled.steepest:.4f} {unit} at most, into a "
+            f"window\n{rolled.windows[0].width:.1f} deg wide. With a pitch of -4 deg and no roll it is another thing:",
+            "threadstate windows --roll 0 --pitch -4",
+        ),
+        Question(
+            f"That snap is felt: {snap.fall:.4f} {unit} within {snap.end - snap.start:.1f} deg, {snap.jump:.4f} {unit} "
+            "of it at one phase.\nThe device's tilt was measured: roll 2.5 deg, pitch -1.2 deg, each to 0.3 deg. Any "
+            "tilt is computed when it is\nasked for, and the range of what the tilts within the tolerance give:",
+            "threadstate windows --roll 2.5 --pitch -1.2 --tolerance 0.3",
+        ),
+        Question(
+            "It may snap, or just not. And with an M6x1 of the drawer? Its library is computed from a file of its "
+            "dimensions,\nand stands beside the other:",
+            "threadstate rebuild --pair examples/m6x1.toml",
+            first=0,
+        ),
+        Question(
+            "The snap of each:",
+            "threadstate compare --library 1-4-20-unc --library m6x1 --tilt 0,-4",
+        ),
+        Question(
+            "The library published last is what `latest` means from now on, unless `threadstate libraries --pin "
+            "1-4-20-unc`\npins another one. Back to that and 4 deg of roll. What is felt before the fall? The sensor "
+            "says: the bolt's crest\non the nut's surface, and flush. (Contacts, in words, are left out from here on.)",
+            "threadstate locate --library 1-4-20-unc --class stable_three_point --flag flush "
+            "--contact 1:crest:surface:edge-surface",
+            first=9,
+        ),
+        Question(
+            "All that remains is at pitch 0 and away from phase 0 (the rows left out say where). How far must the bolt "
+            "turn at most,\nand through which states must the device carry it, if it is in the formation 12b904af6f of "
+            "the list?",
+            "threadstate path --library 1-4-20-unc --from 12b904af6f --roll 4 --pitch 0",
+            first=8,
+            last=6,
+        ),
+    ]
 
 
 def main() -> None:
     """Write the session and the page."""
-    session = "\n".join(_asked(question) for question in QUESTIONS)
+    network = stored_network(None, LIBRARY)
+    rows = windows_of_histories(network.histories, None, None, network.pair.thread_pitch, 1.0)
+    session = "\n".join(_asked(question) for question in questions(rows, network.pair.unit))
     README.write_text(SESSION.sub(lambda found: f"{found[1]}{session}{found[2]}", README.read_text()))
-    PAGE.write_text(_page(stored_network(None)))
+    PAGE.write_text(page(network, rows))
 
 
 def _asked(question: Question) -> str:
@@ -78,47 +115,86 @@ def _asked(question: Question) -> str:
     with contextlib.redirect_stdout(printed):
         code = run_command_line(shlex.split(question.command)[1:])
     assert code == 0, question.command
-    lines = [line.rstrip() for line in printed.getvalue().splitlines()]
-    width = next((line.index(LEFT_OUT) for line in lines if line.endswith(LEFT_OUT)), None)
-    lines = [line[:width].rstrip() for line in lines if line[:width].strip()]
+    if question.first == 0:
+        return f"{question.words}\n\n```\n$ {question.command}\n```\n"
+    tables = printed.getvalue().rstrip().split("\n\n")
+    lines = "\n\n".join(_without_last_column(table) for table in tables).splitlines()
     if len(lines) > question.first + question.last:
         lines = [*lines[: question.first], "...", *lines[len(lines) - question.last :]]
     return f"{question.words}\n\n```\n$ {question.command}\n" + "\n".join(lines) + "\n```\n"
 
 
-def _page(network: LibraryNetwork) -> str:
+def _without_last_column(table: str) -> str:
+    """A table, and lines before it, without the column of words."""
+    lines = table.splitlines()
+    head = next((number for number, line in enumerate(lines) if line.endswith(LEFT_OUT)), len(lines))
+    width = lines[head].index(LEFT_OUT) if head < len(lines) else None
+    return "\n".join([*lines[:head], *(line[:width].rstrip() for line in lines[head:])])
+
+
+def page(network: LibraryNetwork, rows: Sequence[OrientationWindowsDocument]) -> str:
+    """The page of falls and windows as Markdown."""
     unit = network.pair.unit
-    rows = windows_of_histories(network.histories, None, None, network.pair.thread_pitch, 1.0)
-    table = "\n".join(_row(one) for one in rows)
-    snaps = "\n".join(_snap_row(one.roll, one.pitch, one.snap) for one in rows if one.snap is not None)
+    falls = "\n".join(_row(one) for one in rows)
+    windows = "\n".join(_window_row(window) for one in rows for window in one.windows)
+    descents = [(one, descent) for one in rows for descent in one.descents]
+    jumps = "\n".join(_jump_row(one.roll, one.pitch, jump) for one, descent in descents for jump in descent.jumps)
+    snaps = [one.snap for one in rows if one.snap is not None]
+    smooth, partly = (sum(test(snap) for snap in snaps) for test in (_has_no_jump, _jumps_by_less_than_half))
+    uncertain = max(descent.fall_uncertainty for _, descent in descents)
+    opening = (
+        f"`make designer` writes this page from the latest library ({network.pair.designation}, "
+        f"{network.summary.orientations} orientations, lengths in {unit}, angles in degrees). All is about a bolt "
+        "turned counter-clockwise, and about the height of its first contact ([decision 17](decisions/0017-falls.md))."
+    )
+    counts = (
+        f"{len(snaps)} of the {network.summary.orientations} orientations snap, by up to "
+        f"{max(snap.fall for snap in snaps):.6f} {unit}. In {smooth} of these snaps nothing jumps, in {partly} more "
+        f"the jump is less than half of the fall. No descent's fall is uncertain by more than {uncertain:.0e} {unit}."
+    )
     worst, compared = _mirrored(network)
     summary = network.summary
-    return f"""# Clearance windows and snaps
+    return f"""# Falls, snaps and clearance windows
 
-`make designer` writes this page from the latest library ({network.pair.designation}, {summary.orientations}
-orientations, lengths in {unit}, angles in degrees). A window is where the first contact of a bolt turned
-counter-clockwise is on a thread: no point of its edge is stopped by the nut's surface or edge any more. The snap is the
-largest fall of the bolt at one phase; where there is none, the bolt slides into the window and its height does not jump
-([decision 7](decisions/0007-history.md)).
+{fill(opening, WIDTH)}
 
-| roll | pitch | enter | leave | width | drop | climb | snap at | falls by |
+- A **descent** is a longest stretch of phase over which the height does not rise, from where it first falls to where it
+  last does. Its **fall** is the height at its beginning less that at its end.
+- A **jump** is the part of a fall that happens at one phase.
+- The **steepest** fall is the largest within 3 deg of phase.
+- The **snap** is the descent that holds the steepest fall, where that exceeds 5 % of the thread pitch. Its figures
+  are those of the whole descent, and beside them the largest jump within it.
+
+{fill(counts, WIDTH)}
+
+| roll | pitch | steepest | from | snap from | to | fall | jump | jump at |
 |---|---|---|---|---|---|---|---|---|
-{table}
+{falls}
 
-## Heights of the snaps
+## Clearance windows
 
-The bolt's height at first contact as its phase nears the snap from either side. Before it the height falls as the root
-of the phase that is left, up to where two contacts of edge on edge meet: phase and height there are solved for. Errors
-are estimates: of what round-off does, and of what the height changes within the bracket behind the snap.
+A window is where the first contact is on a thread: no point of the bolt's edge is stopped by the nut's surface or edge
+any more ([decision 7](decisions/0007-history.md)). It says where the bolt can go on down, not how far it falls; the
+climb is from its lowest height to that at the exit.
 
-| roll | pitch | snap at | error | before | behind | error |
-|---|---|---|---|---|---|---|
-{snaps}
+| roll | pitch | enter | leave | width | climb |
+|---|---|---|---|---|---|
+{windows}
+
+## Jumps
+
+The bolt's height as its phase nears a jump from either side. Where the jump is at the end of two contacts of edge on
+edge that meet, the height falls before it as the root of the phase that is left: phase and height there are solved
+for. Errors are estimates: of what round-off does, and of what the height changes within the bracket of the jump.
+
+| roll | pitch | jump at | error | before | behind | error | fall |
+|---|---|---|---|---|---|---|---|
+{jumps}
 
 ## Symmetries
 
 Each outline is its own mirror image, the threads have a hand. So the height of first contact at (roll, pitch, phase)
-is that at (roll, -pitch, -phase) where edges alone decide it, and nothing else is symmetric: not windows, nor snaps,
+is that at (roll, -pitch, -phase) where edges alone decide it, and nothing else is symmetric: not windows, nor falls,
 nor what follows the first contact. On the library's grid: of {compared:,} poses whose first contact, and that of the
 mirrored pose, is edge on edge or edge on surface, the largest difference of heights is {worst:.1e} {unit}.
 
@@ -137,17 +213,36 @@ def _parts(sizes: list[int]) -> str:
     return "one strongly connected part" if len(sizes) == 1 else f"{len(sizes)} strongly connected parts, of {sizes}"
 
 
-def _row(one: WindowDocument) -> str:
-    snap = ("", "") if one.snap is None else (f"{one.snap.phase:.6f}", f"{one.snap.fall:.6f}")
+def _has_no_jump(snap: SnapDocument) -> bool:
+    return snap.jump_at is None
+
+
+def _jumps_by_less_than_half(snap: SnapDocument) -> bool:
+    return snap.jump_at is not None and snap.jump < 0.5 * snap.fall
+
+
+def _row(one: OrientationWindowsDocument) -> str:
+    steepest_from = "" if one.steepest_from is None else f"{one.steepest_from:.6f}"
+    cells = [f"{one.roll:g}", f"{one.pitch:g}", f"{one.steepest:.6f}", steepest_from]
+    if one.snap is None:
+        return _cells(*cells, "", "", "", "", "")
+    snap = one.snap
+    jump_at = "" if snap.jump_at is None else f"{snap.jump_at:.6f}"
+    return _cells(*cells, f"{snap.start:.6f}", f"{snap.end:.6f}", f"{snap.fall:.6f}", f"{snap.jump:.6f}", jump_at)
+
+
+def _window_row(one: WindowDocument) -> str:
     phases = (f"{one.enter:.6f}", f"{one.leave:.6f}", f"{one.width:.3f}")
-    cells = (f"{one.roll:g}", f"{one.pitch:g}", *phases, f"{abs(one.drop):.6f}", f"{abs(one.climb):.6f}", *snap)
-    return "| " + " | ".join(cells) + " |"
+    return _cells(f"{one.roll:g}", f"{one.pitch:g}", *phases, f"{abs(one.climb):.6f}")
 
 
-def _snap_row(roll: float, pitch: float, snap: SnapDocument) -> str:
-    assert snap.height_uncertainty is not None
-    sides = (f"{snap.height_before:.12f}", f"{snap.height_after:.12f}", f"{snap.height_uncertainty:.0e}")
-    cells = (f"{roll:g}", f"{pitch:g}", f"{snap.phase:.10f}", f"{snap.phase_uncertainty:.0e}", *sides)
+def _jump_row(roll: float, pitch: float, jump: JumpDocument) -> str:
+    sides = (f"{jump.height_before:.12f}", f"{jump.height_after:.12f}", f"{jump.height_uncertainty:.0e}")
+    phase = (f"{jump.phase:.10f}", f"{jump.phase_uncertainty:.0e}")
+    return _cells(f"{roll:g}", f"{pitch:g}", *phase, *sides, f"{jump.fall:.6f}")
+
+
+def _cells(*cells: str) -> str:
     return "| " + " | ".join(cells) + " |"
 
 

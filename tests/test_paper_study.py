@@ -1,8 +1,10 @@
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from studies.paper.claim import Claim, Verdict
@@ -12,10 +14,14 @@ from studies.paper.page import Chapters, page, row
 from studies.paper.readings import Reading, declared_angles
 from studies.paper.registry import CHAPTERS, claims_by_chapter, statement_count
 from studies.paper.rules import Finding, Read, settled, unanimous
+from studies.paper.sampled_curve import sampled_curve
 from studies.paper.scale import Scale
 from studies.paper.statements import approaches, cases, orientations
 from studies.paper.study import FIG_19, FIG_21, Study, poses_to_solve, solved_study
 from studies.paper.table import print_table
+from threadstate.history.descents import falls_of
+from threadstate.history.falls import SNAP_PITCHES, SteepestFall
+from threadstate.history.height_curve import height_curve
 from threadstate.state.model import Flag, StateClass
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -146,9 +152,36 @@ def test_measurements_are_those_of_the_solver(study: Study, chapters: Chapters) 
         a.poses[0].translation[2] - b.poses[0].translation[2] for a, b in zip(turn, turn[1:] + turn[:1], strict=True)
     ]
     fall = claim_of(chapters, cases.NEGATIVE_SHIFT.text).measurement
-    assert fall.startswith(f"4 deg: {max(falls):.6f} in at phase {falls.index(max(falls))}, ")
+    found = re.fullmatch(r"4 deg: (\S+) in from phase (\S+) on, \S+ times the lead, of (\S+) in", fall)
+    assert found is not None
+    steepest, start, whole = map(float, found.groups())
+    later = solve_pose(pair, 4, 0, start + 1).poses[0].translation[2]
+    assert max(falls) <= steepest <= whole
+    # Phases are written to 0.005 deg, over which the height changes by up to 5e-6 in.
+    assert steepest == pytest.approx(solve_pose(pair, 4, 0, start).poses[0].translation[2] - later, abs=5e-6)
     flush = sum(Flag.FLUSH in state.flags for one in study.declared.tilted() for state in one.states)
     assert claim_of(chapters, orientations.NOT_PARALLEL.text).measurement.startswith(f"{flush:,} of 2,880 ")
+
+
+def test_snaps_are_those_of_the_one_definition(study: Study, chapters: Chapters) -> None:
+    pair = quarter_twenty_unc()
+    tilts = [(one.roll_deg, one.pitch_deg) for one in study.declared.tilted()]
+    falls = [falls_of(height_curve(pair, *tilt), pair.thread_pitch) for tilt in tilts]
+    snaps = [snap.fall for one in falls if (snap := one.snap(SNAP_PITCHES * pair.thread_pitch)) is not None]
+    assert claim_of(chapters, approaches.SNAP.text).measurement.startswith(
+        f"{len(snaps)} of 8 orientations snap, by up to {max(snaps):.6f} in; "
+    )
+
+
+def test_falls_between_samples_are_those_of_straight_lines() -> None:
+    curve = sampled_curve(np.array([0.0, 4.0, 4.0, 3.0, -2.0, -1.0, 2.0, 1.0]), 45.0, 1.0)
+    falls = falls_of(curve, 1.0, span_deg=67.5)
+    assert [(one.start_deg, one.end_deg, one.fall) for one in falls.descents] == [
+        (90.0, 180.0, 6.0),
+        (270.0, 360.0, 2.0),
+    ]
+    assert falls.steepest == SteepestFall(5.5, 112.5, 0)
+    assert not any(descent.jumps for descent in falls.descents)
 
 
 def test_turning_first_is_another_pose_only_when_both_turned_and_tilted() -> None:

@@ -147,3 +147,15 @@ def test_one_file_alone_imports_pyarrow(repository_root: Path) -> None:
         if any(module.split(".")[0] == "pyarrow" for module in _imports(path))
     }
     assert importing == {"threadstate/export/parquet.py"}
+
+
+def test_one_file_alone_imports_matplotlib_and_only_when_it_draws(repository_root: Path) -> None:
+    files = [path for room in ROOMS for path in _files(repository_root, room)]
+    importing = [path for path in files if any(module.split(".")[0] == "matplotlib" for module in _imports(path))]
+    assert [path.relative_to(repository_root).as_posix() for path in importing] == ["worker/plots.py"]
+    at_the_top = [
+        ast.unparse(node)
+        for node in ast.parse(importing[0].read_text()).body
+        if isinstance(node, ast.Import | ast.ImportFrom) and "matplotlib" in ast.unparse(node)
+    ]
+    assert at_the_top == []

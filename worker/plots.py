@@ -21,13 +21,6 @@ TURN_DEG = 360.0
 MOST_TICKS = 17
 """A map with more values of an angle than that does not name them all."""
 
-_STYLE = {
-    # The same figure is the same file.
-    "svg.hashsalt": "threadstate",
-    "font.size": 10.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-}
 _DOTS_PER_INCH = 150
 _FIRST, _REST, _WINDOW, _NONE = "#1f5fa8", "#b3541e", "#dfe9d8", "#c8c8c8"
 
@@ -129,7 +122,10 @@ def _figure(path: Path, size_in: tuple[float, float]) -> Iterator[Figure]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as NewFigure
 
-    with rc_context(_STYLE):
+    # With a salt of its own, the same figure is the same file.
+    with rc_context(
+        {"svg.hashsalt": "threadstate", "font.size": 10.0, "axes.spines.top": False, "axes.spines.right": False}
+    ):
         figure = NewFigure(figsize=size_in, layout="constrained")
         FigureCanvasAgg(figure)
         yield figure

@@ -9,7 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.paper.rules import ON_SURFACE
+from studies.paper.sampled_curve import sampled_curve
+from threadstate.history.descents import falls_of
+from threadstate.history.falls import SPAN_DEG, Descent, Falls
+from threadstate.history.height_curve import HeightCurve, height_curve
 from threadstate.state.model import Contact, ContactState
+from threadstate.thread.pair import Pair
 from threadstate.thread.regions import Region
 
 Array = NDArray[np.float64]
@@ -27,12 +32,18 @@ def first_height(state: ContactState) -> float:
 
 @dataclass(frozen=True)
 class Revolution:
-    """The states of an orientation, phase by phase from 0 in steps of ``step_deg``; positions count cyclically."""
+    """The states of an orientation, phase by phase from 0 in steps of ``step_deg``; positions count cyclically.
 
+    ``tilt_goes_round`` is whether the tilt goes round with the phase, as declared: then falls are those of the exact
+    curve of height, else those of its steps, joined by straight lines.
+    """
+
+    pair: Pair
     roll_deg: int
     pitch_deg: int
     step_deg: int
     states: tuple[ContactState, ...]
+    tilt_goes_round: bool = True
 
     @cached_property
     def heights(self) -> Array:
@@ -65,35 +76,47 @@ class Revolution:
         return self.points[:, 2] < -ON_SURFACE
 
     @cached_property
-    def fall_at(self) -> int:
+    def _curve(self) -> HeightCurve:
+        if self.tilt_goes_round:
+            return height_curve(self.pair, self.roll_deg, self.pitch_deg)
+        return sampled_curve(self.heights, self.step_deg, self.pair.thread_pitch)
+
+    def falls(self, span_deg: float = SPAN_DEG) -> Falls:
+        """Its descents, and its steepest fall within so many degrees of phase; heights in inches."""
+        return falls_of(self._curve, self.pair.thread_pitch, span_deg)
+
+    @cached_property
+    def steepest_fall(self) -> float:
+        """The steepest fall, in inches; 0 where the bolt never goes down."""
+        steepest = self.falls().steepest
+        return 0.0 if steepest is None else steepest.fall
+
+    @cached_property
+    def main_descent(self) -> Descent | None:
+        """The descent that holds the steepest fall; None where the bolt never goes down."""
+        falls = self.falls()
+        return None if falls.steepest is None else falls.descents[falls.steepest.descent]
+
+    @cached_property
+    def before_fall(self) -> int:
         """The position after which the height falls most in one step."""
         return int(np.argmax(self.heights - np.roll(self.heights, -1)))
 
     @property
-    def fall(self) -> float:
-        """The largest fall of the height in one step, in inches."""
-        return float(self.heights[self.fall_at] - self.heights[self.after_fall])
-
-    @property
     def after_fall(self) -> int:
-        """The position after the fall."""
-        return (self.fall_at + 1) % len(self.states)
-
-    @property
-    def fall_phase_deg(self) -> int:
-        """The phase before the fall."""
-        return self.fall_at * self.step_deg
+        """The position after the steepest step."""
+        return (self.before_fall + 1) % len(self.states)
 
     @cached_property
     def from_fall(self) -> NDArray[np.intp]:
-        """All positions in the order of turning, from just after the fall to just before it."""
+        """All positions in the order of turning, from just after the steepest step to just before it."""
         return (self.after_fall + np.arange(len(self.states))) % len(self.states)
 
     @cached_property
     def beyond_fall_deg(self) -> Array:
-        """How far each phase is from the middle of the fall, either way round, in degrees, shape (n,)."""
+        """How far each phase is from the middle of the steepest step, either way round, in degrees, shape (n,)."""
         phases = np.arange(len(self.states)) * self.step_deg
-        apart = np.abs(phases - (self.fall_phase_deg + 0.5 * self.step_deg))
+        apart = np.abs(phases - (self.before_fall + 0.5) * self.step_deg)
         nearest: Array = np.minimum(apart, 360.0 - apart)
         return nearest
 

@@ -22,14 +22,14 @@ MAJORITY = 0.5
 MIRRORED_SHARE = 0.9
 """From this share on, one turn is the mirror image of another."""
 
-SNAP = 2.0
-"""A fall is a snap when the height changes by more than this times what the thread's own lead gives in a step."""
+SHIFT = 2.0
+"""The bolt shifts down where it falls, in a step, by more than this times what the thread's own lead gives in it."""
 
 NARROW = 30.0
-"""Within this of the fall a phase belongs to its neighbourhood."""
+"""Within this of the steepest step a phase belongs to its neighbourhood."""
 
 NEAR_IN_PHASE = 15.0
-"""A fall within this of phase 0 happens when the threads are in phase."""
+"""A steepest fall that begins within this of phase 0 happens when the threads are in phase."""
 
 SEVERAL_DEGREES = 10.0
 """At most this is several degrees of phase."""

@@ -84,7 +84,8 @@ def solved_study(scale: Scale, advance: Advance) -> Study:
         revolutions = {}
         for roll, pitch in orientations:
             states = solved(threads, reading, [(roll, pitch, phase) for phase in scale.phases_deg])
-            revolutions[roll, pitch] = Revolution(roll, pitch, scale.phase_step_deg, states)
+            goes_round = reading is Reading.DECLARED
+            revolutions[roll, pitch] = Revolution(threads, roll, pitch, scale.phase_step_deg, states, goes_round)
         return Survey(revolutions)
 
     every = [(roll, pitch) for roll in scale.tilts_deg for pitch in scale.tilts_deg]

@@ -25,8 +25,14 @@ CONVENTIONS = """\
 - **Regions.** As in section 3: positive where the radius grows with +z. The nut's crest is its smallest radius. A
   contact on an edge carries the region of the thread at that azimuth; "at the surface" means at the height z = 0 of
   the nut's flat face, "below" deeper than 1e-9 in.
-- **Fall.** The largest fall of the height in one step of phase, turning counter-clockwise; it marks the clearance
-  window.
+- **Descent, steepest fall, snap.** Of the height of first contact, turning counter-clockwise. A descent is a longest
+  stretch of phase over which it does not rise. The steepest fall is the largest within 3 deg of phase, or within
+  another span where one is named; the main descent is the one that holds it. It is a snap where the steepest fall
+  exceeds 5 % of the thread pitch, and its figure is the whole fall of the descent ([decision
+  17](decisions/0017-falls.md)). All are those of the exact curve of height, the same as in [windows.md](windows.md);
+  with the bolt turned before it is tilted, the curve is straight from step to step.
+- **Before and after the fall.** Before and after the step of 1 deg over which the height falls most: it marks where
+  the clearance window is entered.
 - **Second turn.** About the tangent of the edge in contact. The paper says "a vector tangent to the surface of the
   nut".
 - **Third contact.** A component of contact that holds neither of the first two. The paper's "three distinct contact

@@ -46,8 +46,8 @@ class Shown:
 
 _FIXED = (
     ("tunnelling", "the first step of 0.01 in lands where the surfaces do not cross", (0.0, -4.0, 350.0)),
-    ("before the snap", "the highest contact is about to vanish", (0.0, -4.0, 357.0)),
-    ("behind the snap", "the bolt has fallen by 0.009 in within 1 deg of phase", (0.0, -4.0, 358.0)),
+    ("before the jump", "the highest contact is about to vanish", (0.0, -4.0, 357.0)),
+    ("behind the jump", "the bolt has fallen by 0.009 in within 1 deg of phase", (0.0, -4.0, 358.0)),
     ("flush contact", "after the second turn base and surface are coplanar", (4.0, 0.0, 185.0)),
     ("coplanar from the start", "a level bolt out of phase", (0.0, 0.0, 180.0)),
     ("coplanar threads", "a level bolt in phase lies on a strip of its thread", (0.0, 0.0, 0.0)),

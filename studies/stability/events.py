@@ -29,7 +29,7 @@ class EventKind(StrEnum):
     """What happens; the value is the name of the hard place."""
 
     TIE = "ties of first contacts"
-    SNAP = "first contact lost (snap)"
+    JUMP = "first contact lost (jump)"
     LATER_TIE = "ties of later contacts"
     DOUBLE_ROOT = "later contact born or lost (double root)"
     FLUSH = "flush or not (coplanar)"
@@ -146,7 +146,7 @@ def _reads(read: Callable[[Case, ContactState], object], case: Case, label: obje
 def _jump_kind(before: Answered, after: Answered) -> EventKind:
     a, b = before.state, after.state
     if abs(a.poses[0].translation[2] - b.poses[0].translation[2]) > SAME_HEIGHT_INCH:
-        return EventKind.SNAP
+        return EventKind.JUMP
     one, other = leading_contacts(a), leading_contacts(b)
     if 1 in one and 1 in other and math.dist(one[1].point, other[1].point) > FAR_INCH / 10.0:
         return EventKind.TIE

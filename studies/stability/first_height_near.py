@@ -1,6 +1,6 @@
 """The brute force's first height looked for about one place with dense samples.
 
-Beside a snap the two edges share a sliver a few thousandths of a degree wide, which samples all round step over.
+Beside a jump the two edges share a sliver a few thousandths of a degree wide, which samples all round step over.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ class Event(StrEnum):
 
     FLAGGED = "flagged (tie, balanced, patch)"
     FIRST_TAKEN_OVER = "first contact taken over at equal height"
-    FIRST_LOST = "first contact lost (snap)"
+    FIRST_LOST = "first contact lost (jump)"
     LATER_TAKEN_OVER = "later contact taken over at equal turn"
     LATER_LOST = "later contact born, lost or merged"
     PARTED = "an overlap parts: not a birth by decision 1"

@@ -95,7 +95,7 @@ def _opening(found: Findings) -> str:
         tunnelled = outcomes.count(Outcome.HEIGHT) - beside
         lines.append(
             f"- **First heights of {method.name}** over the grid: {outcomes.count(Outcome.HEIGHT):,} of "
-            f"{len(outcomes):,} wrong, {tunnelled:,} of them tunnelled and {beside:,} beside a snap that the meshes "
+            f"{len(outcomes):,} wrong, {tunnelled:,} of them tunnelled and {beside:,} beside a jump that the meshes "
             f"have elsewhere; {outcomes.count(Outcome.REFUSED):,} refused ([descents.csv]({FOLDER}/descents.csv))."
         )
     return "\n".join(lines)

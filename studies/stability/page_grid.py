@@ -56,7 +56,7 @@ def descents_text(found: Findings) -> str:
                 f"{off[-1]:.2g}",
             )
         )
-    head = ("descent", "poses", "right", "refused", "wrong", "too low / too high", "beside a snap")
+    head = ("descent", "poses", "right", "refused", "wrong", "too low / too high", "beside a jump")
     errors = ("declared error (in)", "median error (in)", "largest error (in)")
     return table((*head, f"wrong by {FINER} meshes as well", *errors), lines)
 

@@ -40,7 +40,7 @@ class Place:
 
 _HOW = {
     EventKind.TIE: "two first contacts far apart at one height; the phase halved to the last digit",
-    EventKind.SNAP: "the highest contact vanishes and the bolt falls; halved until the method refuses or digits end",
+    EventKind.JUMP: "the highest contact vanishes and the bolt falls; halved until the method refuses or digits end",
     EventKind.LATER_TIE: "two second or third contacts at one turn; halved to the last digit",
     EventKind.DOUBLE_ROOT: "a second or third contact is born in, or merges with, another overlap; halved likewise",
     EventKind.FLUSH: "the turn ends flush on one side (coplanar faces) and in a contact on the other; halved likewise",
@@ -55,7 +55,7 @@ _HOW = {
 }
 
 
-_SLOW = {EventKind.SNAP: 3, EventKind.FLUSH: 2, EventKind.GRAZING: 2}
+_SLOW = {EventKind.JUMP: 3, EventKind.FLUSH: 2, EventKind.GRAZING: 2}
 """A centre in so many is taken where poses take long, or the way to each is sought long."""
 
 

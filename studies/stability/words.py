@@ -38,7 +38,7 @@ steps of their final step and facets: below that size their change per change of
 
 DESCENTS = """\
 Every pose of the grid, the height of first contact by both descents of the mesh method. A height is wrong where it
-differs from the exact one by more than the declared error. A wrong height is beside a snap where it lies between the
+differs from the exact one by more than the declared error. A wrong height is beside a jump where it lies between the
 exact heights of poses and of bolts' surfaces that are off by no more than that error: there heights are steep, and
 the meshes lose their highest contact up to a degree of phase earlier or later than the threads do, as any model does
 that is off by as much; no step of a descent can mend it. The others are tunnelled where they are too low: the contact
@@ -46,7 +46,7 @@ is there, and a step has gone past it. Wrong heights are descended to again with
 
 EVENTS = """\
 Each pair of neighbours was looked at once for its centre. Two contacts at one height, or at one turn, are taken over
-from one pose to the next with no change of that number; a snap and a birth change it at once."""
+from one pose to the next with no change of that number; a jump and a birth change it at once."""
 
 STEEPNESS = """\
 The largest change of an answer per change of its input, where the contacts stay: a height, a turn times the bolt's

@@ -86,6 +86,14 @@ def test_libraries_are_switched_without_a_reload(page: Explorer) -> None:
     assert page.run("return window.stays") is True
 
 
+def test_the_library_of_a_link_is_asked_for_once(page: Explorer) -> None:
+    page.addresses_asked()
+    page.open(f"/#library={UNC}&unit=mm")
+    page.one("#depth .curve")
+    asked = page.addresses_asked()
+    assert asked.count(f"{page.address}/v1/libraries/{UNC}?unit=mm") == 1
+
+
 def test_a_library_that_is_not_there_leaves_the_present_one(page: Explorer) -> None:
     page.run("location.hash = '#library=99&roll=0&pitch=-4&phase=20'")
     page.wait_for_text("#toast", "library 99 is not published here")

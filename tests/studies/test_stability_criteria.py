@@ -80,8 +80,8 @@ def test_a_scaled_state_comes_back_to_scale_one() -> None:
     assert is_steady(right, back)
 
 
-def snap_sides() -> tuple[Answered, Answered]:
-    """The two sides of the snap of roll 0, pitch -4, some 1e-6 deg of phase apart."""
+def jump_sides() -> tuple[Answered, Answered]:
+    """The two sides of the jump of roll 0, pitch -4, some 1e-6 deg of phase apart."""
     low, high = 357.0, 358.0
     while high - low > 1e-6:
         middle = 0.5 * (low + high)
@@ -92,8 +92,8 @@ def snap_sides() -> tuple[Answered, Answered]:
     return answered((0.0, -4.0, low)), answered((0.0, -4.0, high))
 
 
-def test_judge_believes_a_snap_and_no_bolt_that_falls_without_one() -> None:
-    above, below = snap_sides()
+def test_judge_believes_a_jump_and_no_bolt_that_falls_without_one() -> None:
+    above, below = jump_sides()
     assert explanation(above, below) is Event.FIRST_LOST
     assert not missed_first(above)
     tunnelled = replace(below, case=above.case)
@@ -117,7 +117,7 @@ def test_judge_measures_the_least_lift() -> None:
 
 
 def test_ways_from_a_centre_are_steady_or_cross_events_that_are_judged() -> None:
-    above, below = snap_sides()
+    above, below = jump_sides()
     nowhere = Surroundings(EXACT, answered(THREE_POINT))
     assert nowhere.route_to(answered((1.0, -2.0, 10.0 + 1e-6)), divisible=True) == ()
     assert nowhere.met == []
@@ -166,7 +166,7 @@ def test_outcome_names_the_first_stage_that_is_wrong() -> None:
 
 
 def test_either_side_of_an_event_nearer_than_the_error_is_right() -> None:
-    above, below = snap_sides()
+    above, below = jump_sides()
     known = truths(EXACT, above.case, ERROR)
     assert difference(below, above, ERROR) is Outcome.HEIGHT
     assert outcome(above.case, below.state, known, ERROR) is Outcome.RIGHT

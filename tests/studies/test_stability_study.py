@@ -84,10 +84,10 @@ def test_thinned_keeps_every_decade_of_the_pose() -> None:
 
 def test_events_are_found_and_halved_to_the_last_digit() -> None:
     events = events_along(EXACT, phase_line(Case(PAIR, (0.0, -4.0, 356.0)), 4))
-    (snap,) = (event for event in events if event.kind is EventKind.SNAP)
-    roll, pitch, phase = snap.case.pose_deg
+    (jump,) = (event for event in events if event.kind is EventKind.JUMP)
+    roll, pitch, phase = jump.case.pose_deg
     assert 357.0 < phase < 358.0
-    here = answered(snap.case.pose_deg).state.poses[0].translation[2]
+    here = answered(jump.case.pose_deg).state.poses[0].translation[2]
     behind = answered((roll, pitch, phase + 1e-6)).state.poses[0].translation[2]
     assert here - behind > 5e-5
 
@@ -171,7 +171,7 @@ def test_the_study_finds_the_hard_places_and_judges_every_pose(found: Findings) 
     assert found.traps.flush_met < found.traps.flush_pairs
 
 
-def test_a_second_look_tells_tunnelling_from_a_snap_that_meshes_have_elsewhere() -> None:
+def test_a_second_look_tells_tunnelling_from_a_jump_that_meshes_have_elsewhere() -> None:
     exact = answered(TUNNEL.pose_deg).state.poses[0].translation[2]
     told = first_height(DECADES_DOWN, TUNNEL).height
     assert told is not None
@@ -212,7 +212,7 @@ def test_lists_hold_every_pose_that_is_not_right(found: Findings) -> None:
 def test_the_page_of_the_documentation_is_of_the_whole_study(repository_root: Path) -> None:
     text = (repository_root / "docs" / "stability.md").read_text()
     assert "29,160" in text
-    for kind in (EventKind.TIE, EventKind.SNAP, EventKind.DOUBLE_ROOT, EventKind.FLUSH, EventKind.DROP):
+    for kind in (EventKind.TIE, EventKind.JUMP, EventKind.DOUBLE_ROOT, EventKind.FLUSH, EventKind.DROP):
         assert f"| {kind.value} |" in text
     for name in ("failures.csv", "descents.csv", "wrong-meshes.csv"):
         assert (repository_root / "docs" / "stability" / name).is_file()

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
@@ -71,6 +72,15 @@ def test_no_command_is_documented_that_is_not_there(repository_root: Path) -> No
     assert sorted(_sections((repository_root / "docs" / "cli.md").read_text())) == COMMANDS
 
 
+def test_every_command_of_the_readme_is_there_with_its_options(repository_root: Path) -> None:
+    text = (repository_root / "README.md").read_text()
+    commands = [shlex.split(line) for line in re.findall(r"^(?:\$ )?threadstate ([a-z].*)$", text, re.MULTILINE)]
+    assert len(commands) > 5
+    for name, *arguments in commands:
+        assert name in COMMANDS
+        assert {one for one in arguments if one.startswith("--")} <= set(_options(name)), name
+
+
 def test_every_exit_code_is_documented(repository_root: Path) -> None:
     text = (repository_root / "docs" / "cli.md").read_text()
     documented = {(int(code), name) for code, name in re.findall(r"^\| (\d+) \| `([A-Z_]+)` \|", text, re.M)}
@@ -113,7 +123,8 @@ def test_no_description_of_the_overview_is_cut(
 def test_help_loads_nothing_heavy(environment: Mapping[str, str]) -> None:
     script = (
         "import sys; from worker.cli import run_command_line; run_command_line(['rebuild', '--help'])\n"
-        "print([name for name in ('numba', 'numpy', 'sqlalchemy', 'alembic', 'service') if name in sys.modules])"
+        "heavy = ('numba', 'numpy', 'matplotlib', 'sqlalchemy', 'alembic', 'service')\n"
+        "print([name for name in heavy if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"

@@ -48,10 +48,15 @@ def test_nothing_published_ends_with_4(command_line: CommandLine) -> None:
 
 
 def test_migrate_says_what_it_did(command_line: CommandLine) -> None:
-    assert json.loads(command_line.here("migrate", "--json")[1]) == {"before": None, "after": SCHEMA_REVISION}
+    assert json.loads(command_line.here("migrate", "--json")[1]) == {
+        "before": None,
+        "after": SCHEMA_REVISION,
+        "completed": 0,
+    }
     assert json.loads(command_line.here("migrate", "--json")[1]) == {
         "before": SCHEMA_REVISION,
         "after": SCHEMA_REVISION,
+        "completed": 0,
     }
     assert "already" in command_line.here("migrate")[1]
 

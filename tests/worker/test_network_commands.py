@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -104,6 +105,13 @@ def test_falls_of_any_tilt_are_computed(ask: Callable[..., str]) -> None:
     assert (narrow["snap"], narrow["windows"]) == (None, found["windows"])
 
 
+def test_a_map_of_the_snaps_is_drawn(ask: Callable[..., str], tmp_path: Path) -> None:
+    ask("windows", "--plot", str(tmp_path / "map.svg"))
+    drawn = (tmp_path / "map.svg").read_text()
+    assert drawn.startswith("<?xml")
+    assert "fall of the snap" in drawn
+
+
 def test_a_tolerance_gives_a_range(ask: Callable[..., str]) -> None:
     asked = ("windows", "--roll", "0", "--pitch", "-2", "--tolerance", "0.2")
     found = json.loads(ask(*asked, "--json"))
@@ -118,6 +126,7 @@ def test_a_tolerance_gives_a_range(ask: Callable[..., str]) -> None:
     [
         (["--roll", "2.5"], "one of -2, 0, 2 deg"),
         (["--tolerance", "0.3"], "with --roll and --pitch"),
+        (["--plot", "map.svg", "--roll", "0"], "`heights --plot`"),
         (["--roll", "0", "--pitch", "0", "--tolerance", "3"], "at most 2 deg"),
         (["--roll", "0", "--pitch", "0", "--span", "0"], "above 0"),
         (["--roll", "11", "--pitch", "0"], "-10 to 10"),
@@ -137,7 +146,8 @@ def test_orientations_are_compared_side_by_side(ask: Callable[..., str]) -> None
     assert [(one["library"], one["roll"], one["pitch"]) for one in found] == [(1, 0, -2), (1, 2.5, -1.2)] * 2
     (stored,) = json.loads(ask("windows", "--roll", "0", "--pitch", "-2", "--json"))["orientations"]
     assert found[0] == {"library": 1, "designation": "1/4-20 UNC", "thread_pitch": 0.05, **stored}
-    assert ask(*asked).count(f"{stored['snap']['fall']:.6f}") == 2
+    # All of this fall is within 3 deg, so that it is the steepest, too.
+    assert ask(*asked).count(f"{stored['snap']['fall']:.6f}") == 4
 
 
 def test_a_tilt_that_is_none_is_refused(command_line_on: Callable[[str], CommandLine], database: str) -> None:

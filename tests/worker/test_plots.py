@@ -8,12 +8,15 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from numpy.typing import NDArray
 
 from tests.worker.conftest import CommandLine
 from threadstate.answer.documents import HeightsDocument, WindowDocument
 from threadstate.errors import InvalidValueError
 from threadstate.units import LengthUnit
 from worker.plots import plot_heights, plot_map
+
+Floats = NDArray[np.float64]
 
 pytestmark = pytest.mark.sqlite_alone
 
@@ -53,10 +56,15 @@ def _words(path: Path) -> list[str]:
     return re.findall(r"<!-- (.*?) -->", path.read_text())
 
 
+def _coloured(picture: Floats, colour: tuple[float, float, float]) -> NDArray[np.bool_]:
+    """Which pixels of a picture, by rows, have a colour."""
+    return np.asarray((np.abs(picture - colour) < 0.5 / 255).all(axis=2))
+
+
 def _share(path: Path, colour: tuple[float, float, float]) -> float:
     """The share of a picture that has a colour."""
     picture = imread(path)[:, :, :3]
-    return float((np.abs(picture - colour) < 0.5 / 255).all(axis=2).mean())
+    return float(_coloured(picture, colour).mean())
 
 
 def test_heights_are_drawn_with_axes_and_units(tmp_path: Path) -> None:
@@ -75,7 +83,7 @@ def test_a_window_is_shaded_on_both_sides_of_phase_0(tmp_path: Path) -> None:
     assert _share(path, WINDOW_RGB) == 0.0
     plot_heights(HEIGHTS, [WINDOW], LengthUnit.INCH, path)
     picture = imread(path)[:, :, :3]
-    shaded = (np.abs(picture - WINDOW_RGB) < 0.5 / 255).all(axis=2).sum(axis=0) > 0.5 * len(picture)
+    shaded = _coloured(picture, WINDOW_RGB).sum(axis=0) > 0.5 * len(picture)
     stretches = np.flatnonzero(np.diff(shaded.astype(int)) == 1)
     assert len(stretches) == 2
     assert stretches[0] < 0.2 * picture.shape[1] < 0.9 * picture.shape[1] < stretches[1]
@@ -97,12 +105,11 @@ def test_roll_goes_to_the_right_and_pitch_up(tmp_path: Path) -> None:
     only = (-1.0, 1.0)
     plot_map({tilt: 1.0 if tilt == only else None for tilt in MAP}, "one", LengthUnit.INCH, tmp_path / "map.png")
     picture = imread(tmp_path / "map.png")[:, :, :3]
-    rows, columns = np.nonzero((np.abs(picture - NONE_RGB) < 0.5 / 255).all(axis=2))
+    rows, columns = np.nonzero(_coloured(picture, NONE_RGB))
     left, right, top, bottom = columns.min(), columns.max(), rows.min(), rows.max()
     inside = picture[top:bottom, left:right]
-    grey = (np.abs(inside - NONE_RGB) < 0.5 / 255).all(axis=2)
-    third = len(grey) // 4, grey.shape[1] // 4
-    assert not grey[: third[0], : third[1]].any()
+    grey = _coloured(inside, NONE_RGB)
+    assert not grey[: grey.shape[0] // 4, : grey.shape[1] // 4].any()
 
 
 def test_a_map_without_any_value_is_grey(tmp_path: Path) -> None:

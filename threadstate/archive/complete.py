@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from sqlalchemy import Engine, insert, select, update
 
-from threadstate.archive.rows import falls_rows
 from threadstate.library import history_tables as tables
 from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
@@ -45,6 +44,7 @@ def completed(engine: Engine, incomplete: list[tuple[int, int]]) -> Iterator[tup
 
 def _complete(engine: Engine, library_id: int, orientation: int, *, is_last: bool) -> None:
     # The kernels take a second to load; who only asks what is incomplete is not to wait for them.
+    from threadstate.archive.rows import falls_rows
     from threadstate.history.descents import falls_of
     from threadstate.history.height_curve import height_curve
 

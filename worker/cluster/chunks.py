@@ -170,7 +170,9 @@ def _connected(address: str) -> Iterator[Client]:
     try:
         from distributed import Client
     except ImportError:
-        raise ClusterError("a scheduler needs Dask, which is not installed: pip install '.[dask]' in a checkout") from None
+        raise ClusterError(
+            "a scheduler needs Dask, which is not installed: pip install '.[dask]' in a checkout"
+        ) from None
 
     # What goes wrong is said by errors of our own; Dask's log would tell the same again, in many lines.
     for name in ("distributed", "distributed.client"):

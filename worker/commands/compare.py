@@ -18,7 +18,9 @@ def compare(
     ] = None,
     tilts: Annotated[
         list[str] | None,
-        typer.Option("--tilt", metavar="ROLL,PITCH", help="An orientation; any number of times.", show_default="0,-4"),
+        typer.Option(
+            "--tilt", metavar="ANGLES", help="An orientation as ROLL,PITCH; any number of times.", show_default="0,-4"
+        ),
     ] = None,
     unit: UnitName = None,
     database: Database = None,

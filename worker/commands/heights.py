@@ -66,7 +66,7 @@ def heights(
         if source.stored is not None:
             connection, network = source.stored
             found = stored_heights(connection, network, roll, pitch)
-            history = network.histories.orientations[network.orientation(roll, pitch)]
+            history = None if plot is None else network.histories.orientations[network.orientation(roll, pitch)]
         else:
             found = computed_heights(threads, roll, pitch, source.options)
             history = None if plot is None else computed_history(threads, roll, pitch, source.options)

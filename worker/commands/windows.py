@@ -62,6 +62,8 @@ def windows(
 
     if tolerance is not None and (roll is None or pitch is None):
         raise InvalidValueError("--tolerance", tolerance, "with --roll and --pitch")
+    if plot is not None and not (roll is None and pitch is None):
+        raise InvalidValueError("--plot", str(plot), "a map of all orientations; `heights --plot` draws one of them")
     if plot is not None:
         check_plot_file(plot)
     network = stored_network(database, library)

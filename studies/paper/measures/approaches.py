@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 
 from studies.paper.claim import Measure, Outcome, Statement
 from studies.paper.measures.cases import in_every_reading
 from studies.paper.readings import Reading
 from studies.paper.revolution import Revolution
 from studies.paper.rules import MAJORITY, NEAR_IN_PHASE, Finding, Read, decided, settled
-from studies.paper.rules import SNAP as SNAP_FACTOR
 from studies.paper.statements import approaches as statements
 from studies.paper.study import Study, Survey
+from threadstate.history.falls import SNAP_PITCHES
+from threadstate.history.model import CIRCLE_DEG
 from threadstate.state.model import ContactState, Flag, StateClass
 
 OUTERMOST_DEG = 4
@@ -35,9 +37,7 @@ def approaches(survey: Survey) -> list[Revolution]:
 
 def _thinned(revolution: Revolution) -> Revolution:
     every = max(1, STEP_DEG // revolution.step_deg)
-    return Revolution(
-        revolution.roll_deg, revolution.pitch_deg, revolution.step_deg * every, revolution.states[::every]
-    )
+    return replace(revolution, step_deg=revolution.step_deg * every, states=revolution.states[::every])
 
 
 def declared_class(state: ContactState) -> StateClass:
@@ -71,28 +71,28 @@ def eight_approaches(study: Study) -> Outcome:
     return Outcome(f"{count}", decided(count == 8))
 
 
-def snaps(study: Study) -> Outcome:
+def snaps(survey: Survey) -> Finding:
     """Orientations with a snap near in phase, and those without."""
+    tilted = list(survey.tilted())
+    falls = {(one.roll_deg, one.pitch_deg): _snap_in_phase(one) for one in tilted}
+    largest = max((fall for fall in falls.values() if fall is not None), default=0.0)
+    without = [tilt for tilt, fall in falls.items() if fall is None]
+    pitched = sum(pitch > 0 for _, pitch in without)
+    return Finding(
+        f"{len(tilted) - len(without)} of {len(tilted)} orientations snap, by up to {largest:.6f} in; of the "
+        f"{len(without)} that do not, {pitched} have a positive pitch",
+        not without,
+    )
 
-    def test(survey: Survey) -> Finding:
-        lead = study.pair.thread_pitch * study.scale.phase_step_deg / 360.0
-        without: list[Revolution] = []
-        largest = 0.0
-        tilted = list(survey.tilted())
-        for one in tilted:
-            off_phase = min(one.fall_phase_deg, 360 - one.fall_phase_deg)
-            if one.fall > SNAP_FACTOR * lead and off_phase <= NEAR_IN_PHASE:
-                largest = max(largest, one.fall)
-            else:
-                without.append(one)
-        pitched = sum(one.pitch_deg > 0 for one in without)
-        return Finding(
-            f"{len(tilted) - len(without)} of {len(tilted)} orientations snap, by up to {largest:.4f} in; of the "
-            f"{len(without)} that do not, {pitched} have a positive pitch",
-            not without,
-        )
 
-    return in_every_reading(test)(study)
+def _snap_in_phase(one: Revolution) -> float | None:
+    """The whole fall of the orientation's snap; None where there is none near phase 0."""
+    falls = one.falls()
+    snap = falls.snap(SNAP_PITCHES * one.pair.thread_pitch)
+    if snap is None or falls.steepest is None:
+        return None
+    off_phase = min(falls.steepest.start_deg, CIRCLE_DEG - falls.steepest.start_deg)
+    return snap.fall if off_phase <= NEAR_IN_PHASE else None
 
 
 def _counts(survey: Survey, classify: Classify) -> Counter[StateClass]:
@@ -130,7 +130,7 @@ def quasi_stable_occurs(survey: Survey) -> Finding:
 
 MEASURED_OVER_ALL: tuple[tuple[Statement, Measure], ...] = (
     (statements.EIGHT, eight_approaches),
-    (statements.SNAP, snaps),
+    (statements.SNAP, in_every_reading(snaps)),
 )
 
 MEASURED: tuple[tuple[Statement, Measure], ...] = (

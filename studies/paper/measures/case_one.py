@@ -27,8 +27,8 @@ from studies.paper.rules import (
     NARROW,
     NONLINEAR,
     ON_SURFACE,
+    SHIFT,
     SIGNIFICANT_NORMAL,
-    SNAP,
     Finding,
     Read,
     settled,
@@ -96,15 +96,27 @@ def ledge(survey: Survey) -> Finding:
 
 
 def shifts_down(study: Study) -> Outcome:
-    """The fall over what the lead gives in a step."""
+    """The steepest fall within a step over what the lead gives in it, and the descent that holds it."""
 
     def test(survey: Survey) -> Finding:
-        ratios = [(one, one.fall / _lead(study.pair, one)) for one in revolutions(survey, Case.ONE)]
-        listed = by_tilt(
-            (one, f"{one.fall:.6f} in at phase {one.fall_phase_deg}, {ratio:.1f} times the lead")
-            for one, ratio in ratios
-        )
-        return Finding(listed, all(ratio > SNAP for _, ratio in ratios))
+        found, holds = [], True
+        for one in revolutions(survey, Case.ONE):
+            falls = one.falls(one.step_deg)
+            if falls.steepest is None:
+                found.append((one, "never goes down"))
+                holds = False
+                continue
+            ratio = falls.steepest.fall / _lead(study.pair, one)
+            whole = falls.descents[falls.steepest.descent].fall
+            found.append(
+                (
+                    one,
+                    f"{falls.steepest.fall:.6f} in from phase {falls.steepest.start_deg:.2f} on, {ratio:.1f} times the "
+                    f"lead, of {whole:.6f} in",
+                )
+            )
+            holds &= ratio > SHIFT
+        return Finding(by_tilt(found), holds)
 
     return in_every_geometry(test)(study)
 
@@ -117,7 +129,7 @@ def _lead(pair: Pair, revolution: Revolution) -> float:
 def switch(survey: Survey) -> Finding:
     """The bolt's regions on either side of the fall."""
     found = [
-        (one, (one.bolt_regions[one.fall_at], one.bolt_regions[one.after_fall]))
+        (one, (one.bolt_regions[one.before_fall], one.bolt_regions[one.after_fall]))
         for one in revolutions(survey, Case.ONE)
     ]
     wanted = (Region.CREST_FILLET_NEG, Region.CREST_FILLET_POS)
@@ -174,7 +186,7 @@ def artefacts(study: Study) -> Outcome:
 def shift_grows(survey: Survey) -> Finding:
     """Shift and window by roll."""
     turns = revolutions(survey, Case.ONE)
-    shifts = [float(np.ptp(one.heights)) for one in turns]
+    shifts = [0.0 if one.main_descent is None else one.main_descent.fall for one in turns]
     windows = [one.degrees(one.below) for one in turns]
     proportional = shifts[0] * turns[-1].roll_deg / turns[0].roll_deg
     holds = (

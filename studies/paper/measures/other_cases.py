@@ -87,14 +87,15 @@ def ledge(survey: Survey) -> Finding:
 
 
 def _smaller_fall(survey: Survey, case: Case) -> Finding:
-    """The case's falls beside those of case 1; holds if each is smaller."""
-    pairs = list(zip(revolutions(survey, case), revolutions(survey, Case.ONE), strict=True))
-    listed = by_tilt((one, f"{one.fall:.6f} in, case 1 {first.fall:.6f} in") for one, first in pairs)
-    return Finding(listed, all(one.fall < first.fall for one, first in pairs))
+    """The case's steepest falls beside those of case 1; holds if each is smaller."""
+    pairs = zip(revolutions(survey, case), revolutions(survey, Case.ONE), strict=True)
+    falls = [(one, one.steepest_fall, first.steepest_fall) for one, first in pairs]
+    listed = by_tilt((one, f"{fall:.6f} in, case 1 {first:.6f} in") for one, fall, first in falls)
+    return Finding(listed, all(fall < first for _, fall, first in falls))
 
 
 def subtle_transition(survey: Survey) -> Finding:
-    """The fall beside case 1's."""
+    """The steepest fall beside case 1's."""
     return _smaller_fall(survey, Case.TWO)
 
 
@@ -165,7 +166,7 @@ def advances_a_quarter(survey: Survey) -> Finding:
 
 
 def drops_little(survey: Survey) -> Finding:
-    """The fall beside case 1's."""
+    """The steepest fall beside case 1's."""
     return _smaller_fall(survey, Case.THREE)
 
 

@@ -10,8 +10,8 @@ EIGHT = Statement(
 SNAP = Statement(
     "7",
     "Turned counter-clockwise the bolt snaps: its height changes suddenly when it is in phase with the nut.",
-    "Every tilted orientation of 7.2: the largest fall in one step of phase over the lead's. A snap is more than 2. "
-    "Agrees if every orientation has one within 15 deg of phase 0.",
+    "Every tilted orientation of 7.2: does it snap, its steepest fall within 15 deg of phase 0; the whole fall of the "
+    "snap. Agrees if every one does.",
 )
 ENTIRE_GAMUT = Statement(
     "7",

@@ -27,8 +27,8 @@ LEDGE_1 = Statement(
 NEGATIVE_SHIFT = Statement(
     "5, case 1; Fig. 7",
     "Eventually the bolt enters the clearance window and shifts down.",
-    "Largest fall of the height in one step of phase over what the lead gives in that step. Agrees if above 2 for "
-    "every roll.",
+    "Steepest fall within one step of phase over what the lead gives in it, beside the whole fall of its descent. "
+    "Agrees if above 2 for every roll.",
 )
 SWITCH_1 = Statement(
     "5, case 1",
@@ -50,7 +50,7 @@ ARTEFACTS = Statement(
 NONLINEAR_SHIFT = Statement(
     "5, case 1",
     "The vertical shift varies nonlinearly with roll: a larger roll widens the window and lets the bolt drop deeper.",
-    "Shift: greatest less least height of a revolution; window: phases with the contact below the surface. Agrees "
+    "Shift: whole fall of the main descent; window: phases with the contact below the surface. Agrees "
     "if the shift grows with every roll and not in proportion (by 10 %), and the window nowhere narrows and widens "
     "over all.",
 )
@@ -97,7 +97,7 @@ LEDGE_2 = Statement(
 SUBTLE = Statement(
     "5, case 2; Fig. 8",
     "The vertical transition is subtler than in case 1.",
-    "Largest fall in one step beside that of the same roll, positive. Agrees if smaller for every roll.",
+    "Steepest fall beside that of the same roll, positive. Agrees if smaller for every roll.",
 )
 SEEKS_ROOT_FILLET = Statement(
     "5, case 2",
@@ -125,7 +125,7 @@ ADVANCE = Statement(
 MINIMAL_DROP = Statement(
     "5, case 3; Fig. 9",
     "The bolt drops a minimal distance.",
-    "Largest fall in one step beside that of case 1 at the same tilt. Agrees if smaller for every pitch.",
+    "Steepest fall beside that of case 1 at the same tilt. Agrees if smaller for every pitch.",
 )
 QUICK_RETURN = Statement(
     "5, case 3; Fig. 9",

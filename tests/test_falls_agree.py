@@ -1,0 +1,87 @@
+"""Whatever names the fall of an orientation names the figure of docs/windows.md, which has all 81 of them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+from studies.paper.claim import Statement
+from studies.paper.statements import approaches, cases
+from tests.falls_page import ShownFalls, Tilt, falls_shown, text_of
+
+Falls = Mapping[Tilt, ShownFalls]
+
+
+@pytest.fixture(scope="module")
+def falls(repository_root: Path) -> Falls:
+    """The rows of all orientations."""
+    return falls_shown(repository_root)
+
+
+def measured(repository_root: Path, statement: str) -> str:
+    """What docs/paper-claims.md says was measured on a statement."""
+    lines = (repository_root / "docs" / "paper-claims.md").read_text().splitlines()
+    (found,) = (cells[3] for line in lines if len(cells := line[2:-2].split(" | ")) == 5 and cells[1] == statement)
+    return found
+
+
+def largest(falls: Falls) -> str:
+    return max((row.fall for row in falls.values() if row.snaps), key=float)
+
+
+def test_the_page_counts_its_own_rows(repository_root: Path, falls: Falls) -> None:
+    snaps = [row for row in falls.values() if row.snaps]
+    smooth = [row for row in snaps if not row.jump_at]
+    partly = [row for row in snaps if row.jump_at and float(row.jump) < 0.5 * float(row.fall)]
+    said = " ".join(text_of(repository_root).split())
+    assert f"{len(snaps)} of the {len(falls)} orientations snap, by up to {largest(falls)} in." in said
+    assert f"In {len(smooth)} of these snaps nothing jumps, in {len(partly)} more the jump is less than half" in said
+
+
+def test_rows_follow_the_definitions(falls: Falls) -> None:
+    for row in falls.values():
+        assert row.snaps == (float(row.steepest) > 0.0025)
+        assert (row.snap_from == "") == (row.snap_to == "") == (row.jump == "") == (not row.snaps)
+        if row.snaps:
+            assert float(row.jump) <= float(row.fall)
+            assert float(row.steepest) <= float(row.fall)
+            assert float(row.snap_from) < float(row.snap_to)
+
+
+def test_the_study_of_the_paper_counts_the_same_snaps(repository_root: Path, falls: Falls) -> None:
+    tilted = {tilt: row for tilt, row in falls.items() if tilt != (0, 0)}
+    without = [tilt for tilt, row in tilted.items() if not row.snaps]
+    assert measured(repository_root, approaches.SNAP.text) == (
+        f"{len(tilted) - len(without)} of {len(tilted)} orientations snap, by up to {largest(tilted)} in; of the "
+        f"{len(without)} that do not, {sum(pitch > 0 for _, pitch in without)} have a positive pitch"
+    )
+
+
+@pytest.mark.parametrize(
+    ("statement", "tilt"), [(cases.SUBTLE, lambda size: (-size, 0)), (cases.MINIMAL_DROP, lambda size: (0, size))]
+)
+def test_the_study_of_the_paper_compares_the_same_steepest_falls(
+    repository_root: Path, falls: Falls, statement: Statement, tilt: Callable[[int], Tilt]
+) -> None:
+    said = [f"{size} deg: {falls[tilt(size)].steepest} in, case 1 {falls[size, 0].steepest} in" for size in range(1, 5)]
+    assert measured(repository_root, statement.text) == "; ".join(said)
+
+
+def test_the_decision_names_the_same_figures(repository_root: Path, falls: Falls) -> None:
+    said = " ".join((repository_root / "docs" / "decisions" / "0017-falls.md").read_text().split())
+    gliding, jumping = falls[-4, -4], falls[0, -4]
+    assert f"at roll -4, pitch -4 the bolt goes down {float(gliding.steepest):.4f} in within 3 deg" in said
+    assert not gliding.jump_at
+    assert f"at roll 0, pitch -4 it goes down {float(jumping.fall):.4f} in" in said
+    assert f"of which {float(jumping.jump):.4f} in at one phase" in said
+    counted = re.search(
+        r"81 orientations: (\d+) snap .*?, by up to (\S+) in; (\d+) of those have no jump, (\d+) more", said
+    )
+    assert counted is not None
+    snaps = [row for row in falls.values() if row.snaps]
+    smooth = sum(not row.jump_at for row in snaps)
+    partly = sum(float(row.jump) < 0.5 * float(row.fall) for row in snaps) - smooth
+    assert counted.groups() == (str(len(snaps)), f"{float(largest(falls)):.4f}", str(smooth), str(partly))
