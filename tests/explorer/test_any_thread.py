@@ -199,6 +199,7 @@ def test_measured_poses_are_listed_and_marked_and_lead_there(page: Explorer, tmp
     assert (len(page.all("#map .pose")), len(page.all("#depth .pose")), len(page.all("#depth .pose.here"))) == (2, 2, 1)
     page.click("#poses-list tbody tr:first-child button")
     page.wait(lambda: phase_of(page) == 357, "the pose is not gone to")
+    assert page.chromium.switch_to.active_element.get_attribute("aria-pressed") == "true"
     page.one("#map .cross")
     wait_for_address(page, "poses=2.5%2C-1.2%2C357%3B0%2C-4%2C40")
     page.click("#poses-clear")

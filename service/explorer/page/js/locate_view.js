@@ -59,8 +59,15 @@ export class LocateView {
     elements.ordered.checked = observation.ordered;
   }
 
-  /** Lists what remains (null: nothing was observed), with the state that is shown marked. */
-  list(located, view) {
+  /** Marks the orientation of a view in the list. */
+  mark({ roll, pitch }) {
+    for (const button of byId("located").querySelectorAll("button")) {
+      button.setAttribute("aria-pressed", button.dataset.place === `${roll} ${pitch}`);
+    }
+  }
+
+  /** Lists what remains (null: nothing was observed). */
+  list(located) {
     const frame = byId("located");
     if (located === null) {
       frame.replaceChildren(html("p", { class: "readout" }, "Choose what was observed of a state; the orientations at which it can be are marked on the map and listed here."));
@@ -71,7 +78,7 @@ export class LocateView {
       return;
     }
     const found = remaining(located.stretches);
-    const rows = found.slice(0, MOST_SHOWN).map((one) => this.#row(one, view));
+    const rows = found.slice(0, MOST_SHOWN).map((one) => this.#row(one));
     const rest = found.slice(MOST_SHOWN);
     frame.replaceChildren(
       html("p", { class: "readout", role: "status" }, summaryText(located, found)),
@@ -80,8 +87,8 @@ export class LocateView {
     );
   }
 
-  #row({ roll, pitch, share, stretches, phase }, view) {
-    const go = html("button", { type: "button", "aria-pressed": String(view.roll === roll && view.pitch === pitch) }, `${angleNumber(roll)} / ${angleNumber(pitch)}`);
+  #row({ roll, pitch, share, stretches, phase }) {
+    const go = html("button", { type: "button", "data-place": `${roll} ${pitch}` }, `${angleNumber(roll)} / ${angleNumber(pitch)}`);
     go.setAttribute("aria-label", `go to roll ${roll}, pitch ${pitch}`);
     go.addEventListener("click", () => this.#goTo({ roll, pitch, phase: Number(phase.toFixed(6)) }));
     return html("tr", {}, [html("td", {}, go), html("td", {}, percent(share)), html("td", {}, stretchesText(stretches))]);

@@ -164,7 +164,7 @@ export class Model {
         return (await this.#busy.during(`computing the falls within ±${tolerance} deg`, asked)).range;
       } catch (error) {
         if (!(error instanceof ProblemError) || error.status >= 500) throw error;
-        return { problem: error.message };
+        return { roll, pitch, tolerance, problem: error.message };
       }
     });
   }

@@ -135,7 +135,9 @@ export class Pictures {
     if (has("roll", "pitch", "quantity", "over", "tab")) this.#drawMap();
     if (has("from", "span")) this.#drawCurves();
     if (has(...BESIDE)) showComparison(this.#view.value);
-    if (has("roll", "pitch", "phase", "tab", "observed", "poses")) this.#drawLists();
+    if (has("observed")) this.#locate.show(this.#view.value.observed);
+    if (has(...UNITED, "phase")) this.#markLists();
+    if (has(...UNITED, "tolerance")) this.#showFalls();
     if (has("phase")) this.#moveCursors();
     if (has(...UNITED)) this.#showSnap();
     if (has("stage", "nut", "azimuth", "elevation", "distance")) this.#drawScene();
@@ -204,8 +206,14 @@ export class Pictures {
   #drawLists() {
     const { value } = this.#view;
     this.#locate.show(value.observed);
-    if (this.#isSeen("locate")) this.#locate.list(this.#model.located, value);
-    if (this.#isSeen("poses")) this.#poses.list(this.#model.measured, value);
+    if (this.#isSeen("locate")) this.#locate.list(this.#model.located);
+    if (this.#isSeen("poses")) this.#poses.list(this.#model.measured, value.unit);
+    this.#markLists();
+  }
+
+  #markLists() {
+    this.#locate.mark(this.#view.value);
+    this.#poses.mark(this.#view.value);
   }
 
   /** The orientations that an observation leaves, while it is looked at. */
@@ -228,7 +236,8 @@ export class Pictures {
   #beside() {
     const { beside, library } = this.#model;
     const { value } = this.#view;
-    const isChosen = beside?.library && BESIDE.every((name) => beside[{ beside_library: "id" }[name] ?? name.slice("beside_".length)] === value[name]);
+    if (!beside?.library) return null;
+    const isChosen = beside.id === value.beside_library && beside.roll === value.beside_roll && beside.pitch === value.beside_pitch;
     return isChosen ? { ...beside, text: besideText(beside, library) } : null;
   }
 
@@ -246,10 +255,11 @@ export class Pictures {
 
   #showFalls() {
     const { falls } = this.#model;
-    const { tolerance, unit } = this.#view.value;
-    byId("falls").hidden = tolerance === null;
-    if (tolerance === null || falls === null) byId("falls").textContent = "";
-    else byId("falls").textContent = falls.problem ? `Nothing is known within ±${tolerance} deg: ${falls.problem}` : toleranceText(falls, unit);
+    const { value } = this.#view;
+    const isChosen = falls !== null && [...UNITED, "tolerance"].every((name) => falls[name] === value[name]);
+    byId("falls").hidden = value.tolerance === null;
+    if (!isChosen) byId("falls").textContent = "";
+    else byId("falls").textContent = falls.problem ? `Nothing is known within ±${value.tolerance} deg: ${falls.problem}` : toleranceText(falls, value.unit);
   }
 
   #drawState() {

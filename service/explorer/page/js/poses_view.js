@@ -38,8 +38,15 @@ export class PosesView {
     });
   }
 
+  /** Marks the pose of a view in the list. */
+  mark({ roll, pitch, phase }) {
+    for (const button of byId("poses-list").querySelectorAll("button")) {
+      button.setAttribute("aria-pressed", button.dataset.place === `${roll} ${pitch} ${phase}`);
+    }
+  }
+
   /** Lists poses with their states (null: not known yet). */
-  list(measured, { unit, ...view }) {
+  list(measured, unit) {
     byId("poses-clear").disabled = !measured || measured.length === 0;
     if (!measured || measured.length === 0) {
       byId("poses-list").replaceChildren();
@@ -50,14 +57,14 @@ export class PosesView {
       html("table", {}, [
         html("caption", {}, measured.length === 1 ? "1 pose" : `${measured.length} poses`),
         html("thead", {}, html("tr", {}, head.map((text) => html("th", { scope: "col" }, text)))),
-        html("tbody", {}, measured.map((one, k) => this.#row(one, k, unit, view))),
+        html("tbody", {}, measured.map((one, k) => this.#row(one, k, unit))),
       ]),
     );
   }
 
-  #row({ pose, state }, k, unit, view) {
-    const here = ["roll", "pitch", "phase"].every((name) => pose[name] === view[name]);
-    const go = html("button", { type: "button", "aria-pressed": String(here), "aria-label": `go to pose ${k + 1}` }, `${k + 1}`);
+  #row({ pose, state }, k, unit) {
+    const place = `${pose.roll} ${pose.pitch} ${pose.phase}`;
+    const go = html("button", { type: "button", "data-place": place, "aria-label": `go to pose ${k + 1}` }, `${k + 1}`);
     go.addEventListener("click", () => this.#goTo(pose));
     const rest = state && restHeight(state);
     const cells = [
