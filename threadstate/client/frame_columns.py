@@ -85,9 +85,7 @@ _FALLS: tuple[Column[OrientationWindowsDocument], ...] = (
     degrees("roll", "roll of the orientation", lambda one: one.roll),
     degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
     length("steepest", "largest fall within 3 deg of phase", lambda one: one.steepest),
-    degrees(
-        "steepest_from", "where these begin; missing where it never goes down", lambda one: one.steepest_from
-    ),
+    degrees("steepest_from", "where these begin; missing where it never goes down", lambda one: one.steepest_from),
     degrees("snap_from", "phase at which the snap begins; missing where there is none", _snap(lambda snap: snap.start)),
     degrees("snap_to", "phase at which it ends; above 360 past phase 0", _snap(lambda snap: snap.end)),
     length("snap_fall", "its whole fall", _snap(lambda snap: snap.fall)),
@@ -107,7 +105,7 @@ _INTERVALS: tuple[Column[IntervalDocument], ...] = (
     words("formation_text", "the formation in words", lambda one: one.formation.text),
     length("margin", "smallest distance from other labels, half way", lambda one: one.margin),
     length("first_height", "height at first contact, half way", lambda one: one.first_height),
-    length("last_height", "height in the last pose, half way", lambda one: one.last_height),
+    length("last_height", "height in the last pose, at rest or not, half way", lambda one: one.last_height),
 )
 
 _STRETCHES: tuple[Column[StretchDocument], ...] = (
@@ -132,8 +130,8 @@ _TRANSITIONS: tuple[Column[TransitionDocument], ...] = (
     words("target_class", "class after; missing where undecided", lambda one: one.target.state_class),
     length("first_height_before", "height at first contact before", lambda one: one.first_height[0]),
     length("first_height_after", "height at first contact after", lambda one: one.first_height[1]),
-    length("last_height_before", "height in the last pose before", lambda one: one.last_height[0]),
-    length("last_height_after", "height in the last pose after", lambda one: one.last_height[1]),
+    length("last_height_before", "height in the last pose before, at rest or not", lambda one: one.last_height[0]),
+    length("last_height_after", "height in the last pose after, at rest or not", lambda one: one.last_height[1]),
     words("text", "what changes, in words", lambda one: one.text),
 )
 
