@@ -35,7 +35,7 @@ def test_what_can_follow_a_formation() -> None:
         analysis.following(NETWORK, "0123456789")
 
 
-def test_how_far_it_is_to_the_snap() -> None:
+def test_how_far_it_is_to_the_window() -> None:
     found = {reach.formation: reach for reach in analysis.window_reach(NETWORK)}
     assert found[A] == analysis.WindowReach(A, 4, 2, 0.0, 290.0)
     assert found[A].share == 0.5
