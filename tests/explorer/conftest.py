@@ -47,5 +47,6 @@ def explorer(chromium: webdriver.Chrome, address: str) -> Iterator[Explorer]:
     explorer.complaints()
     explorer.addresses_asked()
     yield explorer
+    explorer.run("localStorage.clear()")
     assert explorer.complaints() == []
     assert hosts_of(explorer.addresses_asked()) <= {address.removeprefix("http://")}

@@ -40,6 +40,7 @@ def page(chromium: webdriver.Chrome, two_libraries: str) -> Iterator[Explorer]:
     page.one("#depth .curve")
     page.complaints()
     yield page
+    page.run("localStorage.clear()")
     assert page.complaints() == []
 
 
@@ -83,6 +84,14 @@ def test_libraries_are_switched_without_a_reload(page: Explorer) -> None:
     page.choose("#phase", "15")
     page.wait_for_text("#map-phase", "at phase 20 of the grid; you are at 15.")
     assert page.run("return window.stays") is True
+
+
+def test_the_library_of_a_link_is_asked_for_once(page: Explorer) -> None:
+    page.addresses_asked()
+    page.open(f"/#library={UNC}&unit=mm")
+    page.one("#depth .curve")
+    asked = page.addresses_asked()
+    assert asked.count(f"{page.address}/v1/libraries/{UNC}?unit=mm") == 1
 
 
 def test_a_library_that_is_not_there_leaves_the_present_one(page: Explorer) -> None:
@@ -245,6 +254,7 @@ def test_nothing_is_wider_than_a_small_screen(page: Explorer, width: int) -> Non
             f"/#library={OWN}&beside_library={UNC}&beside_roll=0&beside_pitch=-4&poses=2.5,-1.2,357&tolerance=0.1"
         )
         page.one("#depth path.beside")
+        assert page.run("return document.querySelector('#beside-library').value") == str(UNC)
         for tab in ("state", "regions", "follows", "network", "locate", "poses"):
             page.click(f"#tab-{tab}")
             assert (

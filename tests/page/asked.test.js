@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { Busy } from "../../service/explorer/page/js/busy.js";
+import { libraryAddress } from "../../service/explorer/page/js/early.js";
 import { libraryText } from "../../service/explorer/page/js/controls.js";
 import { summaryText } from "../../service/explorer/page/js/locate_view.js";
 import { mapPhaseText, mapValues } from "../../service/explorer/page/js/map_view.js";
@@ -98,6 +99,14 @@ test("a library is told by its number, thread, grid and method", () => {
   const library = { id: 2, designation: "M6x1", grid: { tilt_max: 4, tilt_step: 2, phase_step: 5 }, method: "exact" };
   assert.equal(libraryText(library, true), "2: M6x1, ±4 by 2°, phase by 5°, exact, latest");
   assert.equal(libraryText({ ...library, id: 1, method: "mesh" }, false), "1: M6x1, ±4 by 2°, phase by 5°, mesh");
+});
+
+test("the library of a link is asked for at the address at which the model asks for it", () => {
+  assert.equal(libraryAddress("", null), "/v1/libraries/latest");
+  assert.equal(libraryAddress("", "mm"), "/v1/libraries/latest?unit=mm");
+  assert.equal(libraryAddress("#library=07&roll=1&unit=in", "mm"), "/v1/libraries/7?unit=in");
+  assert.equal(libraryAddress("#library=x", null), null);
+  assert.equal(libraryAddress("#unit=ft", null), null);
 });
 
 test("the map says which phase it shows and where one is", () => {

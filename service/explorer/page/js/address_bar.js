@@ -11,7 +11,7 @@ const STEPS = ["library", "roll", "pitch", "tab"];
 
 /** Whether a change of the view is a step of the browser's history. */
 export function isStep(changed, how) {
-  return how === "entry" || (how !== "restored" && STEPS.some((name) => changed.has(name)));
+  return how === "entry" || (how === null && STEPS.some((name) => changed.has(name)));
 }
 
 /** Keeps the address and a view the same; `remark` is told what of an address is not valid. Returns the present address. */

@@ -1,5 +1,7 @@
 // The service's answers, each asked for once.
 
+import { takeEarly } from "./early.js";
+
 const KEPT = 200;
 
 /** The service answered with a problem document. */
@@ -74,7 +76,7 @@ export class Api {
     const headers = { ...options.headers, ...(this.hasKey && { Authorization: `Bearer ${this.#key}` }) };
     let response;
     try {
-      response = await fetch(address, { ...options, headers });
+      response = await ((options.method === undefined && takeEarly(address)) || fetch(address, { ...options, headers }));
     } catch (error) {
       throw new LostError(`no answer from the service: ${error.message}`);
     }

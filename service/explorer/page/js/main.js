@@ -4,6 +4,7 @@ import { keepAddress } from "./address_bar.js";
 import { Api, ProblemError } from "./api.js";
 import { wireAxes } from "./axes.js";
 import { Busy } from "./busy.js";
+import { showComparison } from "./compare_view.js";
 import { fitControls, showControls, showLibraries, wireControls } from "./controls.js";
 import { wireHelp } from "./help.js";
 import { byId } from "./html.js";
@@ -67,14 +68,17 @@ function came(part) {
   if (part === "state") model.followLibraries();
   pictures.redraw(part);
   if (part === "library") model.follow(view.value);
-  if (part === "libraries") showControls(view.value);
+  if (part === "libraries") {
+    showControls(view.value);
+    showComparison(view.value);
+  }
 }
 
 /** Says what is wrong, and tries again until it is not. */
 async function failed(error, part) {
   if (part === "library" && error instanceof ProblemError && error.status === NOT_FOUND) {
     say(error.message);
-    view.set({ library: model.library.id });
+    view.set({ library: model.library.id }, "corrected");
     return;
   }
   if (troubled) return;

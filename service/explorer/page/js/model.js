@@ -48,7 +48,9 @@ export class Model {
   #busy;
   #told;
   #failed;
+  /** By part the key that is wanted, and the one whose answer is here. */
   #wanted = new Map();
+  #arrived = new Map();
   #mapPace = new Pace(MAP_MS);
   #solvePace = new Pace(0);
   #formationRest = new Rest(REST_MS);
@@ -91,7 +93,7 @@ export class Model {
     if (this.library.id !== library) return;
     const where = `${library} ${unit} ${view.roll} ${view.pitch}`;
     if (needsSummaries(view)) this.#askForSummaries(unit);
-    this.#want("state", `${where} ${view.phase}`, () => this.#state(view));
+    this.#want("state", `${where} ${view.phase}`, () => this.#state(view), (answer, wanted) => answer !== null && wanted.startsWith(`${where} `));
     this.#want("depth", where, () => this.#depth(view, this.library));
     this.#followMap(view);
     this.#followTolerance(view);
@@ -185,12 +187,16 @@ export class Model {
     this.follow(view);
   }
 
-  async #want(part, key, ask) {
+  /** An answer that comes when another one is wanted is left, unless that has not come and this `isWelcome` (answer, key wanted). */
+  async #want(part, key, ask, isWelcome = () => false) {
     if (this.#wanted.get(part) === key) return;
     this.#wanted.set(part, key);
     try {
       const answer = await ask();
-      if (this.#wanted.get(part) !== key) return;
+      const wanted = this.#wanted.get(part);
+      const late = wanted !== key;
+      if (late && (wanted === undefined || this.#arrived.get(part) === wanted || !isWelcome(answer, wanted))) return;
+      this.#arrived.set(part, key);
       if (part === "library" && answer.id !== this.library.id) this.#forget();
       this[part] = answer;
       this.#told(part);
@@ -206,6 +212,7 @@ export class Model {
     for (const part of OF_LIBRARY) {
       this[part] = null;
       this.#wanted.delete(part);
+      this.#arrived.delete(part);
     }
   }
 
@@ -284,9 +291,14 @@ export class Model {
     }
   }
 
-  /** Solved with the pair and the tolerances of the library; of poses that come faster than that takes, the last. */
+  /**
+   * Solved with the pair and the tolerances of the library; of poses that come faster than that takes the last, and null for those
+   * before it.
+   */
   async #solvedState(pose, unit) {
-    const [state, reason] = (await this.#solvePace.run(() => this.#solved([pose], unit)))?.[0] ?? [null, null];
+    const answers = await this.#solvePace.run(() => this.#solved([pose], unit));
+    if (answers === undefined) return null;
+    const [[state, reason]] = answers;
     return { pose, unit, state, reason, stored: false };
   }
 

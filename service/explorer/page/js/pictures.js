@@ -25,6 +25,7 @@ import { lastStage, rests } from "./resting.js";
 import { followSize } from "./size.js";
 import { showState } from "./state_panel.js";
 import { stateLine } from "./terms.js";
+import { DEFAULTS } from "./view.js";
 import { WHOLE_TURN, aroundEvent, middleOf, rangeOf, zoomed } from "./zoom.js";
 
 const STAGES_PER_SECOND = 0.55;
@@ -358,8 +359,9 @@ export class Pictures {
     this.#player.play("stages", (seconds) => {
       const played = Math.min(seconds * STAGES_PER_SECOND, last);
       const stage = prefersStillness() ? Math.floor(played) : played;
-      this.#view.set({ stage });
-      return stage < last;
+      const ended = stage >= last;
+      this.#view.set({ stage: ended ? DEFAULTS.stage : stage });
+      return !ended;
     });
   }
 

@@ -44,7 +44,7 @@ export class View {
 
   /**
    * Changes some of the view; followers hear of it where anything differs: the view, the names of what changed, and `how`
-   * it came about ("entry": a step of its own in the browser's history; "restored": the browser went back or forward).
+   * it came about ("entry": a step of its own in the browser's history; "restored": the browser went back or forward; "corrected": what was asked for is not there).
    */
   set(changes, how = null) {
     const next = Object.freeze({ ...this.#value, ...changes });
