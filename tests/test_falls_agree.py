@@ -120,3 +120,20 @@ def test_the_table_of_the_examples_has_the_same_figures(repository_root: Path, f
             assert [float(cell) for cell in cells[2:5]] == pytest.approx(wanted, abs=2e-5)
         else:
             assert float(cells[2]) == pytest.approx(25.4 * float(row.steepest), abs=2e-5)
+
+
+def test_the_readme_shows_the_same_figures(repository_root: Path, falls: Falls) -> None:
+    text = (repository_root / "README.md").read_text()
+    answers = re.findall(r"^\$ threadstate windows --roll (-?\d) --pitch (-?\d)\nroll .*\n(.*)$", text, re.MULTILINE)
+    assert len(answers) == 2
+    for roll, pitch, line in answers:
+        row = falls[int(roll), int(pitch)]
+        cells = line.split()
+        shown = [row.snap_from, row.snap_to, row.fall, row.jump, row.jump_at] if row.snaps else ["-"] * 5
+        assert cells == [roll, pitch, *shown, row.steepest, row.steepest_from]
+    jumping = falls[0, -4]
+    assert f"That snap is felt: {float(jumping.fall):.4f} in" in text
+    assert f"{float(jumping.jump):.4f} in of it at one phase" in text
+    assert f"the bolt goes down by {float(falls[4, 0].steepest):.4f} in at most" in text
+    (compared,) = re.findall(r"^snap falls \(in\) +(\S+) +\S+$", text, re.MULTILINE)
+    assert compared == jumping.fall
