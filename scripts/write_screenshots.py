@@ -33,11 +33,19 @@ SHOTS = (
     Shot("laptop-light", LAPTOP, "roll=0&pitch=-4&phase=10&theme=light", "#state table"),
     Shot("laptop-dark", LAPTOP, "roll=-4&pitch=0&phase=131&theme=dark&quantity=drop&tab=regions", "#disks .disk"),
     Shot("laptop-follows", LAPTOP, "roll=2&pitch=-3&phase=200&theme=light&nut=glass&tab=follows", "#path .step"),
+    Shot("laptop-any-tilt", LAPTOP, "roll=2.5&pitch=-1.2&phase=357&theme=light&tolerance=0.3", "#falls:not(:empty)"),
+    Shot(
+        "laptop-beside",
+        LAPTOP,
+        "roll=-4&pitch=-4&phase=300&theme=dark&beside_library=1&beside_roll=0&beside_pitch=-4&tab=poses"
+        "&poses=-4,-4,300;-4,-4,352.5;2.5,-1.2,357",
+        "#poses-list tbody tr",
+    ),
     Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light&tab=network", "#network .way .stop"),
     Shot(
         "desktop-light",
         DESKTOP,
-        "roll=0&pitch=-4&phase=10&theme=light&quantity=window_width&from=-16&span=64&tab=regions",
+        "roll=0&pitch=-4&phase=50&theme=light&quantity=snap&from=-16&span=96&tab=regions",
         "#disks .disk",
     ),
     Shot(

@@ -71,7 +71,7 @@ def test_libraries_are_switched_without_a_reload(page: Explorer) -> None:
     page.run("window.stays = true")
     page.wait(lambda: len(page.all("#library option")) == 2, "not all libraries are listed")
     texts = [option.text for option in page.all("#library option")]
-    assert texts == ["2: M6x1, ±4 by 4°, phase by 10°, exact, latest", "1: 1/4-20 UNC, ±4 by 4°, phase by 5°, exact"]
+    assert texts == ["2 (latest): M6x1, ±4 by 4°, phase by 10°, exact", "1: 1/4-20 UNC, ±4 by 4°, phase by 5°, exact"]
     page.choose("#roll", "2.5")
     wait_for_pose(page, 2.5, -4, 10)
     page.choose("#library", str(UNC))

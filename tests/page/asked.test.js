@@ -97,7 +97,7 @@ test("what takes a moment is not told of, what takes longer is until it ends", a
 
 test("a library is told by its number, thread, grid and method", () => {
   const library = { id: 2, designation: "M6x1", grid: { tilt_max: 4, tilt_step: 2, phase_step: 5 }, method: "exact" };
-  assert.equal(libraryText(library, true), "2: M6x1, ±4 by 2°, phase by 5°, exact, latest");
+  assert.equal(libraryText(library, true), "2 (latest): M6x1, ±4 by 2°, phase by 5°, exact");
   assert.equal(libraryText({ ...library, id: 1, method: "mesh" }, false), "1: M6x1, ±4 by 2°, phase by 5°, mesh");
 });
 

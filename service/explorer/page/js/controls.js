@@ -115,7 +115,7 @@ export function showLibraries({ all, latest }, present) {
 
 /** A library in one line: number, thread, grid and method. */
 export function libraryText({ id, designation, grid, method }, isLatest) {
-  return `${id}: ${designation}, ${gridText(grid)}, ${method}${isLatest ? ", latest" : ""}`;
+  return `${id}${isLatest ? " (latest)" : ""}: ${designation}, ${gridText(grid)}, ${method}`;
 }
 
 /** Shows a view in the controls. */

@@ -26,6 +26,8 @@ export class MapView {
   #choose;
   #tell;
   #goTo;
+  /** What was drawn: the cells' values, where orientations lie, how large a square is, and the marks of the chosen state. */
+  #drawn = null;
 
   constructor(frame, { choose, tell, goTo }) {
     this.#frame = frame;
@@ -60,12 +62,23 @@ export class MapView {
     const placed = placesOf(grid, angles, plot, side);
     root.append(cells, ...axes(angles, plot), ...legend(plot, view, range, hasGaps(values, angles)));
     root.append(...remainingMarks(remaining, placed, side));
-    if (onGrid) root.append(...ownClass(model, view, placed(view), side));
-    else root.append(cross(placed(view)));
+    const own = svg("g");
+    root.append(own);
+    if (!onGrid) root.append(cross(placed(view)));
     root.append(...this.#poseMarks(model.measured ?? [], placed));
     cells.addEventListener("keydown", (event) => this.#step(event, angles, stop));
     put(this.#frame, root);
     if (focused) this.#frame.querySelector('.cell[tabindex="0"]')?.focus();
+    this.#drawn = { values, placed, side, own };
+    this.markState(model, view);
+  }
+
+  /** Marks the class of the chosen state in its square where that shows another phase's, and says both. */
+  markState(model, view) {
+    if (this.#drawn === null) return;
+    const { values, placed, side, own } = this.#drawn;
+    const onGrid = isOnGrid(model.library.grid, view);
+    put(own, ...(onGrid ? ownClass(model, view, placed(view), side) : []));
     this.#tell(chosenText(model, view, values.get(keyOf(view.roll, view.pitch)), onGrid));
   }
 

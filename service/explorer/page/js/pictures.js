@@ -119,7 +119,7 @@ export class Pictures {
     if (["located", "measured"].includes(part)) this.#drawLists();
     if (part === "state") {
       this.#drawState();
-      this.#drawMap();
+      this.#map.markState(this.#model, view);
       this.#model.followHistory(view);
       this.#beginSolids();
     }
