@@ -1,18 +1,20 @@
 """A library that is not there yet: ask for it, watch it being computed, look at what it holds.
 
-usage: THREADSTATE_KEY=... python examples/rebuild_and_wait.py [TILT_MAX] [PHASE_STEP]    (degrees; default 4 5)
+The environment's THREADSTATE_KEY is a key that `threadstate key create` has made.
 """
 
 from __future__ import annotations
 
+import argparse
 import sys
 
 from rich.progress import Progress
 
 from threadstate.client import Client
+from threadstate.errors import ThreadstateError
 
 
-def main(tilt_max: float = 4.0, phase_step: float = 5.0) -> None:
+def main(tilt_max: float, phase_step: float) -> None:
     """Print the counts of a library once workers have computed it."""
     with Client() as client:
         job = client.ask(grid={"tilt_max": tilt_max, "tilt_step": 1.0, "phase_step": phase_step})
@@ -26,4 +28,10 @@ def main(tilt_max: float = 4.0, phase_step: float = 5.0) -> None:
 
 
 if __name__ == "__main__":
-    main(*map(float, sys.argv[1:]))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tilt_max", nargs="?", type=float, default=4.0, help="largest roll and pitch, deg (default 4)")
+    parser.add_argument("phase_step", nargs="?", type=float, default=5.0, help="from phase to phase, deg (default 5)")
+    try:
+        main(**vars(parser.parse_args()))
+    except ThreadstateError as error:
+        sys.exit(str(error))

@@ -165,6 +165,8 @@ def page(network: LibraryNetwork, rows: Sequence[OrientationWindowsDocument]) ->
 - The **snap** is the descent that holds the steepest fall, where that exceeds 5 % of the thread pitch. Its figures
   are those of the whole descent, and beside them the largest jump within it.
 
+A phase above 360 is that of the next turn.
+
 {fill(counts, WIDTH)}
 
 | roll | pitch | steepest | from | snap from | to | fall | jump | jump at |

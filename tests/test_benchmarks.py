@@ -50,7 +50,7 @@ def test_meshes_come_to_the_exact_heights(report: dict[str, Any]) -> None:
     assert report["compared"] == 4
     assert len(report["rivals"]) == 4
     for rival in report["rivals"]:
-        # Fine meshes differ from the surfaces by up to 7e-5 in near a snap (method, section 6).
+        # Fine meshes differ from the surfaces by up to 7e-5 in near a jump (method, section 6).
         assert 0.0 < rival["median_difference"] <= abs(rival["largest_difference"]) < 7e-5 < TUNNELLED_INCH
         assert rival["tunnelled"] == 0
         assert rival["ratio"] == pytest.approx(report["compared_poses_per_second"] / rival["poses_per_second"])

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
 import sys
 import threading
 import time
+import urllib.request
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -15,6 +17,7 @@ import pytest
 
 from tests.archive.history_library import SMALL_GRID, store_histories
 from tests.databases import Databases
+from tests.falls_page import falls_shown
 from tests.jobs.jobs import GRID, opened, work_off
 from tests.service.running import running_service
 from threadstate.access.keys import create_key
@@ -27,12 +30,21 @@ from threadstate.library.engine import writing
 
 RUNS: dict[str, tuple[list[list[str]], list[str]]] = {
     "feel_before_the_window": (
-        [["0", "-3"]],
-        [r"^roll 0, pitch -3 deg; lengths in in$", r"^ *\d+\.\d\d%  \d+ others$", r"a snap of 0\.0\d+ at"],
+        [["0", "-3"], ["0", "-3", "--library", "1/4-20 UNC"]],
+        [
+            r"^roll 0, pitch -3 deg; lengths in in$",
+            r"^ *\d+\.\d\d%  \d+ others$",
+            r"^snap: falls by 0\.0\d+ from phase \d+\.\d{3} to \d+\.\d{3} deg, 0\.0\d+ of it at once",
+            r"^window: can go on down from phase",
+        ],
     ),
     "windows_table": (
         [[], ["mm"]],
-        [r"^roll  pitch  width \(deg\)  drop \((in|mm)\)", r"^ +0 +-3 +\d+\.\d{3} +0\.\d{6}"],
+        [
+            r"^lengths in (in|mm), angles in deg$",
+            r"^ +0 +-3 +357\.\d{3} +357\.\d{3} +0\.\d{6}",
+            r"^ +0 +3 +no snap +0\.",
+        ],
     ),
     "where_am_i": (
         [["1:crest:surface:edge-surface", "2:*:*:flush"], ["1:crest"]],
@@ -54,6 +66,9 @@ RUNS: dict[str, tuple[list[list[str]], list[str]]] = {
 """Of each script the arguments that it is run with, and what its output says every time."""
 
 
+NOBODY = "http://127.0.0.1:1"
+
+
 @pytest.fixture(scope="module")
 def served(sqlite_databases: Databases, small_histories: list[History]) -> Iterator[Mapping[str, str]]:
     """The environment of scripts that find a service over the small library with histories."""
@@ -67,10 +82,13 @@ def _environment(address: str, **more: str) -> dict[str, str]:
     return {**os.environ, "THREADSTATE_SERVICE": address, "PYTHONPATH": str(Path(__file__).parent.parent), **more}
 
 
+def _run(script: Path, arguments: list[str], environment: Mapping[str, str]) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, str(script), *arguments]
+    return subprocess.run(command, env=environment, check=False, capture_output=True, text=True)
+
+
 def _output(script: Path, arguments: list[str], environment: Mapping[str, str]) -> str:
-    run = subprocess.run(
-        [sys.executable, str(script), *arguments], env=environment, check=False, capture_output=True, text=True
-    )
+    run = _run(script, arguments, environment)
     assert run.returncode == 0, run.stderr
     return run.stdout
 
@@ -82,6 +100,84 @@ def test_it_runs_and_says_something(served: Mapping[str, str], repository_root: 
         output = _output(repository_root / "examples" / f"{name}.py", arguments, served)
         for line in said:
             assert re.search(line, output, re.M), output
+
+
+@pytest.mark.parametrize("tilt", [(0, -3), (3, -3), (3, 3), (-4, -4), (4, 0)])
+def test_the_fall_printed_is_that_of_the_page(
+    served: Mapping[str, str], repository_root: Path, tilt: tuple[int, int]
+) -> None:
+    # The library holds tilts of 3 deg; of any other the history is computed.
+    shown = falls_shown(repository_root)[tilt]
+    script = repository_root / "examples" / "feel_before_the_window.py"
+    output = _output(script, [str(angle) for angle in tilt], served)
+    (said,) = re.findall(r"^(?:no )?snap: falls by .*$", output, re.M)
+    numbers = [float(number) for number in re.findall(r"\d+\.\d+", said)]
+    if not shown.snaps:
+        assert said.startswith("no snap: ")
+        assert numbers == pytest.approx([float(shown.steepest), float(shown.steepest_from)], abs=6e-4)
+        assert numbers[0] == pytest.approx(float(shown.steepest), abs=2e-6)
+        return
+    jump = [float(shown.jump), float(shown.jump_at)] if shown.jump_at else []
+    assert numbers[0] == pytest.approx(float(shown.fall), abs=2e-6)
+    assert numbers[1:3] == pytest.approx([float(shown.snap_from), float(shown.snap_to) % 360.0], abs=6e-4)
+    assert numbers[3:4] == pytest.approx(jump[:1], abs=2e-6)
+    assert numbers[4:] == pytest.approx(jump[1:], abs=6e-4)
+
+
+def test_the_falls_served_are_those_of_the_page(served: Mapping[str, str], repository_root: Path) -> None:
+    with urllib.request.urlopen(f"{served['THREADSTATE_SERVICE']}/v1/libraries/latest/windows") as response:
+        orientations = json.load(response)["orientations"]
+    shown = falls_shown(repository_root)
+    assert len(orientations) == SMALL_GRID.orientation_count
+    for one in orientations:
+        row = shown[int(one["roll"]), int(one["pitch"])]
+        assert one["steepest"] == pytest.approx(float(row.steepest), abs=6e-7)
+        assert (one["snap"] is None) == (not row.snaps)
+        if one["snap"] is not None:
+            assert one["snap"]["fall"] == pytest.approx(float(row.fall), abs=6e-7)
+            assert one["snap"]["jump"] == pytest.approx(float(row.jump), abs=6e-7)
+            assert one["snap"]["from"] == pytest.approx(float(row.snap_from), abs=2e-6)
+            assert one["snap"]["to"] == pytest.approx(float(row.snap_to), abs=2e-6)
+            assert (one["snap"]["jump_at"] is None) == (row.jump_at == "")
+
+
+@pytest.mark.parametrize("name", [*RUNS, "rebuild_and_wait"])
+def test_help_is_printed_without_a_service(repository_root: Path, name: str) -> None:
+    output = _output(repository_root / "examples" / f"{name}.py", ["--help"], _environment(NOBODY))
+    assert output.startswith(f"usage: {name}.py ")
+
+
+@pytest.mark.parametrize("name", [*RUNS, "rebuild_and_wait"])
+def test_without_a_service_a_line_says_what_to_do(repository_root: Path, name: str) -> None:
+    arguments = ["1:crest"] if name == "where_am_i" else []
+    run = _run(repository_root / "examples" / f"{name}.py", arguments, _environment(NOBODY, THREADSTATE_KEY="key"))
+    assert run.returncode == 1
+    said = run.stderr.splitlines()[-1]
+    assert f"no service answers at {NOBODY} (" in said
+    assert "`threadstate serve`" in said
+    assert "Traceback" not in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "code", "said"),
+    [
+        ("feel_before_the_window", ["four", "0"], 2, "argument roll: invalid float value: 'four'"),
+        ("feel_before_the_window", ["12", "0"], 1, "path roll is '12.0'"),
+        ("feel_before_the_window", ["1", "nan"], 1, "path pitch is 'nan'"),
+        ("feel_before_the_window", ["1", "1", "--library", "7"], 1, "library 7 is not published"),
+        ("windows_table", ["cm"], 2, "argument unit: invalid choice: 'cm'"),
+        ("where_am_i", ["crest"], 1, "contact is 'crest'"),
+        ("solve_own_poses", ["nan"], 2, "the spread is 0 to 10 deg"),
+        ("solve_own_poses", ["1", "1001"], 2, "the number of poses 1 to 1000"),
+    ],
+)
+def test_what_is_refused_is_said_in_a_line(
+    served: Mapping[str, str], repository_root: Path, name: str, arguments: list[str], code: int, said: str
+) -> None:
+    run = _run(repository_root / "examples" / f"{name}.py", arguments, served)
+    assert run.returncode == code
+    assert said in run.stderr.splitlines()[-1]
+    assert "Traceback" not in run.stderr
 
 
 def test_a_library_is_asked_for_and_waited_for(sqlite_databases: Databases, repository_root: Path) -> None:
@@ -116,7 +212,7 @@ def test_every_script_is_run_and_shown(repository_root: Path) -> None:
 
 def test_scripts_are_short(repository_root: Path) -> None:
     for path in (repository_root / "examples").glob("*.py"):
-        assert len(path.read_text().splitlines()) <= 45, path.name
+        assert len(path.read_text().splitlines()) <= 65, path.name
 
 
 def test_the_lines_in_the_readme_run(served: Mapping[str, str], repository_root: Path, tmp_path: Path) -> None:

@@ -85,3 +85,56 @@ def test_the_decision_names_the_same_figures(repository_root: Path, falls: Falls
     smooth = sum(not row.jump_at for row in snaps)
     partly = sum(float(row.jump) < 0.5 * float(row.fall) for row in snaps) - smooth
     assert counted.groups() == (str(len(snaps)), f"{float(largest(falls)):.4f}", str(smooth), str(partly))
+
+
+def test_the_examples_shown_print_the_same_figures(repository_root: Path, falls: Falls) -> None:
+    page = (repository_root / "docs" / "examples.md").read_text()
+    asked = re.findall(
+        r"^\$ python examples/feel_before_the_window\.py (-?\d) (-?\d)\n(?:.*\n)*?(?:no )?snap: (.*)$", page, re.M
+    )
+    assert [(roll, pitch) for roll, pitch, _ in asked] == [("4", "0"), ("0", "-4")]
+    for roll, pitch, said in asked:
+        row = falls[int(roll), int(pitch)]
+        if row.snaps:
+            start, end, jump_at = (f"{float(phase):.3f}" for phase in (row.snap_from, row.snap_to, row.jump_at))
+            happens = f"from phase {start} to {end} deg, {row.jump} of it at once at {jump_at} deg"
+            assert said == f"falls by {row.fall} {happens}"
+        else:
+            assert (
+                said
+                == f"falls by {row.steepest} within 3 deg at most, from phase {float(row.steepest_from):.3f} deg on"
+            )
+
+
+def test_the_table_of_the_examples_has_the_same_figures(repository_root: Path, falls: Falls) -> None:
+    page = (repository_root / "docs" / "examples.md").read_text()
+    (shown,) = re.findall(r"^\$ python examples/windows_table\.py mm\n(.*?)^```", page, re.M | re.S)
+    lines = [line.split() for line in shown.splitlines() if re.match(r" +-?\d ", line)]
+    assert any("no" in cells for cells in lines)
+    for roll, pitch, *cells in lines:
+        row = falls[int(roll), int(pitch)]
+        assert row.snaps == (cells[:2] != ["no", "snap"])
+        # Lengths of the rows are rounded to 1e-6 in.
+        if row.snaps:
+            wanted = [25.4 * float(length) for length in (row.fall, row.jump, row.steepest)]
+            assert [float(cell) for cell in cells[2:5]] == pytest.approx(wanted, abs=2e-5)
+        else:
+            assert float(cells[2]) == pytest.approx(25.4 * float(row.steepest), abs=2e-5)
+
+
+def test_the_readme_shows_the_same_figures(repository_root: Path, falls: Falls) -> None:
+    text = (repository_root / "README.md").read_text()
+    answers = re.findall(r"^\$ threadstate windows --roll (-?\d) --pitch (-?\d)\nroll .*\n(.*)$", text, re.MULTILINE)
+    assert len(answers) == 2
+    for roll, pitch, line in answers:
+        row = falls[int(roll), int(pitch)]
+        cells = line.split()
+        shown = [row.snap_from, row.snap_to, row.fall, row.jump, row.jump_at] if row.snaps else ["-"] * 5
+        assert cells == [roll, pitch, *shown, row.steepest, row.steepest_from]
+    jumping = falls[0, -4]
+    assert f"That snap is felt: {float(jumping.fall):.4f} in" in text
+    assert f"{float(jumping.jump):.4f} in of it at one phase" in text
+    assert f"the bolt goes down by {float(falls[4, 0].steepest):.4f} in at most" in text
+    within, compared = re.findall(r"^snap falls \(in\) +(\S+) +(\S+)$", text, re.MULTILINE)
+    assert compared[0] == jumping.fall
+    assert float(within[0]) < float(within[1])

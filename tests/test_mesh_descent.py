@@ -16,6 +16,6 @@ def test_mesh_heights_agree_with_the_brute_force(descent: Descent) -> None:
     heights, seconds = mesh_first_heights(PAIR, poses, descent)
     exact_inch = [first_height(PAIR, *(float(a) for a in pose)).height for pose in poses]
     assert seconds > 0.0
-    # Fine meshes differ from the surfaces by up to 7e-5 in near a snap (method, section 6).
+    # Fine meshes differ from the surfaces by up to 7e-5 in near a jump (method, section 6).
     assert heights == pytest.approx(np.array(exact_inch), abs=7e-5)
     assert np.median(np.abs(heights - exact_inch)) < 2e-6

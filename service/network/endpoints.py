@@ -190,7 +190,7 @@ def list_formations(request: Request, network: RequestedNetwork) -> Response:
 
 @router.get("/network/formations/{key}", summary="One formation", response_model=NodeAnswer, responses=NOT_MODIFIED)
 def get_formation(request: Request, network: RequestedNetwork, key: KeyPath, unit: UnitQuery = None) -> Response:
-    """Where a formation occurs, what can follow it, and how far it is to the snap."""
+    """Where a formation occurs, what can follow it, and how far it is to the clearance window."""
     shown, factor = _unit(network, unit)
     node = node_document(network.network, key, factor)
     return _json(request, NodeAnswer(library=network.library.id, unit=shown, node=node), shown)

@@ -1,8 +1,8 @@
-"""Poses around which the first contact jumps: where it snaps from one place to another, or two heights tie."""
+"""Poses around which the first contact jumps from one place to another, or two heights tie."""
 
 from __future__ import annotations
 
-SNAPS_DEG = (
+JUMPS_DEG = (
     (0.0, -4.0, 357.380849212),
     (0.83, -2.95, -2.548959527),
     (1.0, -4.0, 357.205993119),

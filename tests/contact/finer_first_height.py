@@ -1,6 +1,6 @@
 """The brute force's first height with far denser samples: for pockets that its own samples step over.
 
-Beside a snap the two edges share a sliver a few thousandths of a degree wide, and thread meets thread along a ridge
+Beside a jump the two edges share a sliver a few thousandths of a degree wide, and thread meets thread along a ridge
 that is narrow across.
 """
 

@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from tests.contact.events import SNAPS_DEG, TIES_DEG
+from tests.contact.events import JUMPS_DEG, TIES_DEG
 from tests.contact.finer_first_height import finer_first_height
 from tests.contact.samples import Floats, PoseDeg, around, as_poses, random_poses
 from tests.oracle.first_height import first_height
@@ -31,7 +31,7 @@ SETS: dict[str, Floats] = {
     "nearly level and in phase": random_poses(6, 30, tilt_deg=0.5, phase_deg=2.0),
     "all but level": random_poses(7, 20, tilt_deg=1e-3),
     "all but level and in phase": random_poses(8, 20, tilt_deg=1e-3, phase_deg=2.0),
-    "snaps": around(9, SNAPS_DEG, 10, largest_deg=EVENT_REACH_DEG),
+    "jumps": around(9, JUMPS_DEG, 10, largest_deg=EVENT_REACH_DEG),
     "ties": around(10, TIES_DEG, 5, largest_deg=EVENT_REACH_DEG),
 }
 
@@ -45,10 +45,10 @@ def test_the_sets_are_as_large_as_they_should_be() -> None:
     off_zero = np.abs(rows[:, 2] - 360.0 * np.round(rows[:, 2] / 360.0))
     assert len(rows) >= 1000
     assert np.sum(off_zero <= NEAR_PHASE_ZERO_DEG) >= len(rows) / 2
-    assert len(SETS["snaps"]) + len(SETS["ties"]) >= 100
+    assert len(SETS["jumps"]) + len(SETS["ties"]) >= 100
 
 
-@pytest.mark.parametrize("pose", [*SNAPS_DEG, *TIES_DEG])
+@pytest.mark.parametrize("pose", [*JUMPS_DEG, *TIES_DEG])
 def test_the_first_contact_jumps_at_an_event(pose: PoseDeg) -> None:
     roll, pitch, phase = pose
     before, after = (first_height(PAIR, roll, pitch, phase + side * 1e-4).point for side in (-1.0, 1.0))

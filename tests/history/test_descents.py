@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from threadstate.contact import _record_kernel as rk
 from threadstate.history.build import histories_of
 from threadstate.history.descents import LEAST_FALL, falls_of
 from threadstate.history.falls import SNAP_PITCHES, Falls
@@ -216,6 +217,44 @@ def test_known_poses_change_no_bit() -> None:
     store = RecordStore(PAIR, options)
     histories_of(PAIR, [(0.0, -4.0)], options, store=store)
     assert falls_of(height_curve(PAIR, 0.0, -4.0, options, store), P) == falls_of(height_curve(PAIR, 0.0, -4.0), P)
+
+
+class Doubtful(RecordStore):
+    """Records of which those in a stretch of phase, which may hold phase 0, are undecided."""
+
+    def __init__(self, start_deg: float, width_deg: float) -> None:
+        super().__init__(PAIR, SolveOptions())
+        self._start, self._width = start_deg, width_deg
+
+    def records(self, poses_deg: Floats) -> Floats:
+        found = super().records(poses_deg).copy()
+        found[(poses_deg[:, 2] - self._start) % 360.0 < self._width, rk.O_STATUS] = 1.0
+        return found
+
+
+@pytest.mark.parametrize("start", [100.25, 355.25])
+def test_an_undecided_stretch_is_a_gap_wherever_it_lies(start: float) -> None:
+    roll, pitch = -4.0, 2.0
+    curve = height_curve(PAIR, roll, pitch, store=Doubtful(start, 10.0))
+    (gap,) = (gap for gap in curve.gaps if gap.undecided)
+    assert gap.start_deg % 360.0 == pytest.approx(start, abs=2e-3)
+    assert gap.end_deg - gap.start_deg == pytest.approx(10.0, abs=4e-3)
+    assert 0.0 <= curve.segments[0].start_deg < 360.0
+    for one, gap in zip(curve.segments, (*curve.gaps[1:], curve.gaps[0]), strict=True):
+        assert one.end_deg == pytest.approx(gap.start_deg, abs=1e-6) or one.end_deg - 360.0 == pytest.approx(
+            gap.start_deg, abs=1e-6
+        )
+    known, whole = falls_of(curve, P), falls_of(height_curve(PAIR, roll, pitch), P)
+    if start < 300.0:
+        # The one descent passes over it, from phase 71 to 233.
+        assert [one.fall for one in known.descents] == [one.fall for one in whole.descents]
+        assert known.descents[0].undecided_deg == pytest.approx(10.0, abs=4e-3)
+
+
+def test_an_orientation_without_any_decided_pose_has_no_curve() -> None:
+    curve = height_curve(PAIR, -4.0, 2.0, store=Doubtful(0.0, 360.0))
+    assert (curve.segments, curve.gaps) == ((), ())
+    assert falls_of(curve, P) == Falls((), None)
 
 
 def test_slopes_are_those_of_the_heights() -> None:

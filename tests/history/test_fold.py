@@ -28,7 +28,7 @@ With roll 1 and pitch -1 a region ends 2e-6 deg before the fold: beyond it the h
 
 
 @pytest.fixture(scope="module")
-def snaps() -> list[tuple[Tilt, Jump]]:
+def jumps() -> list[tuple[Tilt, Jump]]:
     found = []
     for tilt in ORIENTATIONS:
         jumps = [descent.largest_jump for descent in falls_of(height_curve(PAIR, *tilt), PAIR.thread_pitch).descents]
@@ -36,10 +36,10 @@ def snaps() -> list[tuple[Tilt, Jump]]:
     return found
 
 
-def _extrapolated(tilt: Tilt, snap: Jump, phases_deg: float) -> float:
-    """The limit of heights before a snap from four phases, the nearest that far from it, in powers of the root."""
+def _extrapolated(tilt: Tilt, jump: Jump, phases_deg: float) -> float:
+    """The limit of heights before a jump from four phases, the nearest that far from it, in powers of the root."""
     roots = math.sqrt(phases_deg) * np.arange(1.0, 5.0)
-    states = solve_poses(PAIR, [(*tilt, snap.phase_deg - root**2) for root in roots])
+    states = solve_poses(PAIR, [(*tilt, jump.phase_deg - root**2) for root in roots])
     assert {state.contacts[0].features for state in states} == {FeaturePair.EDGE_EDGE}
     heights = [state.poses[0].translation[2] for state in states]
     return float(np.linalg.solve(np.vander(roots), heights)[-1])
@@ -56,35 +56,35 @@ def _least_excess(tilt: Tilt, azimuth: float, phase_deg: float) -> float:
     return float((np.hypot(x, y) - outline).max())
 
 
-def test_the_height_before_a_snap_is_what_heights_before_it_near(snaps: list[tuple[Tilt, Jump]]) -> None:
-    for tilt, snap in snaps:
+def test_the_height_before_a_jump_is_what_heights_before_it_near(jumps: list[tuple[Tilt, Jump]]) -> None:
+    for tilt, jump in jumps:
         for nearest in NEAREST_DEG:
-            assert _extrapolated(tilt, snap, nearest) == pytest.approx(snap.height_before, abs=1e-11)
+            assert _extrapolated(tilt, jump, nearest) == pytest.approx(jump.height_before, abs=1e-11)
 
 
-def test_errors_are_stated_and_small(snaps: list[tuple[Tilt, Jump]]) -> None:
-    for _, snap in snaps:
-        assert 0.0 < snap.height_error < 1e-9
-        assert 0.0 < snap.width_deg < 1e-9
+def test_errors_are_stated_and_small(jumps: list[tuple[Tilt, Jump]]) -> None:
+    for _, jump in jumps:
+        assert 0.0 < jump.height_error < 1e-9
+        assert 0.0 < jump.width_deg < 1e-9
 
 
-def test_behind_the_phase_of_a_fold_the_edge_is_within_the_outline(snaps: list[tuple[Tilt, Jump]]) -> None:
-    for tilt, snap in snaps:
-        (state,) = solve_poses(PAIR, [(*tilt, snap.phase_deg - 1e-7)])
+def test_behind_the_phase_of_a_fold_the_edge_is_within_the_outline(jumps: list[tuple[Tilt, Jump]]) -> None:
+    for tilt, jump in jumps:
+        (state,) = solve_poses(PAIR, [(*tilt, jump.phase_deg - 1e-7)])
         x, y, _ = state.contacts[0].point_bolt
         azimuth = math.atan2(y, x)
-        assert _least_excess(tilt, azimuth, snap.phase_deg - 1e-7) > 0.0
-        assert _least_excess(tilt, azimuth, snap.phase_deg + 1e-7) < 0.0
+        assert _least_excess(tilt, azimuth, jump.phase_deg - 1e-7) > 0.0
+        assert _least_excess(tilt, azimuth, jump.phase_deg + 1e-7) < 0.0
 
 
-def test_a_fold_is_the_same_from_farther_off(snaps: list[tuple[Tilt, Jump]]) -> None:
-    tilt, snap = snaps[0]
-    (state,) = solve_poses(PAIR, [(*tilt, snap.phase_deg - 1e-4)])
+def test_a_fold_is_the_same_from_farther_off(jumps: list[tuple[Tilt, Jump]]) -> None:
+    tilt, jump = jumps[0]
+    (state,) = solve_poses(PAIR, [(*tilt, jump.phase_deg - 1e-4)])
     x, y, _ = state.contacts[0].point_bolt
-    fold = fold_near(PAIR, *tilt, snap.phase_deg - 1e-4, math.atan2(y, x))
+    fold = fold_near(PAIR, *tilt, jump.phase_deg - 1e-4, math.atan2(y, x))
     assert fold is not None
-    assert abs(fold.phase_deg - snap.phase_deg) <= fold.phase_error_deg + 0.5 * snap.width_deg
-    assert abs(fold.height - snap.height_before) <= 2.0 * fold.height_error
+    assert abs(fold.phase_deg - jump.phase_deg) <= fold.phase_error_deg + 0.5 * jump.width_deg
+    assert abs(fold.height - jump.height_before) <= 2.0 * fold.height_error
 
 
 def test_there_is_no_fold_where_both_outlines_are_round() -> None:

@@ -57,15 +57,15 @@ def test_lines_are_right_anywhere(history: History, heights: Heights) -> None:
     assert 0 < resting.sum() < len(states)
 
 
-def test_a_curve_holds_both_sides_of_the_snap(history: History, heights: Heights) -> None:
+def test_a_curve_holds_both_sides_of_the_jump(history: History, heights: Heights) -> None:
     curve = height_curve(PAIR, history.roll_deg, history.pitch_deg)
     (descent,) = falls_of(curve, PAIR.thread_pitch).descents
-    snap = descent.largest_jump
-    assert snap is not None
+    jump = descent.largest_jump
+    assert jump is not None
     falls = heights.first[:-1] - heights.first[1:]
-    # Before the snap the height falls as the root of the phase that is left: 1e-8 in within the bracket.
-    assert falls.max() == pytest.approx(snap.fall, abs=5e-8)
-    assert heights.phases_deg[falls.argmax()] == pytest.approx(snap.phase_deg, abs=LEAST_DEG)
+    # Before the jump the height falls as the root of the phase that is left: 1e-8 in within the bracket.
+    assert falls.max() == pytest.approx(jump.fall, abs=5e-8)
+    assert heights.phases_deg[falls.argmax()] == pytest.approx(jump.phase_deg, abs=LEAST_DEG)
 
 
 def test_what_is_known_changes_no_bit(history: History, heights: Heights) -> None:

@@ -21,22 +21,22 @@ from threadstate.thread.play import axial_play
 PAIR = quarter_twenty_unc()
 
 
-def test_the_snap_at_roll_0_pitch_minus_4() -> None:
+def test_the_jump_at_roll_0_pitch_minus_4() -> None:
     (window,) = windows_of(PAIR, history_of(PAIR, 0.0, -4.0))
     (descent,) = falls_of(height_curve(PAIR, 0.0, -4.0), PAIR.thread_pitch).descents
-    snap = descent.largest_jump
-    assert snap is not None
-    assert 357.0 < snap.phase_deg < 358.0
-    assert snap.width_deg <= 1e-8
+    jump = descent.largest_jump
+    assert jump is not None
+    assert 357.0 < jump.phase_deg < 358.0
+    assert jump.width_deg <= 1e-8
     before, after, later = (
-        solve_pose(PAIR, 0.0, -4.0, snap.phase_deg + offset).poses[0].translation[2] for offset in (-1e-9, 1e-9, 1e-6)
+        solve_pose(PAIR, 0.0, -4.0, jump.phase_deg + offset).poses[0].translation[2] for offset in (-1e-9, 1e-9, 1e-6)
     )
-    # Before the snap the height falls as the root of the phase that is left, behind it by the lead.
-    assert before == pytest.approx(snap.height_before, abs=5e-8)
-    assert after == pytest.approx(snap.height_after, abs=1e-12)
-    assert window.enter_height == snap.height_before
-    assert later - snap.height_after == pytest.approx(PAIR.thread_pitch / 360.0 * 1e-6, abs=1e-12)
-    assert window.lowest_height == snap.height_after
+    # Before the jump the height falls as the root of the phase that is left, behind it by the lead.
+    assert before == pytest.approx(jump.height_before, abs=5e-8)
+    assert after == pytest.approx(jump.height_after, abs=1e-12)
+    assert window.enter_height == jump.height_before
+    assert later - jump.height_after == pytest.approx(PAIR.thread_pitch / 360.0 * 1e-6, abs=1e-12)
+    assert window.lowest_height == jump.height_after
 
 
 def test_the_edge_climbs_on_the_nut_s_thread_by_the_lead() -> None:

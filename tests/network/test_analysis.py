@@ -35,20 +35,20 @@ def test_what_can_follow_a_formation() -> None:
         analysis.following(NETWORK, "0123456789")
 
 
-def test_how_far_it_is_to_the_snap() -> None:
-    found = {reach.formation: reach for reach in analysis.snap_reach(NETWORK)}
-    assert found[A] == analysis.SnapReach(A, 4, 2, 0.0, 290.0)
+def test_how_far_it_is_to_the_window() -> None:
+    found = {reach.formation: reach for reach in analysis.window_reach(NETWORK)}
+    assert found[A] == analysis.WindowReach(A, 4, 2, 0.0, 290.0)
     assert found[A].share == 0.5
-    assert found[B] == analysis.SnapReach(B, 3, 1, 100.0, 200.0)
-    assert found[C] == analysis.SnapReach(C, 0, 0, None, None)
+    assert found[B] == analysis.WindowReach(B, 3, 1, 100.0, 200.0)
+    assert found[C] == analysis.WindowReach(C, 0, 0, None, None)
     assert found[C].share == 0.0
-    assert found[UNDECIDED] == analysis.SnapReach(UNDECIDED, 1, 0, None, None)
+    assert found[UNDECIDED] == analysis.WindowReach(UNDECIDED, 1, 0, None, None)
 
 
 def test_past_the_window_the_way_leads_around() -> None:
     cells = orientation_cells(0, [10.0, 100.0, 200.0], [A, B, C], window=[False, True, False])
     network = constraint_network(CellMap((0.0,), (cells,)))
-    found = {reach.formation: (reach.least_deg, reach.most_deg) for reach in analysis.snap_reach(network)}
+    found = {reach.formation: (reach.least_deg, reach.most_deg) for reach in analysis.window_reach(network)}
     assert found == {A: (0.0, 90.0), B: (None, None), C: (90.0, 260.0)}
 
 

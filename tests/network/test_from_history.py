@@ -8,7 +8,7 @@ from tests.network.test_graph import walked
 from threadstate.history.build import history_of
 from threadstate.history.model import History
 from threadstate.history.window import Window, windows_of
-from threadstate.network.analysis import dead_ends, snap_reach
+from threadstate.network.analysis import dead_ends, window_reach
 from threadstate.network.cells import CellMap
 from threadstate.network.formation import formation_of
 from threadstate.network.from_history import cells_of
@@ -58,7 +58,7 @@ def test_turning_ends_where_the_bolt_enters_the_window(window: Window, network: 
     assert path.turning_deg == pytest.approx(100.0, abs=1e-9)
     assert path.steps[-1].phase_deg == pytest.approx(window.enter_deg, abs=1e-9)
     assert dead_ends(network) == ()
-    assert all(reach.share == 1.0 for reach in snap_reach(network) if reach.count)
+    assert all(reach.share == 1.0 for reach in window_reach(network) if reach.count)
 
 
 def test_margins_are_those_of_the_states(network: ConstraintNetwork) -> None:

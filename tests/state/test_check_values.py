@@ -85,7 +85,7 @@ def test_the_first_row_ends_flush() -> None:
     assert {contact.features for contact in state.contacts[1:]} == {FeaturePair.FLUSH}
 
 
-def test_the_snap_of_section_6() -> None:
+def test_the_jump_of_section_6() -> None:
     before, after = (solve_pose(PAIR, 0, -4, phase).poses[0].translation[2] for phase in (357, 358))
     assert before == pytest.approx(0.0061, abs=0.6e-4)
     assert after == pytest.approx(-0.0033, abs=0.6e-4)

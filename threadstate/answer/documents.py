@@ -56,7 +56,7 @@ class IntervalDocument(_Document):
     flags: list[Flag]
     margin: float | None = Field(description="smallest distance from other labels, half way")
     first_height: float | None = Field(description="of the bolt's origin at first contact, half way")
-    last_height: float | None = Field(description="of the bolt's origin in the last pose, half way")
+    last_height: float | None = Field(description="of the bolt's origin in the last pose, at rest or not, half way")
     in_window: bool
 
 

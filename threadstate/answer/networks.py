@@ -18,13 +18,13 @@ from threadstate.answer.documents import (
 from threadstate.answer.formations import formation_document
 from threadstate.answer.lengths import scaled
 from threadstate.network.analysis import (
-    SnapReach,
+    WindowReach,
     cut_formations,
     dead_ends,
     following,
-    snap_reach,
     strong_parts,
     telling_formations,
+    window_reach,
 )
 from threadstate.network.cells import Cell, CellMap
 from threadstate.network.changes import difference
@@ -61,7 +61,7 @@ def formation_summaries(network: ConstraintNetwork) -> list[FormationSummaryDocu
             orientations=len(node.orientations),
             to_window=_reach_document(reach),
         )
-        for node, reach in zip(network.nodes, snap_reach(network), strict=True)
+        for node, reach in zip(network.nodes, window_reach(network), strict=True)
     ]
 
 
@@ -72,7 +72,7 @@ def node_document(network: ConstraintNetwork, key: str, factor: float) -> NodeDo
         NotFoundError: no formation has that key.
     """
     node = network.node(key)
-    reach = next(one for one in snap_reach(network) if one.formation == node.formation)
+    reach = next(one for one in window_reach(network) if one.formation == node.formation)
     return NodeDocument(
         formation=formation_document(node.formation),
         cover=node.cover_deg,
@@ -148,7 +148,7 @@ def location_document(location: Location, cell_map: CellMap) -> LocationDocument
     )
 
 
-def _reach_document(reach: SnapReach) -> ReachDocument:
+def _reach_document(reach: WindowReach) -> ReachDocument:
     return ReachDocument(occurrences=reach.count, reaching=reach.reaching, least=reach.least_deg, most=reach.most_deg)
 
 

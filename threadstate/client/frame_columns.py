@@ -105,7 +105,7 @@ _INTERVALS: tuple[Column[IntervalDocument], ...] = (
     words("formation_text", "the formation in words", lambda one: one.formation.text),
     length("margin", "smallest distance from other labels, half way", lambda one: one.margin),
     length("first_height", "height at first contact, half way", lambda one: one.first_height),
-    length("last_height", "height in the last pose, half way", lambda one: one.last_height),
+    length("last_height", "height in the last pose, at rest or not, half way", lambda one: one.last_height),
 )
 
 _STRETCHES: tuple[Column[StretchDocument], ...] = (
@@ -131,8 +131,8 @@ _TRANSITIONS: tuple[Column[TransitionDocument], ...] = (
     words("target_class", "class after; missing where undecided", lambda one: one.target.state_class),
     length("first_height_before", "height at first contact before", lambda one: one.first_height[0]),
     length("first_height_after", "height at first contact after", lambda one: one.first_height[1]),
-    length("last_height_before", "height in the last pose before", lambda one: one.last_height[0]),
-    length("last_height_after", "height in the last pose after", lambda one: one.last_height[1]),
+    length("last_height_before", "height in the last pose before, at rest or not", lambda one: one.last_height[0]),
+    length("last_height_after", "height in the last pose after, at rest or not", lambda one: one.last_height[1]),
     words("text", "what changes, in words", lambda one: one.text),
 )
 

@@ -97,6 +97,10 @@ def _failure(call: Call[object], error: httpx2.RequestError) -> ClientError:
     reached = not isinstance(error, httpx2.ConnectError | httpx2.ConnectTimeout | httpx2.PoolTimeout)
     kind = TimedOutError if isinstance(error, httpx2.TimeoutException) else ConnectionFailedError
     said = str(error) or "no more is known"
+    if isinstance(error, httpx2.ConnectError | httpx2.ConnectTimeout):
+        url = error.request.url
+        where = f"{url.scheme}://{url.netloc.decode('ascii')}"
+        return kind(f"no service answers at {where} ({said}); `threadstate serve` starts one on this machine", reached)
     return kind(f"{_name(call)}: {type(error).__name__}: {said}", reached)
 
 

@@ -61,7 +61,11 @@ def interval_columns(contacts: int) -> tuple[Column[IntervalRow], ...]:
         words("formation", "key of its contact formation", lambda one: one.formation),
         length("margin", "smallest distance from other labels, half way", lambda one: one.margin),
         length("first_height", "height of the bolt's origin at first contact, half way", lambda one: one.first_height),
-        length("last_height", "height of the bolt's origin in the last pose, half way", lambda one: one.last_height),
+        length(
+            "last_height",
+            "height of the bolt's origin in the last pose, at rest or not, half way",
+            lambda one: one.last_height,
+        ),
         degrees("start_low", "the start lies between this phase, which was solved,", lambda one: one.low_deg),
         degrees("start_high", "and this one", lambda one: one.high_deg),
         words(
@@ -71,8 +75,16 @@ def interval_columns(contacts: int) -> tuple[Column[IntervalRow], ...]:
         ),
         length("first_height_before", "height at first contact at `start_low`", lambda one: one.first_height_before),
         length("first_height_after", "height at first contact at `start_high`", lambda one: one.first_height_after),
-        length("last_height_before", "height in the last pose at `start_low`", lambda one: one.last_height_before),
-        length("last_height_after", "height in the last pose at `start_high`", lambda one: one.last_height_after),
+        length(
+            "last_height_before",
+            "height in the last pose, at rest or not, at `start_low`",
+            lambda one: one.last_height_before,
+        ),
+        length(
+            "last_height_after",
+            "height in the last pose, at rest or not, at `start_high`",
+            lambda one: one.last_height_after,
+        ),
         integer("contacts", "how many contacts the formation has", lambda one: len(one.contacts)),
         *(column for place in range(contacts) for column in _label_columns(place)),
     )

@@ -58,6 +58,8 @@ class LabelCodes:
         as multiples of a height's jump, and the coordinates in the nut's frame, as multiples of a place's jump, of all
         contacts but those of a patch, whose extreme points are no events.
         """
+        if not len(poses_deg):
+            return Samples(np.empty(0, dtype=np.int64), np.empty((0, _MOST_NUMBERS)))
         parts = [self._batch(poses_deg[i : i + BATCH]) for i in range(0, len(poses_deg), BATCH)]
         return Samples(np.concatenate([p.codes for p in parts]), np.concatenate([p.values for p in parts]))
 

@@ -118,17 +118,24 @@ def height_curve(
     return HeightCurve(tuple(segments), tuple(gaps), contacts.height, contacts.slope, ROUND_OFF * pair.thread_pitch)
 
 
-def monotone_segments(height: Evaluate, slope: Evaluate, start_deg: float, end_deg: float) -> list[Segment]:
+def monotone_segments(
+    height: Evaluate, slope: Evaluate, start_deg: float, end_deg: float, level_slope: float = 0.0
+) -> list[Segment]:
     """A stretch over which the height is smooth, cut at its extremes.
 
     Slopes are looked at where the phase is a multiple of SAMPLES_DEG, at both ends and in the middle; where the sign
-    changes between two of these its change is found by halving.
+    changes between two of these its change is found by halving. One of at most ``level_slope`` per degree has none.
     """
+
+    def sign(phases: Floats) -> Floats:
+        slopes = np.nan_to_num(slope(phases))
+        return np.where(np.abs(slopes) > level_slope, np.sign(slopes), 0.0)
+
     whole = np.arange(np.floor(start_deg / SAMPLES_DEG) + 1.0, np.ceil(end_deg / SAMPLES_DEG)) * SAMPLES_DEG
     phases = np.unique(np.concatenate([[start_deg, 0.5 * (start_deg + end_deg), end_deg], whole]))
-    signs = np.nan_to_num(np.sign(slope(phases)))
+    signs = sign(phases)
     turns = [(a, b) for a, b in pairwise(np.flatnonzero(signs)) if signs[a] != signs[b]]
-    cuts = [_sign_change(slope, float(phases[a]), float(phases[b]), float(signs[a])) for a, b in turns]
+    cuts = [_end_of_sign(sign, float(phases[a]), float(phases[b])) for a, b in turns]
     return _segments(height, [start_deg, *cuts, end_deg])
 
 
@@ -140,27 +147,29 @@ def _segments(height: Evaluate, ends_deg: list[float]) -> list[Segment]:
     ]
 
 
-def _sign_change(slope: Evaluate, low: float, high: float, sign: float) -> float:
-    """Where the slope, of that sign at the low phase, has lost it."""
+def _end_of_sign(sign: Evaluate, low: float, high: float) -> float:
+    """Where the sign is no longer that at the low phase."""
+    at_low = sign(np.array([low]))[0]
     while high - low > EXTREME_DEG:
         middle = 0.5 * (low + high)
-        if np.sign(slope(np.array([middle])))[0] == sign:
+        if sign(np.array([middle]))[0] == at_low:
             low = middle
         else:
             high = middle
     return 0.5 * (low + high)
 
 
-def _between_decided(brackets: list[Bracket]) -> list[Bracket]:
-    """The brackets, the two about an undecided stretch as one, in order of phase over one turn."""
+def _between_decided(brackets: list[Bracket]) -> list[tuple[Bracket, bool]]:
+    """The brackets in order of phase over one turn, the two about an undecided stretch as one; whether each is such."""
     first = next(number for number, bracket in enumerate(brackets) if bracket.low_code != NO_ANSWER)
     later = [replace(one, low=one.low + CIRCLE_DEG, high=one.high + CIRCLE_DEG) for one in brackets[:first]]
-    merged: list[Bracket] = []
+    merged: list[tuple[Bracket, bool]] = []
     for bracket in [*brackets[first:], *later]:
         if bracket.low_code == NO_ANSWER:
-            merged[-1] = replace(merged[-1], high=bracket.high, high_code=bracket.high_code)
+            before, _ = merged.pop()
+            merged.append((replace(before, high=bracket.high, high_code=bracket.high_code), True))
         else:
-            merged.append(bracket)
+            merged.append((bracket, False))
     return merged
 
 
@@ -183,21 +192,20 @@ class _FirstContacts:
         if not brackets:
             start = float(self.height(np.array([0.0]))[0])
             return [] if np.isnan(start) else [(Gap(0.0, 0.0, start, start), 0.0, CIRCLE_DEG)]
-        found = []
         events = _between_decided(brackets)
-        undecided = [NO_ANSWER in (one.low_code, one.high_code) or one not in brackets for one in events]
-        ends = [*(one.low for one in events[1:]), events[0].low + CIRCLE_DEG]
-        for event, doubt, end in zip(events, undecided, ends, strict=True):
-            if end > event.high:
-                found.append((self._gap(event, undecided=doubt), event.high, end))
-        turns = CIRCLE_DEG * (found[0][1] // CIRCLE_DEG)
-        return [(gap, start - turns, end - turns) for gap, start, end in found]
+        ends = [*(event.low for event, _ in events[1:]), events[0][0].low + CIRCLE_DEG]
+        turns = CIRCLE_DEG * (events[0][0].high // CIRCLE_DEG)
+        return [
+            (self._gap(event, undecided=undecided), event.high - turns, end - turns)
+            for (event, undecided), end in zip(events, ends, strict=True)
+        ]
 
     def segments(self, start_deg: float, end_deg: float) -> list[Segment]:
         """A stretch without a change, cut where the height changes between rising and falling."""
         contact = self._records(np.array([0.5 * (start_deg + end_deg)]))[0, rk.O_CONTACT :]
         if int(contact[rk.P_PAIR]) in CURVED:
-            return monotone_segments(self.height, self.slope, start_deg, end_deg)
+            level_slope = ROUND_OFF * self._pair.thread_pitch
+            return monotone_segments(self.height, self.slope, start_deg, end_deg, level_slope)
         return _segments(self.height, [start_deg, end_deg])
 
     def height(self, phases: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""What follows from a network: what comes next, what leads to the snap, where it ends, what holds it together."""
+"""What follows from a network: what comes next, what leads to the window, where it ends, what holds it together."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Following:
 
 
 @dataclass(frozen=True, slots=True)
-class SnapReach:
+class WindowReach:
     """How far the bolt is turned counter-clockwise, its tilt held, from a formation to the window.
 
     ``count`` is how many cells of the formation lie outside the window, ``reaching`` how many of them have a window at
@@ -78,7 +78,7 @@ def following(network: ConstraintNetwork, key: str, moves: Collection[Move] = AL
     return tuple(Following(edge.move, edge.target, edge.cover_deg, edge.cover_deg / cover) for edge in edges)
 
 
-def snap_reach(network: ConstraintNetwork) -> tuple[SnapReach, ...]:
+def window_reach(network: ConstraintNetwork) -> tuple[WindowReach, ...]:
     """For every formation, in the network's order, how far it is to the window by turning counter-clockwise."""
     turnings = [_turning_to_window(cells) for cells in network.cell_map.cells]
     reaches = []
@@ -91,7 +91,7 @@ def snap_reach(network: ConstraintNetwork) -> tuple[SnapReach, ...]:
         ]
         least = min((low for low, _ in known), default=None)
         most = max((high for _, high in known), default=None)
-        reaches.append(SnapReach(node.formation, len(outside), len(known), least, most))
+        reaches.append(WindowReach(node.formation, len(outside), len(known), least, most))
     return tuple(reaches)
 
 

@@ -40,14 +40,14 @@ DOT = "text/vnd.graphviz"
 def intervals(
     roll: float, pitch: float, *, library: LibraryName = LATEST, unit: str | None = None
 ) -> Call[IntervalsAnswer]:
-    """The phase circle of an orientation, cut where any label changes, its boundaries and its clearance windows."""
+    """The phase circle of an orientation, cut where any label changes, its boundaries, falls and windows."""
     return get(library_path(library, "histories", roll, pitch, "intervals"), IntervalsAnswer, unit=unit)
 
 
 def heights(
     roll: float, pitch: float, *, library: LibraryName = LATEST, unit: str | None = None
 ) -> Call[HeightsAnswer]:
-    """The height of the bolt's origin against phase, at first contact and in the last pose."""
+    """The height of the bolt's origin against phase, at first contact and where the bolt rests."""
     return get(library_path(library, "histories", roll, pitch, "heights"), HeightsAnswer, unit=unit)
 
 
