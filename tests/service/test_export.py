@@ -65,4 +65,4 @@ def test_without_pyarrow_parquet_is_a_problem(client: TestClient, monkeypatch: p
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     found = problem(client.get(f"{EXPORT}/states.parquet"), 501)
     assert found.type == "urn:threadstate:problem:not-installed"
-    assert "threadstate[parquet]" in found.detail
+    assert "'.[parquet]'" in found.detail
