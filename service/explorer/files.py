@@ -26,7 +26,15 @@ UNKNOWN = "unknown.html"
 _VERSION_MARK = b"{{version}}"
 _MODULES_MARK = b"<!-- modules -->"
 """Where the page names the modules that its first view needs, so that they are fetched all at once."""
-_LATER = {"js/main.js", "js/scene_view.js", "js/glb.js"}
+_LATER = {"js/main.js"} | {
+    f"js/{name}.js"
+    for name in (
+        *("scene_view", "glb"),
+        *("tab_views", "disks_view", "disks", "follows_view", "network_view", "overview", "path_view"),
+        *("locate_view", "poses_view"),
+    )
+}
+"""The module that asks for the others, and those that come after the first view: the solids', and those of the tabs."""
 _VERSION_LENGTH = 16
 
 

@@ -4,22 +4,16 @@ import { CLASS_COLOURS } from "./colours.js";
 import { besideText, placeText, showComparison, showSnaps, wireComparison } from "./compare_view.js";
 import { intervalAt, nextFormations } from "./curve.js";
 import { DepthView, depthReadout } from "./depth_view.js";
-import { DisksView } from "./disks_view.js";
 import { behindSnap, noSnapText, toleranceText } from "./falls.js";
-import { FollowsView } from "./follows_view.js";
 import { behind, isOnGrid, nearestPhase, steppedPhase } from "./grid.js";
 import { byId } from "./html.js";
-import { LocateView } from "./locate_view.js";
 import { MapView, mapPhaseText } from "./map_view.js";
 import { markPainted } from "./marks.js";
 import { say } from "./messages.js";
 import { followed } from "./neighbours.js";
-import { NetworkView } from "./network_view.js";
 import { remaining } from "./observed.js";
 import { firstCamera } from "./orbit.js";
-import { drawPath, pathText } from "./path_view.js";
 import { Player } from "./player.js";
-import { PosesView } from "./poses_view.js";
 import { QUANTITIES, needsSummaries } from "./quantities.js";
 import { lastStage, rests } from "./resting.js";
 import { followSize } from "./size.js";
@@ -35,6 +29,8 @@ const STILL_STEPS_PER_SECOND = 1;
 const UNITED = ["roll", "pitch"];
 const NO_NETWORK = "There is none: the library was computed by meshes, or the phase is undecided.";
 const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not know it. The way below is by turning alone.";
+/** Parts of the model that are seen in the tabs behind the first one alone. */
+const TAB_PARTS = ["node", "path", "formations", "located", "measured"];
 const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
 
 /** The pictures, and what is played in them. */
@@ -45,12 +41,11 @@ export class Pictures {
   #view;
   #map;
   #depth;
-  #disks;
-  #follows;
-  #network;
   #player;
-  #locate;
-  #poses;
+  /** The views of the tabs behind the first one, null until they have been fetched, and what came meanwhile. */
+  #tabs = null;
+  #tabsAsked = false;
+  #missed = new Set();
   /** What the scene has the solids of: a library's number. */
   #solids = null;
 
@@ -71,17 +66,8 @@ export class Pictures {
       step: (steps) => view.set({ phase: steppedPhase(model.library.grid, view.value.phase, steps) }),
       goTo,
     });
-    this.#locate = new LocateView((observed) => view.set({ observed }), goTo);
-    this.#poses = new PosesView((poses) => view.set({ poses }), goTo);
     wireComparison(view, () => model.library.grid);
     showComparison(view.value);
-    this.#disks = new DisksView(byId("disks"), toPhase);
-    this.#follows = new FollowsView(byId("follows"), (key, move) => this.#followFormation(key, move));
-    this.#network = new NetworkView(
-      byId("network"),
-      (key) => this.#followFormation(key, null),
-      (text) => (byId("network-readout").textContent = text),
-    );
     this.#player = new Player((name) => this.#showPlaying(name));
     this.#wireZoom();
     this.#wireScene();
@@ -95,6 +81,23 @@ export class Pictures {
   /** Begins with what the view's tab needs. */
   begin() {
     this.#showTab();
+  }
+
+  /** Fetches the views of the tabs behind the first one, and shows what came before they did. */
+  async #beginTabs() {
+    if (this.#tabsAsked) return;
+    this.#tabsAsked = true;
+    const { tabViews } = await import("./tab_views.js");
+    const view = this.#view;
+    this.#tabs = tabViews({
+      choosePhase: (phase) => view.set({ phase: nearestPhase(this.#model.library.grid, phase) }),
+      choosePose: ({ roll, pitch, phase }) => view.set({ roll, pitch, phase }, "entry"),
+      chooseFormation: (key, move) => this.#followFormation(key, move),
+      observe: (observed) => view.set({ observed }),
+      measure: (poses) => view.set({ poses }),
+    });
+    this.#showTab();
+    for (const part of this.#missed) this.redraw(part);
   }
 
   /** Loads the solids, after the first numbers were seen. */
@@ -122,6 +125,11 @@ export class Pictures {
       this.#map.markState(this.#model, view);
       this.#model.followHistory(view);
       this.#beginSolids();
+      this.#beginTabs();
+    }
+    if (this.#tabs === null) {
+      if (TAB_PARTS.includes(part)) this.#missed.add(part);
+      return;
     }
     if (part === "node") this.#drawFollowing();
     if (part === "path") this.#drawPath();
@@ -135,7 +143,7 @@ export class Pictures {
     if (has("roll", "pitch", "quantity", "over", "tab")) this.#drawMap();
     if (has("from", "span")) this.#drawCurves();
     if (has(...BESIDE)) showComparison(this.#view.value);
-    if (has("observed")) this.#locate.show(this.#view.value.observed);
+    if (has("observed")) this.#tabs?.locate.show(this.#view.value.observed);
     if (has(...UNITED, "phase")) this.#markLists();
     if (has(...UNITED, "tolerance")) this.#showFalls();
     if (has("phase")) this.#moveCursors();
@@ -163,7 +171,7 @@ export class Pictures {
     const beside = this.#beside();
     this.#depth.draw({ heights, intervals, library, measured, beside }, this.#view.value, this.#range());
     this.#showBeside(beside);
-    if (this.#isSeen("regions")) this.#disks.draw(intervals);
+    if (this.#isSeen("regions")) this.#tabs?.disks.draw(intervals);
     this.#moveCursors();
     this.#showSnap();
     markPainted("depth");
@@ -174,7 +182,7 @@ export class Pictures {
     const intervals = this.#present();
     const interval = intervalAt(intervals, view.phase);
     this.#depth.moveCursor(this.#model, view);
-    if (this.#isSeen("regions")) this.#disks.moveCursor(interval, view.phase);
+    if (this.#isSeen("regions")) this.#tabs?.disks.moveCursor(interval, view.phase);
     byId("depth-readout").textContent = depthReadout({ intervals }, view);
     byId("map-phase").textContent = mapPhaseText(this.#model, view);
     this.#followInterval(interval);
@@ -194,6 +202,7 @@ export class Pictures {
   #showTab() {
     if (this.#isSeen("network")) this.#model.followNetwork();
     this.#drawCurves();
+    if (!this.#isSeen("state")) this.#beginTabs();
     if (this.#isSeen("follows")) {
       this.#drawFollowing();
       this.#drawPath();
@@ -205,15 +214,15 @@ export class Pictures {
   /** Draws what the tabs hold that ask: what remains of an observation, and measured poses. */
   #drawLists() {
     const { value } = this.#view;
-    this.#locate.show(value.observed);
-    if (this.#isSeen("locate")) this.#locate.list(this.#model.located);
-    if (this.#isSeen("poses")) this.#poses.list(this.#model.measured, value.unit);
+    this.#tabs?.locate.show(value.observed);
+    if (this.#isSeen("locate")) this.#tabs?.locate.list(this.#model.located);
+    if (this.#isSeen("poses")) this.#tabs?.poses.list(this.#model.measured, value.unit);
     this.#markLists();
   }
 
   #markLists() {
-    this.#locate.mark(this.#view.value);
-    this.#poses.mark(this.#view.value);
+    this.#tabs?.locate.mark(this.#view.value);
+    this.#tabs?.poses.mark(this.#view.value);
   }
 
   /** The orientations that an observation leaves, while it is looked at. */
@@ -286,14 +295,14 @@ export class Pictures {
   }
 
   #drawFollowing() {
-    if (this.#model.node) this.#follows.draw(this.#model.node.node, nextFormations(this.#intervals(), this.#view.value.phase));
-    else this.#follows.tell(isOnGrid(this.#model.library.grid, this.#view.value) ? NO_NETWORK : NOT_IN_NETWORK);
+    if (this.#model.node) this.#tabs?.follows.draw(this.#model.node.node, nextFormations(this.#intervals(), this.#view.value.phase));
+    else this.#tabs?.follows.tell(isOnGrid(this.#model.library.grid, this.#view.value) ? NO_NETWORK : NOT_IN_NETWORK);
   }
 
   #drawNetwork() {
     const { formations } = this.#model;
-    if (formations === null) this.#network.tell(NO_NETWORK);
-    else this.#network.draw(formations);
+    if (formations === null) this.#tabs.network.tell(NO_NETWORK);
+    else this.#tabs.network.draw(formations);
     this.#markNetwork();
   }
 
@@ -301,14 +310,14 @@ export class Pictures {
     const { node, path } = this.#model;
     const here = node?.node ?? null;
     const way = path?.path ?? null;
-    this.#network.mark(here, way?.steps[0].formation === here?.formation.key ? way : null);
+    this.#tabs.network.mark(here, way?.steps[0].formation === here?.formation.key ? way : null);
   }
 
   #drawPath() {
     const path = this.#model.path?.path ?? null;
-    byId("path-text").textContent = this.#model.path ? pathText(path) : "";
-    byId("path").replaceChildren();
-    if (path) drawPath(byId("path"), path, ({ roll, pitch, phase }) => this.#view.set({ roll, pitch, phase: behind(phase) }, "entry"));
+    this.#tabs?.showPath(path, this.#model.path !== null, ({ roll, pitch, phase }) =>
+      this.#view.set({ roll, pitch, phase: behind(phase) }, "entry"),
+    );
   }
 
   /** The intervals where they belong to the heights that are drawn. */

@@ -1,0 +1,29 @@
+// What the tabs behind the first one show: fetched once the first numbers are seen, or as soon as one is looked at.
+
+import { DisksView } from "./disks_view.js";
+import { FollowsView } from "./follows_view.js";
+import { byId } from "./html.js";
+import { LocateView } from "./locate_view.js";
+import { NetworkView } from "./network_view.js";
+import { drawPath, pathText } from "./path_view.js";
+import { PosesView } from "./poses_view.js";
+
+/** The views, which tell what was chosen: a phase, a pose, a formation and the move to it, an observation, or poses. */
+export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure }) {
+  return {
+    disks: new DisksView(byId("disks"), choosePhase),
+    follows: new FollowsView(byId("follows"), chooseFormation),
+    network: new NetworkView(
+      byId("network"),
+      (key) => chooseFormation(key, null),
+      (text) => (byId("network-readout").textContent = text),
+    ),
+    locate: new LocateView(observe, choosePose),
+    poses: new PosesView(measure, choosePose),
+    showPath: (path, told, chooseStep) => {
+      byId("path-text").textContent = told ? pathText(path) : "";
+      byId("path").replaceChildren();
+      if (path) drawPath(byId("path"), path, chooseStep);
+    },
+  };
+}
