@@ -34,7 +34,8 @@ def completed(engine: Engine, incomplete: list[tuple[int, int]]) -> Iterator[tup
     """Compute and store the falls of orientations, each in a transaction of its own; gives each when it is stored.
 
     Content hashes follow: those of a library's orientations one by one, the library's own with its last one, so that it
-    is that of a library computed now. May be stopped at any moment, and called again with what is left.
+    is that of a library computed now. May be stopped at any moment, and called again with what is left; another process
+    may do the same meanwhile.
     """
     for number, (library_id, orientation) in enumerate(incomplete):
         is_last = number + 1 == len(incomplete) or incomplete[number + 1][0] != library_id
@@ -54,7 +55,13 @@ def _complete(engine: Engine, library_id: int, orientation: int, *, is_last: boo
     pair, tilt = pair_of(head.pair), grid.orientation(orientation)
     falls = falls_of(height_curve(pair, tilt.roll_deg, tilt.pitch_deg, options_of(head.options)), pair.thread_pitch)
     rows = falls_rows(falls)
+    fall = tables.steepest_fall.c
+    stored = select(fall.orientation).where(fall.library_id == library_id, fall.orientation == orientation)
     with engine.begin() as connection:
+        # The row's lock makes two that complete one library take turns, on databases that lock rows.
+        connection.execute(select(library.c.id).where(library.c.id == library_id).with_for_update())
+        if connection.execute(stored).first() is not None:
+            return
         for table, of_table in (
             (tables.descent, rows["descents"]),
             (tables.descent_jump, rows["descent_jumps"]),
