@@ -29,6 +29,11 @@ import service.solve.endpoints
 import service.states.endpoints
 import service.undecided.endpoints
 import threadstate
+from service.cache.compression import CompressionMiddleware
+from service.cache.library_names import LibraryNames
+from service.cache.middleware import CacheMiddleware
+from service.cache.responses import ResponseCache
+from service.cache.stored import StoredResponses
 from service.control import ControlEngine
 from service.cors import cors_options
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
@@ -36,10 +41,6 @@ from service.edge.drain import Drain
 from service.edge.middleware import Edge
 from service.edge.route import note_matched_route
 from service.explorer.unknown import install_unknown_page
-from service.kept.answers import KeptAnswers
-from service.kept.compression import Compression
-from service.kept.middleware import AnswerKept
-from service.kept.names import LibraryNames
 from service.keys import guard_reading, may_read
 from service.limits.admission import Admission, Limits
 from service.limits.body import BodyLimit
@@ -49,13 +50,12 @@ from service.middleware import EncodedSlashes, HeadAsGet
 from service.network.store import NetworkStore
 from service.parameters import refuse_unknown_parameters
 from service.problems import install_problem_handlers
-from service.renditions.shelf import MEGABYTE, RenditionShelf
+from service.representation import REVALIDATE, REVALIDATE_PRIVATELY
 from service.warming import Warming
 from threadstate.library.engine import reader_engine
 from threadstate.settings import Settings, read_settings
 
-RENDITIONS = "renditions"
-"""Folder of the renditions, in the data directory."""
+MEGABYTE = 10**6
 NO_TELEMETRY = TelemetryConfig(tracing=False, metrics=False, logs=False)
 """FastAPI's own would look at every request whether OpenTelemetry has been set up."""
 LARGEST_BODY_BYTES = 256 * 1024
@@ -66,7 +66,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     """The service over the database of ``settings`` (None: of the environment).
 
     The database need not be there yet: ``/readyz`` and the resources say what is missing. ``serving`` is whether this
-    is the application of a process of its own, which logs every request and has whole libraries rendered into files.
+    is the application of a process of its own, which logs every request and prepares the latest library's network.
 
     Raises:
         InvalidValueError: a setting is not valid.
@@ -75,25 +75,23 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     engine = reader_engine(settings.database)
     control = ControlEngine(settings.database)
     names = LibraryNames(engine)
-    kept = KeptAnswers(settings.cache_mb * MEGABYTE)
+    cache = ResponseCache(settings.cache_mb * MEGABYTE)
+    cache_control = REVALIDATE_PRIVATELY if settings.read_keys_required else REVALIDATE
+    stored = StoredResponses(engine, cache_control)
     admission = Admission(settings.concurrency, settings.streams)
     drain = Drain()
     registry = CollectorRegistry()
     warming = Warming()
-    registry.register(StateMetrics(engine, kept, admission, warming))
-    shelf = None
-    if serving and settings.renditions_mb > 0:
-        shelf = RenditionShelf(settings.data_dir / RENDITIONS, settings.database, settings.renditions_mb)
+    registry.register(StateMetrics(engine, cache, admission, warming))
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
-        background = asyncio.create_task(warming.run(app, names, shelf)) if serving else None
+        background = asyncio.create_task(warming.run(app, names)) if serving else None
         yield
         if background is not None:
             background.cancel()
-        if shelf is not None:
-            await shelf.close()
         names.close()
+        stored.close()
         engine.dispose()
         control.dispose()
 
@@ -142,9 +140,11 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     # From the innermost to the outermost.
     app.add_middleware(BodyLimit, largest_bytes=LARGEST_BODY_BYTES)
     app.add_middleware(Limits, admission=admission, time_limit_s=settings.time_limit_s)
-    app.add_middleware(Compression)
+    app.add_middleware(CompressionMiddleware)
     allows = partial(may_read, engine) if settings.read_keys_required else None
-    app.add_middleware(AnswerKept, names=names, kept=kept, shelf=shelf, allows=allows)
+    app.add_middleware(
+        CacheMiddleware, names=names, cache=cache, stored=stored, allows=allows, cache_control=cache_control
+    )
     app.add_middleware(HeadAsGet)
     app.add_middleware(EncodedSlashes)
     if settings.cors_origins:

@@ -8,7 +8,7 @@ import json
 from fastapi import Request, Response
 
 from service.accepted import names_etag, takes_gzip
-from service.kept.compression import worth_compressing, zipped_etag
+from service.cache.compression import worth_compressing, zipped_etag
 
 REVALIDATE = "public, no-cache"
 """May be stored, must be asked for again: a stored library does not change, but ``latest`` moves on."""
@@ -28,7 +28,11 @@ def etag_of(content: bytes) -> str:
 
 
 def json_response(request: Request, document: object, headers: dict[str, str] | None = None) -> Response:
-    """``document`` as compact JSON; every double is written so that it reads back the same."""
+    """``document`` as compact JSON; every double is written so that it reads back the same.
+
+    Raises:
+        ValueError: a number is not finite.
+    """
     content = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
     return representation(request, content, JSON, headers)
 

@@ -11,9 +11,8 @@ from fastapi.concurrency import run_in_threadpool
 from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
-from service.kept.names import LibraryNames
+from service.cache.library_names import LibraryNames
 from service.network.store import NetworkStore
-from service.renditions.shelf import RenditionShelf
 from threadstate.answer.prepare import preparation
 from threadstate.errors import NotFoundError
 from threadstate.library.named import LATEST
@@ -26,7 +25,7 @@ LEISURE = 3.0
 
 
 class Warming:
-    """Describes the interface, and prepares the rendition and the network of the latest library, if there is one.
+    """Describes the interface, and prepares the network of the latest library, if there is one.
 
     Attributes:
         done: whether that was done, or tried.
@@ -37,17 +36,13 @@ class Warming:
         self.done = False
         self.done_in_full = False
 
-    async def run(self, app: FastAPI, names: LibraryNames, shelf: RenditionShelf | None) -> None:
+    async def run(self, app: FastAPI, names: LibraryNames) -> None:
         """Do it, once."""
         await run_in_threadpool(app.openapi)
         library = await names.look_up(LATEST)
         if library is not None:
-            if shelf is not None:
-                shelf.get(library)
             for number in range(STEPS_AT_START):
                 await run_in_threadpool(_prepare, app.state.engine, app.state.networks, library, number)
-            if shelf is not None:
-                await shelf.settled()
         self.done = True
         if library is not None:
             await _prepare_at_leisure(app, library)

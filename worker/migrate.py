@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from sqlalchemy import Engine
 
 from threadstate.archive.complete import completed, incomplete_orientations
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
+from threadstate.library.states_json import fill_states_json, orientations_without_json
 from threadstate.library.turns import Turn, take_turn
 from worker.progress import followed
 
@@ -53,12 +55,19 @@ def migrate_empty(engine: Engine) -> None:
 
 
 def _complete(engine: Engine) -> int:
-    """Add to stored histories what they lack, with a progress bar on stderr; of how many orientations."""
+    """Add to what is stored what it lacks, with progress bars on stderr; to how many orientations falls were added."""
     incomplete = incomplete_orientations(engine)
+    without_json = orientations_without_json(engine)
     if incomplete:
-        for _ in followed(completed(engine, incomplete), "descents", len(incomplete)):
-            pass
+        _exhaust(followed(completed(engine, incomplete), "descents", len(incomplete)))
+    if without_json:
+        _exhaust(followed(fill_states_json(engine, without_json), "states as JSON", len(without_json)))
     return len(incomplete)
+
+
+def _exhaust(steps: Iterable[object]) -> None:
+    for _ in steps:
+        pass
 
 
 def _upgrade(engine: Engine) -> None:

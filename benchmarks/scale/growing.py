@@ -13,7 +13,8 @@ from benchmarks.scale.figures import Grown, Room
 from benchmarks.scale.processor import Stopwatch
 from threadstate.library.address import is_sqlite
 from threadstate.library.history_tables import history_interval
-from threadstate.library.read import LibraryRecord, library_by_id, state_of_pose, states_between
+from threadstate.library.pose import state_of_pose
+from threadstate.library.read import LibraryRecord, library_by_id, states_between
 from threadstate.library.tables import library, state
 from threadstate.library.write import publish_in
 from threadstate.tables import metadata

@@ -47,7 +47,7 @@ EXAMPLES = (
         _JSON,
         "columns",
         "Columns, cut off after the first state",
-        {**_ORIENTATION, "columns": {column.name: list(column.cells) for column in _COLUMNS}, "undecided": []},
+        {**_ORIENTATION, "columns": {name: list(cells) for name, cells in _COLUMNS.items()}, "undecided": []},
     ),
     Example(_HISTORY, "get", "text/csv", "csv", "A table, cut off after the first state", csv_table(_COLUMNS).decode()),
     Example(

@@ -1,4 +1,4 @@
-"""``/v1/libraries/{id}/histories/{roll}/{pitch}``."""
+"""``/v1/libraries/{id}/histories/{roll}/{pitch}``: the states of an orientation at all phases, in order."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from service.accepted import prefers_csv
 from service.angles import PitchPath, RollPath
 from service.database import ReadConnection
 from service.histories.columns import csv_table, history_columns
-from service.histories.repository import history
+from service.histories.rows import history_rows_json, undecided_phases
 from service.histories.schemas import HistoryColumns, HistoryFormat, HistoryRows
 from service.libraries.identify import IdentifiedLibrary
-from service.representation import CSV, NOT_MODIFIED, VARY_ACCEPT, json_response, representation
+from service.representation import CSV, JSON, NOT_MODIFIED, VARY_ACCEPT, json_response, representation
 from service.units import UNIT_HEADER, UnitQuery
+from threadstate.library.read import not_on_the_grid, states_between
 from threadstate.state.document import state_document
 from threadstate.units import conversion_factor
 
@@ -45,19 +46,31 @@ def get_history(
     unit: UnitQuery = None,
 ) -> Response:
     """The states of an orientation at all phases, in order; `csv` leaves out the phases without a state."""
+    grid = library.grid
+    orientation = grid.orientation_index(roll, pitch)
+    if orientation is None:
+        raise not_on_the_grid(library, roll, pitch)
     shown = unit or library.length_unit
-    factor = conversion_factor(library.length_unit, shown)
-    found = history(connection, library, roll, pitch)
-    states = [state_document(state, factor) for state in found.states]
     headers = {UNIT_HEADER: shown.value, "Vary": VARY_ACCEPT}
-    head = {"library": library.id, "unit": shown.value, "roll": roll + 0.0, "pitch": pitch + 0.0}
-    tail = {"undecided": [{"phase": pose.phase_deg, "reason": pose.reason} for pose in found.undecided]}
     accepted = HistoryFormat.CSV if prefers_csv(request.headers.get("accept", "")) else HistoryFormat.ROWS
-    match format or accepted:
-        case HistoryFormat.CSV:
-            return representation(request, csv_table(history_columns(states)), CSV, headers)
-        case HistoryFormat.COLUMNS:
-            columns = {column.name: column.cells for column in history_columns(states)}
-            return json_response(request, {**head, "columns": columns, **tail}, headers)
-        case HistoryFormat.ROWS:
-            return json_response(request, {**head, "states": states, **tail}, headers)
+    chosen = format or accepted
+    if chosen is HistoryFormat.ROWS and shown is library.length_unit:
+        return representation(request, history_rows_json(connection, library, orientation), JSON, headers)
+    factor = conversion_factor(library.length_unit, shown)
+    first = grid.first_ordinal(orientation)
+    states = [
+        state_document(state, factor)
+        for state in states_between(connection, library.id, first, first + grid.phase_count - 1)
+    ]
+    if chosen is HistoryFormat.CSV:
+        return representation(request, csv_table(history_columns(states)), CSV, headers)
+    content = {"columns": history_columns(states)} if chosen is HistoryFormat.COLUMNS else {"states": states}
+    answer = {
+        "library": library.id,
+        "unit": shown.value,
+        "roll": roll + 0.0,
+        "pitch": pitch + 0.0,
+        **content,
+        "undecided": undecided_phases(connection, library, orientation),
+    }
+    return json_response(request, answer, headers)

@@ -10,7 +10,7 @@ from prometheus_client.registry import Collector
 from sqlalchemy import Connection, Engine, QueuePool
 from sqlalchemy.exc import SQLAlchemyError
 
-from service.kept.answers import KeptAnswers
+from service.cache.responses import ResponseCache
 from service.limits.admission import Admission
 from service.warming import Warming
 from threadstate.jobs.names import JobState
@@ -21,9 +21,9 @@ from threadstate.library.read import published_libraries
 class StateMetrics(Collector):
     """Values of the moment at which they are read."""
 
-    def __init__(self, engine: Engine, kept: KeptAnswers, admission: Admission, warming: Warming) -> None:
+    def __init__(self, engine: Engine, cache: ResponseCache, admission: Admission, warming: Warming) -> None:
         self._engine = engine
-        self._kept = kept
+        self._cache = cache
         self._admission = admission
         self._warming = warming
 
@@ -47,12 +47,12 @@ class StateMetrics(Collector):
         yield from stored
 
     def _of_memory(self) -> Iterator[Metric]:
-        kept = self._kept
-        yield _gauge("cache_bytes", "Bytes of the answers that are kept.", kept.bytes)
-        yield _gauge("cache_answers", "Answers that are kept.", len(kept))
+        cache = self._cache
+        yield _gauge("cache_bytes", "Bytes of the responses in the cache.", cache.bytes)
+        yield _gauge("cache_answers", "Responses in the cache.", len(cache))
         for name, said, value in (
-            ("cache_hits", "Requests for an answer that was kept.", kept.hits),
-            ("cache_misses", "Requests for an answer that was not.", kept.misses),
+            ("cache_hits", "Requests for a response that was in the cache.", cache.hits),
+            ("cache_misses", "Requests for one that was not.", cache.misses),
         ):
             yield CounterMetricFamily(f"threadstate_{name}", said, value)
 

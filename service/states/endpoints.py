@@ -9,14 +9,16 @@ from fastapi import APIRouter, Request, Response
 from service.angles import PhasePath, PitchPath, RollPath
 from service.database import ReadConnection
 from service.libraries.identify import IdentifiedLibrary
-from service.representation import NOT_MODIFIED, json_response
+from service.representation import JSON, NOT_MODIFIED, json_response, representation
 from service.states.cursor import decode_cursor, encode_cursor
 from service.states.parameters import FIELDS, CursorQuery, FieldsQuery, FilterQuery, LimitQuery, SortQuery
+from service.states.pose import content_location
 from service.states.repository import places
 from service.states.schemas import StatePage, StateSchema
 from service.units import UNIT_HEADER, UnitQuery
-from threadstate.library.read import state_of_pose, states_at
-from threadstate.state.document import state_document
+from threadstate.library.pose import state_of_pose
+from threadstate.library.read import states_at
+from threadstate.state.document import state_document, state_json
 from threadstate.units import conversion_factor
 
 router = APIRouter(prefix="/v1/libraries/{id}/states", tags=["states"])
@@ -79,8 +81,6 @@ def get_state(
     """
     shown = unit or library.length_unit
     state = state_of_pose(connection, library.id, roll, pitch, phase)
-    headers = {
-        UNIT_HEADER: shown.value,
-        "Content-Location": f"/v1/libraries/{library.id}/states/{roll:g}/{pitch:g}/{phase:g}",
-    }
-    return json_response(request, state_document(state, conversion_factor(library.length_unit, shown)), headers)
+    content = state_json(state, conversion_factor(library.length_unit, shown))
+    headers = {UNIT_HEADER: shown.value, "Content-Location": content_location(library.id, roll, pitch, phase)}
+    return representation(request, content, JSON, headers)

@@ -10,6 +10,7 @@ from threadstate.library.fingerprint import answers_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.method import Method
+from threadstate.library.pose import state_of_pose
 from threadstate.library.rows import chunk_rows
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.model import Answer, UndecidedPose
@@ -59,11 +60,11 @@ def test_a_library_with_undecided_poses_is_whole(writer: Engine, reader: Engine)
 def test_an_undecided_pose_says_why_it_has_no_state(writer: Engine, reader: Engine) -> None:
     library_id = published(writer)
     with reader.connect() as connection:
-        assert read.state_of_pose(connection, library_id, -1.0, -1.0, 240.0) == plain_state(-1.0, -1.0, 240.0)
+        assert state_of_pose(connection, library_id, -1.0, -1.0, 240.0) == plain_state(-1.0, -1.0, 240.0)
         with pytest.raises(UndecidedPoseError, match="pitch 0, phase 120 deg: reason 1"):
-            read.state_of_pose(connection, library_id, -1.0, 0.0, 120.0)
+            state_of_pose(connection, library_id, -1.0, 0.0, 120.0)
         with pytest.raises(NotFoundError) as raised:
-            read.state_of_pose(connection, library_id, -1.0, 0.0, 121.0)
+            state_of_pose(connection, library_id, -1.0, 0.0, 121.0)
         assert not isinstance(raised.value, UndecidedPoseError)
 
 

@@ -20,6 +20,7 @@ from threadstate.library.engine import reader_engine, writer_engine, writing
 from threadstate.library.fingerprint import answers_sha256, library_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
+from threadstate.library.pose import state_of_pose
 from threadstate.library.rows import ChunkRows, chunk_rows
 from threadstate.library.tables import state
 from threadstate.state.model import ContactState, Flag, StateClass
@@ -196,9 +197,9 @@ def test_other_inputs_make_a_library_beside_the_old(writer: Engine, reader: Engi
 def test_a_state_is_found_by_its_pose(writer: Engine, reader: Engine) -> None:
     library_id = _published(writer)
     with reader.connect() as connection:
-        assert read.state_of_pose(connection, library_id, 1.0, -1.0, 240.0) == plain_state(1.0, -1.0, 240.0)
+        assert state_of_pose(connection, library_id, 1.0, -1.0, 240.0) == plain_state(1.0, -1.0, 240.0)
         with pytest.raises(NotFoundError, match="roll 1, pitch -1, phase 241"):
-            read.state_of_pose(connection, library_id, 1.0, -1.0, 241.0)
+            state_of_pose(connection, library_id, 1.0, -1.0, 241.0)
         with pytest.raises(NotFoundError, match="no state 27"):
             read.states_at(connection, library_id, [0, 27])
 

@@ -7,7 +7,8 @@ import pytest
 from tests.worker.conftest import CommandLine
 from threadstate.library.engine import reader_engine
 from threadstate.library.method import Method
-from threadstate.library.read import latest_library, state_of_pose, undecided_between
+from threadstate.library.pose import state_of_pose
+from threadstate.library.read import latest_library, undecided_between
 from threadstate.mesh.options import MeshOptions
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.solve import solve_poses_by_mesh

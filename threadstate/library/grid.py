@@ -90,6 +90,15 @@ class Grid:
         i_roll, i_pitch = divmod(index, self.tilt_count)
         return Orientation(index, self.tilts_deg[i_roll], self.tilts_deg[i_pitch])
 
+    def orientation_index(self, roll_deg: float, pitch_deg: float) -> int | None:
+        """The number of an orientation; None where the grid does not have it."""
+        i_roll, i_pitch = self._tilt_indices.get(roll_deg), self._tilt_indices.get(pitch_deg)
+        return None if i_roll is None or i_pitch is None else i_roll * self.tilt_count + i_pitch
+
+    @cached_property
+    def _tilt_indices(self) -> dict[float, int]:
+        return {tilt_deg: index for index, tilt_deg in enumerate(self.tilts_deg)}
+
     def poses(self, index: int) -> tuple[tuple[float, float, float], ...]:
         """(roll, pitch, phase) in degrees of every state of an orientation, in the order of their ordinals."""
         orientation = self.orientation(index)

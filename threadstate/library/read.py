@@ -9,7 +9,7 @@ from datetime import datetime
 
 from sqlalchemy import ColumnElement, Connection, RowMapping, Table, func, select
 
-from threadstate.errors import NotFoundError, UndecidedPoseError
+from threadstate.errors import NotFoundError
 from threadstate.library.grid import Grid
 from threadstate.library.method import Method
 from threadstate.library.rows import Row, states_from_rows
@@ -136,36 +136,6 @@ def heights_between(connection: Connection, library_id: int, first: int, last: i
         at_first = found[ordinal][0] if ordinal in found else height
         found[ordinal] = at_first, height if rests(StateClass(state_class), embedment_margin) else math.nan
     return found
-
-
-def state_of_pose(
-    connection: Connection, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float
-) -> ContactState:
-    """The state of a pose of the grid, angles in degrees; lengths in the library's unit.
-
-    Raises:
-        UndecidedPoseError: the library's method could not decide the pose.
-        NotFoundError: the pose is not one of the grid's.
-    """
-
-    def of_pose(table: Table, column: str) -> int | str | None:
-        return connection.execute(
-            select(table.c[column]).where(
-                table.c.library_id == library_id,
-                table.c.roll_deg == roll_deg,
-                table.c.pitch_deg == pitch_deg,
-                table.c.phase_deg == phase_deg,
-            )
-        ).scalar()
-
-    ordinal = of_pose(state, "ordinal")
-    if isinstance(ordinal, int):
-        return states_at(connection, library_id, [ordinal])[0]
-    place = f"library {library_id} has no state at roll {roll_deg:g}, pitch {pitch_deg:g}, phase {phase_deg:g} deg"
-    reason = of_pose(undecided, "reason")
-    if reason is not None:
-        raise UndecidedPoseError(f"{place}: {reason}")
-    raise NotFoundError(place)
 
 
 def undecided_between(

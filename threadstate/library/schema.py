@@ -12,7 +12,7 @@ from threadstate.errors import SchemaError, UnreadableDatabaseError
 from threadstate.library.address import is_sqlite, shown
 from threadstate.settings import DATABASE
 
-SCHEMA_REVISION = "0007"
+SCHEMA_REVISION = "0008"
 """The newest migration, which the tables of ``threadstate.library.tables`` mirror."""
 
 MENDING_COMMAND = "threadstate migrate"

@@ -150,6 +150,7 @@ def write_chunk(
                     orientation.pitch_deg,
                     rows.pose_count,
                     content_sha256_of(rows, history),
+                    rows.states_json,
                 )
             ],
         )

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-import json
+from math import isfinite
 from typing import TypedDict
 
+import orjson
+
+from threadstate.errors import InvalidValueError
 from threadstate.state.model import Contact, ContactState, StagePose
 
 Lengths = list[float]
@@ -64,6 +67,9 @@ def state_document(state: ContactState, length_factor: float = 1.0) -> StateDocu
     """The document of a state, every length multiplied by ``length_factor``.
 
     -0.0 becomes 0.0: a stored state and one solved on demand then have the same document.
+
+    Raises:
+        InvalidValueError: a number of the state is not finite.
     """
     return {
         "roll": state.roll_deg + 0.0,
@@ -85,9 +91,13 @@ def state_document(state: ContactState, length_factor: float = 1.0) -> StateDocu
     }
 
 
-def state_json(state: ContactState, length_factor: float = 1.0) -> str:
-    """:func:`state_document` as one line of compact JSON; every double is written so that it reads back the same."""
-    return json.dumps(state_document(state, length_factor), separators=(",", ":"), allow_nan=False)
+def state_json(state: ContactState, length_factor: float = 1.0) -> bytes:
+    """:func:`state_document` as one line of compact JSON; every double is its shortest decimal.
+
+    Raises:
+        InvalidValueError: a number of the state is not finite.
+    """
+    return orjson.dumps(state_document(state, length_factor))
 
 
 def _pose(pose: StagePose, length_factor: float) -> PoseDocument:
@@ -106,15 +116,23 @@ def _contact(contact: Contact, length_factor: float) -> ContactDocument:
         "bolt_region": contact.bolt_region.value,
         "nut_region": contact.nut_region.value,
         "features": contact.features.value,
-        "bolt_margin": contact.bolt_margin * length_factor + 0.0,
-        "nut_margin": contact.nut_margin * length_factor + 0.0,
+        "bolt_margin": _finite(contact.bolt_margin * length_factor + 0.0),
+        "nut_margin": _finite(contact.nut_margin * length_factor + 0.0),
     }
 
 
 def _vector(vector: tuple[float, float, float], factor: float) -> list[float]:
     x, y, z = vector
+    # One test for all three: orjson writes null for what is not finite.
+    _finite(x + y + z)
     return [x * factor + 0.0, y * factor + 0.0, z * factor + 0.0]
 
 
 def _number(value: float | None, factor: float) -> float | None:
-    return None if value is None else value * factor + 0.0
+    return None if value is None else _finite(value * factor + 0.0)
+
+
+def _finite(value: float) -> float:
+    if not isfinite(value):
+        raise InvalidValueError("number of a state", value, "a finite one")
+    return value

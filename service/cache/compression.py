@@ -1,4 +1,4 @@
-"""Answers compressed by gzip for clients that take it; the compressed bytes have an ETag of their own."""
+"""Responses compressed by gzip for clients that accept it; the compressed bytes have an ETag of their own."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.accepted import takes_gzip
-from service.kept.answers import Headers
+from service.cache.responses import Headers
 
 LEAST_BYTES = 1024
-"""Less than that is not worth it."""
+"""Smaller responses are sent as they are."""
 _AT_ONCE_BYTES = 16 * 1024
-"""More than that is compressed in a thread: meanwhile others are answered."""
+"""Larger ones are compressed in a thread, so that the event loop goes on."""
 _LEVEL = 6
 _MEDIA_TYPES = (
     "application/json",
@@ -71,7 +71,7 @@ def _gzip(content: bytes) -> bytes:
     return gzip.compress(content, _LEVEL, mtime=0)
 
 
-class Compression:
+class CompressionMiddleware:
     """Compresses what comes in one piece, under the ETag that it has been given; streams go through as they are."""
 
     def __init__(self, app: ASGIApp) -> None:

@@ -10,8 +10,8 @@ from fastapi.testclient import TestClient
 from sqlalchemy import Connection
 
 from service.app import create_app
-from service.kept.answers import OVERHEAD_BYTES, Answer, KeptAnswers
-from service.kept.names import LibraryNames
+from service.cache.library_names import LibraryNames
+from service.cache.responses import OVERHEAD_BYTES, CachedResponse, ResponseCache
 from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
@@ -26,39 +26,39 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 HISTORY = "/v1/libraries/latest/histories/1/-1"
 
 
-def _answer(size: int) -> Answer:
-    return Answer("/", '"x"', [], bytes(size))
+def _response(size: int) -> CachedResponse:
+    return CachedResponse("/", '"x"', [], bytes(size))
 
 
-def test_least_recently_asked_for_goes_first() -> None:
-    kept = KeptAnswers(8 * OVERHEAD_BYTES)
+def test_least_recently_used_is_dropped_first() -> None:
+    cache = ResponseCache(8 * OVERHEAD_BYTES)
     for i in range(4):
-        kept.put(i, _answer(OVERHEAD_BYTES))
-    assert kept.get(0) is not None
-    kept.put(4, _answer(OVERHEAD_BYTES))
-    assert [kept.get(i) is not None for i in range(5)] == [True, False, True, True, True]
-    assert (kept.bytes, len(kept)) == (8 * OVERHEAD_BYTES, 4)
-    assert (kept.hits, kept.misses) == (5, 1)
+        cache.put(i, _response(OVERHEAD_BYTES))
+    assert cache.get(0) is not None
+    cache.put(4, _response(OVERHEAD_BYTES))
+    assert [cache.get(i) is not None for i in range(5)] == [True, False, True, True, True]
+    assert (cache.bytes, len(cache)) == (8 * OVERHEAD_BYTES, 4)
+    assert (cache.hits, cache.misses) == (5, 1)
 
 
 def test_same_key_again_takes_no_more_room() -> None:
-    kept = KeptAnswers(8 * OVERHEAD_BYTES)
+    cache = ResponseCache(8 * OVERHEAD_BYTES)
     for _ in range(9):
-        kept.put(1, _answer(100))
-    assert kept.bytes == OVERHEAD_BYTES + 100
+        cache.put(1, _response(100))
+    assert cache.bytes == OVERHEAD_BYTES + 100
 
 
-def test_what_is_too_large_is_not_kept() -> None:
-    kept = KeptAnswers(8 * OVERHEAD_BYTES)
-    kept.put(1, _answer(OVERHEAD_BYTES + 1))
-    assert len(kept) == 0
-    nothing = KeptAnswers(0)
-    nothing.put(1, _answer(0))
+def test_what_is_too_large_is_not_cached() -> None:
+    cache = ResponseCache(8 * OVERHEAD_BYTES)
+    cache.put(1, _response(OVERHEAD_BYTES + 1))
+    assert len(cache) == 0
+    nothing = ResponseCache(0)
+    nothing.put(1, _response(0))
     assert len(nothing) == 0
 
 
 @pytest.mark.parametrize("room", ["0", "1"])
-def test_kept_answer_is_the_one_that_was_made(made_up: StoredLibrary, room: str) -> None:
+def test_cached_response_is_the_one_that_was_made(made_up: StoredLibrary, room: str) -> None:
     with TestClient(create_app(read_settings({DATABASE: made_up.database, CACHE_MB: room}))) as client:
         for path in ("states?limit=3", "orientations", "histories/1/-1", "histories/1/-1?format=csv", "meshes/nut", ""):
             for encoding in ("gzip", "identity"):
@@ -101,7 +101,7 @@ def test_answers_to_posts_and_problems_are_compressed(client: TestClient) -> Non
     assert "Content-Encoding" not in small.headers
 
 
-def test_accept_header_is_part_of_what_is_kept(client: TestClient) -> None:
+def test_accept_header_is_part_of_the_key(client: TestClient) -> None:
     for _ in range(2):
         assert client.get(HISTORY, headers={"Accept": "text/csv"}).headers["Content-Type"].startswith("text/csv")
         assert client.get(HISTORY, headers={"Accept": "*/*"}).headers["Content-Type"] == "application/json"

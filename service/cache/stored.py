@@ -1,0 +1,92 @@
+"""Responses read straight from the database, before routing: the state of a pose, the history of an orientation.
+
+Each is one read and one serialisation. Only what can be answered for certain is answered here, with the same bytes as
+the endpoints' (a test compares them); everything else, errors too, is the endpoints' business.
+"""
+
+from __future__ import annotations
+
+import re
+
+from fastapi.concurrency import run_in_threadpool
+from sqlalchemy import Engine
+from sqlalchemy.exc import SQLAlchemyError
+
+from service.cache.responses import CachedResponse
+from service.histories.rows import HISTORY_ROUTE, history_rows_json
+from service.representation import JSON, VARY_ACCEPT, etag_of
+from service.states.pose import STATE_ROUTE, content_location
+from service.units import UNIT_HEADER
+from threadstate.library.pose import PoseReader
+from threadstate.library.read import LibraryRecord
+from threadstate.state.document import state_json
+
+_ANGLE = r"(-?[0-9]{1,3}(?:\.[0-9]{1,6})?)"
+_STATE = re.compile(f"/states/{_ANGLE}/{_ANGLE}/{_ANGLE}")
+_HISTORY = re.compile(f"/histories/{_ANGLE}/{_ANGLE}")
+_JSON = JSON.encode()
+_UNIT_HEADER = UNIT_HEADER.lower().encode()
+
+
+class StoredResponses:
+    """States and histories of the database behind ``engine``, in their library's own unit.
+
+    A pose is read within the event loop where that never waits (SQLite), everything else in a thread.
+    """
+
+    def __init__(self, engine: Engine, cache_control: str) -> None:
+        self._engine = engine
+        self._poses = PoseReader(engine)
+        self._cache_control = cache_control.encode()
+
+    def close(self) -> None:
+        """Close the connection that reads poses."""
+        self._poses.close()
+
+    async def state(self, library: LibraryRecord, path: str) -> CachedResponse | None:
+        """The state that ``path``, below the library's address, is about; None where it is not the path of one."""
+        match = _STATE.fullmatch(path)
+        if match is None:
+            return None
+        roll, pitch, phase = float(match[1]), float(match[2]), float(match[3])
+        if self._poses.waits:
+            state = await run_in_threadpool(self._poses.state, library.id, roll, pitch, phase)
+        else:
+            state = self._poses.state(library.id, roll, pitch, phase)
+        if state is None:
+            return None
+        location = content_location(library.id, roll, pitch, phase)
+        return self._response(STATE_ROUTE, library, state_json(state), ("content-location", location))
+
+    async def history(self, library: LibraryRecord, path: str) -> CachedResponse | None:
+        """The history that ``path``, below the library's address, is about; None where it is not the path of one."""
+        match = _HISTORY.fullmatch(path)
+        if match is None:
+            return None
+        orientation = library.grid.orientation_index(float(match[1]), float(match[2]))
+        if orientation is None:
+            return None
+        return await run_in_threadpool(self._read_history, library, orientation)
+
+    def _read_history(self, library: LibraryRecord, orientation: int) -> CachedResponse | None:
+        try:
+            with self._engine.connect() as connection:
+                content = history_rows_json(connection, library, orientation)
+        except SQLAlchemyError:
+            return None
+        return self._response(HISTORY_ROUTE, library, content, vary=VARY_ACCEPT)
+
+    def _response(
+        self, route: str, library: LibraryRecord, content: bytes, *further: tuple[str, str], vary: str = ""
+    ) -> CachedResponse:
+        etag = etag_of(content)
+        headers = [
+            (b"etag", etag.encode()),
+            (b"cache-control", self._cache_control),
+            (_UNIT_HEADER, library.length_unit.value.encode()),
+            *((name.encode(), value.encode()) for name, value in further),
+            (b"vary", f"{vary}, Accept-Encoding".removeprefix(", ").encode()),
+            (b"content-length", b"%d" % len(content)),
+            (b"content-type", _JSON),
+        ]
+        return CachedResponse(route, etag, headers, content)

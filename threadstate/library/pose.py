@@ -1,0 +1,146 @@
+"""The state of one pose, read by one statement whichever tables its rows are in."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Callable, Iterable, Sequence
+from operator import itemgetter
+from typing import Any
+
+from sqlalchemy import (
+    Column,
+    ColumnElement,
+    CompoundSelect,
+    Connection,
+    Double,
+    Engine,
+    Integer,
+    Select,
+    String,
+    Table,
+    bindparam,
+    cast,
+    literal_column,
+    null,
+    select,
+    union_all,
+)
+from sqlalchemy.exc import SQLAlchemyError
+
+from threadstate.errors import NotFoundError, UndecidedPoseError
+from threadstate.library.address import is_sqlite
+from threadstate.library.rows import Row, states_from_rows
+from threadstate.library.tables import contact, stage_pose, state, state_flag, undecided
+from threadstate.state.model import ContactState
+
+_TABLES = (state, stage_pose, contact, state_flag)
+
+
+def state_of_pose(
+    connection: Connection, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float
+) -> ContactState:
+    """The state of a pose of the grid, angles in degrees; lengths in the library's unit.
+
+    Raises:
+        UndecidedPoseError: the library's method could not decide the pose.
+        NotFoundError: the pose is not one of the grid's.
+    """
+    pose = {"library": library_id, "roll": roll_deg, "pitch": pitch_deg, "phase": phase_deg}
+    found = _state_of(connection.execute(_STATEMENT, pose))
+    if found is not None:
+        return found
+    place = f"library {library_id} has no state at roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg"
+    reason = connection.scalar(_at_pose(undecided, undecided.c.reason), pose)
+    if reason is not None:
+        raise UndecidedPoseError(f"{place}: {reason}")
+    raise NotFoundError(place)
+
+
+class PoseReader:
+    """Reads states by their poses, one after another, with nothing between the driver and the statement.
+
+    ``waits`` is whether a read may wait: for PostgreSQL's server; a SQLite file's lock is never waited for.
+    """
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self.waits = not is_sqlite(engine.url)
+        compiled = _STATEMENT.compile(dialect=engine.dialect)
+        self._sql = str(compiled)
+        self._names = tuple(compiled.positiontup or ())
+        self._connection: Connection | None = None
+        self._cursor: Any = None
+
+    def state(self, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float) -> ContactState | None:
+        """The state of a pose, as :func:`state_of_pose`; None where there is none or it cannot be read now."""
+        if self.waits:
+            try:
+                with self._engine.connect() as connection:
+                    return state_of_pose(connection, library_id, roll_deg, pitch_deg, phase_deg)
+            except (NotFoundError, UndecidedPoseError, SQLAlchemyError):
+                return None
+        pose = {"library": library_id, "roll": roll_deg, "pitch": pitch_deg, "phase": phase_deg}
+        try:
+            if self._cursor is None:
+                self._connection = self._engine.connect()
+                self._cursor = self._connection.connection.cursor()
+                self._cursor.execute("PRAGMA busy_timeout = 0")
+            return _state_of(self._cursor.execute(self._sql, [pose[name] for name in self._names]))
+        except (SQLAlchemyError, sqlite3.Error):
+            return None
+
+    def close(self) -> None:
+        """Close its connection, if it has one."""
+        if self._connection is not None:
+            self._connection.close()
+            self._connection = self._cursor = None
+
+
+def _state_of(rows: Iterable[Sequence[Any]]) -> ContactState | None:
+    """The state whose rows these are, each as :func:`_statement` says; None where there are none."""
+    parts: tuple[list[Row], ...] = ([], [], [], [])
+    for row in rows:
+        number = row[0]
+        parts[number].append(_CELLS[number](row))
+    states, poses, contacts, flags = parts
+    if not states:
+        return None
+    for part in (poses, contacts, flags):
+        # Ordinal, and place within the state: the order of each table's key.
+        part.sort(key=itemgetter(0, 1))
+    return states_from_rows(states, poses, contacts, flags)[0]
+
+
+def _at_pose(table: Table, column: Column[Any]) -> Select[Any]:
+    """The value of a column of ``table`` at the pose of the parameters."""
+    names = ("roll", "pitch", "phase")
+    return select(column).where(
+        table.c.library_id == bindparam("library"), *(table.c[f"{name}_deg"] == bindparam(name) for name in names)
+    )
+
+
+def _statement() -> tuple[CompoundSelect[Any], tuple[Callable[[Sequence[Any]], Row], ...]]:
+    """The statement for all rows of the state at a pose, and what picks the cells of each table's columns out of one.
+
+    A row begins with the place of its table in ``_TABLES``; then there are slots of every type, as many as the table
+    with the most columns of that type needs.
+    """
+    columns = [[column for column in table.c if column.name != "library_id"] for table in _TABLES]
+    most = {
+        kind: max(sum(isinstance(column.type, kind) for column in of_table) for of_table in columns)
+        for kind in (Integer, String, Double)
+    }
+    ordinal = _at_pose(state, state.c.ordinal).scalar_subquery()
+    selects, cells_of = [], []
+    for number, (table, of_table) in enumerate(zip(_TABLES, columns, strict=True)):
+        cells: list[ColumnElement[Any]] = [literal_column(str(number), Integer)]
+        for kind, count in most.items():
+            of_kind = [column for column in of_table if isinstance(column.type, kind)]
+            cells += [*of_kind, *[cast(null(), kind)] * (count - len(of_kind))]
+        places = {cell.name: place for place, cell in enumerate(cells) if isinstance(cell, Column)}
+        cells_of.append(itemgetter(*(places[column.name] for column in of_table)))
+        selects.append(select(*cells).where(table.c.library_id == bindparam("library"), table.c.ordinal == ordinal))
+    return union_all(*selects), tuple(cells_of)
+
+
+_STATEMENT, _CELLS = _statement()
