@@ -14,6 +14,7 @@ from service.representation import JSON, VARY_ACCEPT, etag_of
 from service.units import UNIT_HEADER
 from threadstate.library.grid import Grid
 from threadstate.library.read import LibraryRecord
+from threadstate.numbers import number_text
 
 STATE_ROUTE = "/v1/libraries/{id}/states/{roll}/{pitch}/{phase}"
 HISTORY_ROUTE = "/v1/libraries/{id}/histories/{roll}/{pitch}"
@@ -41,7 +42,7 @@ def rendered_state(rendition: Rendition, library: LibraryRecord, path: str, cach
     content = rendition.state(first + place)
     if content is None:
         return None
-    location = f"/v1/libraries/{library.id}/states/{roll:g}/{pitch:g}/{phase:g}"
+    location = f"/v1/libraries/{library.id}/states/{number_text(roll)}/{number_text(pitch)}/{number_text(phase)}"
     return _answer(
         STATE_ROUTE, library, content, cached, (b"content-location", location.encode()), (b"vary", b"Accept-Encoding")
     )

@@ -16,6 +16,7 @@ from service.states.repository import places
 from service.states.schemas import StatePage, StateSchema
 from service.units import UNIT_HEADER, UnitQuery
 from threadstate.library.read import state_of_pose, states_at
+from threadstate.numbers import number_text
 from threadstate.state.document import state_document
 from threadstate.units import conversion_factor
 
@@ -81,6 +82,6 @@ def get_state(
     state = state_of_pose(connection, library.id, roll, pitch, phase)
     headers = {
         UNIT_HEADER: shown.value,
-        "Content-Location": f"/v1/libraries/{library.id}/states/{roll:g}/{pitch:g}/{phase:g}",
+        "Content-Location": f"/v1/libraries/{library.id}/states/{'/'.join(map(number_text, (roll, pitch, phase)))}",
     }
     return json_response(request, state_document(state, conversion_factor(library.length_unit, shown)), headers)
