@@ -112,11 +112,14 @@ class RefusedParameterError(Exception):
     """A query parameter that a resource does not know, or that was given twice."""
 
     def __init__(self, kind: Kind, name: str, value: str, valid: str) -> None:
-        super().__init__(name)
+        super().__init__(kind, name, value, valid)
         self.kind = kind
         self.name = name
         self.value = value
         self.valid = valid
+
+    def __str__(self) -> str:
+        return self.name
 
 
 def install_problem_handlers(app: FastAPI) -> None:

@@ -1,4 +1,7 @@
-"""The errors of the domain: each names the bad value and the valid range."""
+"""The errors of the domain: each names the bad value and the valid range.
+
+Every error takes its arguments as they are, so that it can be sent to another process.
+"""
 
 from __future__ import annotations
 
@@ -17,10 +20,13 @@ class InvalidValueError(ThreadstateError, ValueError):
     """
 
     def __init__(self, name: str, value: object, valid: str) -> None:
-        super().__init__(f"{name} is {value!r}; valid: {valid}")
+        super().__init__(name, value, valid)
         self.name = name
         self.value = value
         self.valid = valid
+
+    def __str__(self) -> str:
+        return f"{self.name} is {self.value!r}; valid: {self.valid}"
 
 
 class ImpossibleThreadError(InvalidValueError):
@@ -61,11 +67,14 @@ class UnresolvedPoseError(ThreadstateError):
         phase_deg: float,
         reason: str = SEARCH_ENDED,
     ) -> None:
-        super().__init__(
-            f"no certain contact state for roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg: {reason}"
-        )
+        super().__init__(roll_deg, pitch_deg, phase_deg, reason)
         self.pose_deg = (roll_deg, pitch_deg, phase_deg)
         self.reason = reason
+
+    def __str__(self) -> str:
+        roll_deg, pitch_deg, phase_deg = self.pose_deg
+        pose = f"roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg"
+        return f"no certain contact state for {pose}: {self.reason}"
 
 
 class MeshUndecidedError(UnresolvedPoseError):
@@ -76,5 +85,10 @@ class MissingExtraError(ThreadstateError):
     """Something needs a package that is not installed; the message names the extra that brings it."""
 
     def __init__(self, purpose: str, extra: str) -> None:
-        super().__init__(f"{purpose} needs the extra `{extra}`: pip install '.[{extra}]' in a checkout of threadstate")
+        super().__init__(purpose, extra)
+        self.purpose = purpose
         self.extra = extra
+
+    def __str__(self) -> str:
+        install = f"pip install '.[{self.extra}]' in a checkout of threadstate"
+        return f"{self.purpose} needs the extra `{self.extra}`: {install}"

@@ -9,6 +9,7 @@ from threadstate.answer.library_network import LibraryNetwork
 from threadstate.answer.windows import windows_document, windows_of_histories
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
+from threadstate.numbers import number_text
 from worker.output import tell
 from worker.progress import followed
 
@@ -37,12 +38,12 @@ def falls_and_windows(
     ]
     if off_grid and roll_deg is not None and pitch_deg is not None:
         name, angle = off_grid[0]
-        tell(f"computed: {name} {angle:g} is not on the grid of library {network.library.id}")
+        tell(f"computed: {name} {number_text(angle)} is not on the grid of library {network.library.id}")
         history = computed_history(pair, roll_deg, pitch_deg, network.options)
         found = [windows_document(history, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)]
     elif off_grid:
         name, angle = off_grid[0]
-        valid = f"one of {', '.join(f'{tilt:g}' for tilt in tilts)} deg; any angle where roll and pitch are both given"
+        valid = f"one of {', '.join(map(number_text, tilts))} deg; any angle where roll and pitch are both given"
         raise InvalidValueError(f"--{name}", angle, valid)
     else:
         found = windows_of_histories(network.histories, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)

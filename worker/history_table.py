@@ -21,6 +21,7 @@ from threadstate.answer.documents import (
     WindowDocument,
 )
 from threadstate.history.falls import SPAN_DEG
+from threadstate.numbers import number_text
 from threadstate.units import LengthUnit
 from worker.output import print_line
 from worker.tables import angle, interval_end, length, phase, table
@@ -66,7 +67,7 @@ def print_falls(orientations: Sequence[FallsDocument], unit: LengthUnit, span: f
         f"falls ({unit})",
         "jumps",
         "at",
-        f"steepest in {span:g} deg",
+        f"steepest in {number_text(span)} deg",
         "from",
     )
     for one in orientations:
@@ -76,8 +77,8 @@ def print_falls(orientations: Sequence[FallsDocument], unit: LengthUnit, span: f
             ends = phase(snap.start), interval_end(snap.start, snap.end)
             told = [*ends, length(snap.fall, unit), length(snap.jump, unit), phase(snap.jump_at)]
         rows.add_row(
-            f"{one.roll:g}",
-            f"{one.pitch:g}",
+            number_text(one.roll),
+            number_text(one.pitch),
             *told,
             length(one.steepest, unit),
             phase(one.steepest_from),
@@ -105,7 +106,7 @@ def print_compared(compared: Sequence[Compared], unit: LengthUnit) -> None:
     def of_snap(cell: Callable[[SnapDocument], str]) -> Callable[[Compared], str]:
         return lambda one: "-" if one.found.snap is None else cell(one.found.snap)
 
-    add("roll, pitch (deg)", lambda one: f"{one.found.roll:g}, {one.found.pitch:g}")
+    add("roll, pitch (deg)", lambda one: f"{number_text(one.found.roll)}, {number_text(one.found.pitch)}")
     add(f"thread pitch ({unit})", lambda one: length(one.thread_pitch, unit))
     add("snap from (deg)", of_snap(lambda snap: phase(snap.start)))
     add("snap to", of_snap(lambda snap: interval_end(snap.start, snap.end)))
@@ -116,15 +117,15 @@ def print_compared(compared: Sequence[Compared], unit: LengthUnit) -> None:
     )
     add(f"of it jumps ({unit})", of_snap(lambda snap: length(snap.jump, unit)))
     add("... at (deg)", of_snap(lambda snap: phase(snap.jump_at)))
-    add(f"steepest in {SPAN_DEG:g} deg ({unit})", lambda one: length(one.found.steepest, unit))
+    add(f"steepest in {number_text(SPAN_DEG)} deg ({unit})", lambda one: length(one.found.steepest, unit))
     add("windows (deg)", lambda one: ", ".join(f"{window.width:.3f}" for window in one.found.windows) or "-")
     rows.print()
 
 
 def print_falls_range(found: FallsRangeDocument, unit: LengthUnit) -> None:
     """What the tilts within a tolerance give, from least to most."""
-    of = f"of {found.tilts} tilts within +-{found.tolerance:g} deg"
-    print_line(f"roll {found.roll:g}, pitch {found.pitch:g} deg: {found.snaps} {of} snap")
+    of = f"of {found.tilts} tilts within +-{number_text(found.tolerance)} deg"
+    print_line(f"roll {number_text(found.roll)}, pitch {number_text(found.pitch)} deg: {found.snaps} {of} snap")
     rows = table("", "least", "most")
     for name, within, write in (
         (f"steepest ({unit})", found.steepest, partial(length, unit=unit)),
@@ -143,8 +144,8 @@ def print_windows(windows: Sequence[WindowDocument], unit: LengthUnit) -> None:
     rows = table("roll", "pitch", "window from", "to", "width", f"climbs ({unit})")
     for one in windows:
         rows.add_row(
-            f"{one.roll:g}",
-            f"{one.pitch:g}",
+            number_text(one.roll),
+            number_text(one.pitch),
             phase(one.enter),
             interval_end(one.enter, one.leave),
             f"{one.width:.3f}",
@@ -171,8 +172,8 @@ def print_transitions(transitions: Sequence[TransitionDocument], unit: LengthUni
         before, after = one.first_height
         rows.add_row(
             one.move.value,
-            f"{one.source.roll:g}",
-            f"{one.source.pitch:g}",
+            number_text(one.source.roll),
+            number_text(one.source.pitch),
             phase(one.phase),
             interval_end(one.phase, one.phase_end) if one.phase_end != one.phase else "",
             one.source.formation,
@@ -225,8 +226,8 @@ def print_path(path: PathDocument | None, unit: LengthUnit) -> None:
     for step in path.steps:
         rows.add_row(
             "" if step.move is None else step.move.value,
-            f"{step.roll:g}",
-            f"{step.pitch:g}",
+            number_text(step.roll),
+            number_text(step.pitch),
             phase(step.phase),
             angle(step.turning),
             length(step.margin, unit),
@@ -247,5 +248,5 @@ def print_location(location: LocationDocument) -> None:
     rows = table("roll", "pitch", "from", "to", "formation")
     for one in location.stretches:
         end = interval_end(one.start, one.end)
-        rows.add_row(f"{one.roll:g}", f"{one.pitch:g}", phase(one.start), end, one.formation)
+        rows.add_row(number_text(one.roll), number_text(one.pitch), phase(one.start), end, one.formation)
     rows.print()

@@ -11,6 +11,7 @@ from sqlalchemy import Connection
 from threadstate.answer.library_network import LibraryNetwork, library_network
 from threadstate.errors import InvalidValueError
 from threadstate.library.stored_inputs import library_options, library_pair
+from threadstate.numbers import number_text
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
@@ -76,5 +77,5 @@ def orientation_source(
         checked_poses([(roll_deg, pitch_deg, 0.0)])
         for name, value in (("roll", roll_deg), ("pitch", pitch_deg)):
             if value not in tilts:
-                tell(f"computed: {name} {value:g} is not on the grid of library {record.id}")
+                tell(f"computed: {name} {number_text(value)} is not on the grid of library {record.id}")
         yield OrientationSource(library_pair(record), library_options(record), None)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from threadstate.answer.documents import HeightsDocument, WindowDocument
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.units import LengthUnit
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def plot_heights(document: HeightsDocument, windows: Sequence[WindowDocument], u
             # A height that is not known interrupts the curve.
             known = [float("nan") if height is None else height for height in heights]
             axes.plot(document.phases, known, color=colour, linewidth=1.4, label=label)
-        axes.set_title(f"roll {document.roll:g}°, pitch {document.pitch:g}°")
+        axes.set_title(f"roll {number_text(document.roll)}°, pitch {number_text(document.pitch)}°")
         axes.set_xlabel("phase (deg), counter-clockwise")
         axes.set_ylabel(f"height of the bolt ({unit})")
         axes.set_xlim(0.0, TURN_DEG)

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.state.options import TILT_LIMIT_DEG
 
 HEADER = ["roll", "pitch", "phase"]
@@ -53,6 +54,7 @@ def _angle(text: str, name: str, limit_deg: float) -> float:
     except ValueError:
         number = math.nan
     if not (math.isfinite(number) and abs(number) <= limit_deg):
-        valid = "any finite number of degrees" if math.isinf(limit_deg) else f"{-limit_deg:g} to {limit_deg:g} deg"
+        limits = f"{number_text(-limit_deg)} to {number_text(limit_deg)} deg"
+        valid = "any finite number of degrees" if math.isinf(limit_deg) else limits
         raise InvalidValueError(name, text, valid)
     return number

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from threadstate.answer.lengths import scaled
+from threadstate.numbers import number_text
 from threadstate.state.model import ContactState
 from threadstate.units import LengthUnit
 from worker.tables import angle, length, table
@@ -17,9 +18,9 @@ def print_states(states: Sequence[ContactState], unit: LengthUnit, factor: float
     )
     for state in states:
         rows.add_row(
-            f"{state.roll_deg:g}",
-            f"{state.pitch_deg:g}",
-            f"{state.phase_deg % 360.0:g}",
+            number_text(state.roll_deg),
+            number_text(state.pitch_deg),
+            f"{state.phase_deg % 360.0:.12g}",
             state.state_class.value,
             angle(state.lambda_deg),
             angle(state.mu_deg),

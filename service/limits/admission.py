@@ -13,6 +13,7 @@ import re
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.problems import OUT_OF_TIME, TOO_MANY_REQUESTS, TOO_MANY_STREAMS, Kind, problem_response
+from threadstate.numbers import number_text
 
 LIMITED = "/v1/"
 """What is below computes, or asks the database; the rest is for those who watch, or comes from memory."""
@@ -112,7 +113,7 @@ class Limits:
                 await task
                 return
             given_up = True
-            await _refuse(OUT_OF_TIME, f"no answer within {self._time_limit:g} s", send)
+            await _refuse(OUT_OF_TIME, f"no answer within {number_text(self._time_limit)} s", send)
         finally:
             if not task.done():
                 self._let_end(task)

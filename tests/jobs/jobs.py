@@ -35,24 +35,31 @@ def published_count(engine: Engine) -> int:
         return len(published_libraries(connection))
 
 
-def opened(engine: Engine, job_id: int) -> int:
+def opened(engine: Engine, job_id: int, inputs: LibraryInputs = INPUTS) -> int:
     """Open a job.
 
     Returns:
         Number of its library.
     """
-    library_id = open_library(engine, INPUTS)
+    library_id = open_library(engine, inputs)
     open_job(engine, job_id, library_id)
     return library_id
 
 
-def commit(engine: Engine, library_id: int, index: int) -> None:
+def commit(engine: Engine, library_id: int, index: int, grid: Grid = GRID) -> None:
     """Commit a chunk of plain states to the library."""
-    states = [plain_state(*pose) for pose in GRID.poses(index)]
-    write_chunk(engine, library_id, chunk_rows(GRID.orientation(index), GRID.first_ordinal(index), states))
+    states = [plain_state(*pose) for pose in grid.poses(index)]
+    write_chunk(engine, library_id, chunk_rows(grid.orientation(index), grid.first_ordinal(index), states))
 
 
-def work_off(engine: Engine, worker_id: str, job_id: int, library_id: int, most: int = GRID.orientation_count) -> int:
+def work_off(
+    engine: Engine,
+    worker_id: str,
+    job_id: int,
+    library_id: int,
+    most: int = GRID.orientation_count,
+    grid: Grid = GRID,
+) -> int:
     """Take, commit and hand in chunks as long as there are free ones, ``most`` at most.
 
     Returns:
@@ -62,6 +69,6 @@ def work_off(engine: Engine, worker_id: str, job_id: int, library_id: int, most:
         taken = take_chunks(engine, worker_id, job_id, 1)
         if not taken:
             return done
-        commit(engine, library_id, taken[0])
+        commit(engine, library_id, taken[0], grid)
         assert hand_in(engine, worker_id, job_id, taken[0])
     return most

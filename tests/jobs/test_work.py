@@ -14,6 +14,7 @@ from threadstate.jobs.work import (
     MOST_SETBACKS,
     hand_in,
     has_ended,
+    is_needed_elsewhere,
     let_go,
     next_work,
     publish_job,
@@ -80,6 +81,66 @@ def test_work_is_the_oldest_job_of_this_code_that_there_is_something_to_do_on(en
     publish_job(engine, other, first.id, library_id, GRID)
     assert number() is None
     assert has_ended(engine, versions)
+
+
+SMALLER = replace(INPUTS, grid=Grid(1.0, 1.0, 360.0))
+
+
+@pytest.mark.parametrize("begun_first", [0, 1])
+def test_workers_spread_over_jobs(engine: Engine, begun_first: int) -> None:
+    older, younger = (ask_for(engine, inputs).id for inputs in (INPUTS, SMALLER))
+    opened(engine, older)
+    opened(engine, younger, SMALLER)
+    jobs = [older, younger] if begun_first == 0 else [younger, older]
+    assert _next(engine) == older, "nobody is at either"
+    take_chunks(engine, join(engine, "a"), jobs[0], 2)
+    assert _next(engine) == jobs[1], "chunks are not counted, workers are"
+    take_chunks(engine, join(engine, "b"), jobs[1], 1)
+    assert _next(engine) == older, "one is at each"
+    third = join(engine, "c")
+    take_chunks(engine, third, older, 1)
+    assert _next(engine) == younger
+    leave(engine, third)
+    assert _next(engine) == older
+
+
+def test_a_job_that_can_be_published_is_not_passed_over(engine: Engine) -> None:
+    older, younger = (ask_for(engine, inputs).id for inputs in (INPUTS, SMALLER))
+    opened(engine, older)
+    library_id = opened(engine, younger, SMALLER)
+    take_chunks(engine, join(engine, "one"), older, 1)
+    work_off(engine, join(engine, "two"), younger, library_id, grid=SMALLER.grid)
+    assert _next(engine) == younger
+
+
+@pytest.mark.parametrize("younger_is_begun", [False, True])
+def test_all_but_one_leave_a_job_for_one_that_nobody_is_at(engine: Engine, younger_is_begun: bool) -> None:
+    older, younger = (ask_for(engine, inputs).id for inputs in (INPUTS, SMALLER))
+    opened(engine, older)
+    versions = code_versions()
+    one, two, three = sorted(join(engine, name) for name in "abc")
+    take_chunks(engine, two, older, 1)
+    assert not is_needed_elsewhere(engine, two, older, versions), "it is the only one there"
+    take_chunks(engine, one, older, 1)
+    if younger_is_begun:
+        opened(engine, younger, SMALLER)
+    assert is_needed_elsewhere(engine, two, older, versions)
+    assert is_needed_elsewhere(engine, three, older, versions), "although it has taken nothing yet"
+    assert not is_needed_elsewhere(engine, one, older, versions)
+    assert not is_needed_elsewhere(engine, two, older, {"another"})
+    if not younger_is_begun:
+        opened(engine, younger, SMALLER)
+    take_chunks(engine, three, younger, 1)
+    assert not is_needed_elsewhere(engine, two, older, versions)
+    leave(engine, three)
+    assert is_needed_elsewhere(engine, two, older, versions)
+    cancel(engine, younger)
+    assert not is_needed_elsewhere(engine, two, older, versions)
+
+
+def _next(engine: Engine) -> int | None:
+    work = next_work(engine, code_versions())
+    return None if work is None else work.job_id
 
 
 def test_chunks_are_taken_once_by_many_at_once(engine: Engine) -> None:

@@ -12,7 +12,7 @@ from threadstate.state.model import ContactState
 
 
 def test_the_document_is_the_one_that_is_promised() -> None:
-    assert state_json(plain_state()) == (
+    assert state_json(plain_state()).decode() == (
         '{"roll":1.0,"pitch":-2.0,"phase":30.0,"class":"stable_three_point","flags":["tie"],'
         '"poses":[{"rotation":[[1.0,0.0,0.25],[0.5,1.0,0.75],[0.125,0.375,1.0]],"translation":[0.01,0.02,0.03]}],'
         '"turns":[1.5,null],"drop":0.001,"embedment":0.002,"pivot_offset":0.003,'

@@ -6,7 +6,7 @@ import { depthCurves, heightAt, heightsOf, intervalAt, nextFormations, seen } fr
 import { atPhase, phaseOf, sectors } from "../../service/explorer/page/js/disks.js";
 import { notesOf } from "../../service/explorer/page/js/follows_view.js";
 import { meshesOf } from "../../service/explorer/page/js/glb.js";
-import { behind, isOnGrid, nearestPhase, steppedPhase, steppedTilt, tilts } from "../../service/explorer/page/js/grid.js";
+import { behind, isOnGrid, nearestPhase, nearestTilt, steppedPhase, steppedTilt, tilts } from "../../service/explorer/page/js/grid.js";
 import { poseAt } from "../../service/explorer/page/js/motion.js";
 import { followed, groupsOf } from "../../service/explorer/page/js/neighbours.js";
 import { dragged, firstCamera, keyed, standpoint, zoomed as nearer } from "../../service/explorer/page/js/orbit.js";
@@ -227,4 +227,14 @@ test("meshes are read from binary glTF, and nothing else is", () => {
   assert.deepEqual([...positions], [0, 0, 0, 1, 0, 0, 0, 2, 0]);
   assert.deepEqual([...indices], [0, 1, 2]);
   assert.throws(() => meshesOf(new ArrayBuffer(32)), /not a GLB file/);
+});
+
+test("angles of a grid are exact, however many decimals its steps have", () => {
+  // Powers of two: their multiples are exact in floating point as well.
+  const grid = { tilt_max: 9.5, tilt_step: 9.5 / 512, phase_step: 360 / 32768 };
+  assert.deepEqual(tilts(grid), Array.from({ length: 1025 }, (_, k) => ((k - 512) * 9.5) / 512));
+  assert.equal(nearestPhase(grid, 123.0145), 11197 * grid.phase_step);
+  assert.equal(steppedPhase(grid, 11197 * grid.phase_step, 1), 11198 * grid.phase_step);
+  assert.equal(steppedTilt(grid, 9.5 / 512, -3), (-2 * 9.5) / 512);
+  assert.equal(nearestTilt(grid, 0.019), 9.5 / 512);
 });

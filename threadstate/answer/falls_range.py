@@ -11,6 +11,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.history.descents import falls_of
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
 from threadstate.history.height_curve import height_curve
+from threadstate.numbers import number_text
 from threadstate.state.options import TILT_LIMIT_DEG, SolveOptions
 from threadstate.thread.pair import Pair
 
@@ -38,7 +39,7 @@ def computed_falls(
         InvalidValueError: a value not finite, roll or pitch beyond 10 deg, a span beyond 90 deg.
     """
     if not 0.0 < span_deg <= LARGEST_SPAN_DEG:
-        raise InvalidValueError("span", span_deg, f"above 0, at most {LARGEST_SPAN_DEG:g} deg")
+        raise InvalidValueError("span", span_deg, f"above 0, at most {number_text(LARGEST_SPAN_DEG)} deg")
     falls = falls_of(height_curve(pair, roll_deg, pitch_deg, options), pair.thread_pitch, span_deg)
     return falls_document(falls, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)
 
@@ -50,15 +51,17 @@ def tilts_within(roll_deg: float, pitch_deg: float, tolerance_deg: float, steps:
         InvalidValueError: a tolerance or a number of steps out of range, or a tilt beyond 10 deg.
     """
     if not 0.0 < tolerance_deg <= LARGEST_TOLERANCE_DEG:
-        raise InvalidValueError("tolerance", tolerance_deg, f"above 0, at most {LARGEST_TOLERANCE_DEG:g} deg")
+        raise InvalidValueError(
+            "tolerance", tolerance_deg, f"above 0, at most {number_text(LARGEST_TOLERANCE_DEG)} deg"
+        )
     if steps not in range(STEPS, MOST_STEPS + 1, 2):
         raise InvalidValueError("steps", steps, f"an odd number, {STEPS} to {MOST_STEPS}")
     for name, angle in (("roll", roll_deg), ("pitch", pitch_deg)):
         if not abs(angle) + tolerance_deg <= TILT_LIMIT_DEG:
             raise InvalidValueError(
                 f"{name} with its tolerance",
-                f"{angle:g} +- {tolerance_deg:g}",
-                f"{-TILT_LIMIT_DEG:g} to {TILT_LIMIT_DEG:g} deg",
+                f"{number_text(angle)} +- {number_text(tolerance_deg)}",
+                f"{number_text(-TILT_LIMIT_DEG)} to {number_text(TILT_LIMIT_DEG)} deg",
             )
     half = steps // 2
     offsets = [tolerance_deg * k / half for k in range(-half, half + 1)]

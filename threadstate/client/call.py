@@ -11,6 +11,7 @@ from urllib.parse import quote
 from pydantic import BaseModel
 
 from threadstate.client.models.answer import Page
+from threadstate.numbers import number_text
 
 Result_co = TypeVar("Result_co", covariant=True)
 Item = TypeVar("Item")
@@ -109,5 +110,4 @@ def joined(names: Iterable[str] | None) -> str | None:
 def _written(value: str | float | bool) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
-    # Not repr: that of NumPy's doubles, which are floats too, names their type.
-    return float.__repr__(value) if isinstance(value, float) else str(value)
+    return number_text(value) if isinstance(value, float) else str(value)

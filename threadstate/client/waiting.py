@@ -11,6 +11,7 @@ from threadstate.client.errors import JobCancelledError, JobFailedError, WaitTim
 from threadstate.client.following import QUIET_S
 from threadstate.client.models.jobs import EventDocument, JobDocument
 from threadstate.jobs.names import JobState
+from threadstate.numbers import number_text
 
 POLL_S = 2.0
 """Seconds between two looks at a job where its events cannot be followed."""
@@ -62,7 +63,7 @@ class Waiting:
             WaitTimedOutError: it has taken too long.
         """
         if time.monotonic() >= self._end:
-            raise WaitTimedOutError(f"job {self._job_id} did not end within {self._timeout_s:g} s")
+            raise WaitTimedOutError(f"job {self._job_id} did not end within {number_text(self._timeout_s)} s")
 
 
 def ended_well(job: JobDocument) -> bool:

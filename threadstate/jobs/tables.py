@@ -42,7 +42,7 @@ job = Table(
     # Serves: the same job asked for twice.
     UniqueConstraint("input_sha256"),
     one_of("state", JobState),
-    # Serves: the oldest job that there is work on.
+    # Serves: the jobs that there may be work on.
     Index(None, "state", "id"),
 )
 """A library that was asked for."""
@@ -72,7 +72,7 @@ job_chunk = Table(
     ForeignKeyConstraint(["job_id"], ["job.id"], ondelete="CASCADE"),
     ForeignKeyConstraint(["worker_id"], ["job_worker.id"], ondelete="SET NULL"),
     CheckConstraint("orientation >= 0", name="orientation_not_negative"),
-    # Serves: the chunks that a worker leaves behind.
+    # Serves: the chunks that a worker leaves behind, and how many workers are at a job.
     Index(None, "worker_id"),
     sqlite_with_rowid=False,
 )

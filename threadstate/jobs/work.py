@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from sqlalchemy import Connection, Engine, delete, exists, insert, or_, select, update
+from sqlalchemy import ColumnElement, Connection, Engine, Select, delete, exists, func, insert, or_, select, update
 
 from threadstate.jobs.events import change_job, locked_state
 from threadstate.jobs.inputs import inputs_from_json
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.tables import job, job_chunk
+from threadstate.jobs.tables import job, job_chunk, job_worker
 from threadstate.jobs.workers import require_alive
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -22,6 +22,24 @@ from threadstate.library.write import publish_in
 
 MOST_SETBACKS = 5
 """After so many mishaps (a computing process that died, a library that went away) a job has failed."""
+
+
+_HAS_FREE_CHUNKS = or_(
+    job.c.state == JobState.QUEUED.value,
+    (job.c.state == JobState.RUNNING.value)
+    & exists().where(job_chunk.c.job_id == job.c.id, job_chunk.c.worker_id.is_(None)),
+)
+"""Whether a job is still to be opened, or has a chunk that no worker is at."""
+
+
+def _is_at(job_id: ColumnElement[int] | int) -> ColumnElement[bool]:
+    """Whether a worker holds a chunk of a job: by its few chunks, as a job may have very many."""
+    held = exists().where(job_chunk.c.worker_id == job_worker.c.id, job_chunk.c.job_id == job_id)
+    return held.correlate(job, job_worker)
+
+
+_WORKER_COUNT = select(func.count()).select_from(job_worker).where(_is_at(job.c.id)).scalar_subquery()
+"""How many workers are at a job."""
 
 
 @dataclass(frozen=True)
@@ -33,24 +51,45 @@ class Work:
 
 
 def next_work(engine: Engine, code_versions: Collection[str]) -> Work | None:
-    """The oldest job of these versions of the code that is to be opened, has a free chunk, or can be published."""
-    of_job = job_chunk.c.job_id == job.c.id
-    free = exists().where(of_job, job_chunk.c.worker_id.is_(None))
-    query = (
+    """A job of these versions of the code that is to be opened, has a free chunk, or can be published.
+
+    Of several the one that the fewest workers are at, and of these the oldest. Two workers that ask at the same moment
+    may be given the same one; :func:`is_needed_elsewhere` parts them.
+    """
+    with engine.connect() as connection:
+        row = connection.execute(next_work_query(code_versions)).first()
+    return None if row is None else Work(row.id, inputs_from_json(row.inputs))
+
+
+def next_work_query(code_versions: Collection[str]) -> Select[tuple[int, str]]:
+    """The statement of :func:`next_work`."""
+    whole = (job.c.state == JobState.RUNNING.value) & ~exists().where(job_chunk.c.job_id == job.c.id)
+    return (
         select(job.c.id, job.c.inputs)
-        .where(
-            job.c.code_version.in_(code_versions),
-            or_(
-                job.c.state == JobState.QUEUED.value,
-                (job.c.state == JobState.RUNNING.value) & or_(free, ~exists().where(of_job)),
-            ),
-        )
-        .order_by(job.c.id)
+        .where(job.c.code_version.in_(code_versions), or_(_HAS_FREE_CHUNKS, whole))
+        .order_by(_WORKER_COUNT, job.c.id)
         .limit(1)
     )
+
+
+def is_needed_elsewhere(engine: Engine, worker_id: str, job_id: int, code_versions: Collection[str]) -> bool:
+    """Whether a worker should leave its job: nobody is at another one that has free chunks, and somebody stays here.
+
+    Of the workers of a job the one with the smallest id stays.
+    """
     with engine.connect() as connection:
-        row = connection.execute(query).first()
-    return None if row is None else Work(row.id, inputs_from_json(row.inputs))
+        return connection.scalar(needed_elsewhere_query(worker_id, job_id, code_versions)) is not None
+
+
+def needed_elsewhere_query(worker_id: str, job_id: int, code_versions: Collection[str]) -> Select[tuple[int]]:
+    """The statement of :func:`is_needed_elsewhere`: a job that a worker should leave its own for."""
+    stays = exists().where(job_worker.c.id < worker_id, _is_at(job_id))
+    nobody = _WORKER_COUNT == 0  # by NOT EXISTS PostgreSQL would read all chunks of all jobs
+    return (
+        select(job.c.id)
+        .where(job.c.code_version.in_(code_versions), job.c.id != job_id, _HAS_FREE_CHUNKS, nobody, stays)
+        .limit(1)
+    )
 
 
 def has_ended(engine: Engine, code_versions: Collection[str]) -> bool:

@@ -8,6 +8,7 @@ from decimal import Decimal
 from functools import cached_property
 
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.state.options import TILT_LIMIT_DEG
 
 SMALLEST_STEP_DEG = 0.01
@@ -53,6 +54,11 @@ class Grid:
             raise InvalidValueError("phase_step", self.phase_step_deg, "a step that divides 360 deg evenly")
         if self.state_count > LARGEST_STATE_COUNT:
             raise InvalidValueError("state count of the grid", self.state_count, f"at most {LARGEST_STATE_COUNT}")
+
+    def __str__(self) -> str:
+        """The grid in few words: "+-4 by 1, phase by 1 deg"."""
+        tilt_max, tilt_step, phase_step = map(number_text, (self.tilt_max_deg, self.tilt_step_deg, self.phase_step_deg))
+        return f"+-{tilt_max} by {tilt_step}, phase by {phase_step} deg"
 
     @cached_property
     def tilts_deg(self) -> tuple[float, ...]:
@@ -111,7 +117,7 @@ class Grid:
 
 def _require(value: float, name: str, low: float, high: float) -> None:
     if not (math.isfinite(value) and low <= value <= high):
-        raise InvalidValueError(name, value, f"{low:g} to {high:g} deg")
+        raise InvalidValueError(name, value, f"{number_text(low)} to {number_text(high)} deg")
 
 
 def _decimal(value: float) -> Decimal:

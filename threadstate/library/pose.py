@@ -31,6 +31,7 @@ from threadstate.errors import NotFoundError, UndecidedPoseError
 from threadstate.library.address import is_sqlite
 from threadstate.library.rows import Row, states_from_rows
 from threadstate.library.tables import contact, stage_pose, state, state_flag, undecided
+from threadstate.numbers import number_text
 from threadstate.state.model import ContactState
 
 _TABLES = (state, stage_pose, contact, state_flag)
@@ -49,7 +50,8 @@ def state_of_pose(
     found = _state_of(connection.execute(_STATEMENT, pose))
     if found is not None:
         return found
-    place = f"library {library_id} has no state at roll {roll_deg!r}, pitch {pitch_deg!r}, phase {phase_deg!r} deg"
+    roll, pitch, phase = map(number_text, (roll_deg, pitch_deg, phase_deg))
+    place = f"library {library_id} has no state at roll {roll}, pitch {pitch}, phase {phase} deg"
     reason = connection.scalar(_at_pose(undecided, undecided.c.reason), pose)
     if reason is not None:
         raise UndecidedPoseError(f"{place}: {reason}")

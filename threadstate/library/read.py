@@ -14,6 +14,7 @@ from threadstate.library.grid import Grid
 from threadstate.library.method import Method
 from threadstate.library.rows import Row, states_from_rows
 from threadstate.library.tables import contact, library, stage_pose, state, state_flag, undecided
+from threadstate.numbers import number_text
 from threadstate.state.model import ContactState, Flag, StateClass, UndecidedPose
 from threadstate.state.rest import rests
 from threadstate.units import LengthUnit
@@ -154,12 +155,12 @@ def undecided_reasons(connection: Connection, library_id: int) -> list[tuple[str
 
 def not_on_the_grid(library: LibraryRecord, roll_deg: float, pitch_deg: float) -> NotFoundError:
     """The error for an orientation (degrees) that is none of a library's grid."""
-    grid = library.grid
+    roll, pitch = number_text(roll_deg), number_text(pitch_deg)
+    most, step = number_text(library.grid.tilt_max_deg), number_text(library.grid.tilt_step_deg)
     return NotFoundError(
-        f"library {library.id} has no orientation of roll {roll_deg!r}, pitch {pitch_deg!r} deg; "
-        f"its grid: -{grid.tilt_max_deg:g} to {grid.tilt_max_deg:g} deg in steps of {grid.tilt_step_deg:g}. Any other "
-        f"within 10 deg is computed from its pair: `threadstate windows` and `history`, "
-        f"/v1/histories/{roll_deg!r}/{pitch_deg!r}/falls?library={library.id}"
+        f"library {library.id} has no orientation of roll {roll}, pitch {pitch} deg; its grid: -{most} to {most} deg "
+        f"in steps of {step}. Any other within 10 deg is computed from its pair: `threadstate windows` and `history`, "
+        f"/v1/histories/{roll}/{pitch}/falls?library={library.id}"
     )
 
 

@@ -9,6 +9,7 @@ from enum import StrEnum
 from threadstate.errors import InvalidValueError
 from threadstate.mesh.presets import Preset, Tessellation
 from threadstate.mesh.scene_name import Scene
+from threadstate.numbers import number_text
 
 
 class Descent(StrEnum):
@@ -67,5 +68,5 @@ class MeshOptions:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.final_step) and SMALLEST_STEP <= self.final_step <= LARGEST_STEP):
-            valid = f"{SMALLEST_STEP:g} to {LARGEST_STEP:g} thread pitches"
+            valid = f"{number_text(SMALLEST_STEP)} to {number_text(LARGEST_STEP)} thread pitches"
             raise InvalidValueError("final_step", self.final_step, valid)

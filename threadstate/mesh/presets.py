@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 
 SMALLEST_CHORD, LARGEST_CHORD = 2e-6, 0.02
 """Bounds of the chord height in thread pitches: about 4 million triangles a part, and about a thousand."""
@@ -36,7 +37,7 @@ class Tessellation:
             value = getattr(self, name)
             if not (math.isfinite(value) and low <= value <= high):
                 unit = " thread pitches" if name == "chord_height" else ""
-                raise InvalidValueError(name, value, f"{low:g} to {high:g}{unit}")
+                raise InvalidValueError(name, value, f"{number_text(low)} to {number_text(high)}{unit}")
 
     def chord_at(self, radius: float, part_size: float) -> float:
         """The chord height, in thread pitches, along a curve of that radius; both lengths in one unit."""

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from threadstate.errors import InvalidValueError
 from threadstate.network.formation import Formation
 from threadstate.network.moves import Move
+from threadstate.numbers import number_text
 from threadstate.state.model import Flag
 
 CIRCLE_DEG = 360.0
@@ -129,7 +130,7 @@ class CellMap:
         """
         for name, value in (("roll", roll_deg), ("pitch", pitch_deg)):
             if value not in self.tilts_deg:
-                raise InvalidValueError(name, value, f"one of {', '.join(f'{tilt:g}' for tilt in self.tilts_deg)} deg")
+                raise InvalidValueError(name, value, f"one of {', '.join(map(number_text, self.tilts_deg))} deg")
         return self.tilts_deg.index(roll_deg) * len(self.tilts_deg) + self.tilts_deg.index(pitch_deg)
 
     def at(self, roll_deg: float, pitch_deg: float, phase_deg: float) -> Cell:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 
 TILT_LIMIT_DEG = 10.0
 """Largest roll and pitch, either way, for which states are defined here."""
@@ -37,4 +38,4 @@ class SolveOptions:
         ):
             value = getattr(self, name)
             if not (math.isfinite(value) and low <= value <= high and (value > 0.0 or low > 0.0 or name[0] == "q")):
-                raise InvalidValueError(name, value, f"{low:g} to {high:g}")
+                raise InvalidValueError(name, value, f"{number_text(low)} to {number_text(high)}")

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
 from threadstate.state.options import TILT_LIMIT_DEG, SolveOptions
@@ -53,7 +54,7 @@ def checked_poses(poses: ArrayLike) -> NDArray[np.float64]:
         bad = ~(np.abs(wanted[:, column]) <= TILT_LIMIT_DEG)
         if bad.any():
             value = float(wanted[np.flatnonzero(bad)[0], column])
-            raise InvalidValueError(name, value, f"{-TILT_LIMIT_DEG:g} to {TILT_LIMIT_DEG:g} deg")
+            raise InvalidValueError(name, value, f"{number_text(-TILT_LIMIT_DEG)} to {number_text(TILT_LIMIT_DEG)} deg")
     bad = ~np.isfinite(wanted[:, 2])
     if bad.any():
         raise InvalidValueError("phase", float(wanted[np.flatnonzero(bad)[0], 2]), "a finite angle in deg")

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.identity import LibraryInputs
+from threadstate.numbers import number_text
 from worker.cluster.errors import ClusterError, VersionSkewError
 from worker.cluster.versions import own_versions
 from worker.messages import Chunk
@@ -110,7 +111,7 @@ class ComputingCluster:
         if threads:
             self._worker_seen_s = now_s
         elif now_s - self._worker_seen_s > PATIENCE_S:
-            raise ClusterError(f"the Dask scheduler {self._address} has had no worker for {PATIENCE_S:g} s")
+            raise ClusterError(f"the Dask scheduler {self._address} has had no worker for {number_text(PATIENCE_S)} s")
 
     def _result(self, future: Future[Chunk]) -> Chunk:
         from distributed import CancelledError, KilledWorker

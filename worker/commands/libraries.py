@@ -117,7 +117,7 @@ def _print(published: list[LibraryRecord], latest: LibraryRecord | None) -> None
             str(one.id),
             one.designation,
             one.method.value,
-            f"+-{grid.tilt_max_deg:g} by {grid.tilt_step_deg:g}, phase by {grid.phase_step_deg:g} deg",
+            str(grid),
             str(one.state_count),
             one.length_unit.value,
             f"{one.published_at:%Y-%m-%d %H:%M:%S}",

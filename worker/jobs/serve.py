@@ -18,6 +18,7 @@ from threadstate.jobs.work import (
     Work,
     hand_in,
     has_ended,
+    is_needed_elsewhere,
     let_go,
     next_work,
     open_job,
@@ -125,7 +126,7 @@ def _work_on(session: _Session, work: Work) -> None:
 
 
 def _compute(session: _Session, work: Work, library_id: int) -> None:
-    """Compute chunks of a job until none is free, or it is not to be worked on any more."""
+    """Compute chunks of a job until none is free, it is not to be worked on, or this worker is needed elsewhere."""
     taken = _taken(session, work)
     first = next(taken, None)
     if first is None:
@@ -141,6 +142,11 @@ def _compute(session: _Session, work: Work, library_id: int) -> None:
 
 
 def _taken(session: _Session, work: Work) -> Iterator[int]:
-    """Orientations, each taken when it is asked for."""
-    while taken := take_chunks(session.engine, session.worker_id, work.job_id, 1):
+    """Orientations, each taken when it is asked for, until none is free or another job has nobody."""
+    engine, worker_id, job_id = session.engine, session.worker_id, work.job_id
+    versions = code_versions()
+    while not is_needed_elsewhere(engine, worker_id, job_id, versions):
+        taken = take_chunks(engine, worker_id, job_id, 1)
+        if not taken:
+            return
         yield from taken

@@ -84,8 +84,7 @@ def _named(inputs: LibraryInputs) -> dict[str, object]:
 
 
 def _grid(inputs: LibraryInputs) -> str:
-    grid = inputs.grid
-    return f"+-{grid.tilt_max_deg:g} by {grid.tilt_step_deg:g}, phase by {grid.phase_step_deg:g} deg"
+    return str(inputs.grid)
 
 
 def _state(one: Estimate) -> str:

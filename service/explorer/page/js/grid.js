@@ -10,7 +10,7 @@ export const TOLERANCE_LIMIT = 2;
 /** The values of roll, and of pitch, of a grid: -tilt_max to tilt_max. */
 export function tilts(grid) {
   const steps = Math.round(grid.tilt_max / grid.tilt_step);
-  return Array.from({ length: 2 * steps + 1 }, (_, k) => decimal((k - steps) * grid.tilt_step));
+  return Array.from({ length: 2 * steps + 1 }, (_, k) => multiple(k - steps, grid.tilt_step));
 }
 
 /** Whether an orientation is one of a grid's. */
@@ -21,7 +21,7 @@ export function isOnGrid(grid, { roll, pitch }) {
 
 /** The phase of the grid nearest to a phase. */
 export function nearestPhase(grid, phase) {
-  return inTurn(decimal(Math.round(inTurn(phase) / grid.phase_step) * grid.phase_step));
+  return inTurn(multiple(Math.round(inTurn(phase) / grid.phase_step), grid.phase_step));
 }
 
 /** The next phase of the grid in the sense of `steps`, so many steps on. */
@@ -37,7 +37,7 @@ export function steppedTilt(grid, tilt, steps) {
 /** The tilt of the grid nearest to a tilt. */
 export function nearestTilt(grid, tilt) {
   const bounded = Math.min(Math.max(tilt, -grid.tilt_max), grid.tilt_max);
-  return decimal(Math.round(bounded / grid.tilt_step) * grid.tilt_step);
+  return multiple(Math.round(bounded / grid.tilt_step), grid.tilt_step);
 }
 
 /** A phase just behind another one, with six decimals: where a state changes no pose may be decided. */
@@ -53,10 +53,12 @@ export function gridText({ tilt_max: most, tilt_step: tilt, phase_step: phase })
 function stepped(value, step, steps) {
   const at = value / step;
   const first = steps > 0 ? Math.floor(at + 1e-9) : Math.ceil(at - 1e-9);
-  return decimal((first + steps) * step);
+  return multiple(first + steps, step);
 }
 
-/** The decimal number that a reader would write: 0.3 and not 0.30000000000000004. */
-function decimal(value) {
-  return Number(value.toFixed(9)) + 0;
+/** So many steps as the decimal number that a reader would write: 0.3 and not 0.30000000000000004; a step is 0.01 at least. */
+function multiple(count, step) {
+  const [whole, fraction = ""] = String(step).split(".");
+  const digits = BigInt(count) * BigInt(whole + fraction);
+  return Number(`${digits}e-${fraction.length}`) + 0;
 }

@@ -90,7 +90,7 @@ export class LocateView {
   #row({ roll, pitch, share, stretches, phase }) {
     const go = html("button", { type: "button", "data-place": `${roll} ${pitch}` }, `${angleNumber(roll)} / ${angleNumber(pitch)}`);
     go.setAttribute("aria-label", `go to roll ${roll}, pitch ${pitch}`);
-    go.addEventListener("click", () => this.#goTo({ roll, pitch, phase: Number(phase.toFixed(6)) }));
+    go.addEventListener("click", () => this.#goTo({ roll, pitch, phase }));
     return html("tr", {}, [html("td", {}, go), html("td", {}, percent(share)), html("td", {}, stretchesText(stretches))]);
   }
 
