@@ -21,7 +21,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 
-from threadstate.settings import DATABASE, RENDITIONS_MB, read_settings
+from threadstate.settings import DATABASE, read_settings
 
 PATHS = ("/v1/libraries/latest/states/0/0/0", "/v1/libraries/latest/histories/1/-1", "/v1/libraries", "/healthz")
 BUSY, RESTING = 6, 4
@@ -91,7 +91,7 @@ def _service(database: str, listening: socket.socket) -> Iterator[subprocess.Pop
     """A service that listens on a socket."""
     passed_on = listening.fileno()
     command = (sys.executable, "-c", _LISTEN, str(passed_on))
-    environment = {**os.environ, DATABASE: database, RENDITIONS_MB: "0"}
+    environment = {**os.environ, DATABASE: database}
     with subprocess.Popen(
         command, env=environment, pass_fds=(passed_on,), stderr=subprocess.PIPE, text=True
     ) as process:

@@ -57,7 +57,6 @@ def settings_in_force(environment: Mapping[str, str] = os.environ) -> tuple[Sett
         settings.SERVICE: NOT_SHOWN if "@" in service else service,
         settings.KEY: NOT_SHOWN if environment.get(settings.KEY) else None,
         settings.CACHE_MB: read.cache_mb,
-        settings.RENDITIONS_MB: read.renditions_mb,
         settings.CONCURRENCY: read.concurrency,
         settings.STREAMS: read.streams,
         settings.TIME_LIMIT_S: read.time_limit_s,

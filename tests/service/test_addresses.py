@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from service.renditions.answer import rendered_state
-from service.renditions.build import build
-from service.renditions.file import Rendition
 from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, client_of, store_library
 from tests.service.made_up_states import made_up_states
 from tests.service.test_problems import problem
 from threadstate.client.calls.network import windows
 from threadstate.client.calls.states import state
-from threadstate.library.engine import reading
 from threadstate.library.grid import Grid
-from threadstate.library.read import library_by_id
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.sqlite_alone
@@ -47,13 +41,9 @@ def test_a_state_has_the_address_at_which_it_is(fine: StoredLibrary, fine_client
         assert (again.status_code, again.content) == (200, response.content), response.headers["Content-Location"]
 
 
-def test_a_rendered_state_has_the_same_address(fine: StoredLibrary, tmp_path: Path) -> None:
-    build(fine.database, fine.id, tmp_path / "states")
-    with reading(fine.database) as engine, engine.connect() as connection:
-        record = library_by_id(connection, fine.id)
-    answer = rendered_state(Rendition(tmp_path / "states"), record, "/states/-0/0.00/120.9375", b"")
-    assert answer is not None
-    assert dict(answer.headers)[b"content-location"] == b"/v1/libraries/%d/states/0/0/120.9375" % fine.id
+def test_an_address_may_be_written_in_other_ways(fine: StoredLibrary, fine_client: TestClient) -> None:
+    response = fine_client.get("/v1/libraries/latest/states/-0/0.00/120.9375")
+    assert response.headers["Content-Location"] == f"/v1/libraries/{fine.id}/states/0/0/120.9375"
 
 
 def test_what_is_not_found_is_named_as_it_was_asked_for(fine_client: TestClient) -> None:

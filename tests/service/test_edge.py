@@ -19,7 +19,7 @@ from service.logs.configure import configure_logs
 from tests.service.conftest import StoredLibrary
 from tests.service.test_problems import problem
 from threadstate.errors import InvalidValueError
-from threadstate.settings import CORS_ORIGINS, DATABASE, RENDITIONS_MB, LogForm, LogLevel, read_settings
+from threadstate.settings import CORS_ORIGINS, DATABASE, LogForm, LogLevel, read_settings
 
 pytestmark = pytest.mark.sqlite_alone
 
@@ -27,7 +27,7 @@ ORIGIN = "https://example.com"
 
 
 def _logging_client(library: StoredLibrary) -> TestClient:
-    settings = read_settings({DATABASE: library.database, RENDITIONS_MB: "0"})
+    settings = read_settings({DATABASE: library.database})
     return TestClient(create_app(settings, serving=True), raise_server_exceptions=False)
 
 

@@ -25,7 +25,7 @@ from threadstate.jobs.ask import ask_for
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
-from threadstate.settings import DATABASE, GRACE_S, LOG_LEVEL, PORT, RENDITIONS_MB
+from threadstate.settings import DATABASE, GRACE_S, LOG_LEVEL, PORT
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -38,7 +38,7 @@ def serving(database: str, **settings: str) -> Iterator[tuple[subprocess.Popen[s
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    environment = {**os.environ, DATABASE: database, PORT: str(port), RENDITIONS_MB: "0", **settings}
+    environment = {**os.environ, DATABASE: database, PORT: str(port), **settings}
     command = [sys.executable, "-m", "service"]
     with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None

@@ -122,10 +122,7 @@ def _contact(contact: Contact, length_factor: float) -> ContactDocument:
 
 
 def _vector(vector: tuple[float, float, float], factor: float) -> list[float]:
-    x, y, z = vector
-    # One test for all three: orjson writes null for what is not finite.
-    _finite(x + y + z)
-    return [x * factor + 0.0, y * factor + 0.0, z * factor + 0.0]
+    return [_finite(value * factor + 0.0) for value in vector]
 
 
 def _number(value: float | None, factor: float) -> float | None:
@@ -133,6 +130,7 @@ def _number(value: float | None, factor: float) -> float | None:
 
 
 def _finite(value: float) -> float:
+    # orjson writes null for what is not finite.
     if not isfinite(value):
         raise InvalidValueError("number of a state", value, "a finite one")
     return value
