@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 
+from harness.databases import Databases
 from service.app import RENDITIONS, create_app
 from service.renditions.build import build
 from service.renditions.file import Rendition, RenditionError, write_rendition
 from service.renditions.shelf import RenditionShelf
-from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
 from tests.service.test_problems import problem

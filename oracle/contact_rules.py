@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.contact.geometry import (
+from oracle.profile import bolt_profile, nut_profile
+from oracle.region_rule import region_at
+from oracle.solids import (
     Floats,
     axial_position,
     edge_tangent,
@@ -15,8 +17,6 @@ from tests.contact.geometry import (
     outside_thread,
     outward,
 )
-from tests.contact.region_rule import region_at
-from tests.oracle.profile import bolt_profile, nut_profile
 from threadstate.state.model import Contact, FeaturePair, StagePose
 from threadstate.thread.pair import Pair
 from threadstate.thread.regions import Region

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.oracle.profile import P, radius
+from oracle.profile import P, radius
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.oracle.compiled import compiled
+from oracle.compiled import compiled
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]

@@ -28,8 +28,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.oracle.compiled import compiled
-from tests.oracle.profile import P, bolt_profile, nut_profile, radius
+from oracle.compiled import compiled
+from oracle.profile import P, bolt_profile, nut_profile, radius
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]

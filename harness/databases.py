@@ -1,4 +1,4 @@
-"""Databases for tests: empty or migrated, of either kind."""
+"""Databases, empty or migrated, of either kind."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from itertools import count
 from pathlib import Path
 from typing import Protocol
 
-from tests.postgresql_server import PostgresqlServer
+from harness.postgresql_server import PostgresqlServer
 from threadstate.library.engine import writing
 from threadstate.tables import metadata
 from worker.migrate import migrate

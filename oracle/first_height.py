@@ -22,9 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.oracle.compiled import compiled
-from tests.oracle.pose import pose_rotation
-from tests.oracle.profile import R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
+from oracle.compiled import compiled
+from oracle.pose import pose_rotation
+from oracle.profile import R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.contact.geometry import Floats, edge_tangent
-from tests.oracle.overlap import LARGEST_TILT_DEG, clearance, excluded_rows, free_component
-from tests.oracle.profile import bolt_profile, nut_profile
-from tests.oracle.turn import contact_components_along_turn, turned_pose
+from oracle.overlap import LARGEST_TILT_DEG, clearance, excluded_rows, free_component
+from oracle.profile import bolt_profile, nut_profile
+from oracle.solids import Floats, edge_tangent
+from oracle.turn import contact_components_along_turn, turned_pose
 from threadstate.state.model import Contact, ContactState
 from threadstate.thread.pair import Pair
 

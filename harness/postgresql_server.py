@@ -1,4 +1,4 @@
-"""A PostgreSQL server for the tests, from the programs that a wheel brings."""
+"""A PostgreSQL server of its own, from the programs that a wheel brings."""
 
 from __future__ import annotations
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.oracle.overlap import check_tilt, clearance, excluded_rows, free_component, witness
-from tests.oracle.pose import turn_about
-from tests.oracle.profile import bolt_profile, nut_profile
+from oracle.overlap import check_tilt, clearance, excluded_rows, free_component, witness
+from oracle.pose import turn_about
+from oracle.profile import bolt_profile, nut_profile
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
