@@ -1,7 +1,7 @@
 # make setup      everything that run, test and bench stand on; instant the second time
 # make run        migrate, compute the library if this very one is not published yet, serve it
 # make test       check, then all tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
-# make check      format, lint, types, bandit, the units of the explorer's JavaScript
+# make check      format, lint, imports, types, bandit, the units of the explorer's JavaScript
 # make bench      poses per second, beside a mesh collision library
 # make load       questions per second that the service answers, beside Datasette over the same file; writes docs/load.md
 #                 (apt-get install wrk)
@@ -42,6 +42,7 @@ test:
 check: $(VENV)/.project
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	$(BIN)/lint-imports --no-cache
 	$(BIN)/mypy
 	$(BIN)/bandit -q -r threadstate service worker migrations -c pyproject.toml
 	$(NODE) node_modules/eslint/bin/eslint.js .

@@ -13,7 +13,6 @@ from typing import NamedTuple
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.accepted import names_etag, prefers_csv, takes_gzip
-from service.edge.route import note_route, noted_route
 from service.kept.answers import Answer, Headers, KeptAnswers
 from service.kept.compression import compressible, varying, zipped, zipped_etag, zipped_headers
 from service.kept.names import LibraryNames
@@ -21,6 +20,7 @@ from service.middleware import ASKED_AS_HEAD
 from service.renditions.answer import rendered_history, rendered_state
 from service.renditions.shelf import RenditionShelf
 from service.representation import REVALIDATE, REVALIDATE_PRIVATELY
+from service.route_notes import note_route, noted_route
 from threadstate.library.read import LibraryRecord
 
 LIBRARIES = "/v1/libraries/"
