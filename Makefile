@@ -9,6 +9,7 @@
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
+# make client     make the blocking client of the asynchronous one
 # make designer   write the designer's session of the README and the page of falls and windows; pins 1/4-20 UNC
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew, write the tables of columns
@@ -27,7 +28,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test check bench load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
+.PHONY: setup run test check bench client load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -70,6 +71,9 @@ histories: setup
 docs: setup
 	$(BIN)/python scripts/write_answers.py
 	$(BIN)/python -m scripts.write_export_columns
+
+client: setup
+	$(BIN)/python -m scripts.write_sync_client
 
 designer: setup
 	$(BIN)/threadstate rebuild

@@ -28,9 +28,9 @@ from threadstate.client import (
     UnauthorizedError,
     UnexpectedAnswerError,
     WaitTimedOutError,
-    job,
     retrying,
 )
+from threadstate.client._sync import job
 from threadstate.client.models.jobs import JobDocument
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.work import publish_job, set_back

@@ -4,9 +4,10 @@ One description of every request (``calls``) and one reading of every answer (``
 only the sending differs. ``docs/client.md`` is the manual.
 """
 
-from threadstate.client.async_client import AsyncClient
-from threadstate.client.async_job import AsyncJob
-from threadstate.client.client import Client
+from threadstate.client._async.client import AsyncClient, AsyncItems
+from threadstate.client._async.job import AsyncJob
+from threadstate.client._sync.client import Client, Items
+from threadstate.client._sync.job import Job
 from threadstate.client.errors import (
     ClientError,
     ConflictError,
@@ -29,9 +30,7 @@ from threadstate.client.errors import (
     WaitTimedOutError,
 )
 from threadstate.client.frames import to_pandas, to_polars
-from threadstate.client.items import AsyncItems, Items
-from threadstate.client.job import Job
-from threadstate.client.waiting import Progress
+from threadstate.client.watching import Progress
 
 __all__ = [
     "AsyncClient",

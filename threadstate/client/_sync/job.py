@@ -1,28 +1,28 @@
-"""A job as a thing to be watched, waited for and cancelled, of an asynchronous client."""
+# Made of _async/job.py by `make client`: edit that one.
+"""A job as a thing to be watched, waited for and cancelled."""
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import Callable, Iterator
 
-import anyio
 import httpx2
 
-from threadstate.client.async_courier import AsyncCourier
+from threadstate.client._sync.courier import Courier
+from threadstate.client.blocking import pause
 from threadstate.client.calls import jobs
 from threadstate.client.errors import ClientError, ConnectionFailedError, UnexpectedAnswerError
-from threadstate.client.following import QUIET_S, Place
 from threadstate.client.models.jobs import EventDocument, JobDocument
-from threadstate.client.waiting import POLL_S, Waiting, Watcher, ended_well
+from threadstate.client.watching import POLL_S, QUIET_S, Place, Waiting, Watcher, ended_well
 
 
-class AsyncJob:
+class Job:
     """A job.
 
     Attributes:
         document: the job as it was when it was last looked at.
     """
 
-    def __init__(self, courier: AsyncCourier, document: JobDocument) -> None:
+    def __init__(self, courier: Courier, document: JobDocument) -> None:
         self._courier = courier
         self.document = document
 
@@ -32,32 +32,32 @@ class AsyncJob:
         return self.document.id
 
     def __repr__(self) -> str:
-        return f"AsyncJob({self.id}, {self.document.state.value})"
+        return f"{type(self).__name__}({self.id}, {self.document.state.value})"
 
-    async def refresh(self) -> JobDocument:
+    def refresh(self) -> JobDocument:
         """Look at the job again."""
-        self.document = await self._courier.send(jobs.job(self.id))
+        self.document = self._courier.send(jobs.job(self.id))
         return self.document
 
-    async def cancel(self) -> JobDocument:
+    def cancel(self) -> JobDocument:
         """Cancel the job; needs a key for writing.
 
         Raises:
             ConflictError: it has ended otherwise.
         """
-        self.document = await self._courier.send(jobs.cancel(self.id))
+        self.document = self._courier.send(jobs.cancel(self.id))
         return self.document
 
-    async def events(self, after: int = 0) -> AsyncIterator[EventDocument]:
+    def events(self, after: int = 0) -> Iterator[EventDocument]:
         """What has happened after the event of that number, and what happens until the job ends.
 
         A connection that breaks is made again, and nothing is told twice.
         """
-        async for event in self._followed(after, lambda: QUIET_S):
+        for event in self._followed(after, lambda: QUIET_S):
             if event is not None:
                 yield event
 
-    async def wait(self, progress: Watcher | None = None, timeout_s: float | None = None) -> JobDocument:
+    def wait(self, progress: Watcher | None = None, timeout_s: float | None = None) -> JobDocument:
         """Wait until the library is published; ``progress`` is told how far it is whenever that changes.
 
         Follows the job's events, and looks every two seconds where these do not come through.
@@ -69,29 +69,29 @@ class AsyncJob:
         """
         waiting = Waiting(self.id, progress, timeout_s)
         try:
-            async for event in self._followed(0, lambda: waiting.quiet_s):
+            for event in self._followed(0, lambda: waiting.quiet_s):
                 if event is not None:
                     waiting.tell(event)
                 waiting.check_time()
         except (ConnectionFailedError, UnexpectedAnswerError):
             pass  # a proxy that holds streams back, perhaps: the job itself says how far it is
-        while not ended_well(await self.refresh()):
+        while not ended_well(self.refresh()):
             waiting.tell(self.document)
             waiting.check_time()
-            await anyio.sleep(min(POLL_S, waiting.quiet_s))
+            pause(min(POLL_S, waiting.quiet_s))
         waiting.tell(self.document)
         return self.document
 
-    async def _followed(self, after: int, quiet_s: Callable[[], float]) -> AsyncIterator[EventDocument | None]:
+    def _followed(self, after: int, quiet_s: Callable[[], float]) -> Iterator[EventDocument | None]:
         """The events, and None whenever nothing came for ``quiet_s``."""
         call = jobs.events(self.id)
         place = Place(after, self._courier.options.retrying)
         while True:
             try:
-                async with self._courier.stream(call, place.headers, quiet_s()) as response:
+                with self._courier.stream(call, place.headers, quiet_s()) as response:
                     if response.status_code == httpx2.codes.NO_CONTENT:
                         return
-                    async for event in httpx2.EventSource(response):
+                    for event in httpx2.EventSource(response):
                         yield place.received(event)
                 pause_s = place.pause_after_close_s()
             except ClientError as error:
@@ -100,4 +100,4 @@ class AsyncJob:
                     raise
                 pause_s = after_error_s
             yield None
-            await anyio.sleep(pause_s)
+            pause(pause_s)

@@ -1,4 +1,4 @@
-"""Problem documents (RFC 9457)."""
+"""What the service says of a request that it refuses (problem documents, RFC 9457) and of its own state."""
 
 from __future__ import annotations
 
@@ -22,3 +22,17 @@ class Problem(Answer):
     detail: str = ""
     instance: str | None = None
     errors: tuple[ProblemItem, ...] = ()
+
+
+class Health(Answer):
+    """The process lives."""
+
+    status: str
+
+
+class Readiness(Answer):
+    """The service can answer; ``library`` is the number of the latest one."""
+
+    status: str
+    schema_revision: str
+    library: int
