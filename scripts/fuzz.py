@@ -11,9 +11,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from harness.databases import SqliteDatabases
 from scripts.described import GRID, Tally, fuzz
 from service.app import create_app
-from tests.databases import SqliteDatabases
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.library.engine import writing

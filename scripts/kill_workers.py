@@ -22,8 +22,8 @@ from pathlib import Path
 
 from sqlalchemy import Engine, delete, func, select
 
-from tests.databases import Databases, PostgresqlDatabases, SqliteDatabases
-from tests.postgresql_server import running_server
+from harness.databases import Databases, PostgresqlDatabases, SqliteDatabases
+from harness.postgresql_server import running_server
 from threadstate.jobs.ask import ask_for
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState

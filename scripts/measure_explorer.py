@@ -11,8 +11,8 @@ from statistics import median
 from typing import Any
 from urllib.request import urlopen
 
-from tests.explorer.browser import Explorer, resize, start_chromium
-from tests.service.running import running_service
+from harness.browser import Explorer, resize, start_chromium
+from harness.running_service import running_service
 from threadstate.settings import read_settings
 
 LOADS = 7

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from selenium import webdriver
 
-from tests.explorer.browser import Explorer, resize, start_chromium
-from tests.service.running import running_service
+from harness.browser import Explorer, resize, start_chromium
+from harness.running_service import running_service
 from threadstate.settings import read_settings
 
 FOLDER = Path(__file__).parent.parent / "docs" / "explorer"

@@ -39,7 +39,6 @@ from service.cors import cors_options
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
 from service.edge.drain import Drain
 from service.edge.middleware import Edge
-from service.edge.route import note_matched_route
 from service.explorer.unknown import install_unknown_page
 from service.keys import guard_reading, may_read
 from service.limits.admission import Admission, Limits
@@ -51,6 +50,7 @@ from service.network.store import NetworkStore
 from service.parameters import refuse_unknown_parameters
 from service.problems import install_problem_handlers
 from service.representation import REVALIDATE, REVALIDATE_PRIVATELY
+from service.route_notes import note_matched_route
 from service.warming import Warming
 from threadstate.library.engine import reader_engine
 from threadstate.settings import Settings, read_settings

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypedDict
 
-from service.edge.request_id import HEADER
+from service.request_id import HEADER
 from service.units import UNIT_HEADER
 
 KEPT_FOR_S = 600

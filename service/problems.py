@@ -16,7 +16,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
-from service.edge.request_id import INSTANCE_PREFIX, current_request_id
+from service.request_id import INSTANCE_PREFIX, current_request_id
 from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
 from threadstate.errors import (
     InvalidValueError,

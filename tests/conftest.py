@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from harness.databases import KINDS, Databases, PostgresqlDatabases, SqliteDatabases
+from harness.postgresql_server import PostgresqlServer, running_server
 from tests.archive.history_library import SMALL_GRID, histories_of_grid
-from tests.databases import KINDS, Databases, PostgresqlDatabases, SqliteDatabases
-from tests.postgresql_server import PostgresqlServer, running_server
 from threadstate.history.model import History
 
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)

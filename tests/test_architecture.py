@@ -1,4 +1,4 @@
-"""Rules of the house that no linter knows; which room may import which is in ``test_rooms``."""
+"""Rules of the architecture that no linter knows; which room may import which is in ``pyproject.toml``."""
 
 from __future__ import annotations
 
@@ -57,8 +57,13 @@ def test_network_loads_no_solver_and_no_database(repository_root: Path) -> None:
     assert not {name for name in loaded if name.partition(".")[0] in ("numba", "sqlalchemy", "fastapi", "pydantic")}
 
 
-def test_mesh_libraries_are_there_to_be_loaded() -> None:
-    assert {"fcl", "trimesh"} <= modules_loaded_by("import fcl, trimesh")
+def test_plots_load_matplotlib_only_when_they_are_drawn() -> None:
+    loaded = modules_loaded_by("import worker.plots")
+    assert not {name for name in loaded if name.partition(".")[0] == "matplotlib"}
+
+
+def test_what_is_loaded_late_is_there_to_be_loaded() -> None:
+    assert {"fcl", "trimesh", "matplotlib"} <= modules_loaded_by("import fcl, trimesh, matplotlib")
 
 
 def test_no_tracked_file_names_a_package_registry(tracked_files: list[Path], repository_root: Path) -> None:

@@ -11,17 +11,15 @@ import numpy as np
 import pytest
 
 from studies.chart import coal_engine, exact
-from studies.chart.axes import Axes, decades, range_about, spread_out
 from studies.chart.contestant import DEFAULT, LIMITED, ByMesh, Contestant, Engine, Exactly, Series, contestants
 from studies.chart.document import document
-from studies.chart.drawing import NAMES, drawing
+from studies.chart.drawing import DOCS, STYLES, drawing, points
 from studies.chart.errors import height_error, point_error, same_contacts, score, share, spread, turn_error
 from studies.chart.extrapolation import limit_of_none
 from studies.chart.failure import FailureMode, failure_mode, is_clear, same_components
-from studies.chart.findings import agreement, better_in_something, poses_both_faster_and_nearer, ratios
+from studies.chart.findings import agreement, better_in_something, front, poses_both_faster_and_nearer, ratios
 from studies.chart.measure import Run, run
 from studies.chart.page import page
-from studies.chart.pareto import front
 from studies.chart.sample import true_states
 from studies.chart.scale import FULL, Scale
 from studies.chart.study import Study, measured_study, work
@@ -163,7 +161,7 @@ def test_contestants_differ_and_the_finest_take_the_most() -> None:
     found = contestants(FULL)
     assert found[0] == DEFAULT
     assert len({(one.series, one.label) for one in found}) == len(found)
-    assert {one.series for one in found} == set(Series) == set(NAMES)
+    assert {one.series for one in found} == set(Series) == set(STYLES)
     assert len([one for one in found if one.series is Series.EDGES]) == 3 * len(Preset)
     assert len(found) > 45
 
@@ -235,26 +233,33 @@ def test_page_and_numbers_say_what_was_measured(study: Study) -> None:
     assert numbers["contestants"][0]["seconds"]["median"] == study.measured[0].score.seconds.median
 
 
-def test_the_picture_names_every_series(study: Study) -> None:
-    root = ET.fromstring(drawing(study))
-    texts = [element.text for element in root.iter("{http://www.w3.org/2000/svg}text")]
-    assert all(texts.count(name) == (1 if series is Series.EXACT else 3) for series, name in NAMES.items())
-    width, height = map(float, root.attrib["viewBox"].split()[2:])
-    for element in root.iter("{http://www.w3.org/2000/svg}circle"):
-        assert 0.0 < float(element.attrib["cx"]) < width
-        assert 0.0 < float(element.attrib["cy"]) < height
+def test_the_picture_shows_every_contestant(study: Study) -> None:
+    numbers = document(study)
+    shown = list(points(json.loads(numbers)))
+    assert [(point.series, point.seconds) for point in shown] == [
+        (one.run.contestant.series, one.score.seconds.median) for one in study.measured
+    ]
+    lines = {series: sum(point.on_line for point in shown if point.series is series) for series in Series}
+    assert lines == {series: 0 if series is Series.EXACT else 1 for series in Series}
+    picture = drawing(numbers)
+    assert picture == drawing(numbers)
+    root = ET.fromstring(picture)
+    texts = ["".join(element.itertext()) for element in root.iter("{http://www.w3.org/2000/svg}text")]
+    assert all(texts.count(name) == 1 for name, _, _ in STYLES.values())
+    marks = list(root.iter("{http://www.w3.org/2000/svg}use"))
+    sampled = sum(point.series is not Series.EXACT for point in shown)
+    colours = [colour for _, _, colour in STYLES.values()]
+    drawn = [mark for mark in marks if any(colour in mark.get("style", "") for colour in colours)]
+    # In the first panel all, in two those that sample, and each series in the legend.
+    assert len(drawn) == len(shown) + 2 * sampled + len(Series)
 
 
-def test_axes_are_logarithmic_and_hold_what_lies_beyond() -> None:
-    axes = Axes(10.0, 20.0, 100.0, 50.0, (1.0, 100.0), (1e-4, 1.0))
-    assert (axes.x(1.0), axes.x(10.0), axes.x(1e5)) == (10.0, 60.0, 110.0)
-    assert (axes.y(1.0), axes.y(1e-2), axes.y(1e-9)) == (20.0, 45.0, 70.0)
-    assert decades((0.5, 2e3), 1) == [0, 1, 2, 3]
-    assert decades((1e-7, 1.0), 3) == [-6, -3, 0]
-    assert range_about([2.0, 5.0], 1.0) == pytest.approx((0.2, 50.0))
+def test_the_stored_picture_is_that_of_the_stored_numbers() -> None:
+    assert (DOCS / "speed-accuracy.svg").read_text() == drawing((DOCS / "speed-accuracy.json").read_text())
 
 
-def test_labels_are_spread_out_in_their_order() -> None:
-    found = spread_out([50.0, 51.0, 10.0, 52.0], 10.0, 0.0, 70.0)
-    assert found == [50.0, 60.0, 10.0, 70.0]
-    assert spread_out([69.0, 70.0], 10.0, 0.0, 70.0) == [60.0, 70.0]
+def test_what_is_no_number_is_not_drawn_on_the_front() -> None:
+    numbers = json.loads((DOCS / "speed-accuracy.json").read_text())
+    numbers["contestants"][-1]["turn"]["p95"] = None
+    assert math.isnan(list(points(numbers))[-1].turn_deg)
+    ET.fromstring(drawing(json.dumps(numbers)))

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import pytest
 
+from harness.databases import Databases
+from harness.running_service import running_service
 from tests.archive.history_library import SMALL_GRID, store_histories
-from tests.databases import Databases
 from tests.falls_page import falls_shown
 from tests.jobs.jobs import GRID, opened, work_off
-from tests.service.running import running_service
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.client import Client

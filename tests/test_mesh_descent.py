@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.mesh_descent import FASTER, SAFE, Descent, mesh_first_heights
-from tests.oracle.first_height import first_height
+from oracle.first_height import first_height
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()

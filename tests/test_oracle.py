@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tests.oracle.first_height import first_height
-from tests.oracle.lift import least_lift
-from tests.oracle.overlap import overlap_components
-from tests.oracle.pose import pose_rotation
-from tests.oracle.profile import bolt_profile, nut_profile, radius, thread_gap
-from tests.oracle.turn import contact_components_along_turn, turned_pose
+from oracle.first_height import first_height
+from oracle.lift import least_lift
+from oracle.overlap import overlap_components
+from oracle.pose import pose_rotation
+from oracle.profile import bolt_profile, nut_profile, radius, thread_gap
+from oracle.turn import contact_components_along_turn, turned_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 Floats = NDArray[np.float64]

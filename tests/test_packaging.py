@@ -48,5 +48,5 @@ def test_readme_opens_with_targets_that_exist(repository_root: Path) -> None:
 
 def test_command_is_installed() -> None:
     (command,) = (one for one in entry_points(group="console_scripts") if one.name == "threadstate")
-    assert command.value == "worker.cli:main"
+    assert command.value == "worker.command:main"
     assert callable(command.load())

@@ -13,7 +13,7 @@ from benchmarks.scale.figures import Committed, Computed, Copied, Figures, Grown
 from benchmarks.scale.growing import grown, rooms
 from benchmarks.scale.page import dollars, hours, short, write_page
 from benchmarks.scale.plan import bytes_of, steps
-from tests.databases import Databases
+from harness.databases import Databases
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs

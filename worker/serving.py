@@ -6,9 +6,10 @@ import errno
 import os
 import socket
 import sys
+from importlib.util import find_spec
 from typing import NoReturn
 
-from threadstate.errors import ThreadstateError
+from threadstate.errors import MissingExtraError, ThreadstateError
 from threadstate.settings import DATABASE, HOST, PORT
 from worker.output import tell
 
@@ -26,8 +27,11 @@ def become_service(database: str, host: str, port: int) -> NoReturn:
     What ``serve`` and ``run`` end with.
 
     Raises:
+        MissingExtraError: the service's packages are not installed.
         UnusableAddressError: the address cannot be listened on.
     """
+    if find_spec("uvicorn") is None:
+        raise MissingExtraError("the service", "service")
     check_address(host, port)
     tell(f"Open {address(host, port)} in a browser, or ask {address(host, port)}/v1/libraries/latest.")
     environment = {**os.environ, DATABASE: database, HOST: host, PORT: str(port)}

@@ -22,7 +22,7 @@ from benchmarks.scale.figures import Copied, Figures
 from benchmarks.scale.growing import grown, rooms
 from benchmarks.scale.page import write_page
 from benchmarks.scale.processor import Stopwatch
-from tests.postgresql_server import running_server
+from harness.postgresql_server import running_server
 from threadstate.answer.library_network import library_network
 from threadstate.library.copying import copy_library
 from threadstate.library.engine import reading, writing

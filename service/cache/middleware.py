@@ -17,8 +17,8 @@ from service.cache.compression import compressible, varying, zipped, zipped_etag
 from service.cache.library_names import LibraryNames
 from service.cache.responses import CachedResponse, Headers, ResponseCache
 from service.cache.stored import StoredResponses
-from service.edge.route import note_route, noted_route
 from service.middleware import ASKED_AS_HEAD
+from service.route_notes import note_route, noted_route
 from threadstate.library.read import LibraryRecord
 
 LIBRARIES = "/v1/libraries/"

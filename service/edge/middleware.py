@@ -7,10 +7,10 @@ import time
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.edge.drain import Drain
-from service.edge.request_id import HEADER, current_request_id, request_id
-from service.edge.route import method_of, new_notes
 from service.logs.access import AccessLine, log_access
 from service.metrics.requests import RequestMetrics
+from service.request_id import HEADER, current_request_id, request_id
+from service.route_notes import method_of, new_notes
 
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; img-src 'self' data:; base-uri 'none'; object-src 'none'; frame-ancestors 'none'"

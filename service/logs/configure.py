@@ -12,7 +12,7 @@ import orjson
 import structlog
 from structlog.typing import EventDict, Processor, WrappedLogger
 
-from service.edge.request_id import current_request_id
+from service.request_id import current_request_id
 from threadstate.settings import LogForm, LogLevel
 
 _SERVER = ("uvicorn", "uvicorn.error", "uvicorn.access", "uvicorn.asgi")

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from studies.chart.document import document
-from studies.chart.drawing import drawing
+from studies.chart.drawing import DOCS, drawing
 from studies.chart.page import page
 from studies.chart.scale import FULL
 from studies.chart.study import measured_study, work
 
-DOCS = Path(__file__).parent.parent.parent / "docs"
 PROCESSES = 2
 
 
@@ -30,7 +27,8 @@ def main() -> None:
     with Progress(*columns, console=Console(stderr=True), refresh_per_second=2) as progress:
         task = progress.add_task("contestants", total=work(FULL))
         study = measured_study(FULL, PROCESSES, lambda count: progress.advance(task, count))
-    for ending, content in (("svg", drawing(study)), ("json", document(study)), ("md", page(study))):
+    numbers = document(study)
+    for ending, content in (("svg", drawing(numbers)), ("json", numbers), ("md", page(study))):
         (DOCS / f"speed-accuracy.{ending}").write_text(content)
 
 

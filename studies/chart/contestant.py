@@ -15,6 +15,8 @@ MICROINCH = 2e-5
 """A microinch on the paper's thread, in thread pitches."""
 FINAL_STEPS = (10.0, 1.0, 0.1)
 """Final steps in microinches."""
+ONE_MICROINCH = ", 1 uin"
+"""How the label of one whose final step is a microinch ends."""
 COAL_PRESETS = 4
 """How many of the presets, from the coarsest, coal is given, too: it takes twice the time."""
 TIE_TOLERANCES = (1e-13, 1e-8, 1e-6)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,6 @@ from studies.chart.errors import Spread, height_error, spread
 from studies.chart.exact import Pose
 from studies.chart.failure import FailureMode, failure_mode, is_clear, same_components
 from studies.chart.measure import Run
-from studies.chart.pareto import front
 from studies.chart.study import Measured, Study
 from threadstate.state.model import ContactState
 
@@ -74,6 +74,17 @@ def as_built(study: Study) -> Measured:
 def name_of(one: Measured) -> str:
     """A contestant by series and setting."""
     return f"{one.run.contestant.series.value}, {one.run.contestant.label}"
+
+
+def front(points: Sequence[tuple[float, float]]) -> list[int]:
+    """The indices of points that no other is at most equal to in both costs and less in one; by the first cost."""
+    found: list[int] = []
+    lowest = float("inf")
+    for i in sorted(range(len(points)), key=lambda k: points[k]):
+        if points[i][1] < lowest or (found and points[i] == points[found[-1]]):
+            found.append(i)
+            lowest = points[i][1]
+    return found
 
 
 def on_the_front(study: Study) -> list[Measured]:

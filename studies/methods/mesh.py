@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from studies.methods.case import Case
 from studies.methods.method import Answer, Refusal
 from threadstate.errors import MeshUndecidedError
-from threadstate.mesh.method import mesh_method
 from threadstate.mesh.options import Descent, FinalStep, MeshOptions
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.solve import solve_poses_by_mesh
+from threadstate.mesh.solve import mesh_method, solve_poses_by_mesh
 from threadstate.thread.pair import Pair
 
 

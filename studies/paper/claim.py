@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from studies.paper.study import Study
 
 
 class Verdict(StrEnum):
@@ -44,10 +39,6 @@ class Outcome:
     verdict: Verdict
     reason: str = ""
     holds_by_order: tuple[bool, bool] | None = None
-
-
-Measure = Callable[["Study"], Outcome]
-"""A measurement: the outcome of one statement."""
 
 
 @dataclass(frozen=True)

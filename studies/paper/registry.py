@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from studies.paper.claim import Claim, Measure, Statement, claim
+from studies.paper.claim import Claim, Statement, claim
 from studies.paper.measures import approaches, case_one, models, named_poses, orientations, other_cases, parts
-from studies.paper.study import Study
+from studies.paper.study import Measure, Study
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from studies.paper.claim import Outcome
 from studies.paper.geometries import other_geometries
 from studies.paper.readings import TURNING, Angles, Reading, declared_angles
 from studies.paper.revolution import Revolution
@@ -62,6 +63,10 @@ class Study:
     named: Mapping[tuple[Named, Reading], tuple[ContactState, ...]]
     sample: tuple[ContactState, ...]
     declined: int
+
+
+Measure = Callable[[Study], Outcome]
+"""A measurement: the outcome of one statement."""
 
 
 def poses_to_solve(scale: Scale) -> int:

@@ -11,9 +11,9 @@ from studies.methods.method import Method
 from studies.stability.agreement import Outcome
 from threadstate.errors import MeshUndecidedError
 from threadstate.library.grid import Grid
-from threadstate.mesh.method import mesh_method
 from threadstate.mesh.options import Descent
 from threadstate.mesh.presets import Preset
+from threadstate.mesh.solve import mesh_method
 from threadstate.state.model import ContactState
 from threadstate.thread.pair import Pair
 

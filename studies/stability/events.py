@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import pairwise
 
+from oracle.state_turns import first_tangent
 from studies.methods.case import Case, between, same_input
 from studies.methods.method import Method
 from studies.stability.change import Answered, leading_contacts, pivot_lever
-from tests.contact.turns import first_tangent
 from threadstate.state.model import ContactState, FeaturePair, Flag
 
 FEATURE_WIDTH_DEG = 1e-7

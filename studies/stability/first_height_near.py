@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 
-from tests.oracle import first_height as oracle
-from tests.oracle.compiled import compiled
-from tests.oracle.pose import pose_rotation
-from tests.oracle.profile import Floats, bolt_profile, nut_profile
+from oracle import first_height as oracle
+from oracle.compiled import compiled
+from oracle.pose import pose_rotation
+from oracle.profile import Floats, bolt_profile, nut_profile
 from threadstate.state.model import Contact
 from threadstate.thread.pair import Pair
 

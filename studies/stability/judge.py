@@ -1,6 +1,6 @@
 """What the brute force of the tests says of two states where answers jump, and of states by themselves.
 
-It knows nothing of the solver: first heights by columns, components by rays, lifts by samples (``tests/oracle``). Its
+It knows nothing of the solver: first heights by columns, components by rays, lifts by samples (``oracle``). Its
 tolerances are inches on a 1/4-20.
 """
 
@@ -11,13 +11,13 @@ from enum import StrEnum
 
 import numpy as np
 
+from oracle import lift as oracle_lift
+from oracle.first_height import first_height
+from oracle.overlap import excluded_rows, free_component
+from oracle.profile import Floats, bolt_profile, nut_profile
+from oracle.state_turns import Turn, earlier_appearance, turns_of
 from studies.stability.change import Answered, allowed, change_between, leading_contacts, pivot_lever
 from studies.stability.first_height_near import first_height_near
-from tests.contact.turns import Turn, earlier_appearance, turns_of
-from tests.oracle import lift as oracle_lift
-from tests.oracle.first_height import first_height
-from tests.oracle.overlap import excluded_rows, free_component
-from tests.oracle.profile import Floats, bolt_profile, nut_profile
 from threadstate.state.model import ContactState, Flag
 from threadstate.thread.pair import Pair
 

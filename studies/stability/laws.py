@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
+from oracle.contact_rules import Touch, frame_gap, normal_faults, region_faults, surface_gaps
+from oracle.pose import pose_rotation
+from oracle.solids import Floats
 from studies.methods.method import Method
 from studies.stability.change import Answered, leading_contacts
-from tests.contact.contact_rules import Touch, frame_gap, normal_faults, region_faults, surface_gaps
-from tests.contact.geometry import Floats
-from tests.oracle.pose import pose_rotation
 from threadstate.state.model import ContactState, Flag, StateClass
 
 ROTATION_TOLERANCE = 1e-12

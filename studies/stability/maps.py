@@ -5,19 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, zip_longest
 from typing import Generic, Protocol, TypeVar
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.transforms import Transform
+from numpy.typing import NDArray
+
+from studies.pictures import FAINT, picture
 from studies.stability.agreement import Outcome
 from studies.stability.grid_study import DECADES, GridPose, logarithm
-from studies.stability.svg import FAINT, box, document, line, runs, text
 from studies.stability.tangent_study import WRONG_DEG
 from threadstate.state.model import StateClass
 
-COLUMN, ROW, GAP = 2.75, 6.0, 5.0
-LEFT, TOP, RIGHT, BELOW = 86.0, 64.0, 22.0, 84.0
 PHASE_TICK_DEG = 30
-
 
 Seen = TypeVar("Seen")
 SeenThere = TypeVar("SeenThere", covariant=True)
@@ -162,46 +167,52 @@ DECADE_MAP: Map[Outcome] = Map(
 )
 
 
+def colours(chart: Map[Seen], rows: Sequence[Row[Seen]]) -> NDArray[np.uint8]:
+    """The colour of every pose as red, green and blue, shape (rows, phases, 3); rows in the order of the grid.
+
+    There is a white row between one roll and the next.
+    """
+    palette = np.array([to_rgb(shade.colour) for shade in chart.shades])
+    found: list[NDArray[np.float64]] = []
+    for row, after in zip_longest(rows, rows[1:]):
+        found.append(palette[[chart.shade_of(pose) for pose in row.poses]])
+        if after is not None and after.roll_deg != row.roll_deg:
+            found.append(np.ones_like(found[-1]))
+    return np.asarray(np.round(255.0 * np.array(found)), dtype=np.uint8)
+
+
 def drawn(chart: Map[Seen], rows: Sequence[Row[Seen]]) -> str:
     """The map as SVG; rows in the order of the grid."""
-    width = LEFT + 360.0 * COLUMN + RIGHT
+    image = colours(chart, rows)
     groups = [list(group) for _, group in groupby(rows, key=lambda row: row.roll_deg)]
-    middles: list[tuple[Row[Seen], float]] = []
-    elements = [text(LEFT, 24, chart.title, size=17), text(LEFT, 43, chart.caption, size=11.5, colour=FAINT)]
-    y = TOP
-    for group in groups:
-        height = ROW * len(group)
-        elements.append(text(LEFT - 40, y + height / 2 + 4, f"roll {group[0].roll_deg:g}", size=12, anchor="end"))
-        for k in sorted({0, len(group) // 2, len(group) - 1}):
-            label = f"{group[k].pitch_deg:g}"
-            elements.append(text(LEFT - 6, y + ROW * (k + 0.5) + 3, label, size=8.5, anchor="end", colour=FAINT))
-        middles += [(row, y + ROW * (k + 0.5)) for k, row in enumerate(group)]
-        y += height + GAP
-    bottom = y - GAP
-    bars: list[list[tuple[float, float, float]]] = [[] for _ in chart.shades]
-    for row, middle in middles:
-        # A grid with a larger step of phase has wider columns.
-        column = 360.0 * COLUMN / len(row.poses)
-        start = 0
-        for shade, run in groupby(row.poses, key=chart.shade_of):
-            length = len(list(run))
-            bars[shade].append((LEFT + column * start, middle, column * length))
-            start += length
-    elements += [runs(shade.colour, ROW, bar) for shade, bar in zip(chart.shades, bars, strict=True) if bar]
-    elements.append(text(LEFT - 6, TOP - 6, "pitch", size=8.5, anchor="end", colour=FAINT))
-    for phase in range(0, 361, PHASE_TICK_DEG):
-        x = LEFT + COLUMN * phase
-        elements += [line(x, bottom, x, bottom + 5), text(x, bottom + 18, f"{phase}", size=11, anchor="middle")]
-    elements.append(
-        text(LEFT + 180 * COLUMN, bottom + 35, "phase (deg); roll and pitch in deg", size=11.5, anchor="middle")
-    )
-    elements += _legend(chart, bottom + 52)
-    return document(width, bottom + BELOW, chart.title, chart.caption, elements)
+
+    def draw(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        axes.imshow(image, extent=(0.0, 360.0, len(image), 0.0), aspect="auto", interpolation="none")
+        pitches: dict[float, str] = {}
+        top = 0
+        for group in groups:
+            middle = top + len(group) / 2
+            axes.text(-0.045, middle, f"roll {group[0].roll_deg:g}", ha="right", va="center", transform=_beside(axes))
+            marked = sorted({0, len(group) // 2, len(group) - 1})
+            pitches |= {top + k + 0.5: f"{group[k].pitch_deg:g}" for k in marked}
+            top += len(group) + 1
+        axes.set_yticks(list(pitches), list(pitches.values()), fontsize="x-small")
+        axes.tick_params(axis="y", length=0.0)
+        axes.text(-0.008, -0.7, "pitch", ha="right", fontsize="x-small", color=FAINT, transform=_beside(axes))
+        axes.set_xticks(range(0, 361, PHASE_TICK_DEG))
+        axes.set_xlabel("phase (deg); roll and pitch in deg")
+        axes.grid(visible=False)
+        axes.spines[:].set_visible(False)
+        axes.set_title(chart.caption, fontsize="medium", fontweight="normal", color=FAINT)
+        figure.suptitle(chart.title, x=0.01, ha="left", fontsize="x-large")
+        shades = [Patch(facecolor=one.colour, edgecolor=FAINT, label=one.meaning) for one in chart.shades]
+        layout = {"ncols": len(shades), "columnspacing": 1.2, "handlelength": 1.2, "fontsize": "small"}
+        figure.legend(handles=shades, loc="outside lower center", **layout)
+
+    return picture((11.0, 6.6), chart.title, draw)
 
 
-def _legend(chart: Map[Seen], y: float) -> list[str]:
-    elements, x = [], LEFT
-    for shade in chart.shades:
-        elements += [box(x, y, 15, 12, shade.colour, FAINT), text(x + 20, y + 10.5, shade.meaning, size=11.5)]
-        x += 42 + 6.1 * len(shade.meaning)
-    return elements
+def _beside(axes: Axes) -> Transform:
+    """Across as a share of the axes' width, up and down by rows."""
+    return axes.get_yaxis_transform()

@@ -12,11 +12,11 @@ from studies.methods.mesh import MeshStates
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.clusters import Cluster, Connectivity
 from threadstate.mesh.collision import Collider
-from threadstate.mesh.method import mesh_method
 from threadstate.mesh.part import part_solid
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.segments import Intersection
 from threadstate.mesh.solid import Floats, Solid
+from threadstate.mesh.solve import mesh_method
 from threadstate.mesh.touch import cluster_segments
 from threadstate.state.model import ContactState, StagePose
 from threadstate.thread.pair import Pair

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from tests.contact.geometry import Floats
+from oracle.solids import Floats
 
 
 def printed_angles(direction: Floats) -> tuple[float, float]:

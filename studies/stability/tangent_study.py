@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from oracle.solids import Floats
+from oracle.state_turns import first_tangent
 from studies.stability.change import Answered, leading_contacts
 from studies.stability.tangent_angles import error_deg, frame_along, printed_angles, two_argument_angles
-from tests.contact.geometry import Floats
-from tests.contact.turns import first_tangent
 
 OFFSETS = (0.0, 1e-16, 1e-12, 1e-8, 1e-4, 1e-2)
 """Angles (rad) between a direction and the axis that it is beside."""

@@ -8,7 +8,7 @@ An answer fails silently where something that knows nothing of the solver says t
   contacts and has the angle told; drop, pivot offset and class follow from the rest. Checked for every answer.
 - **Continuity.** Every perturbed answer is joined to its centre's by steps in which nothing happens. Where there is no
   such way the two are halved until doubles end or the method refuses, and the two neighbours are put to the brute
-  force of `tests/oracle`: a height may fall only where columns, dense about the contact lost, find no higher one, a
+  force of `oracle`: a height may fall only where columns, dense about the contact lost, find no higher one, a
   turn may go past a neighbour's contact only where rays find no component born on the way, an embedment may jump only
   as the lift does.
 - **Margins.** A class that flips while the contacts stay must have a margin that changes its sign and is no larger

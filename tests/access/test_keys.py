@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from sqlalchemy import Engine, select
 
-from tests.databases import Databases
+from harness.databases import Databases
 from threadstate.access.keys import (
     KeyRefusedError,
     ScopeRefusedError,

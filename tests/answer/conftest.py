@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import pytest
 from sqlalchemy import Connection
 
+from harness.databases import Databases
 from tests.archive.history_library import SMALL_GRID, store_histories
-from tests.databases import Databases
 from threadstate.answer.library_network import LibraryNetwork, library_network
 from threadstate.history.model import History
 from threadstate.library.engine import reader_engine

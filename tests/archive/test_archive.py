@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 from sqlalchemy import func, select
 
+from harness.databases import Databases
 from tests.archive.history_library import SMALL_GRID as GRID
 from tests.archive.history_library import falls_at, rows_of, store_histories
-from tests.databases import Databases
 from threadstate.archive.read import formations, orientation_history, stored_histories
 from threadstate.archive.stored import StoredHistories
 from threadstate.history.model import History

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 from sqlalchemy import Engine, delete, select, update
 
+from harness.databases import Databases
 from tests.archive.history_library import SMALL_GRID as GRID
 from tests.archive.history_library import store_histories
-from tests.databases import Databases
 from threadstate.archive.complete import completed, incomplete_orientations
 from threadstate.archive.read import stored_histories
 from threadstate.errors import SchemaError

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 
 import pytest
 
+from harness.databases import Databases
+from harness.running_service import running_service
 from service.app import create_app
 from tests.archive.history_library import SMALL_GRID, store_histories
-from tests.databases import Databases
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
-from tests.service.running import running_service
 from threadstate.client import Client
 from threadstate.history.model import History
 from threadstate.library.grid import Grid

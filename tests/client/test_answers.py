@@ -154,7 +154,7 @@ def test_what_is_not_there_is_an_error_of_its_own(client: Client) -> None:
 
 def test_an_address_may_have_a_path(address: str) -> None:
     """As behind a proxy; what the client asks is below it, what it is told to follow may be so already."""
-    from threadstate.client.address import url_of
+    from threadstate.client.options import url_of
 
     base = httpx2.URL("http://host/threads")
     assert str(url_of(base, "/v1/jobs?before=3")) == "http://host/threads/v1/jobs?before=3"

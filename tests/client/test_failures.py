@@ -37,7 +37,7 @@ from threadstate.client import (
     UnresolvedPoseError,
     retrying,
 )
-from threadstate.client.models.health import Health
+from threadstate.client.models.service import Health
 from threadstate.client.retrying import LONGEST_PAUSE_S, Retrying, backoff_s, retry_after_s
 from threadstate.errors import InvalidValueError
 

@@ -11,11 +11,11 @@ import anyio
 import pytest
 from sqlalchemy import Engine
 
+from harness.databases import Databases
+from harness.running_service import running_service
 from tests.client.scripted_server import BREAK_OFF, answer, scripted_server
 from tests.client.test_failures import JOB, KEY
-from tests.databases import Databases
 from tests.jobs.jobs import GRID, opened, work_off
-from tests.service.running import running_service
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.client import (
@@ -28,9 +28,9 @@ from threadstate.client import (
     UnauthorizedError,
     UnexpectedAnswerError,
     WaitTimedOutError,
-    job,
     retrying,
 )
+from threadstate.client._sync import job
 from threadstate.client.models.jobs import JobDocument
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.work import publish_job, set_back

@@ -11,10 +11,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.oracle import first_height as oracle
-from tests.oracle.compiled import compiled
-from tests.oracle.pose import pose_rotation
-from tests.oracle.profile import P, bolt_profile, nut_profile
+from oracle import first_height as oracle
+from oracle.compiled import compiled
+from oracle.pose import pose_rotation
+from oracle.profile import P, bolt_profile, nut_profile
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]

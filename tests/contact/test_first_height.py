@@ -7,10 +7,10 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from oracle.first_height import first_height
 from tests.contact.events import JUMPS_DEG, TIES_DEG
 from tests.contact.finer_first_height import finer_first_height
 from tests.contact.samples import Floats, PoseDeg, around, as_poses, random_poses
-from tests.oracle.first_height import first_height
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc

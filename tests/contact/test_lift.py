@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from oracle.lift import least_lift
 from tests.contact.samples import random_poses
-from tests.oracle.lift import least_lift
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses

@@ -8,9 +8,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from tests.contact.contact_rules import Touch, frame_gap, normal_faults, region_faults, surface_gaps
+from oracle.contact_rules import Touch, frame_gap, normal_faults, region_faults, surface_gaps
+from oracle.pose import pose_rotation
 from tests.contact.samples import Floats, random_poses
-from tests.oracle.pose import pose_rotation
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tests.oracle.compiled import compiled
+from oracle.compiled import compiled
 from threadstate.contact import _lane_kernel as lk
 from threadstate.contact import _slope_kernel as sk
 from threadstate.contact import _tangency_kernel as tk

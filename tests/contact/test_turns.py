@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from oracle.state_turns import Turn, deepest_near, earlier_appearance, turns_of, within_brute_force
 from tests.contact.samples import Floats, as_poses, random_poses
-from tests.contact.turns import Turn, deepest_near, earlier_appearance, turns_of, within_brute_force
 from threadstate.state.model import ContactState, FeaturePair
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.explorer.browser import Explorer
+from harness.browser import Explorer
 
 AXE = Path("node_modules/axe-core/axe.min.js")
 GRAVE = ("serious", "critical")

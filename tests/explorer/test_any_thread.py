@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from selenium import webdriver
 
+from harness.browser import Explorer, phase_of, resize
+from harness.databases import Databases
+from harness.running_service import running_service
 from tests.archive.history_library import histories_of_grid, store_histories
-from tests.databases import Databases
-from tests.explorer.browser import Explorer, phase_of, resize
 from tests.explorer.conftest import GRID
 from tests.explorer.test_explorer import MINUS, length_shown, shown_numbers, wait_for_scene
 from tests.service.own_library import OWN_PAIR, store_own_library
-from tests.service.running import running_service
 from threadstate.library.grid import Grid
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose

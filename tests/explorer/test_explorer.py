@@ -9,7 +9,7 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
-from tests.explorer.browser import Explorer, phase_of, resize
+from harness.browser import Explorer, phase_of, resize
 
 LIBRARY = "/v1/libraries/latest"
 CLASS_NAMES = {

@@ -6,7 +6,7 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
-from tests.explorer.browser import Explorer, phase_of
+from harness.browser import Explorer, phase_of
 
 FOCUSED = """
 const at = document.activeElement;

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.explorer.browser import Explorer
+from harness.browser import Explorer
 from tests.explorer.test_explorer import choose_pose, wait_for_scene
 from threadstate.client.models.states import State
 

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import pytest
 from sqlalchemy import Engine
 
+from harness.databases import Databases
 from tests.archive.history_library import SMALL_GRID, store_histories
-from tests.databases import Databases
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
 from threadstate.history.model import History

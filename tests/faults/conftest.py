@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Engine, create_engine, event
 
-from tests.databases import Databases, SqliteDatabases
+from harness.databases import Databases, SqliteDatabases
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Engine
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.jobs.jobs import GRID, INPUTS, events, opened, published_count, read_job, work_off
 from tests.library.states import plain_state
 from threadstate.jobs.ask import ask_for

@@ -7,7 +7,7 @@ from threading import Thread
 import pytest
 from sqlalchemy.exc import OperationalError
 
-from tests.databases import SqliteDatabases
+from harness.databases import SqliteDatabases
 from tests.faults.conftest import INPUTS, SERVING, Unwatched, holding, published
 from tests.service.conftest import client_of
 from tests.service.test_problems import problem

@@ -18,7 +18,7 @@ import pytest
 from sqlalchemy import Engine, event, func, select
 from sqlalchemy.exc import OperationalError
 
-from tests.databases import SqliteDatabases
+from harness.databases import SqliteDatabases
 from tests.faults.conftest import GRID, GRID_OPTIONS, INPUTS, SERVING, Unwatched, published
 from tests.service.conftest import client_of
 from tests.service.test_problems import problem

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.faults.conftest import Unwatched, published
 from tests.worker.conftest import COMMAND
 from threadstate.library.engine import writing

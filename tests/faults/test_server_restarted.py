@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Engine, Table, func, select
 
-from tests.databases import PostgresqlDatabases
+from harness.databases import PostgresqlDatabases
+from harness.postgresql_server import PostgresqlServer, running_server
 from tests.faults.conftest import GRID, GRID_OPTIONS, INPUTS, Unwatched, published
-from tests.postgresql_server import PostgresqlServer, running_server
 from tests.service.conftest import client_of
 from tests.service.test_problems import problem
 from tests.worker.conftest import COMMAND

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from tests.oracle.pose import pose_rotation
-from tests.oracle.profile import bolt_profile, nut_profile, radius
+from oracle.pose import pose_rotation
+from oracle.profile import bolt_profile, nut_profile, radius
 from threadstate.history.descents import falls_of
 from threadstate.history.falls import Jump
 from threadstate.history.fold import fold_near

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from sqlalchemy import Engine
 
-from tests.databases import Databases
+from harness.databases import Databases
 from threadstate.library.engine import reader_engine, writer_engine
 
 

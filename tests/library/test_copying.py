@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import pytest
 from sqlalchemy import Engine, Table, update
 
+from harness.databases import Databases
 from tests.archive.history_library import SMALL_GRID as GRID
 from tests.archive.history_library import store_histories
-from tests.databases import Databases
 from tests.library.states import plain_state
 from tests.library.test_undecided import published as published_with_undecided
 from threadstate.errors import NotFoundError

@@ -13,7 +13,7 @@ from sqlalchemy import Engine, String, inspect, text
 from sqlalchemy.exc import DBAPIError
 
 import migrations
-from tests.databases import Databases
+from harness.databases import Databases
 from threadstate.errors import SchemaError
 from threadstate.library.engine import reader_engine, reading, writer_engine, writing
 from threadstate.library.schema import MENDING_COMMAND, SCHEMA_REVISION, check_schema, stored_revision

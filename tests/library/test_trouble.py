@@ -8,7 +8,7 @@ from sqlalchemy import text
 from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.exc import TimeoutError as NoConnectionError
 
-from tests.databases import Databases
+from harness.databases import Databases
 from threadstate.library.engine import reading, writing
 from threadstate.library.trouble import Trouble, trouble_of
 

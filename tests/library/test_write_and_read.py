@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from sqlalchemy import Engine, func, select
 from sqlalchemy.exc import DBAPIError
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.library.states import orientation_states, plain_state
 from threadstate.errors import NotFoundError
 from threadstate.library import read, write

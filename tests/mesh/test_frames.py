@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.oracle.pose import pose_rotation, turn_about
+from oracle.pose import pose_rotation, turn_about
 from threadstate.mesh.frames import (
     along,
     apply,

@@ -12,12 +12,11 @@ import pytest
 from tests.mesh.pairs import M6, UNC
 from threadstate.errors import InvalidValueError, MeshUndecidedError
 from threadstate.mesh.deviation import deviation
-from threadstate.mesh.method import mesh_method
 from threadstate.mesh.options import Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.part import part_solid
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.solve import solve_poses_by_mesh
+from threadstate.mesh.solve import mesh_method, solve_poses_by_mesh
 from threadstate.state.model import ContactState, FeaturePair, Flag, StateClass
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose

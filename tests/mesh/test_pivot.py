@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.oracle.pose import turn_about
+from oracle.pose import turn_about
 from threadstate.mesh.pivot import origin_moment, sense_by_moment, sense_by_quadrants
 from threadstate.mesh.solid import Floats
 

@@ -7,8 +7,8 @@ import pytest
 from fastapi.testclient import TestClient
 from sqlalchemy import Connection, Engine
 
+from harness.databases import Databases
 from service.app import create_app
-from tests.databases import Databases
 from tests.service.made_up_states import made_up_states
 from tests.service.own_library import store_own_library
 from threadstate.library.engine import reader_engine, writer_engine

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from fastapi.testclient import TestClient
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.service.conftest import StoredLibrary, client_of
 from tests.service.made_up_states import made_up_states
 from threadstate.library.engine import writer_engine

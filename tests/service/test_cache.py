@@ -9,10 +9,10 @@ from fastapi.responses import StreamingResponse
 from fastapi.testclient import TestClient
 from sqlalchemy import Connection
 
+from harness.databases import Databases
 from service.app import create_app
 from service.cache.library_names import LibraryNames
 from service.cache.responses import OVERHEAD_BYTES, CachedResponse, ResponseCache
-from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
 from threadstate.library.engine import reading, writing

@@ -14,8 +14,8 @@ from fastapi.testclient import TestClient
 from structlog.testing import capture_logs
 
 from service.app import create_app
-from service.edge.request_id import current_request_id
 from service.logs.configure import configure_logs
+from service.request_id import current_request_id
 from tests.service.conftest import StoredLibrary
 from tests.service.test_problems import problem
 from threadstate.errors import InvalidValueError

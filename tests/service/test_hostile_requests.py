@@ -10,8 +10,8 @@ from urllib.parse import quote
 import pytest
 from fastapi.testclient import TestClient
 
+from harness.databases import Databases
 from service.app import LARGEST_BODY_BYTES
-from tests.databases import Databases
 from tests.service.conftest import client_of
 from tests.service.test_fuzz import check
 from tests.service.test_problems import problem

@@ -11,8 +11,8 @@ from fastapi.testclient import TestClient
 from jsonschema import Draft202012Validator
 from sqlalchemy import Engine
 
+from harness.databases import Databases
 from service.jobs.schemas import EventDocument, JobDocument, JobPage
-from tests.databases import Databases
 from tests.jobs.jobs import GRID, INPUTS, opened, work_off
 from tests.service.conftest import client_of
 from tests.service.test_problems import problem

@@ -11,8 +11,8 @@ import pytest
 from fastapi.testclient import TestClient
 from sqlalchemy import Engine
 
+from harness.databases import Databases
 from service.app import create_app
-from tests.databases import Databases
 from tests.jobs.jobs import published_count
 from tests.service.test_problems import problem
 from threadstate.access.keys import create_key, revoke_key

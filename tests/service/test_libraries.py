@@ -5,7 +5,7 @@ from collections import Counter
 import pytest
 from fastapi.testclient import TestClient
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.service.conftest import StoredLibrary, client_of, store_library
 from tests.service.made_up_states import made_up_states
 from threadstate.library.engine import writer_engine

@@ -9,6 +9,7 @@ import pytest
 from fastapi.testclient import TestClient
 from pydantic import BaseModel
 
+from harness.databases import Databases
 from service.network.schemas import (
     ComputedFalls,
     ComputedHeights,
@@ -25,7 +26,6 @@ from service.network.schemas import (
     WindowsAnswer,
 )
 from tests.archive.history_library import histories_of_grid, store_histories
-from tests.databases import Databases
 from tests.service.conftest import client_of
 from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
 from threadstate.answer.heights import computed_heights, heights_document

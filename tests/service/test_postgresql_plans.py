@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 from sqlalchemy import Connection, Select
 
+from harness.databases import Databases
 from service.states.query import SORTS, Place, SortKey, StateFilter
 from service.states.repository import place_statements
-from tests.databases import Databases
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
 from tests.service.test_query_plans import INDEXED_COLUMN

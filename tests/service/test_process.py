@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import httpx2
 import pytest
 
+from harness.running_service import running_service
 from tests.service.conftest import StoredLibrary
-from tests.service.running import running_service
 
 pytestmark = pytest.mark.sqlite_alone
 

@@ -16,8 +16,8 @@ import httpx2
 import pytest
 from sqlalchemy import text
 
+from harness.databases import Databases
 from scripts.hand_over import hand_over
-from tests.databases import Databases
 from tests.service.conftest import StoredLibrary
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope

@@ -9,8 +9,8 @@ import pytest
 from fastapi.testclient import TestClient
 from sqlalchemy import update
 
+from harness.databases import Databases
 from service.app import create_app
-from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
 from tests.service.test_problems import problem

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 import pytest
 from fastapi.testclient import TestClient
 
+from harness.databases import Databases
 from service.undecided.schemas import UndecidedPage
-from tests.databases import Databases
 from tests.service.conftest import StoredLibrary, client_of, store_library
 from tests.service.made_up_states import made_up_states
 from threadstate.library.grid import Grid

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 
+from harness.databases import Databases
 from service.app import create_app
 from service.network.store import NetworkStore
 from tests.archive.history_library import SMALL_GRID, store_histories
-from tests.databases import Databases
 from threadstate.history.model import History
 from threadstate.library.read import latest_library
 from threadstate.settings import DATA_DIR, DATABASE, read_settings

@@ -8,7 +8,7 @@ import pytest
 from fastapi.testclient import TestClient
 from sqlalchemy import Engine, select
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.service.conftest import client_of
 from tests.service.test_hostile_requests import address, described
 from tests.service.test_problems import problem

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tests.contact.contact_rules import Touch, surface_gaps
-from tests.contact.geometry import edge_tangent, outside_thread
-from tests.contact.turns import contacts_of_stage, deepest_near, turns_of
-from tests.oracle.first_height import first_height
-from tests.oracle.profile import bolt_profile, nut_profile, radius
+from oracle.contact_rules import Touch, surface_gaps
+from oracle.first_height import first_height
+from oracle.profile import bolt_profile, nut_profile, radius
+from oracle.solids import edge_tangent, outside_thread
+from oracle.state_turns import contacts_of_stage, deepest_near, turns_of
 from threadstate.state.model import ContactState, FeaturePair, Flag, StateClass
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc

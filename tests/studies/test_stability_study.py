@@ -6,6 +6,7 @@ import csv
 import io
 import math
 import xml.etree.ElementTree as ET
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,7 +21,7 @@ from studies.stability.descent_study import OutcomeRow, first_height, judged
 from studies.stability.events import EventKind, events_along, phase_line
 from studies.stability.findings import Extent, Findings, RivalExtent, findings
 from studies.stability.judge import Fault
-from studies.stability.maps import DECADE_MAP, MAPS, drawn
+from studies.stability.maps import DECADE_MAP, MAPS, colours, drawn
 from studies.stability.page import page
 from studies.stability.rival_study import thinned
 from studies.stability.rival_tally import RivalTally, Wrong
@@ -146,13 +147,17 @@ def test_a_map_covers_every_pose_once_and_is_well_formed() -> None:
         for roll in (-1.0, 1.0)
         for pitch in (0.0, 1.0, 2.0)
     ]
-    root = ET.fromstring(drawn(DECADE_MAP, rows))
-    paths = [one for one in root.iter("{http://www.w3.org/2000/svg}path") if one.get("stroke-width")]
-    widths = {
-        one.get("stroke"): sum(float(run.split("h")[1]) for run in one.get("d", "").split("M")[1:]) for one in paths
-    }
-    shades = [shade.colour for shade in DECADE_MAP.shades]
-    assert [widths[colour] / sum(widths.values()) for colour in shades] == [0.25, 0.5, 0.25]
+    image = colours(DECADE_MAP, rows)
+    assert image.shape == (7, 4, 3)
+    shades = [tuple(bytes.fromhex(shade.colour[1:])) for shade in DECADE_MAP.shades]
+    counts = Counter(tuple(pose) for pose in image.reshape(-1, 3).tolist())
+    assert counts == {shades[0]: 6, shades[1]: 12, shades[2]: 6, (255, 255, 255): 4}
+    assert image[3].min() == 255
+    picture = drawn(DECADE_MAP, rows)
+    assert picture == drawn(DECADE_MAP, rows)
+    texts = ["".join(one.itertext()) for one in ET.fromstring(picture).iter("{http://www.w3.org/2000/svg}text")]
+    named = {DECADE_MAP.title, DECADE_MAP.caption, "roll -1", "roll 1", "pitch", "330"}
+    assert named | {shade.meaning for shade in DECADE_MAP.shades} <= set(texts)
 
 
 def test_the_study_finds_the_hard_places_and_judges_every_pose(found: Findings) -> None:

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from tests.contact.region_rule import region_at
-from tests.oracle.profile import bolt_profile, nut_profile, radius
+from oracle.profile import bolt_profile, nut_profile, radius
+from oracle.region_rule import region_at
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 from threadstate.thread.play import axial_play

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.databases import Databases
+from harness.databases import Databases
 from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE
 from worker.cli import run_command_line

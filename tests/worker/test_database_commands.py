@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.worker.conftest import ONE_ORIENTATION, CommandLine
 from threadstate.library.schema import SCHEMA_REVISION
 from worker.exit_codes import ExitCode

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from pyarrow import parquet
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
 from tests.worker.conftest import CommandLine

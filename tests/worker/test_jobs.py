@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Engine, select
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
 from threadstate.jobs.ask import ask_for, cancel
 from threadstate.jobs.model import JobRecord

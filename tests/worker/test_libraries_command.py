@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
 from tests.worker.conftest import CommandLine

@@ -1,19 +1,13 @@
-"""A client of the service (extra ``client``): ``Client``, ``AsyncClient``, what they answer and what they raise.
+"""A client of the service: ``Client``, ``AsyncClient``, what they answer and what they raise.
 
 One description of every request (``calls``) and one reading of every answer (``models``, ``wire``) serve both clients;
 only the sending differs. ``docs/client.md`` is the manual.
 """
 
-from threadstate.errors import MissingExtraError
-
-try:
-    import httpx2 as _httpx2  # noqa: F401 - to say at once which extra brings it
-except ModuleNotFoundError:
-    raise MissingExtraError("threadstate.client", "client") from None
-
-from threadstate.client.async_client import AsyncClient
-from threadstate.client.async_job import AsyncJob
-from threadstate.client.client import Client
+from threadstate.client._async.client import AsyncClient, AsyncItems
+from threadstate.client._async.job import AsyncJob
+from threadstate.client._sync.client import Client, Items
+from threadstate.client._sync.job import Job
 from threadstate.client.errors import (
     ClientError,
     ConflictError,
@@ -36,9 +30,7 @@ from threadstate.client.errors import (
     WaitTimedOutError,
 )
 from threadstate.client.frames import to_pandas, to_polars
-from threadstate.client.items import AsyncItems, Items
-from threadstate.client.job import Job
-from threadstate.client.waiting import Progress
+from threadstate.client.watching import Progress
 
 __all__ = [
     "AsyncClient",

@@ -1,11 +1,12 @@
-"""A request and what its answer is read as: the one description that both clients send."""
+"""A request and what its answer is read as: the one description that both clients send, and have methods of."""
 
 from __future__ import annotations
 
+import inspect
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 from urllib.parse import quote
 
 from pydantic import BaseModel
@@ -111,3 +112,18 @@ def _written(value: str | float | bool) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     return number_text(value) if isinstance(value, float) else str(value)
+
+
+def describe_as(method: Callable[..., Any], describe: Callable[..., Any], returned: str = "{}") -> None:
+    """Give a method the name and the documentation of ``describe``, and its parameters behind the client.
+
+    ``returned`` is what the method returns, with ``{}`` for what the described request is answered by.
+    """
+    method.__name__ = describe.__name__
+    method.__doc__ = describe.__doc__
+    signature = inspect.signature(describe)
+    client = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
+    answer = str(signature.return_annotation).removeprefix("Paged").removeprefix("Call[").removesuffix("]")
+    method.__signature__ = signature.replace(  # type: ignore[attr-defined]
+        parameters=[client, *signature.parameters.values()], return_annotation=returned.format(answer)
+    )

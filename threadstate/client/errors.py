@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from threadstate.client.models.jobs import JobDocument
-from threadstate.client.models.problem import Problem, ProblemItem
+from threadstate.client.models.service import Problem, ProblemItem
 from threadstate.errors import ThreadstateError
 
 PROBLEM_PREFIX = "urn:threadstate:problem:"

@@ -9,7 +9,6 @@ from typing import TypeVar
 import httpx2
 from pydantic import ValidationError
 
-from threadstate.client.address import url_of
 from threadstate.client.call import Call
 from threadstate.client.errors import (
     ClientError,
@@ -18,8 +17,8 @@ from threadstate.client.errors import (
     UnexpectedAnswerError,
     problem_error,
 )
-from threadstate.client.models.problem import Problem
-from threadstate.client.options import Options
+from threadstate.client.models.service import Problem
+from threadstate.client.options import Options, url_of
 from threadstate.client.retrying import retry_after_s
 
 Result = TypeVar("Result")

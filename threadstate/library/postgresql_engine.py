@@ -6,10 +6,12 @@ committed and stays so. A reader's queries all see one snapshot (REPEATABLE READ
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import Any
 
 from sqlalchemy import URL, Engine, create_engine, event
 
+from threadstate.errors import MissingExtraError
 from threadstate.settings import database_password
 
 CONNECT_TIMEOUT_S = 10
@@ -23,6 +25,7 @@ def postgresql_writer(url: URL, patience_s: float | None = None) -> Engine:
 
     Raises:
         InvalidValueError: the password's file cannot be read.
+        MissingExtraError: psycopg is not installed.
     """
     # Rows are handed to the driver as tuples.
     engine = create_engine(
@@ -46,6 +49,7 @@ def postgresql_reader(url: URL) -> Engine:
 
     Raises:
         InvalidValueError: the password's file cannot be read.
+        MissingExtraError: psycopg is not installed.
     """
     engine = create_engine(_with_defaults(url), isolation_level="REPEATABLE READ", pool_pre_ping=True)
 
@@ -58,6 +62,8 @@ def postgresql_reader(url: URL) -> Engine:
 
 
 def _with_defaults(url: URL) -> URL:
+    if find_spec("psycopg") is None:
+        raise MissingExtraError("a PostgreSQL database", "postgresql")
     defaults = {
         "application_name": "threadstate",
         "client_encoding": "utf8",

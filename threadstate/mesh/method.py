@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from threadstate.mesh.options import Descent, MeshOptions, Tangent
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.pivot import origin_moment
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solid import Floats, Solid
 from threadstate.mesh.steps import Reached, approach, decades, march_and_halve, regress
 from threadstate.mesh.touch import NoContactPointError, Touch, touch, touches_beyond
@@ -353,16 +352,6 @@ class MeshMethod:
             rk.put_contact(number, numbers, flat, bolt, nut, row)
             if rk.grazes(numbers, flat, bolt, nut):
                 sk.add_flag(row, rk.FLAG_GRAZING)
-
-
-@lru_cache(maxsize=4)
-def mesh_method(pair: Pair, options: MeshOptions) -> MeshMethod:
-    """The method for a pair; its meshes and search trees are kept."""
-    if options.scene is Scene.CURVES:
-        from threadstate.mesh.curve_method import CurveMethod
-
-        return CurveMethod(pair, options)
-    return MeshMethod(pair, options)
 
 
 def _has_leapt(before: Clusters, after: Clusters) -> bool:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.agreement import disagreement, other_tessellation
-from threadstate.mesh.method import MeshMethod, mesh_method
+from threadstate.mesh.curve_method import CurveMethod
+from threadstate.mesh.method import MeshMethod
 from threadstate.mesh.options import MeshOptions
+from threadstate.mesh.scene_name import Scene
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
@@ -40,6 +44,12 @@ def solve_poses_by_mesh(
     wanted = checked_poses(poses)
     solve = _checked if mesh.checked else _unchecked
     return [solve(pair, mesh, chosen, (roll, pitch, phase)) for roll, pitch, phase in wanted.tolist()]
+
+
+@lru_cache(maxsize=4)
+def mesh_method(pair: Pair, options: MeshOptions) -> MeshMethod:
+    """The method for a pair, by triangles or by edge curves as the scene says; the last four are cached."""
+    return CurveMethod(pair, options) if options.scene is Scene.CURVES else MeshMethod(pair, options)
 
 
 def _checked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:

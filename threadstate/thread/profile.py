@@ -6,11 +6,13 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from threadstate.errors import ImpossibleThreadError, InvalidValueError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
@@ -103,6 +105,8 @@ class Profile:
     @cached_property
     def row(self) -> NDArray[np.float64]:
         """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (11,)."""
+        import numpy as np
+
         flat, flank, crest, top = self.boundaries
         cot = 1.0 / math.tan(math.radians(self.flank_half_angle_deg))
         row = np.array(
@@ -156,7 +160,7 @@ class Profile:
 
 
 def _kernel() -> ModuleType:
-    """The compiled profile; numba, which it imports, takes longer to load than most of what a pair is needed for."""
+    """The compiled profile; a client reads pairs where numba is not installed, and so imports no NumPy either."""
     from threadstate.thread import _profile_kernel
 
     return _profile_kernel

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from studies.paper.claim import Measure, Outcome, Statement, Verdict
+from studies.paper.claim import Outcome, Statement, Verdict
 from studies.paper.measures.cases import (
     Case,
     by_tilt,
@@ -34,7 +34,7 @@ from studies.paper.rules import (
     settled,
 )
 from studies.paper.statements import cases as statements
-from studies.paper.study import Study, Survey
+from studies.paper.study import Measure, Study, Survey
 from threadstate.thread.pair import Pair
 from threadstate.thread.regions import BOLT_REGIONS, Region
 

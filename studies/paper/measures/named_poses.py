@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from studies.paper.claim import Measure, Outcome, Statement, Verdict
+from studies.paper.claim import Outcome, Statement, Verdict
 from studies.paper.readings import Reading
 from studies.paper.rules import NEAR_SURFACE, ON_SURFACE
 from studies.paper.statements import approaches as statements
-from studies.paper.study import FIG_19, FIG_20, FIG_21, Named, Study
+from studies.paper.study import FIG_19, FIG_20, FIG_21, Measure, Named, Study
 from threadstate.state.model import ContactState, Flag, StateClass
 
 Test = Callable[[ContactState], bool]

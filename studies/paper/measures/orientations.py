@@ -6,14 +6,14 @@ import math
 from collections import Counter
 from collections.abc import Iterable
 
-from studies.paper.claim import Measure, Outcome, Statement
+from studies.paper.claim import Outcome, Statement
 from studies.paper.measures.approaches import QUASI_STABLE, STABLE, UNSTABLE, approaches
 from studies.paper.measures.cases import in_every_reading
 from studies.paper.revolution import Revolution
 from studies.paper.rules import SAME_PLACE, Finding, decided
 from studies.paper.statements import approaches as approach_statements
 from studies.paper.statements import orientations as statements
-from studies.paper.study import Study, Survey
+from studies.paper.study import Measure, Study, Survey
 from threadstate.state.model import ContactState, FeaturePair, Flag
 from threadstate.thread.regions import Region
 

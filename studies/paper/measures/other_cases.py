@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from studies.paper.claim import Measure, Outcome, Statement
+from studies.paper.claim import Outcome, Statement
 from studies.paper.measures.cases import Case, by_tilt, in_every_geometry, region_before_fall, revolutions, word
 from studies.paper.readings import Reading
 from studies.paper.revolution import Revolution
@@ -22,7 +22,7 @@ from studies.paper.rules import (
     settled,
 )
 from studies.paper.statements import cases as statements
-from studies.paper.study import Study, Survey
+from studies.paper.study import Measure, Study, Survey
 from threadstate.state.model import ContactState, Flag
 from threadstate.thread.regions import Region
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from sqlalchemy import func, select
 
-from tests.databases import Databases
+from harness.databases import Databases
 from tests.worker.cluster.clusters import Cluster, running_cluster
 from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
 from threadstate.jobs.ask import ask_for

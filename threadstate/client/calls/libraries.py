@@ -1,9 +1,10 @@
-"""Requests for libraries and what is in them as a whole."""
+"""Requests for libraries, for what is in them as a whole, and for the service's own state."""
 
 from __future__ import annotations
 
 from threadstate.client.call import LATEST, Call, LibraryName, get, get_content, library_path, path_of
 from threadstate.client.models.libraries import BuildingList, LibraryDetail, LibraryList, OrientationsAnswer
+from threadstate.client.models.service import Health, Readiness
 
 GLB = "model/gltf-binary"
 
@@ -31,3 +32,18 @@ def orientations(*, library: LibraryName = LATEST, unit: str | None = None) -> C
 def mesh(part: str, *, library: LibraryName = LATEST) -> Call[bytes]:
     """The ``bolt`` or the ``nut`` as a closed mesh (GLB), in its own frame and the library's own unit."""
     return get_content(library_path(library, "meshes", part), GLB)
+
+
+def export(table: str, file_format: str, *, library: LibraryName = LATEST, unit: str | None = None) -> Call[bytes]:
+    """A table of a library in a format, to be read as it comes."""
+    return get_content(library_path(library, "export", f"{table}.{file_format}"), "*/*", unit=unit)
+
+
+def health() -> Call[Health]:
+    """Whether the process lives."""
+    return get(path_of("healthz"), Health)
+
+
+def readiness() -> Call[Readiness]:
+    """Whether the service can answer; one that cannot is a ``ServiceUnavailableError`` at once."""
+    return Call("GET", path_of("readyz"), Readiness.model_validate_json, repeatable=False)

@@ -1,0 +1,170 @@
+"""The turns of a state, worked out anew from its contacts by the method's section 4."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from oracle.overlap import LARGEST_TILT_DEG, clearance, excluded_rows, free_component
+from oracle.profile import bolt_profile, nut_profile
+from oracle.solids import Floats, edge_tangent
+from oracle.turn import contact_components_along_turn, turned_pose
+from threadstate.state.model import Contact, ContactState
+from threadstate.thread.pair import Pair
+
+
+@dataclass(frozen=True)
+class Turn:
+    """A turn in the nut's frame: the pose before it, the axis, the signed turn found (None: no contact), what is known.
+
+    ``found`` holds the contacts at its end.
+    """
+
+    stage: int
+    rotation: Floats
+    translation: Floats
+    point: Floats
+    direction: Floats
+    sense: float
+    turn_deg: float | None
+    known: Floats
+    found: tuple[Contact, ...]
+
+    def pose_after(self, turn_deg: float) -> tuple[Floats, Floats]:
+        """Rotation and translation after a turn of that size in the turn's sense."""
+        return turned_pose(self.rotation, self.translation, self.point, self.direction, self.sense * turn_deg)
+
+    def end_deg(self, limit_deg: float) -> float:
+        """The size of the turn, up to the limit where it ended without contact; no more than the oracle can follow."""
+        size = limit_deg if self.turn_deg is None else self.turn_deg
+        while _tilt_deg(self.pose_after(size)[0]) > LARGEST_TILT_DEG - 0.1:
+            size -= 0.25
+        return size
+
+
+def within_brute_force(turn: Turn) -> bool:
+    """Whether the brute force can look at the end of a turn that ended in a contact."""
+    return turn.turn_deg is not None and _tilt_deg(turn.pose_after(turn.turn_deg)[0]) < LARGEST_TILT_DEG - 0.1
+
+
+def _tilt_deg(rotation: Floats) -> float:
+    return math.degrees(math.acos(min(1.0, rotation[2, 2])))
+
+
+def contacts_of_stage(state: ContactState, stage: int) -> tuple[Contact, ...]:
+    """The contacts that were found in a stage."""
+    return tuple(contact for contact in state.contacts if contact.stage == stage)
+
+
+def first_tangent(pair: Pair, state: ContactState) -> Floats:
+    """``t0``: counter-clockwise tangent at CP0 of the nut's edge, else of the bolt's, else of the nut's helix."""
+    first = state.contacts[0]
+    point, rotation = np.array(first.point), np.array(state.poses[0].rotation)
+    bolt_feature, nut_feature = first.features.value.split("-")
+    if nut_feature == "edge":
+        tangent = edge_tangent(point, nut_profile(pair))
+    elif bolt_feature == "edge":
+        tangent = rotation @ edge_tangent(np.array(first.point_bolt), bolt_profile(pair))
+    else:
+        tangent = np.array([-point[1], point[0], pair.thread_pitch / (2.0 * math.pi)])
+    counter_clockwise = point[0] * tangent[1] - point[1] * tangent[0]
+    return np.asarray(math.copysign(1.0, counter_clockwise) * tangent / np.linalg.norm(tangent))
+
+
+def turns_of(pair: Pair, state: ContactState) -> list[Turn]:
+    """The second stage's turn and, where that one ended in a contact, the third's; the pose must be tilted."""
+    cp0 = np.array(state.contacts[0].point)
+    rotation, translation = np.array(state.poses[0].rotation), np.array(state.poses[0].translation)
+    second = contacts_of_stage(state, 2)
+    turns = [
+        Turn(
+            stage=2,
+            rotation=rotation,
+            translation=translation,
+            point=cp0,
+            direction=first_tangent(pair, state),
+            sense=-1.0,
+            turn_deg=state.lambda_deg,
+            known=cp0.reshape(1, 3),
+            found=second,
+        )
+    ]
+    if state.lambda_deg is None or second[0].features.value == "flush":
+        return turns
+    cp1 = np.array(second[0].point)
+    rotation, translation = np.array(state.poses[1].rotation), np.array(state.poses[1].translation)
+    axis = (cp1 - cp0) / np.linalg.norm(cp1 - cp0)
+    turns.append(
+        Turn(
+            stage=3,
+            rotation=rotation,
+            translation=translation,
+            point=cp0,
+            direction=axis,
+            sense=-math.copysign(1.0, np.cross(axis, translation - cp0)[2]),
+            turn_deg=state.mu_deg,
+            known=np.array([cp0, cp1]),
+            found=contacts_of_stage(state, 3),
+        )
+    )
+    return turns
+
+
+def deepest_near(pair: Pair, turn: Turn, turn_deg: float, point: Floats, reach: float) -> float:
+    """The oracle's clearance where it is greatest within ``reach`` (along the nut's azimuth and axis) of a point."""
+    rotation, translation = turn.pose_after(turn_deg)
+    rotation = np.ascontiguousarray(rotation)
+    bolt, nut = bolt_profile(pair), nut_profile(pair)
+    azimuth, radius = math.atan2(point[1], point[0]), math.hypot(point[0], point[1])
+    centre, size, best = (azimuth, min(float(point[2]), 0.0)), reach, -math.inf
+    steps = np.linspace(-1.0, 1.0, 9)
+    while size > 1e-4 * reach:
+        around = [
+            (centre[0] + size * a / radius, min(centre[1] + size * b, 0.0))
+            for a in steps.tolist()
+            for b in steps.tolist()
+        ]
+        values = [clearance(theta, z, rotation, translation, bolt, nut) for theta, z in around]
+        highest = int(np.argmax(values))
+        best, centre = max(best, values[highest]), around[highest]
+        size *= 0.5
+    return best
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """A component without any known contact: the turn at which it appears, and its depth as soon as it is seen.
+
+    A component that is born is shallow then; a piece that parts from a grown overlap is deep at once.
+    """
+
+    turn_deg: float
+    depth: float
+
+
+def earlier_appearance(pair: Pair, turn: Turn, limit_deg: float, steps: int) -> Appearance | None:
+    """The first component without any known contact that the brute force sees before the turn's end."""
+    seen = contact_components_along_turn(
+        pair,
+        turn.rotation,
+        turn.translation,
+        turn.point,
+        turn.direction,
+        turn.sense * turn.end_deg(limit_deg),
+        turn.known,
+        steps=steps,
+    )
+    if seen is None:
+        return None
+    bolt, nut = bolt_profile(pair), nut_profile(pair)
+    low, high, depth = 0.0, abs(seen.turn_deg), seen.depth
+    while high - low > 1e-5:
+        middle = 0.5 * (low + high)
+        rotation, translation = turn.pose_after(middle)
+        rotation = np.ascontiguousarray(rotation)
+        excluded = excluded_rows(rotation, translation, turn.known)
+        found = free_component(rotation, translation, bolt, nut, excluded)[0]
+        low, high, depth = (low, middle, found) if found > 0.0 else (middle, high, depth)
+    return Appearance(high, depth)

@@ -1,0 +1,1 @@
+"""The asynchronous client; ``make client`` makes the blocking one, ``_sync``, of these files."""

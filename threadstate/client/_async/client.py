@@ -1,0 +1,186 @@
+"""The client for asynchronous programs, and its lists, which come page by page."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Callable, Coroutine
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Concatenate, Generic, ParamSpec, Self, TypeVar
+
+from threadstate.client._async.courier import AsyncCourier
+from threadstate.client._async.job import AsyncJob
+from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, describe_as
+from threadstate.client.calls import jobs as job_calls
+from threadstate.client.calls import libraries as library_calls
+from threadstate.client.calls import network as network_calls
+from threadstate.client.calls import states as state_calls
+from threadstate.client.frames import to_pandas, to_polars
+from threadstate.client.models.answer import Page
+from threadstate.client.models.jobs import JobDocument
+from threadstate.client.options import DEFAULT_RETRIES, DEFAULT_TIMEOUT_S, options_of
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+
+P = ParamSpec("P")
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+
+class AsyncItems(Generic[Item]):
+    """A list; every walk asks the service again, one page at a time, and only as far as it goes."""
+
+    def __init__(self, courier: AsyncCourier, call: PagedCall[Item]) -> None:
+        self._courier = courier
+        self._call = call
+
+    async def __aiter__(self) -> AsyncIterator[Item]:
+        async for page in self.pages():
+            for item in page.items:
+                yield item
+
+    async def pages(self) -> AsyncIterator[Page[Item]]:
+        """The pages, with all that they say beside their items."""
+        call: Call[Page[Item]] | None = self._call.first
+        while call is not None:
+            page = await self._courier.send(call)
+            yield page
+            call = self._call.after(page)
+
+    async def to_pandas(self) -> pandas.DataFrame:
+        """All of it as a frame of pandas (extra ``pandas``)."""
+        return to_pandas([item async for item in self], self._call.item)
+
+    async def to_polars(self) -> polars.DataFrame:
+        """All of it as a frame of polars (extra ``polars``)."""
+        return to_polars([item async for item in self], self._call.item)
+
+
+def _answered(
+    describe: Callable[P, Call[Result]],
+) -> Callable[Concatenate[AsyncClient, P], Coroutine[Any, Any, Result]]:
+    """The method that sends what ``describe`` describes."""
+
+    async def method(self: AsyncClient, /, *args: P.args, **kwargs: P.kwargs) -> Result:
+        return await self._courier.send(describe(*args, **kwargs))
+
+    describe_as(method, describe)
+    return method
+
+
+def _listed(describe: Callable[P, PagedCall[Item]]) -> Callable[Concatenate[AsyncClient, P], AsyncItems[Item]]:
+    """The method that lists what ``describe`` describes."""
+
+    def method(self: AsyncClient, /, *args: P.args, **kwargs: P.kwargs) -> AsyncItems[Item]:
+        return AsyncItems(self._courier, describe(*args, **kwargs))
+
+    describe_as(method, describe, "AsyncItems[{}]")
+    return method
+
+
+def _watched(
+    describe: Callable[P, Call[JobDocument]],
+) -> Callable[Concatenate[AsyncClient, P], Coroutine[Any, Any, AsyncJob]]:
+    """The method that sends what ``describe`` describes, and hands out the job to be watched."""
+
+    async def method(self: AsyncClient, /, *args: P.args, **kwargs: P.kwargs) -> AsyncJob:
+        return AsyncJob(self._courier, await self._courier.send(describe(*args, **kwargs)))
+
+    describe_as(method, describe, "AsyncJob")
+    return method
+
+
+class AsyncClient:
+    """An asynchronous client of the service at ``address`` (None: ``THREADSTATE_SERVICE``); a context manager.
+
+    ``key`` (None: ``THREADSTATE_KEY``) is shown in the header ``Authorization``, to this address alone. ``timeout_s``
+    is how long nothing may be heard of an answer. What may be tried again is tried again ``retries`` times. May be used
+    by several tasks of one event loop (asyncio or trio).
+
+    Raises:
+        InvalidValueError: an argument or a setting is not valid.
+    """
+
+    def __init__(
+        self,
+        address: str | None = None,
+        *,
+        key: str | None = None,
+        timeout_s: float = DEFAULT_TIMEOUT_S,
+        retries: int = DEFAULT_RETRIES,
+    ) -> None:
+        self._courier = AsyncCourier(options_of(address, key, timeout_s, retries))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._courier.options})"
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        """Close the connections."""
+        await self._courier.close()
+
+    libraries = _answered(library_calls.libraries)
+    library = _answered(library_calls.library)
+    building = _answered(library_calls.building)
+    orientations = _answered(library_calls.orientations)
+    mesh = _answered(library_calls.mesh)
+
+    state = _answered(state_calls.state)
+    states = _listed(state_calls.states)
+    undecided = _listed(state_calls.undecided)
+    history = _answered(state_calls.history)
+    history_columns = _answered(state_calls.history_columns)
+    history_csv = _answered(state_calls.history_csv)
+    solve = _answered(state_calls.solve)
+
+    intervals = _answered(network_calls.intervals)
+    heights = _answered(network_calls.heights)
+    computed_intervals = _answered(network_calls.computed_intervals)
+    computed_heights = _answered(network_calls.computed_heights)
+    computed_falls = _answered(network_calls.computed_falls)
+    windows = _answered(network_calls.windows)
+    transitions = _listed(network_calls.transitions)
+    network = _answered(network_calls.network)
+    network_node_link = _answered(network_calls.network_node_link)
+    network_graphml = _answered(network_calls.network_graphml)
+    network_dot = _answered(network_calls.network_dot)
+    formations = _answered(network_calls.formations)
+    formation = _answered(network_calls.formation)
+    path = _answered(network_calls.path)
+    locate = _answered(network_calls.locate)
+
+    ask = _watched(job_calls.ask)
+    jobs = _listed(job_calls.jobs)
+    job = _watched(job_calls.job)
+
+    health = _answered(library_calls.health)
+    readiness = _answered(library_calls.readiness)
+
+    async def export(
+        self,
+        table: str,
+        path: str | Path,
+        *,
+        file_format: str | None = None,
+        library: LibraryName = LATEST,
+        unit: str | None = None,
+    ) -> Path:
+        """Write a table of a library to a file, which is there whole or not at all.
+
+        ``file_format`` is ``parquet``, ``csv`` or ``ndjson``; None is as the file's name ends.
+
+        Returns:
+            The file.
+        """
+        out = Path(path)
+        call = library_calls.export(table, file_format or out.suffix[1:], library=library, unit=unit)
+        await self._courier.download(call, out)
+        return out
