@@ -10,7 +10,7 @@
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
 # make client     make the blocking client of the asynchronous one
-# make designer   write the designer's session of the README and the page of falls and windows; pins 1/4-20 UNC
+# make designer   write the answers in docs/tutorial.md and the page of falls and windows; pins 1/4-20 UNC
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
 # make docs       compute the answers shown in the documentation anew, write the tables of columns
 # make kills      kill workers of jobs a hundred times, and check what is left
@@ -78,7 +78,8 @@ client: setup
 designer: setup
 	$(BIN)/threadstate rebuild
 	$(BIN)/threadstate libraries --pin 1-4-20-unc
-	$(BIN)/python scripts/write_designer.py
+	$(BIN)/python scripts/write_windows.py
+	$(BIN)/python -m scripts.write_tutorial
 
 screenshots: setup
 	$(BIN)/threadstate rebuild

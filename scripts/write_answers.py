@@ -14,7 +14,7 @@ from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 ROOT = Path(__file__).parent.parent
-DOCUMENTS = ("README.md", "docs/api.md")
+DOCUMENTS = ("docs/api.md",)
 SHOWN = re.compile(
     r"(?P<query>curl 127\.0\.0\.1:8000/v1/libraries/latest/states/"
     r"(?P<roll>[^/\s]+)/(?P<pitch>[^/\s]+)/(?P<phase>[^/\s]+)\n```.*?```json\n).*?(?P<end>\n```)",

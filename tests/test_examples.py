@@ -215,9 +215,9 @@ def test_scripts_are_short(repository_root: Path) -> None:
         assert len(path.read_text().splitlines()) <= 65, path.name
 
 
-def test_the_lines_in_the_readme_run(served: Mapping[str, str], repository_root: Path, tmp_path: Path) -> None:
-    (lines,) = re.findall(r"```python\n(.*?)```", (repository_root / "README.md").read_text(), re.S)
-    script = tmp_path / "readme.py"
+def test_the_lines_on_the_page_run(served: Mapping[str, str], repository_root: Path, tmp_path: Path) -> None:
+    (lines,) = re.findall(r"```python\n(.*?)```", (repository_root / "docs" / "examples.md").read_text(), re.S)
+    script = tmp_path / "shortest.py"
     script.write_text(lines.replace("http://127.0.0.1:8000", served["THREADSTATE_SERVICE"]))
     subprocess.run([sys.executable, str(script)], cwd=tmp_path, env=served, check=True)
     assert (tmp_path / "states.parquet").read_bytes().startswith(b"PAR1")

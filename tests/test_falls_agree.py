@@ -122,8 +122,8 @@ def test_the_table_of_the_examples_has_the_same_figures(repository_root: Path, f
             assert float(cells[2]) == pytest.approx(25.4 * float(row.steepest), abs=2e-5)
 
 
-def test_the_readme_shows_the_same_figures(repository_root: Path, falls: Falls) -> None:
-    text = (repository_root / "README.md").read_text()
+def test_the_tutorial_shows_the_same_figures(repository_root: Path, falls: Falls) -> None:
+    text = (repository_root / "docs" / "tutorial.md").read_text()
     answers = re.findall(r"^\$ threadstate windows --roll (-?\d) --pitch (-?\d)\nroll .*\n(.*)$", text, re.MULTILINE)
     assert len(answers) == 2
     for roll, pitch, line in answers:

@@ -33,8 +33,8 @@ def scene_part(pair: Pair, part: Part, tessellation: Tessellation, scene: Scene)
 def _near_side(whole: Solid) -> Solid:
     """The part without its far end and walls; triangles at the thread's far rim count as far end.
 
-    Nothing of it is lost to the method, whose solids end there without a face (its section 3): a contact that holds a
-    triangle of a far end or of walls is none.
+    Nothing is lost by that, as the solids end there without a face (method, section 1): a contact that holds a triangle
+    of a far end or of walls is none.
     """
     far = np.zeros(len(whole.vertices), dtype=bool)
     far[whole.triangles[whole.faces == Face.FAR_END]] = True

@@ -61,7 +61,7 @@ def touch(cluster: Cluster, bolt: Solid, nut: Solid, T_nut_bolt: Floats) -> Touc
 
 
 def touches_beyond(cluster: Cluster, bolt: Solid, nut: Solid) -> bool:
-    """Whether a cluster holds a part's far end or walls, which are not there in the method: no contact (section 3)."""
+    """Whether a cluster holds a part's far end or walls, which do not exist there (method, section 1): no contact."""
     return any(
         np.isin(solid.faces[cluster.pairs[:, k]], (Face.FAR_END, Face.WALL)).any()
         for k, solid in enumerate((bolt, nut))

@@ -1,16 +1,11 @@
-"""Writes what the stored library says to designers: the session in the README and docs/windows.md (``make designer``).
+"""Writes docs/windows.md from the stored library (``make designer``).
 
-Commands are run on the database of the settings, whose latest library has to be that of the default grid.
+It is the library of 1/4-20 UNC of the database of the settings, which has to be that of the default grid.
 """
 
 from __future__ import annotations
 
-import contextlib
-import io
-import re
-import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from textwrap import fill
@@ -22,114 +17,20 @@ from threadstate.library.engine import reader_engine
 from threadstate.library.read import states_between
 from threadstate.settings import read_settings
 from threadstate.state.model import ContactState, FeaturePair
-from threadstate.units import LengthUnit
-from worker.cli import run_command_line
 from worker.stored_network import stored_network
 
-ROOT = Path(__file__).parent.parent
-README, PAGE = ROOT / "README.md", ROOT / "docs" / "windows.md"
-SESSION = re.compile(r"(<!-- designer -->\n).*?(<!-- /designer -->)", re.DOTALL)
-LEFT_OUT = "contacts"
-"""The last column of tables, whose words wrap: what stands under it is not shown."""
+PAGE = Path(__file__).parent.parent / "docs" / "windows.md"
 WIDTH = 120
 LIBRARY = "1-4-20-unc"
 """The library that the page is about."""
 EDGES = (FeaturePair.EDGE_EDGE, FeaturePair.EDGE_SURFACE)
 
 
-@dataclass(frozen=True)
-class Question:
-    """What a designer wants to know, the command that answers, and how many lines of the answer are shown.
-
-    Of an answer with no first lines nothing is shown: it has times, which are others every time.
-    """
-
-    words: str
-    command: str
-    first: int = 40
-    last: int = 0
-
-
-def questions(rows: Sequence[OrientationWindowsDocument], unit: LengthUnit) -> list[Question]:
-    """What is asked, with the figures of the orientations that are asked about."""
-    rolled = next(one for one in rows if (one.roll, one.pitch) == (4.0, 0.0))
-    snap = next(one.snap for one in rows if (one.roll, one.pitch) == (0.0, -4.0))
-    assert rolled.snap is None
-    assert snap is not None
-    return [
-        Question(
-            "The device holds the bolt with 4 deg of roll; the phase is not known. Where does it fall, and how far?",
-            "threadstate windows --roll 4 --pitch 0",
-        ),
-        Question(
-            f"No snap: within 3 deg of phase the bolt goes down by {rolled.steepest:.4f} {unit} at most, into a "
-            f"window\n{rolled.windows[0].width:.1f} deg wide. With a pitch of -4 deg and no roll it is another thing:",
-            "threadstate windows --roll 0 --pitch -4",
-        ),
-        Question(
-            f"That snap is felt: {snap.fall:.4f} {unit} within {snap.end - snap.start:.1f} deg, {snap.jump:.4f} {unit} "
-            "of it at one phase.\nThe device's tilt was measured: roll 2.5 deg, pitch -1.2 deg, each to 0.3 deg. Any "
-            "tilt is computed when it is\nasked for, and the range of what the tilts within the tolerance give:",
-            "threadstate windows --roll 2.5 --pitch -1.2 --tolerance 0.3",
-        ),
-        Question(
-            "It may snap, or just not. And with an M6x1 of the drawer? Its library is computed from a file of its "
-            "dimensions,\nand stands beside the other:",
-            "threadstate rebuild --pair examples/m6x1.toml",
-            first=0,
-        ),
-        Question(
-            "The snap of each:",
-            "threadstate compare --library 1-4-20-unc --library m6x1 --tilt 0,-4",
-        ),
-        Question(
-            "The library published last is what `latest` means from now on, unless `threadstate libraries --pin "
-            "1-4-20-unc`\npins another one. Back to that and 4 deg of roll. What is felt before the fall? The sensor "
-            "says: the bolt's crest\non the nut's surface, and flush. (Contacts, in words, are left out from here on.)",
-            "threadstate locate --library 1-4-20-unc --class stable_three_point --flag flush "
-            "--contact 1:crest:surface:edge-surface",
-            first=9,
-        ),
-        Question(
-            "All that remains is at pitch 0 and away from phase 0 (the rows left out say where). How far must the bolt "
-            "turn at most,\nand through which states must the device carry it, if it is in the formation 12b904af6f of "
-            "the list?",
-            "threadstate path --library 1-4-20-unc --from 12b904af6f --roll 4 --pitch 0",
-            first=8,
-            last=6,
-        ),
-    ]
-
-
 def main() -> None:
-    """Write the session and the page."""
+    """Write the page."""
     network = stored_network(None, LIBRARY)
     rows = windows_of_histories(network.histories, None, None, network.pair.thread_pitch, 1.0)
-    session = "\n".join(_asked(question) for question in questions(rows, network.pair.unit))
-    README.write_text(SESSION.sub(lambda found: f"{found[1]}{session}{found[2]}", README.read_text()))
     PAGE.write_text(page(network, rows))
-
-
-def _asked(question: Question) -> str:
-    printed = io.StringIO()
-    with contextlib.redirect_stdout(printed):
-        code = run_command_line(shlex.split(question.command)[1:])
-    assert code == 0, question.command
-    if question.first == 0:
-        return f"{question.words}\n\n```\n$ {question.command}\n```\n"
-    tables = printed.getvalue().rstrip().split("\n\n")
-    lines = "\n\n".join(_without_last_column(table) for table in tables).splitlines()
-    if len(lines) > question.first + question.last:
-        lines = [*lines[: question.first], "...", *lines[len(lines) - question.last :]]
-    return f"{question.words}\n\n```\n$ {question.command}\n" + "\n".join(lines) + "\n```\n"
-
-
-def _without_last_column(table: str) -> str:
-    """A table, and lines before it, without the column of words."""
-    lines = table.splitlines()
-    head = next((number for number, line in enumerate(lines) if line.endswith(LEFT_OUT)), len(lines))
-    width = lines[head].index(LEFT_OUT) if head < len(lines) else None
-    return "\n".join([*lines[:head], *(line[:width].rstrip() for line in lines[head:])])
 
 
 def page(network: LibraryNetwork, rows: Sequence[OrientationWindowsDocument]) -> str:
