@@ -122,10 +122,14 @@ def add_flag(row: Array, flag: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def ties(found: Array, count: int, slack: float) -> int:
-    """How many contacts appear together with the first; they are put in order of azimuth on the nut."""
+def ties(found: Array, count: int, slack: float) -> tuple[int, float]:
+    """How many contacts appear together with the first, and when that one appears.
+
+    They are put in order of azimuth on the nut, so that the earliest may not be the first any more.
+    """
     n = 1
-    while n < count and found[n, K_TIME] <= found[0, K_TIME] + slack:
+    first = found[0, K_TIME]
+    while n < count and found[n, K_TIME] <= first + slack:
         n += 1
     for i in range(1, n):
         j = i
@@ -133,7 +137,7 @@ def ties(found: Array, count: int, slack: float) -> int:
             for m in range(CONTACT_SIZE):
                 found[j, m], found[j - 1, m] = found[j - 1, m], found[j, m]
             j -= 1
-    return n
+    return n, first
 
 
 @njit(cache=True, error_model="numpy")
@@ -170,7 +174,7 @@ def solve_pose(
     axis[2] = -1.0
     together = 1
     if options[S_CONVEX] > 0.0 and rests_on_surface(pose, bolt, nut, found[0]):
-        found[0, K_TIME] = high - found[0, K_TIME]
+        time = high - found[0, K_TIME]
     else:
         count, status, _ = earliest(
             pose,
@@ -190,8 +194,8 @@ def solve_pose(
         if status != RESOLVED or count == 0:
             row[rk.O_STATUS] = UNRESOLVED
             return
-        together = ties(found, count, slack)
-    pose[11] = high - found[0, K_TIME]
+        together, time = ties(found, count, slack)
+    pose[11] = high - time
     known[0] = found[0]
     rk.put_pose(pose, row)
     rk.put_contact(1, known[0], pose, bolt, nut, row)
@@ -236,11 +240,11 @@ def solve_pose(
             else:
                 add_flag(row, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
             return
-        together = ties(found, count, turn_slack)
+        together, time = ties(found, count, turn_slack)
         if together > 1:
             add_flag(row, rk.FLAG_TIE)
-        row[rk.O_LAMBDA] = found[0, K_TIME]
-        turned(pose, point, axis, found[0, K_TIME], second)
+        row[rk.O_LAMBDA] = time
+        turned(pose, point, axis, time, second)
         known[1] = found[0]
         for i in range(1, together):
             found[i - 1] = found[i]
@@ -266,11 +270,7 @@ def solve_pose(
     row[rk.O_PIVOT] = math.sqrt(cx * cx + cy * cy + cz * cz)
     if tied_third:
         row[rk.O_MU] = 0.0
-        rk.put_pose(second, row)
-        for i in range(together):
-            rk.put_contact(3, found[i], second, bolt, nut, row)
-        row[rk.O_DROP] = 0.0
-        row[rk.O_EMBEDMENT] = 0.0
+        put_third(second, 0.0, known, together, slack, bolt, nut, work, found, row)
         return
     if cz > 0.0:
         for i in range(3):
@@ -285,6 +285,20 @@ def solve_pose(
     for i in range(3):
         axis[i] = -axis[i]
     third_stage(second, point, axis, known, options, bolt, nut, work, found, extremes, other)
+    keep_shorter_turn(row, other)
+
+
+@njit(cache=True, error_model="numpy")
+def keep_shorter_turn(row: Array, other: Array) -> None:
+    """Leaves in ``row`` that of two senses of the third turn which ends first; unresolved where that is not certain.
+
+    A sense whose turn is known is compared by it, even where its embedment is unresolved: if the other one is shorter
+    that does not matter.
+    """
+    for sense in (row, other):
+        if sense[rk.O_STATUS] != RESOLVED and math.isnan(sense[rk.O_MU]):
+            row[rk.O_STATUS] = UNRESOLVED
+            return
     if not math.isnan(other[rk.O_MU]) and not row[rk.O_MU] <= other[rk.O_MU]:
         row[:] = other
 
@@ -326,20 +340,40 @@ def third_stage(
             add_flag(row, rk.FLAG_NO_THIRD)
         return
     third = np.empty(12)
-    together = ties(found, count, turn_slack)
+    together, time = ties(found, count, turn_slack)
     if together > 1:
         add_flag(row, rk.FLAG_TIE)
-    row[rk.O_MU] = found[0, K_TIME]
-    turned(second, point, axis, found[0, K_TIME], third)
+    row[rk.O_MU] = time
+    turned(second, point, axis, time, third)
+    put_third(third, second[11] - third[11], known, together, slack, bolt, nut, work, found, row)
+
+
+@njit(cache=True, error_model="numpy")
+def put_third(
+    third: Array,
+    drop: float,
+    known: Array,
+    together: int,
+    slack: float,
+    bolt: Array,
+    nut: Array,
+    work: Work,
+    found: Array,
+    row: Array,
+) -> None:
+    """Appends the third pose and its contacts, the first ``together`` found; sets the drop and the embedment."""
     rk.put_pose(third, row)
     contacts = np.empty((2 + together, CONTACT_SIZE))
-    contacts[:2] = known
-    contacts[2:] = found[:together]
+    for j in range(CONTACT_SIZE):
+        for i in range(2):
+            contacts[i, j] = known[i, j]
+        for i in range(together):
+            contacts[2 + i, j] = found[i, j]
     for i in range(together):
         rk.put_contact(3, found[i], third, bolt, nut, row)
         if rk.grazes(found[i], third, bolt, nut):
             add_flag(row, rk.FLAG_GRAZING)
-    row[rk.O_DROP] = second[11] - third[11]
+    row[rk.O_DROP] = drop
     row[rk.O_EMBEDMENT] = 0.0
     if threads_touch(contacts) or edges_overlap(third, contacts, 2 + together, bolt, nut, work):
         lift, status = least_lift(third, slack, bolt, nut, work, found)
