@@ -8,8 +8,8 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from harness.running_service import running_service
 from scripts.shown_commands import Terminal, saved_files, written_again
-from tests.service.running import running_service
 from threadstate.settings import read_settings
 
 PAGE = Path(__file__).parent.parent / "docs" / "tutorial.md"

@@ -29,11 +29,11 @@ import service.solve.endpoints
 import service.states.endpoints
 import service.undecided.endpoints
 import threadstate
-from service.cache.compression import CompressionMiddleware
 from service.cache.library_names import LibraryNames
 from service.cache.middleware import CacheMiddleware
 from service.cache.responses import ResponseCache
 from service.cache.stored import StoredResponses
+from service.compression import CompressionMiddleware
 from service.control import ControlEngine
 from service.cors import cors_options
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication

@@ -8,7 +8,7 @@ import json
 from fastapi import Request, Response
 
 from service.accepted import names_etag, takes_gzip
-from service.cache.compression import worth_compressing, zipped_etag
+from service.compression import worth_compressing, zipped_etag
 
 REVALIDATE = "public, no-cache"
 """May be stored, must be asked for again: a stored library does not change, but ``latest`` moves on."""

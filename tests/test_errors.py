@@ -17,7 +17,7 @@ import pytest
 from service.problems import INVALID_VALUE, Kind
 from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.libraries import GridDocument
-from threadstate.client.models.problem import Problem
+from threadstate.client.models.service import Problem
 from threadstate.jobs.names import JobState
 from threadstate.library.method import Method
 

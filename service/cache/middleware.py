@@ -13,10 +13,10 @@ from typing import NamedTuple
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.accepted import names_etag, prefers_csv, takes_gzip
-from service.cache.compression import compressible, varying, zipped, zipped_etag, zipped_headers
 from service.cache.library_names import LibraryNames
-from service.cache.responses import CachedResponse, Headers, ResponseCache
+from service.cache.responses import CachedResponse, ResponseCache
 from service.cache.stored import StoredResponses
+from service.compression import Headers, compressible, varying, zipped, zipped_etag, zipped_headers
 from service.middleware import ASKED_AS_HEAD
 from service.route_notes import note_route, noted_route
 from threadstate.library.read import LibraryRecord

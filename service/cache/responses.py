@@ -6,7 +6,7 @@ from collections import OrderedDict
 from collections.abc import Hashable
 from dataclasses import dataclass
 
-Headers = list[tuple[bytes, bytes]]
+from service.compression import Headers
 
 OVERHEAD_BYTES = 1024
 """What a response takes beside its body, about."""

@@ -19,7 +19,7 @@ from service.states.pose import STATE_ROUTE, content_location
 from service.units import UNIT_HEADER
 from threadstate.library.pose import PoseReader
 from threadstate.library.read import LibraryRecord
-from threadstate.state.document import state_json
+from threadstate.state.json import state_json
 
 _ANGLE = r"(-?[0-9]{1,3}(?:\.[0-9]{1,6})?)"
 _STATE = re.compile(f"/states/{_ANGLE}/{_ANGLE}/{_ANGLE}")

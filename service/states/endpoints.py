@@ -18,7 +18,8 @@ from service.states.schemas import StatePage, StateSchema
 from service.units import UNIT_HEADER, UnitQuery
 from threadstate.library.pose import state_of_pose
 from threadstate.library.read import states_at
-from threadstate.state.document import state_document, state_json
+from threadstate.state.document import state_document
+from threadstate.state.json import state_json
 from threadstate.units import conversion_factor
 
 router = APIRouter(prefix="/v1/libraries/{id}/states", tags=["states"])

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from harness.databases import Databases
+from harness.running_service import running_service
 from scripts.shown_commands import ShownCommand, Terminal, abridged, saved_files, shown_commands, written_again
-from tests.databases import Databases
-from tests.service.running import running_service
 from threadstate.settings import DATABASE
 from worker.cli import run_command_line
 

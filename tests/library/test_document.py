@@ -7,7 +7,8 @@ from dataclasses import replace
 from hypothesis import given
 
 from tests.library.states import plain_state, states_at
-from threadstate.state.document import state_document, state_json
+from threadstate.state.document import state_document
+from threadstate.state.json import state_json
 from threadstate.state.model import ContactState
 
 

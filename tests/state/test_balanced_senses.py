@@ -15,7 +15,7 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.outline import outline_is_convex
 
 PAIR = quarter_twenty_unc()
-BALANCED_RAD = tuple(math.radians(angle) for angle in (-9.26, 3.52, 1.936952337))
+BALANCED_RAD = (math.radians(-9.26), math.radians(3.52), math.radians(1.936952337))
 """Roll, pitch, phase: balanced within a tolerance of 1e-6 thread pitches."""
 
 Sense = tuple[float, int]

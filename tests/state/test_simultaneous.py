@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.oracle.lift import least_lift
+from oracle.lift import least_lift
 from threadstate.state.model import Flag
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose

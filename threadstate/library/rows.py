@@ -9,7 +9,7 @@ from typing import Any
 
 from threadstate.library.fingerprint import answers_sha256
 from threadstate.library.grid import Orientation
-from threadstate.state.document import state_json
+from threadstate.state.json import state_json
 from threadstate.state.model import (
     Answer,
     Contact,

@@ -5,8 +5,6 @@ from __future__ import annotations
 from math import isfinite
 from typing import TypedDict
 
-import orjson
-
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import Contact, ContactState, StagePose
 
@@ -91,15 +89,6 @@ def state_document(state: ContactState, length_factor: float = 1.0) -> StateDocu
     }
 
 
-def state_json(state: ContactState, length_factor: float = 1.0) -> bytes:
-    """:func:`state_document` as one line of compact JSON; every double is its shortest decimal.
-
-    Raises:
-        InvalidValueError: a number of the state is not finite.
-    """
-    return orjson.dumps(state_document(state, length_factor))
-
-
 def _pose(pose: StagePose, length_factor: float) -> PoseDocument:
     return {
         "rotation": [_vector(row, 1.0) for row in pose.rotation],
@@ -130,7 +119,6 @@ def _number(value: float | None, factor: float) -> float | None:
 
 
 def _finite(value: float) -> float:
-    # orjson writes null for what is not finite.
     if not isfinite(value):
         raise InvalidValueError("number of a state", value, "a finite one")
     return value

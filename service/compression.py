@@ -8,7 +8,8 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.accepted import takes_gzip
-from service.cache.responses import Headers
+
+Headers = list[tuple[bytes, bytes]]
 
 LEAST_BYTES = 1024
 """Smaller responses are sent as they are."""
