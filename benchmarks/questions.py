@@ -43,8 +43,6 @@ class Question:
 def answered(database: Path, grid: Grid) -> list[Question]:
     """Every kind of stored question, put to the latest library of a SQLite file by a service that has prepared itself.
 
-    Its rendition is written beside that file.
-
     Raises:
         QuestionFailedError: an answer has another status than 200.
     """

@@ -11,6 +11,7 @@ from pathlib import Path
 from benchmarks.load.questions import (
     HISTORY,
     HISTORY_BY_DATASETTE,
+    HISTORY_FROM_ROWS,
     INTERVALS,
     ONE_HISTORY,
     POSE,
@@ -20,8 +21,7 @@ from benchmarks.load.questions import (
 )
 from benchmarks.load.report import Case, document, table
 from benchmarks.load.servers import (
-    FROM_TABLES,
-    NOTHING_KEPT,
+    NOTHING_CACHED,
     datasette,
     prepare,
     rebuilding,
@@ -68,9 +68,6 @@ def _measured(folder: Path, arguments: argparse.Namespace) -> list[Case]:
     with datasette(arguments.datasette, database) as address:
         by_datasette = _asked(address, {"pose": POSE_BY_DATASETTE, "history": HISTORY_BY_DATASETTE}, seconds)
     alone = _of_service(folder, database, seconds)
-    with threadstate_service(folder, database, FROM_TABLES) as address:
-        wait_until_prepared(address)
-        tables = _asked(address, {"pose": POSE, "history": HISTORY}, seconds)
     with rebuilding(database):
         disturbed = _of_service(folder, database, seconds)
 
@@ -81,27 +78,28 @@ def _measured(folder: Path, arguments: argparse.Namespace) -> list[Case]:
 
     return [
         case("pose", "pose", 3000.0, 15.0, 8.0),
-        case("history, nothing kept", "history", 300.0, 150.0, 5.0),
-        case("history, kept", "kept", None),
-        case("history, kept, gzip", "zipped", None),
-        case("intervals, kept", "intervals", None),
+        case("history", "history", 300.0, 150.0, 5.0),
+        case("history, from the rows", "rows", None),
+        case("intervals", "intervals", None),
+        case("history, cached", "cached", None),
+        case("history, cached, gzip", "zipped", None),
+        case("intervals, cached", "cached intervals", None),
         case("history, 304", "unchanged", 6000.0),
-        Case("pose, from tables", tables["pose"], datasette=by_datasette["pose"]),
-        Case("history, from tables", tables["history"], datasette=by_datasette["history"]),
     ]
 
 
 def _of_service(folder: Path, database: str, seconds: float) -> _Answers:
+    with threadstate_service(folder, database, NOTHING_CACHED) as address:
+        wait_until_prepared(address)
+        questions = {"pose": POSE, "history": HISTORY, "rows": HISTORY_FROM_ROWS, "intervals": INTERVALS}
+        found = _asked(address, questions, seconds)
     with threadstate_service(folder, database, {}) as address:
         wait_until_prepared(address)
         unchanged = not_modified(_fetch(address + ONE_HISTORY))
-        questions = {"pose": POSE, "kept": HISTORY, "zipped": ZIPPED_HISTORY, "intervals": INTERVALS}
-        for warming in (HISTORY, ZIPPED_HISTORY, INTERVALS):
-            load(address, warming, seconds, SEED)
-        found = _asked(address, {**questions, "unchanged": unchanged}, seconds)
-    with threadstate_service(folder, database, NOTHING_KEPT) as address:
-        wait_until_prepared(address)
-        return {**found, **_asked(address, {"history": HISTORY}, seconds)}
+        questions = {"cached": HISTORY, "zipped": ZIPPED_HISTORY, "cached intervals": INTERVALS}
+        for question in questions.values():
+            load(address, question, seconds, SEED)
+        return {**found, **_asked(address, {**questions, "unchanged": unchanged}, seconds)}
 
 
 def _asked(address: str, questions: dict[str, Question], seconds: float) -> _Answers:

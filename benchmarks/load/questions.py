@@ -12,6 +12,7 @@ _LIBRARY = "/v1/libraries/latest"
 
 POSE = Question(f"{_LIBRARY}/states/%d/%d/%d", (TILTS, TILTS, PHASES))
 HISTORY = Question(f"{_LIBRARY}/histories/%d/%d", (TILTS, TILTS))
+HISTORY_FROM_ROWS = Question(f"{_LIBRARY}/histories/%d/%d?unit=mm", (TILTS, TILTS))
 ZIPPED_HISTORY = Question(HISTORY.path, HISTORY.ranges, (("Accept-Encoding", "gzip"),))
 INTERVALS = Question(f"{_LIBRARY}/histories/%d/%d/intervals", (TILTS, TILTS))
 ONE_HISTORY = f"{_LIBRARY}/histories/4/-3"

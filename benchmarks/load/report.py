@@ -83,14 +83,11 @@ Machine: {machine}. Load average at the end of the run: {load}; what else ran to
 {table}
 Times are milliseconds to the whole answer as wrk sees it. kB are those of an answer on the wire.
 
-- **pose**: random ones of all 29,160. They are not kept one by one: each is cut out of the rendition of the library, a
-  file that is mapped into memory ([decision 12](decisions/0012-a-service-that-holds.md)).
-- **nothing kept**: random ones of all 81 with `THREADSTATE_CACHE_MB=0`: each answer is put together and hashed anew,
-  from the rendition.
-- **from tables**: with `THREADSTATE_RENDITIONS_MB=0` too. So the requests are answered that come between the
-  publication of a library and the end of its rendering, and what has no rendition (other units, other formats) when it
-  is asked for the first time.
-- **kept**: asked for before. The rate of whole histories is bounded by their bytes.
+- **pose**: random ones of all 29,160, each read and serialised anew ([decision 20](decisions/0020-one-read.md)): poses
+  are not cached.
+- **history**: random ones of all 81 with `THREADSTATE_CACHE_MB=0`, each read from the JSON that is stored with its
+  orientation, and hashed anew. **From the rows**: the same in millimetres, which is assembled from 3,000 rows.
+- **cached**: asked for before, with the default cache. The rate of whole histories is bounded by their bytes.
 - **304**: the client sends the ETag that it has.
 - **during a rebuild**: `threadstate rebuild` computes a finer library into the same database meanwhile, with as many
   processes as there are cores and at the same priority.

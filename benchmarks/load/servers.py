@@ -16,11 +16,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from benchmarks.load.wrk import LoadError
-from threadstate.settings import CACHE_MB, DATA_DIR, DATABASE, PORT, RENDITIONS_MB
+from threadstate.settings import CACHE_MB, DATA_DIR, DATABASE, PORT
 
 LONGEST_START_S = 120.0
-NOTHING_KEPT = {CACHE_MB: "0"}
-FROM_TABLES = {CACHE_MB: "0", RENDITIONS_MB: "0"}
+NOTHING_CACHED = {CACHE_MB: "0"}
 _CLI = (sys.executable, "-c", "from worker.cli import main; main()")
 
 
@@ -69,7 +68,7 @@ def rebuilding(database: str) -> Iterator[None]:
 
 
 def wait_until_prepared(address: str) -> None:
-    """Wait until the service has rendered the library, and done what else is slow the first time.
+    """Wait until the service has done what is slow the first time.
 
     Raises:
         LoadError: it does not.
