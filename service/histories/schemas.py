@@ -6,8 +6,8 @@ from enum import StrEnum
 
 from pydantic import BaseModel, Field
 
-from service.states.schemas import StateSchema
 from service.undecided.schemas import UndecidedPhase
+from threadstate.state.document import StateDocument
 from threadstate.units import LengthUnit
 
 
@@ -30,7 +30,7 @@ class _History(BaseModel):
 class HistoryRows(_History):
     """A history, state by state."""
 
-    states: list[StateSchema]
+    states: list[StateDocument]
 
 
 class HistoryColumns(_History):

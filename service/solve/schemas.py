@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from service.angles import Tilt
 from service.libraries.solved_pair import LIBRARY_DESCRIPTION
-from service.states.schemas import StateSchema
+from threadstate.state.document import StateDocument
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import LengthUnit
 
@@ -58,4 +58,4 @@ class SolveAnswer(BaseModel):
     designation: str
     library: int | None = Field(description="number of the library whose pair and tolerances these are")
     unit: LengthUnit = Field(description="unit of all lengths in this answer")
-    states: list[StateSchema]
+    states: list[StateDocument]

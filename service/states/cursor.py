@@ -8,7 +8,7 @@ import hashlib
 import json
 import math
 
-from service.states.query import Place, Sort, SortKey, StateFilter
+from service.states.query import Place, Sort, StateFilter
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import LARGEST_STATE_COUNT
 from threadstate.state.model import StateClass
@@ -44,10 +44,10 @@ def decode_cursor(cursor: str, library_id: int, which: StateFilter, sort: Sort) 
     raise _invalid(cursor)
 
 
-def _can_be_of(key: SortKey, value: str | float | None) -> bool:
+def _can_be_of(key: str, value: str | float | None) -> bool:
     if isinstance(value, str):
-        return key is SortKey.CLASS and value in set(StateClass)
-    return value is None or (key is not SortKey.CLASS and isinstance(value, float) and math.isfinite(value))
+        return key == "class" and value in set(StateClass)
+    return value is None or (key != "class" and isinstance(value, float) and math.isfinite(value))
 
 
 def _query_digest(library_id: int, which: StateFilter, sort: Sort) -> str:

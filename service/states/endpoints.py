@@ -14,11 +14,11 @@ from service.states.cursor import decode_cursor, encode_cursor
 from service.states.parameters import FIELDS, CursorQuery, FieldsQuery, FilterQuery, LimitQuery, SortQuery
 from service.states.pose import content_location
 from service.states.repository import places
-from service.states.schemas import StatePage, StateSchema
+from service.states.schemas import StatePage
 from service.units import UNIT_HEADER, UnitQuery
 from threadstate.library.pose import state_of_pose
 from threadstate.library.read import states_at
-from threadstate.state.document import state_document
+from threadstate.state.document import StateDocument, state_document
 from threadstate.state.json import state_json
 from threadstate.units import conversion_factor
 
@@ -65,7 +65,7 @@ def list_states(
 
 
 @router.get(
-    "/{roll}/{pitch}/{phase}", summary="The state of one pose", response_model=StateSchema, responses=NOT_MODIFIED
+    "/{roll}/{pitch}/{phase}", summary="The state of one pose", response_model=StateDocument, responses=NOT_MODIFIED
 )
 def get_state(
     request: Request,

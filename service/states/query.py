@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 from threadstate.state.model import Flag, StateClass
+from threadstate.state.quantities import QUANTITIES
 from threadstate.thread.regions import Region
 
 
@@ -24,18 +24,8 @@ class StateFilter:
     flag: Flag | None = None
 
 
-class SortKey(StrEnum):
-    """What states can be sorted by; ties, and ``ROLL``, are in the order of roll, pitch and phase."""
-
-    ROLL = "roll"
-    PITCH = "pitch"
-    PHASE = "phase"
-    CLASS = "class"
-    LAMBDA = "lambda"
-    MU = "mu"
-    DROP = "drop"
-    EMBEDMENT = "embedment"
-    PIVOT_OFFSET = "pivot_offset"
+SORT_KEYS = ("roll", "pitch", "phase", "class", *(quantity.name for quantity in QUANTITIES if quantity.sortable))
+"""What states can be sorted by; ties, and ``roll``, are in the order of roll, pitch and phase."""
 
 
 @dataclass(frozen=True)
@@ -45,16 +35,16 @@ class Sort:
     ``descending`` is the exact reverse of ascending, ties included.
     """
 
-    key: SortKey = SortKey.ROLL
+    key: str = "roll"
     descending: bool = False
 
     @property
     def name(self) -> str:
         """The order as a client writes it."""
-        return ("-" if self.descending else "") + self.key.value
+        return ("-" if self.descending else "") + self.key
 
 
-SORTS = {sort.name: sort for key in SortKey for sort in (Sort(key), Sort(key, descending=True))}
+SORTS = {sort.name: sort for key in SORT_KEYS for sort in (Sort(key), Sort(key, descending=True))}
 """All orders by their names."""
 
 

@@ -12,19 +12,16 @@ from typing import Any
 
 from sqlalchemy import Column, ColumnElement, Connection, Select, Table, select, tuple_
 
-from service.states.query import Place, Sort, SortKey, StateFilter
+from service.states.query import Place, Sort, StateFilter
 from threadstate.library.tables import contact, state, state_flag
+from threadstate.state.quantities import QUANTITIES
 
-_COLUMN: dict[SortKey, Column[float] | Column[str]] = {
-    SortKey.ROLL: state.c.ordinal,
-    SortKey.PITCH: state.c.pitch_deg,
-    SortKey.PHASE: state.c.phase_deg,
-    SortKey.CLASS: state.c.state_class,
-    SortKey.LAMBDA: state.c.lambda_deg,
-    SortKey.MU: state.c.mu_deg,
-    SortKey.DROP: state.c.drop,
-    SortKey.EMBEDMENT: state.c.embedment,
-    SortKey.PIVOT_OFFSET: state.c.pivot_offset,
+_COLUMN: dict[str, Column[Any]] = {
+    "roll": state.c.ordinal,
+    "pitch": state.c.pitch_deg,
+    "phase": state.c.phase_deg,
+    "class": state.c.state_class,
+    **{quantity.name: state.c[quantity.attribute] for quantity in QUANTITIES if quantity.sortable},
 }
 
 
@@ -43,7 +40,7 @@ def places(
     found: list[Place] = []
     for statement in place_statements(library_id, which, sort, after):
         rows = connection.execute(statement.limit(limit + 1 - len(found)))
-        found += [Place(None if sort.key is SortKey.ROLL else row[0], row[1]) for row in rows]
+        found += [Place(None if sort.key == "roll" else row[0], row[1]) for row in rows]
         if len(found) > limit:
             return PlacesPage(tuple(found[:limit]), more=True)
     return PlacesPage(tuple(found), more=False)

@@ -26,7 +26,7 @@ from threadstate.client.models.answer import Answer
 
 CALLS = (jobs, libraries, network, states)
 MODELS = (job_models, library_models, network_models, service_models, state_models)
-RENAMED = {"State": "StateSchema", "Pose": "PoseSchema", "Contact": "ContactSchema", "Margins": "MarginsSchema"}
+RENAMED = {name: f"{name}Document" for name in ("State", "Pose", "Contact", "Margins")}
 """Models that go by a shorter name than the service's."""
 
 ARGUMENTS: dict[str, object] = {
@@ -189,7 +189,7 @@ def test_models_are_what_the_service_describes(openapi: dict[str, Any], model: t
     event = EventDocument.model_json_schema()
     components = {**openapi["components"]["schemas"], **event["$defs"], "EventDocument": event}
     # The client never asks for some of a state's fields, so that none is missing.
-    components["ChosenFieldsSchema"] = components["StateSchema"]
+    components["ChosenFields"] = components["StateDocument"]
     told = components[RENAMED.get(model.__name__, model.__name__)]
     read = model.model_json_schema(mode="serialization")
     expected = _expanded(told, components)

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 from jsonschema import Draft202012Validator
-from pydantic import BaseModel
+from pydantic import TypeAdapter
 
 from service.docs.assets import ASSETS, PACKAGE
 from service.explorer.files import THIRD_PARTY
@@ -21,9 +21,8 @@ from service.libraries.schemas import LibraryDetail, LibraryList
 from service.media_types import JAVASCRIPT
 from service.problems import KINDS
 from service.solve.schemas import SolveAnswer
-from service.states.parameters import FIELDS
-from service.states.schemas import StatePage, StateSchema
-from threadstate.state.document import state_document
+from service.states.schemas import StatePage
+from threadstate.state.document import StateDocument, state_document
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -102,24 +101,20 @@ def test_no_third_party_javascript_is_committed(repository_root: Path) -> None:
         ("/v1/libraries", LibraryList),
         ("/v1/libraries/latest", LibraryDetail),
         ("/v1/libraries/latest/states?limit=1000", StatePage),
-        ("/v1/libraries/latest/states/1/0/30", StateSchema),
+        ("/v1/libraries/latest/states/1/0/30", StateDocument),
         ("/v1/libraries/latest/histories/1/0", HistoryRows),
         ("/v1/libraries/latest/histories/1/0?format=columns", HistoryColumns),
     ],
 )
-def test_answers_have_the_documented_shape(client: TestClient, path: str, schema: type[BaseModel]) -> None:
+def test_answers_have_the_documented_shape(client: TestClient, path: str, schema: type[object]) -> None:
     document = client.get(path).json()
-    again = schema.model_validate(document).model_dump(mode="json", by_alias=True)
-    assert again == document
+    shape = TypeAdapter(schema)
+    assert shape.dump_python(shape.validate_python(document), mode="json", by_alias=True) == document
 
 
 def test_solved_states_have_the_documented_shape(client: TestClient) -> None:
     document = client.post("/v1/solve", json={"poses": [{"roll": 1, "pitch": 2, "phase": 3}]}).json()
     assert SolveAnswer.model_validate(document).model_dump(mode="json", by_alias=True) == document
-
-
-def test_schema_has_the_fields_of_the_document() -> None:
-    assert tuple(field.alias or name for name, field in StateSchema.model_fields.items()) == FIELDS
 
 
 def with_examples(node: object) -> Iterator[tuple[dict[str, Any], object]]:

@@ -8,7 +8,7 @@ import pytest
 from sqlalchemy import Connection, Select
 
 from harness.databases import Databases
-from service.states.query import SORTS, Place, SortKey, StateFilter
+from service.states.query import SORTS, Place, StateFilter
 from service.states.repository import place_statements
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
@@ -46,7 +46,7 @@ def plan(connection: Connection, statement: Select[object]) -> str:
 @pytest.mark.parametrize("name", [name for name, sort in SORTS.items() if sort.key in INDEXED_COLUMN])
 def test_order_walks_the_index_of_its_key(connection: Connection, name: str, begins: bool) -> None:
     index = f"ix_state_library_id_{INDEXED_COLUMN[SORTS[name].key]}_ordinal"
-    value = StateClass.STABLE_THREE_POINT.value if SORTS[name].key is SortKey.CLASS else 0.5
+    value = StateClass.STABLE_THREE_POINT.value if SORTS[name].key == "class" else 0.5
     for statement in place_statements(1, StateFilter(), SORTS[name], None if begins else Place(value, 50)):
         steps = plan(connection, statement)
         # The absent values are in the order of the primary key, too.

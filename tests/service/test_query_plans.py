@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from sqlalchemy import Connection, Select
 
-from service.states.query import SORTS, Place, SortKey, StateFilter
+from service.states.query import SORTS, Place, StateFilter
 from service.states.repository import place_statements
 from tests.service.conftest import StoredLibrary
 from threadstate.state.model import Flag, StateClass
@@ -23,14 +23,14 @@ NUT = "SEARCH contact USING COVERING INDEX ix_contact_library_id_nut_region_ordi
 FLAG = "SEARCH state_flag USING COVERING INDEX sqlite_autoindex_state_flag_2 (library_id=? AND flag=?"
 
 INDEXED_COLUMN = {
-    SortKey.PITCH: "pitch_deg",
-    SortKey.PHASE: "phase_deg",
-    SortKey.CLASS: "state_class",
-    SortKey.LAMBDA: "lambda_deg",
-    SortKey.MU: "mu_deg",
-    SortKey.DROP: "drop",
-    SortKey.EMBEDMENT: "embedment",
-    SortKey.PIVOT_OFFSET: "pivot_offset",
+    "pitch": "pitch_deg",
+    "phase": "phase_deg",
+    "class": "state_class",
+    "lambda": "lambda_deg",
+    "mu": "mu_deg",
+    "drop": "drop",
+    "embedment": "embedment",
+    "pivot_offset": "pivot_offset",
 }
 
 
@@ -83,7 +83,7 @@ def test_pose_is_sought_as_a_whole(connection: Connection, made_up: StoredLibrar
 
 
 @pytest.mark.parametrize("after", [None, Place(None, 50), Place(0.5, 50)])
-@pytest.mark.parametrize("name", [name for name, sort in SORTS.items() if sort.key is not SortKey.ROLL])
+@pytest.mark.parametrize("name", [name for name, sort in SORTS.items() if sort.key != "roll"])
 def test_sort_walks_the_index_of_its_key(
     connection: Connection, made_up: StoredLibrary, name: str, after: Place | None
 ) -> None:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from service.states.parameters import FIELDS
-from service.states.query import SORTS, Sort, SortKey
+from service.states.query import SORTS, Sort
 from tests.service.conftest import StoredLibrary
 from threadstate.state.document import state_document
 from threadstate.state.model import ContactState, Flag, StateClass
@@ -53,18 +53,18 @@ def matches(state: ContactState, which: dict[str, Any]) -> bool:
     )
 
 
-def sort_value(state: ContactState, key: SortKey) -> tuple[bool, float | str]:
+def sort_value(state: ContactState, key: str) -> tuple[bool, float | str]:
     """What a state is sorted by before its pose; what is absent comes first."""
     value = {
-        SortKey.ROLL: 0.0,
-        SortKey.PITCH: state.pitch_deg,
-        SortKey.PHASE: state.phase_deg,
-        SortKey.CLASS: state.state_class.value,
-        SortKey.LAMBDA: state.lambda_deg,
-        SortKey.MU: state.mu_deg,
-        SortKey.DROP: state.drop,
-        SortKey.EMBEDMENT: state.embedment,
-        SortKey.PIVOT_OFFSET: state.pivot_offset,
+        "roll": 0.0,
+        "pitch": state.pitch_deg,
+        "phase": state.phase_deg,
+        "class": state.state_class.value,
+        "lambda": state.lambda_deg,
+        "mu": state.mu_deg,
+        "drop": state.drop,
+        "embedment": state.embedment,
+        "pivot_offset": state.pivot_offset,
     }[key]
     return value is not None, 0.0 if value is None else value
 

@@ -6,12 +6,15 @@ from collections.abc import Callable
 
 from threadstate.export.column import Cell, Column, Unit, degrees, integer, length, number, words
 from threadstate.state.document import ContactDocument, StateDocument
+from threadstate.state.quantities import QUANTITIES
 
 STAGES = (1, 2, 3)
 LEAST_CONTACTS = 3
 """So many contacts have columns of their own, also where no state has as many."""
 
 _AXES = "xyz"
+_TURNS = ("lambda", "mu")
+_MARGIN = "margin_"
 
 
 def state_columns(contacts: int) -> tuple[Column[StateDocument], ...]:
@@ -22,30 +25,24 @@ def state_columns(contacts: int) -> tuple[Column[StateDocument], ...]:
         degrees("phase", "phase of the pose", lambda state: state["phase"]),
         words("class", "class of the state", lambda state: str(state["class"])),
         words("flags", "its flags, separated by spaces", lambda state: " ".join(state["flags"])),
-        degrees("lambda", "second turn", lambda state: state["turns"][0]),
-        degrees("mu", "third turn", lambda state: state["turns"][1]),
-        length("drop", "how far the bolt's origin sinks from the second pose to the third", lambda one: one["drop"]),
-        length("embedment", "least lift of the third pose after which nothing overlaps", lambda one: one["embedment"]),
-        length(
-            "pivot_offset",
-            "from the bolt's origin to the line through the first two contacts",
-            lambda state: state["pivot_offset"],
-        ),
-        length("margin_drop", "signed distance of the drop from its threshold", lambda one: one["margins"]["drop"]),
-        length(
-            "margin_embedment",
-            "signed distance of the embedment from its threshold",
-            lambda state: state["margins"]["embedment"],
-        ),
-        length(
-            "margin_pivot_offset",
-            "signed distance of the pivot offset from its threshold",
-            lambda state: state["margins"]["pivot_offset"],
+        *(
+            (length if quantity.is_length else degrees)(quantity.name, quantity.meaning, _quantity(quantity.name))
+            for quantity in QUANTITIES
         ),
         *(column for stage in STAGES for column in _pose_columns(stage)),
         integer("contacts", "how many contacts there are", lambda state: len(state["contacts"])),
         *(column for place in range(contacts) for column in _contact_columns(place)),
     )
+
+
+def _quantity(name: str) -> Callable[[StateDocument], Cell]:
+    if name in _TURNS:
+        place = _TURNS.index(name)
+        return lambda state: state["turns"][place]
+    if name.startswith(_MARGIN):
+        margin = name.removeprefix(_MARGIN)
+        return lambda state: state["margins"][margin]  # type: ignore[literal-required]
+    return lambda state: state[name]  # type: ignore[literal-required]
 
 
 def _pose_columns(stage: int) -> list[Column[StateDocument]]:

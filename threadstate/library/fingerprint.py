@@ -6,12 +6,17 @@ import hashlib
 import math
 import struct
 from collections.abc import Iterable, Sequence
+from operator import attrgetter
 
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import Answer, ContactState, UndecidedPose
+from threadstate.state.quantities import QUANTITIES
 
 _ABSENT = math.nan
 """Stands for None: no stored number is NaN, and ``struct`` writes this one always alike."""
+
+
+_quantities_of = attrgetter(*(quantity.attribute for quantity in QUANTITIES))
 
 
 def state_bytes(state: ContactState) -> bytes:
@@ -23,16 +28,7 @@ def state_bytes(state: ContactState) -> bytes:
         InvalidValueError: a number of the state is not finite.
     """
     numbers: list[float] = [state.roll_deg, state.pitch_deg, state.phase_deg]
-    lengths = (
-        state.lambda_deg,
-        state.mu_deg,
-        state.drop,
-        state.embedment,
-        state.pivot_offset,
-        state.drop_margin,
-        state.embedment_margin,
-        state.pivot_margin,
-    )
+    quantities: tuple[float | None, ...] = _quantities_of(state)
     names: list[str] = [state.state_class, *state.flags]
     for pose in state.poses:
         for row in pose.rotation:
@@ -45,10 +41,10 @@ def state_bytes(state: ContactState) -> bytes:
         numbers.append(contact.bolt_margin)
         numbers.append(contact.nut_margin)
         names += (str(contact.stage), contact.bolt_region, contact.nut_region, contact.features)
-    present = [length for length in lengths if length is not None]
+    present = [quantity for quantity in quantities if quantity is not None]
     if not (all(map(math.isfinite, numbers)) and all(map(math.isfinite, present))):
         raise InvalidValueError("state", state, "finite numbers only")
-    values = [_ABSENT if length is None else length + 0.0 for length in lengths]
+    values = [_ABSENT if quantity is None else quantity + 0.0 for quantity in quantities]
     values += [number + 0.0 for number in numbers]
     head = f"{' '.join(names)}\n{len(state.flags)} {len(state.poses)} {len(state.contacts)}\n"
     return head.encode() + struct.pack(f"<{len(values)}d", *values)

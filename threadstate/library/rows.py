@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any
 
 from threadstate.library.fingerprint import answers_sha256
@@ -21,10 +22,14 @@ from threadstate.state.model import (
     UndecidedPose,
     Vector,
 )
+from threadstate.state.quantities import QUANTITIES
 from threadstate.thread.regions import Region
 
 _LEVEL = 1
 """Of zlib: higher ones save a tenth of the bytes and take six times as long."""
+
+_ATTRIBUTES = tuple(quantity.attribute for quantity in QUANTITIES)
+_quantities_of = attrgetter(*_ATTRIBUTES)
 
 Row = tuple[Any, ...]
 """One row in the order of its table's columns, without the leading ``library_id``."""
@@ -73,14 +78,7 @@ def chunk_rows(orientation: Orientation, first_ordinal: int, answers: Sequence[A
                 state.pitch_deg + 0.0,
                 state.phase_deg + 0.0,
                 state.state_class.value,
-                _plain(state.lambda_deg),
-                _plain(state.mu_deg),
-                _plain(state.drop),
-                _plain(state.embedment),
-                _plain(state.pivot_offset),
-                _plain(state.drop_margin),
-                _plain(state.embedment_margin),
-                _plain(state.pivot_margin),
+                *map(_plain, _quantities_of(state)),
             )
         )
         for stage, pose in enumerate(state.poses, 1):
@@ -156,14 +154,7 @@ def states_from_rows(
             state_class=StateClass(values[3]),
             flags=tuple(flags_of.get(ordinal, ())),
             poses=tuple(poses_of.get(ordinal, ())),
-            lambda_deg=values[4],
-            mu_deg=values[5],
-            drop=values[6],
-            embedment=values[7],
-            pivot_offset=values[8],
-            drop_margin=values[9],
-            embedment_margin=values[10],
-            pivot_margin=values[11],
+            **dict(zip(_ATTRIBUTES, values[4:], strict=True)),
             contacts=tuple(contacts_of.get(ordinal, ())),
         )
         for ordinal, *values in states

@@ -29,6 +29,7 @@ from sqlalchemy import (
 from threadstate.library.text import bytewise_string, bytewise_text
 from threadstate.library.utc import UtcDateTime
 from threadstate.state.model import FeaturePair, Flag, StateClass
+from threadstate.state.quantities import QUANTITIES
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 from threadstate.units import LengthUnit
 
@@ -126,14 +127,7 @@ state = Table(
     Column("pitch_deg", Double, nullable=False),
     Column("phase_deg", Double, nullable=False),
     Column("state_class", bytewise_string(NAME_LENGTH), nullable=False),
-    Column("lambda_deg", Double),
-    Column("mu_deg", Double),
-    Column("drop", Double),
-    Column("embedment", Double),
-    Column("pivot_offset", Double),
-    Column("drop_margin", Double),
-    Column("embedment_margin", Double),
-    Column("pivot_margin", Double),
+    *(Column(quantity.attribute, Double) for quantity in QUANTITIES),
     # Serves: states in the default order (roll, pitch, phase) and the keyset that walks them; a history as a range.
     PrimaryKeyConstraint("library_id", "ordinal"),
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),
@@ -149,11 +143,7 @@ state = Table(
     # Serves: filter class in the default order; the counts of the summary.
     Index(None, "library_id", "state_class", "ordinal"),
     # Serve: sort by that column, with the ordinal as the keyset's tie-breaker.
-    Index(None, "library_id", "lambda_deg", "ordinal"),
-    Index(None, "library_id", "mu_deg", "ordinal"),
-    Index(None, "library_id", "drop", "ordinal"),
-    Index(None, "library_id", "embedment", "ordinal"),
-    Index(None, "library_id", "pivot_offset", "ordinal"),
+    *(Index(None, "library_id", quantity.attribute, "ordinal") for quantity in QUANTITIES if quantity.sortable),
     sqlite_with_rowid=False,
 )
 """A contact state: its pose, turns, lengths, class and the distances of the class from its thresholds."""
