@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._lane_kernel import Numbers, profile_numbers
-from threadstate.contact._range_kernel import larger, ranges, smaller
+from threadstate.contact._lane_kernel import Numbers, larger, profile_numbers, smaller
+from threadstate.contact._range_kernel import ranges
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]

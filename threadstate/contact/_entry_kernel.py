@@ -15,6 +15,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from threadstate.contact._geometry_kernel import TWO_PI, field, position, velocity
+from threadstate.contact._lane_kernel import larger
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -35,8 +36,10 @@ INSIDE = 3
 def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, float]:
     """First interval of ``tau >= 0`` on which g = g0 + gc cos(tau) + gs sin(tau) (or g0 + gs tau) is >= 0.
 
-    For a turn only ``tau < pi`` is meant. Empty: (NEVER, NEVER).
+    For a turn only ``tau < pi`` is meant. Empty: (NEVER, NEVER). Where a number is none, nothing is excluded.
     """
+    if math.isnan(g0 + gc + gs):
+        return 0.0, NEVER
     if not is_turn:
         if g0 >= 0.0:
             return 0.0, (NEVER if gs >= 0.0 else -g0 / gs)
@@ -76,7 +79,7 @@ def time_bend(
     k_r = row[pk.P] / (TWO_PI * r_low)
     along = (1.0 + k_r) * speed
     low, high = pk.bend_range(s, along * span, row)
-    f2 = max(high, -low)
+    f2 = larger(high, -low)
     swing = lipschitz if is_turn else 0.0
     level += speed * span if is_turn else 0.0
     return f2 * along * along + (row[pk.COT] * k_r * 2.0 + 1.0) / r_low * level * speed + swing * speed

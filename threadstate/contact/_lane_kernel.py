@@ -1,6 +1,7 @@
 """Elementary functions without branches or library calls, so that loops over many arguments become vector instructions.
 
-They serve bounds and brackets, never a result: each is exact to a few units of 1e-15.
+They serve bounds and brackets, never a result: each is exact to a few units of 1e-15. What is not a number stays so:
+a bound that cannot be told must exclude nothing.
 """
 
 from __future__ import annotations
@@ -91,10 +92,22 @@ def azimuth(x: float, y: float, r: float) -> float:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
+def larger(x: float, y: float) -> float:
+    """The larger of two numbers; not a number where either is none."""
+    return x if x > y or math.isnan(x) else y
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def smaller(x: float, y: float) -> float:
+    """The smaller of two numbers; not a number where either is none."""
+    return x if x < y or math.isnan(x) else y
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
 def clamp(x: float, low: float, high: float) -> float:
     """``x`` brought into [low, high]."""
-    x = x if x > low else low
-    return x if x < high else high
+    x = low if x <= low else x
+    return high if x >= high else x
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
@@ -125,10 +138,10 @@ def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
     u = abs(q) - 0.25 * p
     low = u < 0.5 * (u_flank + u_crest)
     du = u - u_flat if low else u_top - u
-    du = du if du > 0.0 else 0.0
+    du = 0.0 if du <= 0.0 else du
     # On the flank, and at a corner without a fillet, this is not a square: the flank's own numbers are taken below.
     left = (minor2 if low else major2) - du * du
-    c = math.sqrt(left if left > TINY else TINY)
+    c = math.sqrt(TINY if left <= TINY else left)
     slope = du / c
     radius = low_middle - c if low else high_middle + c
     on_flank = slope >= cot
@@ -141,6 +154,7 @@ def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
 def bends(u: float, reach: float, numbers: Numbers) -> tuple[float, float]:
     """Smallest and largest ``f''`` within ``reach`` of ``u``; not a number at a corner without a fillet.
 
+    Nor are they where ``u`` or ``reach`` is none.
     On the small fillet f'' grows towards the flank, on the large one it falls from it: the extremes are at the ends.
     """
     _, _, u_flat, u_flank, _, _, u_crest, u_top, _, _, minor2, major2 = numbers
@@ -158,4 +172,5 @@ def bends(u: float, reach: float, numbers: Numbers) -> tuple[float, float]:
     left = rho2 - d * d
     low = rho2 / (left * math.sqrt(left))
     low = -low if on_major else (low if first >= u_flat and last <= u_flank else 0.0)
-    return low, high
+    known = first <= last
+    return (low if known else math.nan), (high if known else math.nan)

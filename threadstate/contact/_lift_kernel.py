@@ -26,6 +26,7 @@ from threadstate.contact._geometry_kernel import (
     set_path_from,
     velocity,
 )
+from threadstate.contact._lane_kernel import larger, smaller
 from threadstate.contact._rest_kernel import start_height
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
@@ -89,16 +90,16 @@ def inside_until(
         phi, gx, gy, gz = field(x, y, z, row, sigma)
         rate = sign * (gx * vx + gy * vy + gz * vz)
         g, g_rate = -sigma * z, -sigma * sign * vz
-        floor = max(phi, 0.0)
+        floor = larger(phi, 0.0)
         step = floor / bounds[B_LIPSCHITZ]
         if bend < math.inf:
             root = math.sqrt(rate * rate + 2.0 * bend * floor)
-            step = max(step, (rate + root) / bend if rate >= 0.0 else 2.0 * floor / (root - rate))
+            step = larger(step, (rate + root) / bend if rate >= 0.0 else 2.0 * floor / (root - rate))
         if g_rate < 0.0:
-            step = min(step, max(g, 0.0) / -g_rate)
+            step = smaller(step, larger(g, 0.0) / -g_rate)
         elif g_rate > 0.0:
-            step = min(step, max(row[pk.P] - g, 0.0) / g_rate)
-        if step < least:
+            step = smaller(step, larger(row[pk.P] - g, 0.0) / g_rate)
+        if not step >= least:
             return reached
         reached += sign * min(step, left)
     return reached

@@ -19,19 +19,7 @@ import math
 from numba import njit
 
 from threadstate.contact._frame_kernel import around_axis, moved, moving_by, polar, shares
-from threadstate.contact._lane_kernel import Numbers, azimuth, bends, radius_and_slope, sine_cosine
-
-
-@njit(cache=True, error_model="numpy", forceinline=True)
-def larger(x: float, y: float) -> float:
-    """The larger of two numbers."""
-    return x if x > y else y
-
-
-@njit(cache=True, error_model="numpy", forceinline=True)
-def smaller(x: float, y: float) -> float:
-    """The smaller of two numbers."""
-    return x if x < y else y
+from threadstate.contact._lane_kernel import Numbers, azimuth, bends, larger, radius_and_slope, sine_cosine, smaller
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)

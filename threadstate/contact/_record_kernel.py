@@ -23,6 +23,7 @@ from threadstate.contact._stage_kernel import (
     K_Z,
     THREAD_EDGE,
     THREAD_THREAD,
+    UNRESOLVED,
 )
 from threadstate.thread import _profile_kernel as pk
 
@@ -95,9 +96,10 @@ def put_pose(pose: Array, row: Array) -> None:
 
 @njit(cache=True, error_model="numpy")
 def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
-    """Appends a contact with its points, normal, regions and margins."""
+    """Appends a contact with its points, normal, regions and margins; one for which there is no room is unresolved."""
     n = int(row[O_CONTACTS])
     if n == MOST_CONTACTS:
+        row[O_STATUS] = UNRESOLVED
         return
     c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
     pair = int(contact[K_PAIR])
@@ -171,9 +173,13 @@ def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, 
 
 @njit(cache=True, error_model="numpy")
 def put_flush(stage: int, theta: float, corner: bool, x: float, y: float, bolt: Array, nut: Array, row: Array) -> None:
-    """Appends an extreme point of a flush patch; the bolt's edge at ``theta``, on the nut's edge if ``corner``."""
+    """Appends an extreme point of a flush patch; the bolt's edge at ``theta``, on the nut's edge if ``corner``.
+
+    One for which there is no room leaves the record unresolved.
+    """
     n = int(row[O_CONTACTS])
     if n == MOST_CONTACTS:
+        row[O_STATUS] = UNRESOLVED
         return
     c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
     k = bolt[pk.P] / TWO_PI

@@ -36,6 +36,7 @@ from threadstate.contact._geometry_kernel import (
     turn_vector,
     velocity,
 )
+from threadstate.contact._lane_kernel import larger
 from threadstate.contact._tangency_kernel import JET_SIZE, STANDING_SIZE, T_TIME, polish
 from threadstate.thread import _profile_kernel as pk
 
@@ -85,7 +86,7 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
     end = min(stop, limit)
     tau = start
     own_low, own_high = pk.bend_range(z - k * theta, hs, bolt)
-    size_own = max(own_high, -own_low)
+    size_own = larger(own_high, -own_low)
     extent = c1 * h + hs * (1.0 + bolt[pk.COT])
     k_r = k / bounds[B_R_LOW]
     place = (cot * k_r * 2.0 + 1.0) / bounds[B_R_LOW]
@@ -104,7 +105,7 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
         rate = gx * vx + gy * vy + gz * vz
         r2 = x * x + y * y
         r = math.sqrt(r2)
-        r_low = max(r - extent, bounds[B_R_LOW])
+        r_low = larger(r - extent, bounds[B_R_LOW])
         s_mid = zz - k * math.atan2(y, x)
         s_h0 = abs(hzz - k * (x * hy - y * hx) / r2)
         s_z0 = abs(az - k * (x * ay - y * ax) / r2)
@@ -126,7 +127,7 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
             s_t = s_t0 + (1.0 + k_r) * (v - path[9] + v * swing)
             level = level0 + v - path[9] + v * swing
             low, high = pk.bend_range(s_mid, s_h * h + s_z * hs + s_t * span, nut)
-            f2 = max(high, -low)
+            f2 = larger(high, -low)
             side = t * (1.0 + cot) * size_own + 4.0 * away
             bend_hh = f2 * s_h * s_h + cot * s_hh + away * big * 3.0
             bend_hz = f2 * s_h * s_z + cot * s_hz + 2.0 * away * (1.0 + bolt[pk.COT])
@@ -134,8 +135,8 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
             down_zz = high * s_z * s_z - own_low + side
             if attempt == 0:
                 spread = abs(a) * h + abs(b) * hs + 0.5 * bend_hh * h * h + bend_hz * h * hs
-                above = spread + 0.5 * max(up_zz, 0.0) * hs * hs
-                below = spread + 0.5 * max(down_zz, 0.0) * hs * hs
+                above = spread + 0.5 * larger(up_zz, 0.0) * hs * hs
+                below = spread + 0.5 * larger(down_zz, 0.0) * hs * hs
                 room = -value - above
                 if room <= 0.0:
                     room = value - below
@@ -151,7 +152,7 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
                 if (rate + bend_ht * h + bend_zt * hs + 0.5 * bend_tt * span) * span <= room:
                     break
             elif abs(a) > bend_hh * h + bend_hz * hs + bend_ht * span or abs(b) > (
-                bend_hz * h + max(up_zz, down_zz) * hs + bend_zt * span
+                bend_hz * h + larger(up_zz, down_zz) * hs + bend_zt * span
             ):
                 break
             if attempt == 3:

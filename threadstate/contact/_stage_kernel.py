@@ -129,15 +129,21 @@ def set_motions(
 
 @njit(cache=True, error_model="numpy")
 def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z: float, count: int, out: Array) -> int:
-    """Inserts a contact by time unless the same is there already (found from the other edge)."""
+    """Inserts a contact by time unless the same is there already (found from the other edge).
+
+    A full list keeps the earliest ones.
+    """
     for i in range(count):
         if abs(out[i, K_X] - x) + abs(out[i, K_Y] - y) + abs(out[i, K_Z] - z) < EPS_PUNCTURE * (abs(x) + abs(y)):
             return count
     if count == MAX_CONTACTS:
-        return count
+        if time >= out[count - 1, K_TIME]:
+            return count
+        count -= 1
     i = count
     while i > 0 and out[i - 1, K_TIME] > time:
-        out[i] = out[i - 1]
+        for j in range(CONTACT_SIZE):
+            out[i, j] = out[i - 1, j]
         i -= 1
     out[i, K_TIME] = time
     out[i, K_PAIR] = pair
@@ -147,6 +153,12 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
     out[i, K_Y] = y
     out[i, K_Z] = z
     return count + 1
+
+
+@njit(cache=True, error_model="numpy")
+def is_full(listed: Array, count: int, until: float) -> bool:
+    """Whether a list by time, in its first column, has no room for all that there may be up to ``until``."""
+    return count == listed.shape[0] and listed[count - 1, 0] <= until
 
 
 @njit(cache=True, error_model="numpy")
@@ -239,9 +251,9 @@ def earliest(
     """The earliest contacts of a motion by all pairs of features, sorted by time.
 
     ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number
-    of contacts (those within ``slack`` of the earliest are certain to be listed), a status, and the earliest time at
-    which an edge enters (of a translation) or touches (of a turn). ``threads`` says how thread on thread is searched:
-    RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
+    of contacts (those within ``slack`` of the earliest are listed, or the status is UNRESOLVED), a status, and the
+    earliest time at which an edge enters (of a translation) or touches (of a turn). ``threads`` says how thread on
+    thread is searched: RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
     boxes, others, found_b, found_n, bolt_walks, nut_walks, rects, tangent, entries = work
     bolt_marks = np.empty(2)
@@ -347,6 +359,10 @@ def earliest(
             )
     if threads != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best
+    if count > 0:
+        tied = out[0, K_TIME] + slack
+        if is_full(out, count, tied) or is_full(found_b, count_b, tied) or is_full(found_n, count_n, tied):
+            return count, UNRESOLVED, best
     return count, RESOLVED, best
 
 

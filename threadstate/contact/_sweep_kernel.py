@@ -231,7 +231,8 @@ def joined(
             apart = False
             for i in range(1, 8):
                 set_jet(theta - gap * i / 8.0, tau, motion, row_c, row_s, path, jet)
-                apart = apart or min(jet[J_G], jet[J_PHI]) < -NOISE * row_s[pk.P]
+                noise = -NOISE * row_s[pk.P]
+                apart = apart or not (jet[J_G] >= noise and jet[J_PHI] >= noise)
             if not apart:
                 return True
     return False
@@ -239,15 +240,21 @@ def joined(
 
 @njit(cache=True, error_model="numpy")
 def add_entry(tau: float, theta: float, motion: Array, jet: Array, entries: Array) -> None:
-    """Notes where on the bolt's thread an edge comes into an overlap that is open already."""
-    count = int(entries[0, 0])
-    if count + 1 == entries.shape[0]:
-        return
+    """Notes where on the bolt's thread an edge comes into an overlap that is open already; the earliest are kept."""
+    place = int(entries[0, 0]) + 1
+    if place == entries.shape[0]:
+        place = 1
+        for i in range(2, entries.shape[0]):
+            if entries[i, E_TIME] > entries[place, E_TIME]:
+                place = i
+        if not tau < entries[place, E_TIME]:
+            return
+    else:
+        entries[0, 0] = place
     bolt_walks = motion[M_SIGMA] > 0.0
-    entries[count + 1, E_TIME] = tau
-    entries[count + 1, E_THETA] = theta if bolt_walks else math.atan2(jet[J_Y], jet[J_X])
-    entries[count + 1, E_Z] = 0.0 if bolt_walks else jet[J_Z]
-    entries[0, 0] = count + 1.0
+    entries[place, E_TIME] = tau
+    entries[place, E_THETA] = theta if bolt_walks else math.atan2(jet[J_Y], jet[J_X])
+    entries[place, E_Z] = 0.0 if bolt_walks else jet[J_Z]
 
 
 @njit(cache=True, error_model="numpy")

@@ -85,8 +85,13 @@ def inverse_rising(r: float, row: Row) -> float:
 
 @njit(cache=True, error_model="numpy")
 def bend_range(s: float, half: float, row: Row) -> tuple[float, float]:
-    """Smallest and largest ``f''`` on [s - half, s + half]; on a fillet it grows in size towards the flank."""
+    """Smallest and largest ``f''`` on [s - half, s + half]; on a fillet it grows in size towards the flank.
+
+    Where either argument is not a number it can be anything.
+    """
     u, _ = fold(s, row[P])
+    if not u - half <= u + half:
+        return -math.inf, math.inf
     low = 0.0
     high = 0.0
     top = min(u + half, row[U_FLANK])
