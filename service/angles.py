@@ -8,10 +8,11 @@ from annotated_types import Ge, Le, Lt
 from fastapi import Path, Query
 from pydantic import AllowInfNan
 
+from service.numbers import NUMBER_TEXT
 from threadstate.state.options import TILT_LIMIT_DEG
 
-Tilt = Annotated[float, Ge(-TILT_LIMIT_DEG), Le(TILT_LIMIT_DEG), AllowInfNan(False)]
-Phase = Annotated[float, Ge(0.0), Lt(360.0), AllowInfNan(False)]
+Tilt = Annotated[float, Ge(-TILT_LIMIT_DEG), Le(TILT_LIMIT_DEG), AllowInfNan(False), NUMBER_TEXT]
+Phase = Annotated[float, Ge(0.0), Lt(360.0), AllowInfNan(False), NUMBER_TEXT]
 
 RollPath = Annotated[Tilt, Path(description="roll in degrees", examples=[4])]
 PitchPath = Annotated[Tilt, Path(description="pitch (the pose angle) in degrees", examples=[-3])]

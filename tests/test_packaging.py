@@ -6,7 +6,8 @@ import re
 import shutil
 import subprocess
 import sys
-from importlib.metadata import entry_points
+import tomllib
+from importlib.metadata import entry_points, packages_distributions
 from pathlib import Path
 
 
@@ -50,3 +51,18 @@ def test_command_is_installed() -> None:
     (command,) = (one for one in entry_points(group="console_scripts") if one.name == "threadstate")
     assert command.value == "worker.command:main"
     assert callable(command.load())
+
+
+def test_every_dependency_is_imported(repository_root: Path) -> None:
+    """Or named as a driver in the address of a database, which loads it."""
+    project = tomllib.loads((repository_root / "pyproject.toml").read_text())["project"]
+    names = [re.match(r"[A-Za-z0-9-]+", one) for one in project["dependencies"]]
+    modules = {name: set[str]() for name in (one[0] for one in names if one)}
+    for module, distributions in packages_distributions().items():
+        for distribution in {one.lower().replace("_", "-") for one in distributions} & modules.keys():
+            modules[distribution].add(module)
+    rooms = ("threadstate", "worker", "service", "migrations")
+    sources = "\n".join(path.read_text() for room in rooms for path in (repository_root / room).rglob("*.py"))
+    used = set(re.findall(r"^\s*(?:import|from) (\w+)|postgresql\+(\w+)", sources, re.M))
+    imported = {name for pair in used for name in pair if name}
+    assert [name for name, tops in modules.items() if not tops & imported] == []

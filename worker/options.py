@@ -10,6 +10,7 @@ from threadstate import settings
 from threadstate.errors import InvalidValueError
 from threadstate.library.method import Method
 from threadstate.units import LengthUnit
+from worker.number_options import integer_option, number_option
 
 Database = Annotated[
     str | None,
@@ -58,14 +59,14 @@ Dimensions = Annotated[
     ),
 ]
 
-PhaseStep = Annotated[float, typer.Option("--phase-step", metavar="DEG", help="Step of phase; divides 360.")]
-TiltMax = Annotated[float, typer.Option("--tilt-max", metavar="DEG", help="Largest roll and pitch; at most 10.")]
+PhaseStep = Annotated[float, number_option("--phase-step", metavar="DEG", help="Step of phase; divides 360.")]
+TiltMax = Annotated[float, number_option("--tilt-max", metavar="DEG", help="Largest roll and pitch; at most 10.")]
 TiltStep = Annotated[
-    float, typer.Option("--tilt-step", metavar="DEG", help="Step of roll and pitch; divides the largest.")
+    float, number_option("--tilt-step", metavar="DEG", help="Step of roll and pitch; divides the largest.")
 ]
 Workers = Annotated[
     int | None,
-    typer.Option(
+    integer_option(
         "--workers",
         metavar="N",
         min=1,
@@ -91,7 +92,7 @@ Host = Annotated[
 ]
 Port = Annotated[
     int | None,
-    typer.Option(
+    integer_option(
         "--port", metavar="N", min=1, max=65535, help="Port to listen on.", show_default=f"{settings.PORT}, else 8000"
     ),
 ]

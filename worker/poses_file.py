@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from threadstate.errors import InvalidValueError
-from threadstate.numbers import number_text
+from threadstate.numbers import number, number_text
 from threadstate.state.options import TILT_LIMIT_DEG
 
 HEADER = ["roll", "pitch", "phase"]
@@ -50,11 +50,11 @@ def _poses(lines: Iterable[str]) -> PosesDeg:
 
 def _angle(text: str, name: str, limit_deg: float) -> float:
     try:
-        number = float(text)
+        angle = number(text.strip(" \t"))
     except ValueError:
-        number = math.nan
-    if not (math.isfinite(number) and abs(number) <= limit_deg):
+        angle = math.nan
+    if not abs(angle) <= limit_deg:
         limits = f"{number_text(-limit_deg)} to {number_text(limit_deg)} deg"
         valid = "any finite number of degrees" if math.isinf(limit_deg) else limits
         raise InvalidValueError(name, text, valid)
-    return number
+    return angle

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from annotated_types import Ge, Gt, Le
 from fastapi import APIRouter, Depends, Query, Request, Response
+from pydantic import AllowInfNan
 
 from service.angles import PitchPath, RollPath
 from service.libraries.solved_pair import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
 from service.network.parameters import LeastQuery
 from service.network.schemas import ComputedFalls, ComputedHeights, ComputedIntervals
+from service.numbers import INTEGER_TEXT, NUMBER_TEXT
 from service.representation import JSON
 from service.units import UNIT_HEADER, UnitQuery
 from threadstate.answer.documents import FallsDocument
@@ -42,23 +45,25 @@ LibraryQuery = Annotated[str | None, Query(min_length=1, max_length=100, descrip
 
 
 ToleranceQuery = Annotated[
-    float | None,
+    Annotated[float, Gt(0.0), Le(LARGEST_TOLERANCE_DEG), AllowInfNan(False), NUMBER_TEXT] | None,
     Query(
-        gt=0.0,
-        le=LARGEST_TOLERANCE_DEG,
-        allow_inf_nan=False,
         description="tolerance of roll and of pitch, either way, in degrees",
     ),
 ]
 StepsQuery = Annotated[
-    int, Query(ge=STEPS, le=MOST_STEPS, description="how many values of each angle are looked at, an odd number")
+    int,
+    Ge(STEPS),
+    Le(MOST_STEPS),
+    INTEGER_TEXT,
+    Query(description="how many values of each angle are looked at, an odd number"),
 ]
 SpanQuery = Annotated[
     float,
+    Gt(0.0),
+    Le(LARGEST_SPAN_DEG),
+    AllowInfNan(False),
+    NUMBER_TEXT,
     Query(
-        gt=0.0,
-        le=LARGEST_SPAN_DEG,
-        allow_inf_nan=False,
         description="span of phase, in degrees, within which the steepest fall is looked for",
     ),
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any
 from urllib.parse import urlencode
 
+from annotated_types import Ge, Le
 from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 
 from service.control import RequestedControl
@@ -14,6 +15,7 @@ from service.jobs.schemas import JobDocument, JobPage, JobRequest, job_document
 from service.jobs.stream import HEADERS, EventStream, told
 from service.keys import require_write_key
 from service.middleware import ASKED_AS_HEAD
+from service.numbers import INTEGER_TEXT
 from service.representation import JSON, NOT_MODIFIED, json_response
 from service.strict_json import StrictJsonRoute
 from threadstate.jobs.ask import ask_for, cancel
@@ -26,12 +28,21 @@ router = APIRouter(prefix="/v1/jobs", tags=["jobs"], route_class=StrictJsonRoute
 
 LARGEST_LIMIT = 100
 
-JobId = Annotated[int, Path(alias="id", ge=1, le=LARGEST_ID, description="number of the job", examples=[1])]
-LimitQuery = Annotated[int, Query(ge=1, le=LARGEST_LIMIT, description="how many jobs a page has at most")]
-BeforeQuery = Annotated[int, Query(ge=1, le=LARGEST_ID, description="from the `next` link of the page before")]
+JobId = Annotated[
+    int, Ge(1), Le(LARGEST_ID), INTEGER_TEXT, Path(alias="id", description="number of the job", examples=[1])
+]
+LimitQuery = Annotated[
+    int, Ge(1), Le(LARGEST_LIMIT), INTEGER_TEXT, Query(description="how many jobs a page has at most")
+]
+BeforeQuery = Annotated[
+    int, Ge(1), Le(LARGEST_ID), INTEGER_TEXT, Query(description="from the `next` link of the page before")
+]
 LastEventHeader = Annotated[
     int,
-    Header(alias="Last-Event-ID", ge=0, le=LARGEST_ID, description="number of the last event that was received"),
+    Ge(0),
+    Le(LARGEST_ID),
+    INTEGER_TEXT,
+    Header(alias="Last-Event-ID", description="number of the last event that was received"),
 ]
 
 _ACCEPTED: dict[int | str, dict[str, Any]] = {

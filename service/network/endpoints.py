@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 from urllib.parse import urlencode
 
+from annotated_types import Ge, Le
 from fastapi import APIRouter, Path, Query, Request, Response
 
 from service.angles import PhaseQuery, PitchPath, PitchQuery, RollPath, RollQuery
@@ -31,6 +32,7 @@ from service.network.schemas import (
     WindowsAnswer,
 )
 from service.network.store import RequestedNetwork
+from service.numbers import INTEGER_TEXT
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
 from service.units import UNIT_HEADER, UnitQuery
 from threadstate.answer.heights import heights_document, stored_heights
@@ -107,8 +109,12 @@ def list_transitions(
     request: Request,
     network: RequestedNetwork,
     which: TransitionQuery,
-    limit: Annotated[int, Query(ge=1, le=LARGEST_LIMIT, description="how many a page has at most")] = 50,
-    after: Annotated[int, Query(ge=0, le=LARGEST_OFFSET, description="from the `next` link of the page before")] = 0,
+    limit: Annotated[
+        int, Ge(1), Le(LARGEST_LIMIT), INTEGER_TEXT, Query(description="how many a page has at most")
+    ] = 50,
+    after: Annotated[
+        int, Ge(0), Le(LARGEST_OFFSET), INTEGER_TEXT, Query(description="from the `next` link of the page before")
+    ] = 0,
     unit: UnitQuery = None,
 ) -> Response:
     """From which interval to which, along phase and to the orientations beside; all filters hold at once.

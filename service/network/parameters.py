@@ -5,9 +5,12 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Annotated
 
+from annotated_types import Ge, Le
 from fastapi import Depends, Query
+from pydantic import AllowInfNan
 
 from service.angles import PhaseMaxQuery, PhaseMinQuery, PitchQuery, RollQuery
+from service.numbers import INTEGER_TEXT, NUMBER_TEXT
 from threadstate.answer.observed import contact_observations, named_moves
 from threadstate.answer.select import TransitionFilter
 from threadstate.network.changes import ChangeKind
@@ -33,10 +36,11 @@ ObjectiveQuery = Annotated[
 
 LeastQuery = Annotated[
     float,
+    Ge(0.0),
+    Le(1.0),
+    AllowInfNan(False),
+    NUMBER_TEXT,
     Query(
-        ge=0.0,
-        le=1.0,
-        allow_inf_nan=False,
         description="a steepest fall of more than so many thread pitches is a snap's",
     ),
 ]
@@ -86,7 +90,9 @@ def path_moves(
 
 def observation(
     state_class: Annotated[StateClass | None, Query(alias="class", description="the class observed")] = None,
-    contacts: Annotated[int | None, Query(ge=1, le=MOST_CONTACTS, description="how many contacts there are")] = None,
+    contacts: Annotated[
+        Annotated[int, Ge(1), Le(MOST_CONTACTS), INTEGER_TEXT] | None, Query(description="how many contacts there are")
+    ] = None,
     flag: Annotated[Flag | None, Query(description="a flag observed")] = None,
     contact: Annotated[
         str | None,

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from annotated_types import Ge, Le
 from fastapi import Depends, Query
 
 from service.angles import PhaseMaxQuery, PhaseMinQuery, PhaseQuery, PitchQuery, RollQuery
+from service.numbers import INTEGER_TEXT
 from service.states.cursor import LONGEST_CURSOR
 from service.states.query import SORTS, Sort, StateFilter
 from threadstate.errors import InvalidValueError, UnknownNameError
@@ -106,7 +108,9 @@ def state_fields(
 FilterQuery = Annotated[StateFilter, Depends(state_filter)]
 SortQuery = Annotated[Sort, Depends(state_sort)]
 FieldsQuery = Annotated[tuple[str, ...], Depends(state_fields)]
-LimitQuery = Annotated[int, Query(ge=1, le=LARGEST_LIMIT, description="how many states a page has at most")]
+LimitQuery = Annotated[
+    int, Ge(1), Le(LARGEST_LIMIT), INTEGER_TEXT, Query(description="how many states a page has at most")
+]
 CursorQuery = Annotated[
     str | None,
     Query(min_length=1, max_length=LONGEST_CURSOR, description="from the `next` link of the page before"),

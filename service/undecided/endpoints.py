@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import Annotated
 from urllib.parse import urlencode
 
+from annotated_types import Ge, Le
 from fastapi import APIRouter, Query, Request, Response
 
 from service.database import ReadConnection
 from service.libraries.identify import IdentifiedLibrary
+from service.numbers import INTEGER_TEXT
 from service.representation import NOT_MODIFIED, json_response
 from service.states.parameters import LimitQuery
 from service.undecided.schemas import UndecidedPage, undecided_document
@@ -17,7 +19,9 @@ from threadstate.library.read import undecided_between
 
 router = APIRouter(prefix="/v1/libraries/{id}/undecided", tags=["states"])
 
-AfterQuery = Annotated[int, Query(ge=-1, le=LARGEST_STATE_COUNT, description="from the `next` link of the page before")]
+AfterQuery = Annotated[
+    int, Ge(-1), Le(LARGEST_STATE_COUNT), INTEGER_TEXT, Query(description="from the `next` link of the page before")
+]
 
 
 @router.get("", summary="Poses without a state", response_model=UndecidedPage, responses=NOT_MODIFIED)

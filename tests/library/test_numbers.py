@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from threadstate.numbers import number_text
+from threadstate.numbers import integer, number, number_text
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
@@ -35,3 +35,44 @@ def test_no_number_is_cut_to_six_digits(repository_root: Path) -> None:
         if re.search(r":g\}|%g", line)
     ]
     assert found == []
+
+
+ODD = [
+    "",
+    " 1",
+    "1 ",
+    "1_0",
+    "nan",
+    "inf",
+    "-Infinity",
+    "٣",
+    "1\N{NO-BREAK SPACE}",
+    "0x10",
+    "1e",
+    ".",
+    "--1",
+    "1,5",
+    "1\n",
+    "1e999",
+]
+
+
+@pytest.mark.parametrize("text", ODD)
+def test_what_python_reads_beyond_numbers_is_refused(text: str) -> None:
+    for read in (number, integer):
+        with pytest.raises(ValueError, match=re.escape(f"{text!r} is not a")):
+            read(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("4", 4.0), ("-0.5", -0.5), ("+4.", 4.0), (".5", 0.5), ("1e-07", 1e-7), ("2E+3", 2000.0)]
+)
+def test_a_decimal_number_is_read(text: str, value: float) -> None:
+    assert number(text) == value
+
+
+def test_a_whole_number_is_read() -> None:
+    assert [integer(text) for text in ("0", "007", "-12", "+3")] == [0, 7, -12, 3]
+    for text in ("1.0", "1e2", "9" * 19):
+        with pytest.raises(ValueError, match="is not a whole number"):
+            integer(text)

@@ -60,6 +60,16 @@ test("what is not valid in a fragment is left out and said, the rest is kept", (
   assert.deepEqual(readFragment("#roll=12").remarks, ["roll in the link is 12; valid: -10 to 10 deg"]);
 });
 
+test("a number is written in decimals", () => {
+  for (const text of ["0x4", "0b1", " 4", "1_0", "Infinity", "4 deg", ".", "1e"]) {
+    assert.deepEqual(readFragment(`#phase=${encodeURIComponent(text)}`).view, {}, text);
+    assert.equal(readFragment(`#poses=${encodeURIComponent(`${text.replaceAll(" ", "_")},0,0`)}`).view.poses, undefined, text);
+  }
+  for (const [text, phase] of [["4", 4], ["4.", 4], [".5", 0.5], ["%2B1e-7", 1e-7], ["12.5E1", 125]]) {
+    assert.deepEqual(readFragment(`#phase=${text}`).view, { phase });
+  }
+});
+
 test("any angle is kept exactly; a phase is brought into the turn and said", () => {
   assert.deepEqual(readFragment("#roll=2.5&pitch=-1.2&phase=357.38"), { view: { roll: 2.5, pitch: -1.2, phase: 357.38 }, remarks: [] });
   assert.deepEqual(readFragment("#phase=400"), { view: { phase: 40 }, remarks: ["phase 400 deg is 40 deg within the turn"] });

@@ -154,7 +154,7 @@ def test_what_a_file_may_not_say_is_named_with_file_and_key(
         ("own", [LIKE, "fit.a.b=1"], r"--dimension is 'fit\.a\.b=1'; valid: one of the keys .*fit\.nut_minor_diameter"),
         ("own", [LIKE, "lead=1"], "--dimension: lead is 1.0; valid: one of the keys designation, like"),
         ("own", [LIKE, "thread_pitch=x"], "--dimension: thread_pitch is 'x'; valid: a valid number"),
-        ("own", [LIKE, "thread_pitch=nan"], "--dimension: thread_pitch is nan; valid: a finite number"),
+        ("own", [LIKE, "thread_pitch=nan"], "--dimension: thread_pitch is 'nan'; valid: a valid number"),
         ("own", [LIKE, LIKE], "--dimension: like is '1/4-20 UNC'; valid: each key once"),
         (
             "own",

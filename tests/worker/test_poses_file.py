@@ -43,6 +43,8 @@ def test_a_file_of_a_header_alone_has_no_poses(tmp_path: Path) -> None:
         (b"roll,pitch,phase\n10.5,0,3\n", "roll in line 2 .*-10 to 10 deg"),
         (b"roll,pitch,phase\n0,-11,3\n", "pitch in line 2 .*-10 to 10 deg"),
         (b"roll,pitch,phase\n0,nan,3\n", "pitch in line 2"),
+        (b"roll,pitch,phase\n1_0,0,3\n", "roll in line 2 of the poses is '1_0'"),
+        ("roll,pitch,phase\n0,٣,3\n".encode(), "pitch in line 2 of the poses is '٣'"),
         (b"roll,pitch,phase\n0,0,inf\n", "phase in line 2 .*any finite number"),
         (b"roll,pitch,phase\n\xff\xfe\n", "readable CSV"),
     ],

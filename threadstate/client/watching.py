@@ -22,7 +22,7 @@ from threadstate.client.errors import (
 from threadstate.client.models.jobs import EventDocument, JobDocument
 from threadstate.client.retrying import Retrying, backoff_s
 from threadstate.jobs.names import JobState
-from threadstate.numbers import number_text
+from threadstate.numbers import integer, number_text
 
 QUIET_S = 10.0
 """A stream on which nothing came for so many seconds is left and asked for again: the connection may be dead."""
@@ -52,7 +52,7 @@ class Place:
         """
         try:
             document = EventDocument.model_validate_json(event.data)
-            number = int(event.id)
+            number = integer(event.id)
         except (ValidationError, ValueError):
             raise UnexpectedAnswerError(f"{event.data[:100]!r} is no event of a job") from None
         self._last, self._failed = number, 0

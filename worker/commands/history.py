@@ -6,13 +6,14 @@ from typing import Annotated
 
 import typer
 
+from worker.number_options import number_option
 from worker.options import Database, Dimensions, Json, PairName, UnitName
 from worker.output import print_json
 
 
 def history(
-    roll: Annotated[float, typer.Option("--roll", metavar="DEG", help="Roll, -10 to 10.")],
-    pitch: Annotated[float, typer.Option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")],
+    roll: Annotated[float, number_option("--roll", metavar="DEG", help="Roll, -10 to 10.")],
+    pitch: Annotated[float, number_option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")],
     library: Annotated[
         str | None,
         typer.Option(

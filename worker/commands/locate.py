@@ -8,6 +8,7 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import Flag, StateClass
+from worker.number_options import integer_option
 from worker.options import Database, Json, LibraryName
 from worker.output import print_json
 
@@ -15,7 +16,7 @@ from worker.output import print_json
 def locate(
     state_class: Annotated[StateClass | None, typer.Option("--class", help="The class observed.")] = None,
     contacts: Annotated[
-        int | None, typer.Option("--contacts", metavar="N", min=1, help="How many contacts there are.")
+        int | None, integer_option("--contacts", metavar="N", min=1, help="How many contacts there are.")
     ] = None,
     contact: Annotated[
         str,

@@ -12,6 +12,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset, Tessellation
 from threadstate.mesh.scene_name import Scene
+from worker.number_options import number_option
 from worker.options import Dimensions, Json, PairName, UnitName
 from worker.output import print_json, print_line
 
@@ -22,7 +23,7 @@ def mesh(
     preset: Annotated[Preset, typer.Option("--preset", help="How finely the part is tessellated.")] = Preset.PAPER,
     chord: Annotated[
         float | None,
-        typer.Option(
+        number_option(
             "--chord",
             metavar="LENGTH",
             help="Largest distance from the true surface.",
@@ -31,7 +32,7 @@ def mesh(
     ] = None,
     angle_control: Annotated[
         float | None,
-        typer.Option(
+        number_option(
             "--angle-control",
             metavar="NUMBER",
             help="0 to 1: how much finer curves of small radius are.",

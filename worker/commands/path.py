@@ -9,6 +9,7 @@ import typer
 from threadstate.errors import InvalidValueError
 from threadstate.network.moves import Move
 from threadstate.network.search import Objective
+from worker.number_options import number_option
 from worker.options import Database, Json, LibraryName, UnitName
 from worker.output import print_json
 
@@ -21,9 +22,9 @@ def path(
     moves: Annotated[
         str, typer.Option("--moves", metavar="NAMES", help=f"Moves allowed, with commas: {', '.join(Move)}.")
     ] = Move.COUNTER_CLOCKWISE.value,
-    roll: Annotated[float | None, typer.Option("--roll", metavar="DEG", help="Only from this roll.")] = None,
-    pitch: Annotated[float | None, typer.Option("--pitch", metavar="DEG", help="Only from this pitch.")] = None,
-    phase: Annotated[float | None, typer.Option("--phase", metavar="DEG", help="Only from this phase.")] = None,
+    roll: Annotated[float | None, number_option("--roll", metavar="DEG", help="Only from this roll.")] = None,
+    pitch: Annotated[float | None, number_option("--pitch", metavar="DEG", help="Only from this pitch.")] = None,
+    phase: Annotated[float | None, number_option("--phase", metavar="DEG", help="Only from this phase.")] = None,
     library: LibraryName = None,
     unit: UnitName = None,
     database: Database = None,

@@ -20,6 +20,7 @@ from worker.mesh_options import (
     Unchecked,
     mesh_options,
 )
+from worker.number_options import number_option
 from worker.options import Dimensions, Json, MethodName, PairName, UnitName
 from worker.output import print_json
 
@@ -28,9 +29,9 @@ BATCH = 1024
 
 
 def solve(
-    roll: Annotated[float | None, typer.Option("--roll", metavar="DEG", help="Roll, -10 to 10.")] = None,
-    pitch: Annotated[float | None, typer.Option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")] = None,
-    phase: Annotated[float | None, typer.Option("--phase", metavar="DEG", help="Phase, any finite angle.")] = None,
+    roll: Annotated[float | None, number_option("--roll", metavar="DEG", help="Roll, -10 to 10.")] = None,
+    pitch: Annotated[float | None, number_option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")] = None,
+    phase: Annotated[float | None, number_option("--phase", metavar="DEG", help="Phase, any finite angle.")] = None,
     poses: Annotated[
         Path | None,
         typer.Option("--poses", metavar="FILE", help="CSV file of poses, header roll,pitch,phase; /dev/stdin works."),

@@ -9,21 +9,22 @@ import typer
 from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.model import StateClass
+from worker.number_options import integer_option, number_option
 from worker.options import Database, Json, LibraryName, UnitName
 from worker.output import print_json, tell
 
 
 def transitions(
     move: Annotated[Move | None, typer.Option("--move", help="Only by this move.")] = None,
-    roll: Annotated[float | None, typer.Option("--roll", metavar="DEG", help="Only from this roll.")] = None,
-    pitch: Annotated[float | None, typer.Option("--pitch", metavar="DEG", help="Only from this pitch.")] = None,
-    phase_min: Annotated[float | None, typer.Option("--phase-min", metavar="DEG", help="Smallest phase.")] = None,
-    phase_max: Annotated[float | None, typer.Option("--phase-max", metavar="DEG", help="Largest phase.")] = None,
+    roll: Annotated[float | None, number_option("--roll", metavar="DEG", help="Only from this roll.")] = None,
+    pitch: Annotated[float | None, number_option("--pitch", metavar="DEG", help="Only from this pitch.")] = None,
+    phase_min: Annotated[float | None, number_option("--phase-min", metavar="DEG", help="Smallest phase.")] = None,
+    phase_max: Annotated[float | None, number_option("--phase-max", metavar="DEG", help="Largest phase.")] = None,
     source: Annotated[str | None, typer.Option("--from", metavar="KEY", help="Only from this formation.")] = None,
     target: Annotated[str | None, typer.Option("--to", metavar="KEY", help="Only to this formation.")] = None,
     change: Annotated[ChangeKind | None, typer.Option("--change", help="Only where this changes.")] = None,
     state_class: Annotated[StateClass | None, typer.Option("--class", help="Only from this class.")] = None,
-    limit: Annotated[int, typer.Option("--limit", metavar="N", min=1, help="How many at most.")] = 50,
+    limit: Annotated[int, integer_option("--limit", metavar="N", min=1, help="How many at most.")] = 50,
     library: LibraryName = None,
     unit: UnitName = None,
     database: Database = None,

@@ -9,26 +9,27 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
+from worker.number_options import integer_option, number_option
 from worker.options import Database, Json, LibraryName, UnitName
 from worker.output import print_json, print_line
 
 
 def windows(
-    roll: Annotated[float | None, typer.Option("--roll", metavar="DEG", help="Only of this roll.")] = None,
-    pitch: Annotated[float | None, typer.Option("--pitch", metavar="DEG", help="Only of this pitch.")] = None,
+    roll: Annotated[float | None, number_option("--roll", metavar="DEG", help="Only of this roll.")] = None,
+    pitch: Annotated[float | None, number_option("--pitch", metavar="DEG", help="Only of this pitch.")] = None,
     tolerance: Annotated[
         float | None,
-        typer.Option("--tolerance", metavar="DEG", help="Of roll and pitch, either way: the range of what they give."),
+        number_option("--tolerance", metavar="DEG", help="Of roll and pitch, either way: the range of what they give."),
     ] = None,
     steps: Annotated[
-        int, typer.Option("--steps", metavar="N", help="Values of each angle within the tolerance, an odd number.")
+        int, integer_option("--steps", metavar="N", help="Values of each angle within the tolerance, an odd number.")
     ] = 3,
     span: Annotated[
-        float, typer.Option("--span", metavar="DEG", help="Span of phase of the steepest fall.")
+        float, number_option("--span", metavar="DEG", help="Span of phase of the steepest fall.")
     ] = SPAN_DEG,
     least: Annotated[
         float,
-        typer.Option("--least", metavar="N", help="A steepest fall of more than so many thread pitches is a snap's."),
+        number_option("--least", metavar="N", help="A steepest fall of more than so many thread pitches is a snap's."),
     ] = SNAP_PITCHES,
     library: LibraryName = None,
     unit: UnitName = None,

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from threadstate.errors import InvalidValueError, UnknownNameError
+from threadstate.numbers import number
 from threadstate.settings import PAIR, read_settings
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, designations, pair_by_designation
 from threadstate.thread.pair import Pair
@@ -105,6 +106,6 @@ def _keys() -> list[str]:
 def _number(text: str) -> float | str:
     """A number; what is none stays as it is, for the check of the document to refuse."""
     try:
-        return float(text)
+        return number(text)
     except ValueError:
         return text

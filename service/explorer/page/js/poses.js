@@ -1,7 +1,7 @@
 // Measured poses: read from a table that was pasted or opened, and written into the link.
 
 import { TILT_LIMIT } from "./grid.js";
-import { inTurn } from "./units.js";
+import { inTurn, numberOf } from "./units.js";
 
 /** How many poses are taken. */
 export const MOST_POSES = 500;
@@ -26,7 +26,7 @@ export function posesOf(text) {
       faults.push(`line ${number}: ${fault}`);
       continue;
     }
-    const [roll, pitch, phase] = order.map((place) => Number(cells[place]) + 0);
+    const [roll, pitch, phase] = order.map((place) => numberOf(cells[place]) + 0);
     poses.push({ roll, pitch, phase: inTurn(phase) });
   }
   if (poses.length > MOST_POSES) faults.push(`${poses.length} poses; the first ${MOST_POSES} are taken`);
@@ -59,7 +59,7 @@ function poseFault(cells) {
   for (const [k, name] of ANGLES.entries()) {
     const text = cells[k];
     if (text === undefined) return `there is no ${name}; a line has roll, pitch and phase in deg`;
-    const value = Number(text);
+    const value = numberOf(text);
     const most = name === "phase" ? Infinity : TILT_LIMIT;
     if (!Number.isFinite(value)) return `${name} is ${text}; valid: a number`;
     if (Math.abs(value) > most) return `${name} is ${text}; valid: ${-TILT_LIMIT} to ${TILT_LIMIT} deg`;

@@ -60,6 +60,11 @@ function power(value) {
   return value.toExponential(1).replaceAll("-", MINUS);
 }
 
+/** The number of a text in decimals; NaN of any other, also of what JavaScript would read (0x10, blanks). */
+export function numberOf(text) {
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
+}
+
 /** An angle brought to 0 <= angle < 360. */
 export function inTurn(degrees) {
   const rest = degrees % 360;

@@ -5,10 +5,10 @@ import { checkedPoses } from "./poses.js";
 import { QUANTITIES } from "./quantities.js";
 import { TABS } from "./tabs.js";
 import { TILT_LIMIT, TOLERANCE_LIMIT } from "./grid.js";
-import { inTurn } from "./units.js";
+import { inTurn, numberOf } from "./units.js";
 import { DEFAULTS } from "./view.js";
 
-const finite = (text) => (text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) + 0 : undefined);
+const finite = (text) => (Number.isFinite(numberOf(text)) ? numberOf(text) + 0 : undefined);
 const between = (low, high, unit = "") => ({
   read: (text) => (finite(text) >= low && finite(text) <= high ? finite(text) : undefined),
   valid: `${low} to ${high}${unit}`,
