@@ -8,7 +8,7 @@ RUN python -m venv --without-pip /opt/threadstate \
 COPY requirements-build.lock requirements-node.lock package.json package-lock.json .npmrc ./
 RUN pip install --quiet --require-hashes --only-binary :all: -r requirements-build.lock -r requirements-node.lock \
     && npm ci --omit=dev --ignore-scripts
-COPY pyproject.toml hatch_build.py README.md ./
+COPY pyproject.toml hatch_build.py README.md LICENSE ./
 COPY threadstate threadstate
 COPY worker worker
 COPY service service

@@ -13,6 +13,8 @@ TEXTS = ("*.py", "*.js", "*.md", "*.toml")
 OF_THE_PAPER = ("docs/paper-claims.md", "studies/paper/")
 """Where a section is one of the paper unless the method is named."""
 
+OWNER = re.compile(r"\b(method|paper|RFC)\b", re.IGNORECASE)
+"""Whose section it is: the last one that the sentence names before."""
 MENTION = re.compile(r"\bsections?\s+(\d+(?:\.\d+)*(?:\s*(?:,|and|to)\s*\d+(?:\.\d+)*)*)", re.IGNORECASE)
 
 
@@ -20,7 +22,7 @@ def sections_mentioned(text: str) -> Iterator[tuple[str, list[str]]]:
     """Who is named before each mention of sections, in the same sentence (or nobody: ``""``), and their numbers."""
     flat = " ".join(re.sub(r"^[ \t]*(?:#|//|\*)?", "", line) for line in text.splitlines())
     for mention in MENTION.finditer(flat):
-        owners = re.findall(r"\b(method|paper)\b", re.split(r"\.\s", flat[: mention.start()])[-1], re.IGNORECASE)
+        owners = OWNER.findall(re.split(r"\.\s", flat[: mention.start()])[-1])
         yield (owners[-1].lower() if owners else ""), re.findall(r"\d+(?:\.\d+)*", mention[1])
 
 
@@ -64,6 +66,7 @@ def test_every_section_referred_to_is_there(repository_root: Path, headings: set
         ("(method, sections 1, 3 and 7)", [("method", ["1", "3", "7"])]),
         ("Of the method. The paper, section 6.3, says", [("paper", ["6.3"])]),
         ("The method. As in section 3", [("", ["3"])]),
+        ("The HTTP method's default (RFC 9110, section 12.5.3)", [("rfc", ["12.5.3"])]),
     ],
 )
 def test_mentions_are_found(text: str, mentioned: list[tuple[str, list[str]]]) -> None:
