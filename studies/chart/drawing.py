@@ -99,8 +99,15 @@ def _panel(axes: Axes, shown: Sequence[Point], errors: Sequence[float], label: s
         if mine:
             axes.plot(*_columns(line), color=colour, alpha=0.5, linewidth=1.4)
             size = 13.0 if series is Series.EXACT else 7.5
-            style: dict[str, Any] = {"markersize": size, "markeredgecolor": "white", "linestyle": "none"}
-            axes.plot(*_columns([(p.seconds, e) for p, e in mine]), marker, color=colour, label=name, **style)
+            axes.plot(
+                *_columns([(p.seconds, e) for p, e in mine]),
+                marker,
+                color=colour,
+                label=name,
+                markersize=size,
+                markeredgecolor="white",
+                linestyle="none",
+            )
     _shade_beaten(axes, [(p.seconds, e) for p, e in zip(shown, errors, strict=True) if not math.isnan(e)])
 
 
