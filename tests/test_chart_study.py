@@ -11,18 +11,36 @@ import numpy as np
 import pytest
 
 from studies.chart import coal_engine, exact
-from studies.chart.contestant import DEFAULT, LIMITED, ByMesh, Contestant, Engine, Exactly, Series, contestants
-from studies.chart.document import document
+from studies.chart.contestant import (
+    DEFAULT,
+    FULL,
+    LIMITED,
+    ByMesh,
+    Contestant,
+    Engine,
+    Exactly,
+    Scale,
+    Series,
+    contestants,
+)
 from studies.chart.drawing import DOCS, STYLES, drawing, points
-from studies.chart.errors import height_error, point_error, same_contacts, score, share, spread, turn_error
-from studies.chart.extrapolation import limit_of_none
-from studies.chart.failure import FailureMode, failure_mode, is_clear, same_components
-from studies.chart.findings import agreement, better_in_something, front, poses_both_faster_and_nearer, ratios
+from studies.chart.errors import (
+    FailureMode,
+    failure_mode,
+    height_error,
+    is_clear,
+    point_error,
+    same_components,
+    same_contacts,
+    score,
+    share,
+    spread,
+    turn_error,
+)
+from studies.chart.findings import agreement, better_in_something, document, front, poses_both_faster_and_nearer, ratios
 from studies.chart.measure import Run, run
 from studies.chart.page import page
-from studies.chart.sample import true_states
-from studies.chart.scale import FULL, Scale
-from studies.chart.study import Study, measured_study, work
+from studies.chart.study import Study, limit_of_none, measured_study, true_states, work
 from threadstate.contact import _sweep_kernel as sweep
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.frames import fixed_from_bolt

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from studies.paper import statements
 from studies.paper.claim import Statement
-from studies.paper.statements import approaches, cases
 from tests.falls_page import ShownFalls, Tilt, falls_shown, text_of
 
 Falls = Mapping[Tilt, ShownFalls]
@@ -54,14 +54,15 @@ def test_rows_follow_the_definitions(falls: Falls) -> None:
 def test_the_study_of_the_paper_counts_the_same_snaps(repository_root: Path, falls: Falls) -> None:
     tilted = {tilt: row for tilt, row in falls.items() if tilt != (0, 0)}
     without = [tilt for tilt, row in tilted.items() if not row.snaps]
-    assert measured(repository_root, approaches.SNAP.text) == (
+    assert measured(repository_root, statements.SNAP.text) == (
         f"{len(tilted) - len(without)} of {len(tilted)} orientations snap, by up to {largest(tilted)} in; of the "
         f"{len(without)} that do not, {sum(pitch > 0 for _, pitch in without)} have a positive pitch"
     )
 
 
 @pytest.mark.parametrize(
-    ("statement", "tilt"), [(cases.SUBTLE, lambda size: (-size, 0)), (cases.MINIMAL_DROP, lambda size: (0, size))]
+    ("statement", "tilt"),
+    [(statements.SUBTLE, lambda size: (-size, 0)), (statements.MINIMAL_DROP, lambda size: (0, size))],
 )
 def test_the_study_of_the_paper_compares_the_same_steepest_falls(
     repository_root: Path, falls: Falls, statement: Statement, tilt: Callable[[int], Tilt]

@@ -7,18 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.paper.claim import Claim, Verdict
+from studies.paper import statements
+from studies.paper.claim import Claim, Finding, Read, Verdict, settled, unanimous
 from studies.paper.measures.case_one import MEASURED as CASE_ONE
 from studies.paper.measures.named_poses import ranges
-from studies.paper.page import Chapters, page, row
+from studies.paper.page import Chapters, page, print_table, row
 from studies.paper.readings import Reading, declared_angles
 from studies.paper.registry import CHAPTERS, claims_by_chapter, statement_count
-from studies.paper.rules import Finding, Read, settled, unanimous
-from studies.paper.sampled_curve import sampled_curve
-from studies.paper.scale import Scale
-from studies.paper.statements import approaches, cases, orientations
-from studies.paper.study import FIG_19, FIG_21, Study, poses_to_solve, solved_study
-from studies.paper.table import print_table
+from studies.paper.revolution import sampled_curve
+from studies.paper.study import FIG_19, FIG_21, Scale, Study, poses_to_solve, solved_study
 from threadstate.history.descents import falls_of
 from threadstate.history.falls import SNAP_PITCHES, SteepestFall
 from threadstate.history.height_curve import height_curve
@@ -122,7 +119,7 @@ def test_verdict_follows_from_all_meanings(holds: tuple[bool, bool], verdict: Ve
 
 
 def test_verdict_changes_with_what_was_solved(study: Study) -> None:
-    measure = dict(CASE_ONE)[cases.CREST_SEQUENCE]
+    measure = dict(CASE_ONE)[statements.CREST_SEQUENCE]
     alike = replace(study, declared=study.turned_first, geometries={})
     swapped = replace(alike, turned_first=study.declared)
     found = [measure(one).verdict for one in (study, swapped, alike)]
@@ -130,7 +127,7 @@ def test_verdict_changes_with_what_was_solved(study: Study) -> None:
 
 
 def test_verdict_on_a_named_pose_follows_from_the_data_of_phase(study: Study) -> None:
-    measure = next(m for chapter in CHAPTERS for one, m in chapter.measured if one is approaches.CLASS_19)
+    measure = next(m for chapter in CHAPTERS for one, m in chapter.measured if one is statements.CLASS_19)
     stable = study.named[FIG_21, Reading.DECLARED][180]
     unstable = study.named[FIG_19, Reading.DECLARED][180]
     assert stable.state_class is StateClass.STABLE_THREE_POINT
@@ -147,11 +144,11 @@ def test_measurements_are_those_of_the_solver(study: Study, chapters: Chapters) 
     pair = quarter_twenty_unc()
     turn = [solve_pose(pair, 4, 0, phase) for phase in range(360)]
     at_surface = sum(state.contacts[0].point[2] >= -1e-9 for state in turn)
-    assert claim_of(chapters, cases.ON_THE_SURFACE.text).measurement == f"4 deg: {at_surface / 360:.1%}"
+    assert claim_of(chapters, statements.ON_THE_SURFACE.text).measurement == f"4 deg: {at_surface / 360:.1%}"
     falls = [
         a.poses[0].translation[2] - b.poses[0].translation[2] for a, b in zip(turn, turn[1:] + turn[:1], strict=True)
     ]
-    fall = claim_of(chapters, cases.NEGATIVE_SHIFT.text).measurement
+    fall = claim_of(chapters, statements.NEGATIVE_SHIFT.text).measurement
     found = re.fullmatch(r"4 deg: (\S+) in from phase (\S+) on, \S+ times the lead, of (\S+) in", fall)
     assert found is not None
     steepest, start, whole = map(float, found.groups())
@@ -160,7 +157,7 @@ def test_measurements_are_those_of_the_solver(study: Study, chapters: Chapters) 
     # Phases are written to 0.005 deg, over which the height changes by up to 5e-6 in.
     assert steepest == pytest.approx(solve_pose(pair, 4, 0, start).poses[0].translation[2] - later, abs=5e-6)
     flush = sum(Flag.FLUSH in state.flags for one in study.declared.tilted() for state in one.states)
-    assert claim_of(chapters, orientations.NOT_PARALLEL.text).measurement.startswith(f"{flush:,} of 2,880 ")
+    assert claim_of(chapters, statements.NOT_PARALLEL.text).measurement.startswith(f"{flush:,} of 2,880 ")
 
 
 def test_snaps_are_those_of_the_one_definition(study: Study, chapters: Chapters) -> None:
@@ -168,7 +165,7 @@ def test_snaps_are_those_of_the_one_definition(study: Study, chapters: Chapters)
     tilts = [(one.roll_deg, one.pitch_deg) for one in study.declared.tilted()]
     falls = [falls_of(height_curve(pair, *tilt), pair.thread_pitch) for tilt in tilts]
     snaps = [snap.fall for one in falls if (snap := one.snap(SNAP_PITCHES * pair.thread_pitch)) is not None]
-    assert claim_of(chapters, approaches.SNAP.text).measurement.startswith(
+    assert claim_of(chapters, statements.SNAP.text).measurement.startswith(
         f"{len(snaps)} of 8 orientations snap, by up to {max(snaps):.6f} in; "
     )
 

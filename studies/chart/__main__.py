@@ -5,10 +5,10 @@ from __future__ import annotations
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from studies.chart.document import document
+from studies.chart.contestant import FULL
 from studies.chart.drawing import DOCS, drawing
+from studies.chart.findings import document
 from studies.chart.page import page
-from studies.chart.scale import FULL
 from studies.chart.study import measured_study, work
 
 PROCESSES = 2

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable
 
-from studies.chart.contestant import DEFAULT, FINAL_STEPS, Series
+from studies.chart.contestant import DEFAULT, FINAL_STEPS, TURN_LIMIT_DEG, Series
 from studies.chart.errors import Spread
 from studies.chart.findings import (
     MESHES,
@@ -20,7 +20,6 @@ from studies.chart.findings import (
     poses_both_faster_and_nearer,
     ratios,
 )
-from studies.chart.scale import TURN_LIMIT_DEG
 from studies.chart.study import Measured, Study
 from threadstate.mesh.options import DEFAULT_SCENE
 from threadstate.mesh.scene_name import Scene

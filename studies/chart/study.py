@@ -1,25 +1,120 @@
-"""All that the chart and its page stand on, measured in one run by processes side by side."""
+"""All that the chart and its page stand on, measured in one run by processes side by side.
+
+The poses, every contestant on them, what a scene costs before the first pose, and heights of first contact by meshes,
+extrapolated to meshes of no chord height (Richardson).
+"""
 
 from __future__ import annotations
 
 import multiprocessing
+import resource
+import sys
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from studies.chart.contestant import LIMITED, ByMesh, Contestant, Exactly, Series, contestants
-from studies.chart.cost import SceneCost, scene_cost
+import numpy as np
+
+from benchmarks.sample import sample_poses
+from studies.chart.contestant import LIMITED, ByMesh, Contestant, Exactly, Scale, Series, contestants
 from studies.chart.errors import Score, score
-from studies.chart.exact import Pose
-from studies.chart.extrapolation import Extrapolated, extrapolated_heights
-from studies.chart.measure import Run, run
-from studies.chart.sample import true_states
-from studies.chart.scale import Scale
+from studies.chart.exact import Pose, proved_state
+from studies.chart.measure import Run, mesh_method, run
+from threadstate.errors import UnresolvedPoseError
+from threadstate.mesh.method import MeshMethod
 from threadstate.mesh.options import MeshOptions
+from threadstate.mesh.part_name import Part
+from threadstate.mesh.presets import Preset, Tessellation
+from threadstate.mesh.scene import scene_part
 from threadstate.mesh.scene_name import Scene
+from threadstate.mesh.solid import Floats
 from threadstate.state.model import ContactState
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
+
+
+def true_states(pair: Pair, count: int) -> list[tuple[Pose, ContactState]]:
+    """The first poses that are tilted and that the tightest search decides, and their states: the truth."""
+    found: list[tuple[Pose, ContactState]] = []
+    for roll, pitch, phase in sample_poses(2 * count + 10).tolist():
+        if len(found) < count and (roll or pitch):
+            try:
+                found.append(((roll, pitch, phase), proved_state(pair, (roll, pitch, phase), LIMITED)))
+            except UnresolvedPoseError:
+                continue
+    return found
+
+
+@dataclass(frozen=True)
+class SceneCost:
+    """Triangles of both parts; memory (bytes) that meshes and search trees add to a fresh process; CPU seconds."""
+
+    scene: Scene
+    preset: Preset
+    triangles: int
+    memory: int
+    seconds: float
+
+
+def scene_cost(pair: Pair, scene: Scene, preset: Preset) -> SceneCost:
+    """The cost of a scene, measured in a process of its own."""
+    with multiprocessing.get_context("forkserver").Pool(1) as pool:
+        return pool.apply(_cost, (pair, scene, preset))
+
+
+def _cost(pair: Pair, scene: Scene, preset: Preset) -> SceneCost:
+    # What is compiled and imported at first use is no part of the scene.
+    mesh_method(ByMesh(MeshOptions(Preset.COARSE.tessellation, scene=scene)), pair)
+    before, began = _peak(), time.process_time()
+    method = mesh_method(ByMesh(MeshOptions(preset.tessellation, scene=scene)), pair)
+    seconds, memory = time.process_time() - began, _peak() - before
+    parts = [scene_part(method.pair, part, preset.tessellation, scene) for part in Part]
+    return SceneCost(scene, preset, sum(len(part.triangles) for part in parts), memory, seconds)
+
+
+def _peak() -> int:
+    """The most memory that this process has had, in bytes."""
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else 1024 * peak
+
+
+FINAL_STEP = 1e-7
+"""In thread pitches: small beside every chord height."""
+
+
+@dataclass(frozen=True)
+class Extrapolated:
+    """By pose: the height at the finest mesh, and at none; lengths."""
+
+    finest: Floats
+    limit: Floats
+
+
+def extrapolated_heights(pair: Pair, poses: list[Pose], chords: Sequence[float]) -> Extrapolated:
+    """Heights of first contact by meshes of those chord heights (thread pitches), the lowest last.
+
+    A mesh's height is off by a part of its chord height; which part depends on where on a facet the contact is. So a
+    line is laid through the heights over the chord heights, each weighing as much as its chord is low.
+    """
+    heights = np.empty((len(chords), len(poses)))
+    for k, chord in enumerate(chords):
+        options = MeshOptions(Tessellation(chord, 0.5), final_step=FINAL_STEP, scene=Scene.EDGES)
+        method = MeshMethod(pair, options)
+        for i, pose in enumerate(poses):
+            found, _ = method.first_pose(pose)
+            # The blocked place is up to a final step too low: half of one is left.
+            heights[k, i] = found[2, 3] + 0.5 * FINAL_STEP * pair.thread_pitch
+    return Extrapolated(heights[-1], limit_of_none(np.array(chords), heights))
+
+
+def limit_of_none(chords: Floats, heights: Floats) -> Floats:
+    """Where lines through heights (k, n) over chords (k,) meet chord 0, each point weighing 1 / chord."""
+    weight = 1.0 / chords
+    mean = (weight @ chords) / weight.sum()
+    slope = ((weight * (chords - mean)) @ heights) / (weight @ (chords - mean) ** 2)
+    return np.asarray((weight @ heights) / weight.sum() - slope * mean)
+
 
 CHUNK = 20
 """Poses of a job of the comparison; its meshes are made anew for each."""

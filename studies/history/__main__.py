@@ -8,8 +8,7 @@ import numpy as np
 from rich.console import Console
 from rich.progress import track
 
-from studies.history.boundaries import check_boundaries
-from studies.history.density import SAME_DEG, check_density
+from studies.history.boundaries import SAME_DEG, check_boundaries, check_density
 from threadstate.history.build import history_of
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair

@@ -7,11 +7,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from studies.paper.page import page
+from studies.paper.page import page, print_table
 from studies.paper.registry import claims_by_chapter, statement_count
-from studies.paper.scale import FULL
-from studies.paper.study import poses_to_solve, solved_study
-from studies.paper.table import print_table
+from studies.paper.study import FULL, poses_to_solve, solved_study
 
 PAGE = Path(__file__).parent.parent.parent / "docs" / "paper-claims.md"
 

@@ -8,15 +8,36 @@ from dataclasses import dataclass
 import numpy as np
 
 from studies.paper.claim import Outcome
-from studies.paper.geometries import other_geometries
-from studies.paper.readings import TURNING, Angles, Reading, declared_angles
+from studies.paper.readings import TURNING, Angles, Reading, declared_angles, other_geometries
 from studies.paper.revolution import Revolution
-from studies.paper.scale import Scale
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
+
+
+@dataclass(frozen=True)
+class Scale:
+    """The grid of poses and the sample beside it.
+
+    ``tilts_deg`` are the values of roll and of pitch, symmetric, 0 and 4 among them; ``phase_step_deg`` is a whole
+    number of degrees that divides 360; ``sampled`` poses are drawn off the grid.
+    """
+
+    tilts_deg: tuple[int, ...]
+    phase_step_deg: int
+    sampled: int
+
+    @property
+    def phases_deg(self) -> range:
+        """The phases of a revolution."""
+        return range(0, 360, self.phase_step_deg)
+
+
+FULL = Scale(tilts_deg=tuple(range(-4, 5)), phase_step_deg=1, sampled=20_000)
+"""The paper's 81 orientations at every degree of phase."""
+
 
 SEED = 20060117
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from studies.methods.exact import ExactMethod
+from studies.methods import ExactMethod
 from studies.stability.findings import Extent, Findings, findings
 from studies.stability.maps import DECADE_MAP, MAPS, drawn
 from studies.stability.page import FOLDER, page
 from studies.stability.page_exact import failures_csv
-from studies.stability.page_grid import decade_rows, descents_csv
-from studies.stability.page_methods import wrong_csv
+from studies.stability.page_methods import decade_rows, descents_csv, wrong_csv
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
 

@@ -9,8 +9,7 @@ from dataclasses import replace
 from enum import StrEnum
 from functools import lru_cache
 
-from studies.methods.case import Case, with_dimensions
-from studies.methods.method import Answer, Method
+from studies.methods import Answer, Case, Method, with_dimensions
 from studies.stability.change import STEEPNESS, Answered, leading_contacts
 from threadstate.state.model import Contact, ContactState, FeaturePair
 from threadstate.thread.pair import Pair

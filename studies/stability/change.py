@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from studies.methods.case import Case, moved
+from studies.methods import Case, moved
 from threadstate.state.model import Contact, ContactState, FeaturePair, Flag, Vector
 from threadstate.thread.pair import Pair
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from studies.methods.case import Case, scaled
-from studies.methods.method import Answer, Method, Refusal
+from studies.methods import Answer, Case, Method, Refusal, scaled
 from studies.stability.agreement import Outcome, outcome, truths
 from studies.stability.events import EventKind
 from studies.stability.places import Place

@@ -12,8 +12,7 @@ from enum import StrEnum
 from itertools import pairwise
 
 from oracle.state_turns import first_tangent
-from studies.methods.case import Case, between, same_input
-from studies.methods.method import Method
+from studies.methods import Case, Method, between, same_input
 from studies.stability.change import Answered, leading_contacts, pivot_lever
 from threadstate.state.model import ContactState, FeaturePair, Flag
 

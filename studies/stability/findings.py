@@ -1,34 +1,75 @@
-"""The whole study: hard places under perturbation, the grid, the descents, and what is shown of each trap."""
+"""The whole study: hard places under perturbation, the grid, the descents, and what is shown of each trap.
+
+Work is done in processes, one a core; results come in the order of the tasks, whatever process did them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import multiprocessing
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Protocol, TypeVar
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from studies.methods.case import Case
-from studies.methods.mesh import MeshStates
-from studies.methods.method import Method
+from studies.methods import Case, MeshStates, Method
 from studies.stability.demonstrations import Shown, demonstrations, shown
-from studies.stability.descent_study import DESCENTS, DescentRow, descent_row
+from studies.stability.descent_study import DESCENTS, DescentRow, SecondLook, descent_row, second_look, wrong_heights
 from studies.stability.events import Event, events_along, phase_line
 from studies.stability.grid_study import GridRow, grid_row
 from studies.stability.mesh_traps import MeshTraps, mesh_traps
-from studies.stability.parallel import in_order, workers
 from studies.stability.place_study import study
 from studies.stability.places import Place, lines, places, spread
-from studies.stability.rival_study import RivalChunk, study_rival, thinned
-from studies.stability.rival_tally import RivalTally
+from studies.stability.rival_study import RivalChunk, RivalTally, study_rival, thinned
 from studies.stability.tally import Tally
 from studies.stability.tangent_study import BesideAxis, beside_axes
-from studies.stability.wrong_height import SecondLook, second_look, wrong_heights
 from threadstate.library.grid import Grid
 from threadstate.mesh.options import Descent
 from threadstate.mesh.presets import Preset
 from threadstate.thread.pair import Pair
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+PRELOADED = ["studies.stability.findings"]
+
+
+class Workers(Protocol):
+    """Whatever does tasks and hands back the results in their order."""
+
+    def imap(self, func: Callable[[Task], Result], iterable: Iterable[Task], chunksize: int = 1) -> Iterator[Result]:
+        """The results."""
+
+
+class _ThisProcess:
+    def imap(self, func: Callable[[Task], Result], iterable: Iterable[Task], chunksize: int = 1) -> Iterator[Result]:
+        del chunksize
+        return map(func, iterable)
+
+
+@contextmanager
+def workers(processes: int) -> Iterator[Workers]:
+    """Processes that last for the whole study, so that each compiles the brute force once; 1 is this very process."""
+    if processes == 1:
+        yield _ThisProcess()
+        return
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(PRELOADED)
+    with context.Pool(processes) as pool:
+        yield pool
+
+
+def in_order(
+    pool: Workers, work: Callable[[Task], Result], tasks: Sequence[Task], progress: Progress, title: str
+) -> Iterator[Result]:
+    """The results of all tasks in their order, with a bar that moves on as they come."""
+    shown = progress.add_task(title, total=len(tasks))
+    for result in pool.imap(work, tasks, chunksize=1):
+        progress.advance(shown)
+        yield result
 
 
 @dataclass(frozen=True)

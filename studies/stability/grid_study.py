@@ -7,8 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from studies.methods.case import Case, moved
-from studies.methods.method import Answer, Method
+from studies.methods import Answer, Case, Method, moved
 from studies.stability.change import Answered, change_between, is_steady
 from studies.stability.laws import broken_laws
 from studies.stability.tally import described

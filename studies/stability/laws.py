@@ -9,7 +9,7 @@ import numpy as np
 from oracle.contact_rules import Touch, frame_gap, normal_faults, region_faults, surface_gaps
 from oracle.pose import pose_rotation
 from oracle.solids import Floats
-from studies.methods.method import Method
+from studies.methods import Method
 from studies.stability.change import Answered, leading_contacts
 from threadstate.state.model import ContactState, Flag, StateClass
 

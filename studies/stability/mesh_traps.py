@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studies.methods.case import Case
-from studies.methods.mesh import MeshStates
+from studies.methods import Case, MeshStates
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.clusters import Cluster, Connectivity
 from threadstate.mesh.collision import Collider

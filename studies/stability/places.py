@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studies.methods.case import Case
+from studies.methods import Case
 from studies.stability.events import Event, EventKind
 from studies.stability.place_study import Chunk
 from studies.stability.trials import Trial, perturbations, rescaled, turned_on, with_tolerances

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 
-from studies.methods.case import FIT_DIAMETERS, USUAL, Case
+from studies.methods import FIT_DIAMETERS, USUAL, Case
 from studies.stability.judge import Event, Fault
 from threadstate.thread.catalogue import pair_by_designation
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from studies.methods.case import Case, scaled, with_dimensions
+from studies.methods import Case, scaled, with_dimensions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 

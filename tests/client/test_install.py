@@ -73,6 +73,14 @@ def test_what_computes_or_stores_is_not_there(python: Path, missing: str) -> Non
     assert f"No module named '{missing}'" in _run(python, "-c", f"import {missing}").stderr
 
 
+def test_a_wheel_holds_what_runs_and_nothing_of_the_development(python: Path) -> None:
+    (packages,) = (python.parent.parent / "lib").glob("python*/site-packages")
+    ours = {path.name for path in packages.iterdir() if not path.is_symlink() and path.suffix != ".dist-info"} - {
+        "__pycache__"
+    }
+    assert ours == {"threadstate", "worker", "service", "migrations"}
+
+
 def test_the_command_line_says_which_extra_it_needs(python: Path) -> None:
     run = _run(python, "-c", "from worker.command import main; main()", "--help")
     assert run.returncode == 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from studies.history.density import check_density
+from studies.history.boundaries import check_density
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from studies.methods.case import scaled
+from studies.methods import scaled
 from tests.contact.samples import as_poses, random_poses
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc

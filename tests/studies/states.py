@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from studies.methods.case import Case
-from studies.methods.exact import ExactMethod
+from studies.methods import Case, ExactMethod
 from studies.stability.change import Answered
 from threadstate.state.model import ContactState
 from threadstate.thread.catalogue import quarter_twenty_unc

@@ -7,10 +7,18 @@ from dataclasses import replace
 
 import pytest
 
-from studies.methods.case import Case, between, moved, same_input, scaled, with_dimensions
-from studies.methods.exact import ExactMethod
-from studies.methods.mesh import MeshStates
-from studies.methods.method import Method, Refusal
+from studies.methods import (
+    Case,
+    ExactMethod,
+    MeshStates,
+    Method,
+    Refusal,
+    between,
+    moved,
+    same_input,
+    scaled,
+    with_dimensions,
+)
 from tests.studies.states import PAIR, THREE_POINT
 from threadstate.mesh.options import Descent
 from threadstate.mesh.presets import Preset

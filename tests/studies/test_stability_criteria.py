@@ -7,13 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from studies.methods.case import Case, scaled
-from studies.methods.method import Refusal
+from studies.methods import Case, Refusal, scaled
 from studies.stability.agreement import Outcome, about, difference, flips_within_margins, outcome, truths
 from studies.stability.change import Answered, at_scale_one, change_between, has_jumped, is_steady
-from studies.stability.connect import Surroundings
 from studies.stability.judge import Event, Fault, explanation, missed_first, missed_later, wrong_embedment
 from studies.stability.laws import broken_laws
+from studies.stability.place_study import Surroundings
 from tests.studies.states import EXACT, FLUSH, PAIR, THREE_POINT, answered
 from threadstate.state.model import ContactState, StateClass
 

@@ -13,22 +13,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.methods.case import Case
-from studies.methods.mesh import MeshStates
-from studies.stability import page_exact, page_grid, page_methods
+from studies.methods import Case, MeshStates
+from studies.stability import page_exact, page_methods
 from studies.stability.agreement import Outcome
-from studies.stability.descent_study import OutcomeRow, first_height, judged
+from studies.stability.descent_study import OutcomeRow, WrongHeight, first_height, judged, second_look
 from studies.stability.events import EventKind, events_along, phase_line
 from studies.stability.findings import Extent, Findings, RivalExtent, findings
 from studies.stability.judge import Fault
 from studies.stability.maps import DECADE_MAP, MAPS, colours, drawn
 from studies.stability.page import page
-from studies.stability.rival_study import thinned
-from studies.stability.rival_tally import RivalTally, Wrong
+from studies.stability.rival_study import RivalTally, Wrong, thinned
 from studies.stability.tally import Tally, described
-from studies.stability.tangent_angles import error_deg, printed_angles, two_argument_angles
+from studies.stability.tangent_study import error_deg, printed_angles, two_argument_angles
 from studies.stability.trials import DECADES, SCALES, Kind, perturbations, rescaled, turned_on, with_tolerances
-from studies.stability.wrong_height import WrongHeight, second_look
 from tests.studies.states import EXACT, PAIR, THREE_POINT, answered
 from threadstate.library.grid import Grid
 from threadstate.mesh.options import Descent
@@ -204,7 +201,7 @@ def test_the_page_says_what_was_found(found: Findings) -> None:
 
 
 def test_lists_hold_every_pose_that_is_not_right(found: Findings) -> None:
-    descents = list(csv.DictReader(io.StringIO(page_grid.descents_csv(found))))
+    descents = list(csv.DictReader(io.StringIO(page_methods.descents_csv(found))))
     wrong = [one for row in found.descents for one in row.outcomes(0)]
     assert len(descents) == sum(one is not Outcome.RIGHT for one in wrong)
     assert {"0,-4,350"} <= {f"{one['roll_deg']},{one['pitch_deg']},{one['phase_deg']}" for one in descents}

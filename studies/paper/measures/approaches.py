@@ -6,12 +6,11 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 
-from studies.paper.claim import Outcome, Statement
+from studies.paper import statements
+from studies.paper.claim import MAJORITY, NEAR_IN_PHASE, Finding, Outcome, Read, Statement, decided, settled
 from studies.paper.measures.cases import in_every_reading
 from studies.paper.readings import Reading
 from studies.paper.revolution import Revolution
-from studies.paper.rules import MAJORITY, NEAR_IN_PHASE, Finding, Read, decided, settled
-from studies.paper.statements import approaches as statements
 from studies.paper.study import Measure, Study, Survey
 from threadstate.history.falls import SNAP_PITCHES
 from threadstate.history.model import CIRCLE_DEG

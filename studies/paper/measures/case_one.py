@@ -6,7 +6,24 @@ import math
 
 import numpy as np
 
-from studies.paper.claim import Outcome, Statement, Verdict
+from studies.paper import statements
+from studies.paper.claim import (
+    A_FEW_MILLIONTHS,
+    ABOUT_SIXTY,
+    CONSTANT_RATE,
+    MAJORITY,
+    NARROW,
+    NONLINEAR,
+    ON_SURFACE,
+    SHIFT,
+    SIGNIFICANT_NORMAL,
+    Finding,
+    Outcome,
+    Read,
+    Statement,
+    Verdict,
+    settled,
+)
 from studies.paper.measures.cases import (
     Case,
     by_tilt,
@@ -19,21 +36,6 @@ from studies.paper.measures.cases import (
 )
 from studies.paper.readings import Reading, declared_angles
 from studies.paper.revolution import Array, Revolution, first_contact
-from studies.paper.rules import (
-    A_FEW_MILLIONTHS,
-    ABOUT_SIXTY,
-    CONSTANT_RATE,
-    MAJORITY,
-    NARROW,
-    NONLINEAR,
-    ON_SURFACE,
-    SHIFT,
-    SIGNIFICANT_NORMAL,
-    Finding,
-    Read,
-    settled,
-)
-from studies.paper.statements import cases as statements
 from studies.paper.study import Measure, Study, Survey
 from threadstate.thread.pair import Pair
 from threadstate.thread.regions import BOLT_REGIONS, Region

@@ -9,10 +9,9 @@ from enum import Enum
 from itertools import groupby
 from typing import TypeVar
 
-from studies.paper.claim import Outcome
+from studies.paper.claim import NARROW, Finding, Outcome, Read, settled
 from studies.paper.readings import Reading
 from studies.paper.revolution import Revolution
-from studies.paper.rules import NARROW, Finding, Read, settled
 from studies.paper.study import Measure, Study, Survey
 from threadstate.thread.regions import Region
 

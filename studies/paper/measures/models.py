@@ -8,11 +8,10 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from studies.paper.claim import Outcome, Statement
+from studies.paper import statements
+from studies.paper.claim import MAJORITY, NEAR_SURFACE, ON_SURFACE, SAME_PLACE, Finding, Outcome, Statement, unanimous
 from studies.paper.measures.cases import in_every_reading
 from studies.paper.revolution import Array
-from studies.paper.rules import MAJORITY, NEAR_SURFACE, ON_SURFACE, SAME_PLACE, Finding, unanimous
-from studies.paper.statements import models as statements
 from studies.paper.study import Measure, Study, Survey
 from threadstate.state.model import Contact, ContactState, StagePose
 

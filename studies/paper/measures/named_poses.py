@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from studies.paper.claim import Outcome, Statement, Verdict
+from studies.paper import statements
+from studies.paper.claim import NEAR_SURFACE, ON_SURFACE, Outcome, Statement, Verdict
 from studies.paper.readings import Reading
-from studies.paper.rules import NEAR_SURFACE, ON_SURFACE
-from studies.paper.statements import approaches as statements
 from studies.paper.study import FIG_19, FIG_20, FIG_21, Measure, Named, Study
 from threadstate.state.model import ContactState, Flag, StateClass
 

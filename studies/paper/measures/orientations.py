@@ -6,13 +6,11 @@ import math
 from collections import Counter
 from collections.abc import Iterable
 
-from studies.paper.claim import Outcome, Statement
+from studies.paper import statements
+from studies.paper.claim import SAME_PLACE, Finding, Outcome, Statement, decided
 from studies.paper.measures.approaches import QUASI_STABLE, STABLE, UNSTABLE, approaches
 from studies.paper.measures.cases import in_every_reading
 from studies.paper.revolution import Revolution
-from studies.paper.rules import SAME_PLACE, Finding, decided
-from studies.paper.statements import approaches as approach_statements
-from studies.paper.statements import orientations as statements
 from studies.paper.study import Measure, Study, Survey
 from threadstate.state.model import ContactState, FeaturePair, Flag
 from threadstate.thread.regions import Region
@@ -104,7 +102,7 @@ def three_types(survey: Survey) -> Finding:
 
 
 MEASURED: tuple[tuple[Statement, Measure], ...] = (
-    (approach_statements.ENTIRE_GAMUT, approaches_see_all),
+    (statements.ENTIRE_GAMUT, approaches_see_all),
     (statements.EIGHTY_ONE, in_every_reading(each_its_own_points)),
     (statements.NOT_PARALLEL, in_every_reading(ends_not_parallel)),
     (statements.EXHAUSTIVE, grid_sees_all),

@@ -7,21 +7,22 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from studies.paper.claim import Outcome, Statement
-from studies.paper.measures.cases import Case, by_tilt, in_every_geometry, region_before_fall, revolutions, word
-from studies.paper.readings import Reading
-from studies.paper.revolution import Revolution
-from studies.paper.rules import (
+from studies.paper import statements
+from studies.paper.claim import (
     MIRRORED_SHARE,
     NARROW,
     QUARTER_TURN,
     SAME_PLACE,
     SEVERAL_DEGREES,
     Finding,
+    Outcome,
     Read,
+    Statement,
     settled,
 )
-from studies.paper.statements import cases as statements
+from studies.paper.measures.cases import Case, by_tilt, in_every_geometry, region_before_fall, revolutions, word
+from studies.paper.readings import Reading
+from studies.paper.revolution import Revolution
 from studies.paper.study import Measure, Study, Survey
 from threadstate.state.model import ContactState, Flag
 from threadstate.thread.regions import Region

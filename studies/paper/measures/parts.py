@@ -6,12 +6,20 @@ import math
 
 import numpy as np
 
-from studies.paper.claim import Outcome, Statement, Verdict
+from studies.paper import statements
+from studies.paper.claim import (
+    A_FEW_MILLIONTHS,
+    SAME_PLACE,
+    WITHIN_A_FACTOR,
+    Outcome,
+    Statement,
+    Verdict,
+    decided,
+    unanimous,
+)
 from studies.paper.measures.approaches import approaches
 from studies.paper.revolution import Array, first_contact
-from studies.paper.rules import A_FEW_MILLIONTHS, SAME_PLACE, WITHIN_A_FACTOR, decided, unanimous
 from studies.paper.solids import Solids, to_bolt, to_nut
-from studies.paper.statements import parts as statements
 from studies.paper.study import Measure, Study
 from threadstate.state.model import Contact, ContactState, FeaturePair, Flag, StagePose, StateClass, Vector
 from threadstate.units import MILLIMETRES_PER_INCH
