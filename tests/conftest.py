@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import os
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,6 +11,7 @@ from hypothesis import settings
 from harness.databases import KINDS, Databases, PostgresqlDatabases, SqliteDatabases
 from harness.postgresql_server import PostgresqlServer, running_server
 from tests.archive.history_library import SMALL_GRID, histories_of_grid
+from tests.shared import FOLDER
 from threadstate.history.model import History
 
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
@@ -16,6 +19,19 @@ settings.load_profile("repeatable")
 
 TAKE_LONGEST = ("worker", "faults", "test_benchmarks.py", "studies", "explorer", "service", "contact")
 """Folders and files of tests, those first that are begun first, so that no lane is left alone with them at the end."""
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the folder of what the processes of a run share; those of pytest-xdist inherit it."""
+    if FOLDER not in os.environ:
+        folder = tempfile.TemporaryDirectory(prefix="threadstate-tests-")
+        os.environ[FOLDER] = folder.name
+        config.add_cleanup(folder.cleanup)
+
+        def forget_folder() -> None:
+            os.environ.pop(FOLDER, None)
+
+        config.add_cleanup(forget_folder)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

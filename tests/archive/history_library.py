@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 
+from tests.shared import computed_once
 from threadstate.archive.rows import history_rows
 from threadstate.history.build import histories_of
 from threadstate.history.descents import falls_of
@@ -13,6 +14,7 @@ from threadstate.history.height_curve import height_curve
 from threadstate.history.model import History
 from threadstate.history.window import windows_of
 from threadstate.library.engine import writer_engine
+from threadstate.library.fingerprint import answers_sha256, chunk_sha256, library_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.history_rows import HistoryRows
 from threadstate.library.identity import LibraryInputs
@@ -34,19 +36,40 @@ def histories_of_grid(grid: Grid) -> list[History]:
 
 @cache
 def _histories_of_tilts(tilts_deg: tuple[float, ...]) -> tuple[History, ...]:
-    return tuple(histories_of(quarter_twenty_unc(), [(roll, pitch) for roll in tilts_deg for pitch in tilts_deg]))
+    orientations = [(roll, pitch) for roll in tilts_deg for pitch in tilts_deg]
+    name = f"histories of tilts {tilts_deg}"
+    return computed_once(name, lambda: tuple(histories_of(quarter_twenty_unc(), orientations)))
 
 
 @cache
 def falls_at(roll_deg: float, pitch_deg: float, pair: Pair = PAIR, options: SolveOptions | None = None) -> Falls:
     """The falls of an orientation."""
-    return falls_of(height_curve(pair, roll_deg, pitch_deg, options), pair.thread_pitch)
+
+    def computed() -> Falls:
+        return falls_of(height_curve(pair, roll_deg, pitch_deg, options), pair.thread_pitch)
+
+    if (pair, options) != (PAIR, None):
+        return computed()
+    return computed_once(f"falls at {roll_deg} {pitch_deg}", computed)
 
 
 def rows_of(history: History, pair: Pair = PAIR, options: SolveOptions | None = None) -> HistoryRows:
     """The rows of a history, with its windows and falls."""
     falls = falls_at(history.roll_deg, history.pitch_deg, pair, options)
     return history_rows(history, windows_of(pair, history), falls)
+
+
+@cache
+def content_of(grid: Grid) -> str:
+    """The content hash of the library of a grid, computed orientation by orientation without any database."""
+
+    def computed() -> str:
+        chunks = [solve_poses(PAIR, grid.poses(index)) for index in range(grid.orientation_count)]
+        rows = [rows_of(history).content_sha256 for history in histories_of_grid(grid)]
+        pairs = zip(chunks, rows, strict=True)
+        return library_sha256([chunk_sha256(answers_sha256(answers), history) for answers, history in pairs])
+
+    return computed_once(f"content of {grid}", computed)
 
 
 def store_histories(database: str, grid: Grid, histories: Sequence[History]) -> None:

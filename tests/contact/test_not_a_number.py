@@ -30,7 +30,8 @@ P = PAIR.thread_pitch
 def descent(pose_deg: tuple[float, float, float], height: float) -> tuple[Floats, Floats]:
     """The motions of the bolt's edge and of the nut's, straight down from a height."""
     pose = np.zeros(12)
-    rotation(*(math.radians(angle) for angle in pose_deg), pose)
+    roll, pitch, phase = map(math.radians, pose_deg)
+    rotation(roll, pitch, phase, pose)
     pose[11] = height
     down = np.array([0.0, 0.0, -1.0])
     of_bolt, of_nut = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
@@ -88,7 +89,8 @@ def test_a_half_space_of_unknown_place_excludes_nothing(is_turn: bool) -> None:
     for unknown in range(3):
         coefficients = [-1.0, -1.0, -1.0]
         coefficients[unknown] = math.nan
-        assert half_space(*coefficients, is_turn) == (0.0, math.inf)
+        a, b, c = coefficients
+        assert half_space(a, b, c, is_turn) == (0.0, math.inf)
 
 
 def test_a_rectangle_of_unknown_place_stays_open() -> None:

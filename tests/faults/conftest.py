@@ -8,15 +8,15 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Engine, create_engine, event
 
-from harness.databases import Databases, SqliteDatabases
-from threadstate.library.engine import writing
+from harness.databases import SqliteDatabases
+from tests.archive.history_library import content_of
+from tests.prepared import use_prepared_chunks
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.jobs.serve import Serving
-from worker.rebuild import rebuild
 
 GRID = Grid(tilt_max_deg=6.0, tilt_step_deg=6.0, phase_step_deg=30.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
@@ -50,11 +50,15 @@ def holding(database: str) -> Iterator[None]:
     engine.dispose()
 
 
+@pytest.fixture(autouse=True)
+def _prepared_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
+    use_prepared_chunks(monkeypatch)
+
+
 @pytest.fixture(scope="session")
-def expected_content(sqlite_databases: Databases) -> str:
+def expected_content() -> str:
     """The content hash of the small library where nothing fails."""
-    with writing(sqlite_databases.migrated()) as engine:
-        return rebuild(engine, INPUTS, 2, Unwatched()).content_sha256
+    return content_of(GRID)
 
 
 @pytest.fixture

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import pytest
 from fastapi.testclient import TestClient
 
 from harness.databases import Databases
@@ -12,6 +13,8 @@ from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.solve import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
+
+pytestmark = pytest.mark.sqlite_alone
 
 GRID = Grid(1.0, 1.0, 90.0)
 

@@ -13,6 +13,8 @@ from tests.service.test_problems import problem
 from threadstate.export.names import FileFormat, TableName
 from threadstate.state.document import state_document
 
+pytestmark = pytest.mark.sqlite_alone
+
 EXPORT = "/v1/libraries/latest/export"
 
 
@@ -60,7 +62,6 @@ def test_what_there_is_not_is_refused(client: TestClient, name: str) -> None:
     problem(client.get("/v1/libraries/99/export/states.csv"), 404)
 
 
-@pytest.mark.sqlite_alone
 def test_without_pyarrow_parquet_is_a_problem(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     found = problem(client.get(f"{EXPORT}/states.parquet"), 501)

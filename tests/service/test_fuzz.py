@@ -11,6 +11,8 @@ from fastapi.testclient import TestClient
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+pytestmark = pytest.mark.sqlite_alone
+
 NAMES = (
     *("roll", "pitch", "phase", "phase_min", "phase_max", "class", "bolt_region", "nut_region", "flag"),
     *("fields", "sort", "limit", "cursor", "unit", "format"),
@@ -94,7 +96,6 @@ def test_no_bytes_in_a_query_fail(client: TestClient, raw: bytes) -> None:
     check(client.get("/v1/libraries/latest/states?sort=" + "".join(f"%{byte:02x}" for byte in raw)))
 
 
-@pytest.mark.sqlite_alone
 @settings(max_examples=300)
 @given(body=bodies)
 def test_no_json_body_fails(client: TestClient, body: object) -> None:
@@ -102,7 +103,6 @@ def test_no_json_body_fails(client: TestClient, body: object) -> None:
     check(client.post("/v1/solve", content=json.dumps(body), headers=headers))
 
 
-@pytest.mark.sqlite_alone
 @given(content=st.binary(max_size=100), media_type=st.sampled_from(("application/json", "text/plain", "x", "")))
 def test_no_bytes_as_a_body_fail(client: TestClient, content: bytes, media_type: str) -> None:
     check(client.post("/v1/solve", content=content, headers={"Content-Type": media_type}))

@@ -10,6 +10,8 @@ from fastapi.testclient import TestClient
 from tests.service.conftest import StoredLibrary
 from threadstate.state.document import state_document
 
+pytestmark = pytest.mark.sqlite_alone
+
 HISTORY = "/v1/libraries/latest/histories/1/-1"
 
 

@@ -19,6 +19,8 @@ from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.library.engine import writing
 
+pytestmark = pytest.mark.sqlite_alone
+
 STATES = "/v1/libraries/latest/states"
 JSON = {"Content-Type": "application/json"}
 METHODS = ("GET", "HEAD", "OPTIONS", "TRACE", "PUT", "PATCH", "POST", "DELETE", "BREW")
@@ -140,7 +142,6 @@ def test_no_odd_value_of_any_parameter_fails(client: TestClient) -> None:
     assert asked > 2500
 
 
-@pytest.mark.sqlite_alone
 def test_no_method_and_no_header_fails(client: TestClient) -> None:
     paths = sorted({path for path, _, _ in described(client)} | {"/", "/docs", "/openapi.json", "/nowhere", "/v1"})
     asked = [
@@ -172,7 +173,6 @@ def test_methods_that_a_path_has_are_named(client: TestClient) -> None:
         assert response.headers["Allow"] == allowed
 
 
-@pytest.mark.sqlite_alone
 @pytest.mark.parametrize("media_type", ["application/json", "application/json; charset=latin-1", "text/json", "", "*"])
 def test_no_body_that_is_none_passes(databases: Databases, media_type: str) -> None:
     with databases.lent() as database, client_of(database) as client:

@@ -24,6 +24,8 @@ from threadstate.jobs.workers import join
 from threadstate.library.engine import writing
 from threadstate.mesh.options import MeshOptions
 
+pytestmark = pytest.mark.sqlite_alone
+
 JOBS = "/v1/jobs"
 LISTENERS = 24
 SMALL = {"grid": {"tilt_max": 1, "tilt_step": 1, "phase_step": 180}}
@@ -201,7 +203,6 @@ def test_a_job_that_is_not_there_is_not_found(desk: Desk) -> None:
     problem(desk.client.delete(f"{JOBS}/1", headers=desk.headers), 404)
 
 
-@pytest.mark.sqlite_alone
 @pytest.mark.parametrize(
     ("body", "named"),
     [
@@ -224,7 +225,6 @@ def test_what_cannot_be_computed_is_refused_by_name(desk: Desk, body: object, na
     assert desk.client.get(JOBS).json()["jobs"] == []
 
 
-@pytest.mark.sqlite_alone
 def test_examples_and_answers_have_the_documented_shape(desk: Desk) -> None:
     openapi = desk.client.get("/openapi.json").json()
     schema = {"$ref": "#/components/schemas/JobDocument", "components": openapi["components"]}

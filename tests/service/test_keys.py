@@ -20,6 +20,8 @@ from threadstate.access.scope import Scope
 from threadstate.library.engine import writing
 from threadstate.settings import DATABASE, READ_KEYS, read_settings
 
+pytestmark = pytest.mark.sqlite_alone
+
 JOBS = "/v1/jobs"
 WRITES = (("POST", JOBS), ("DELETE", f"{JOBS}/1"))
 REFUSED = "urn:threadstate:problem:key-refused"
@@ -91,7 +93,6 @@ def test_reading_is_open_unless_it_is_closed(database: str, engine: Engine) -> N
         assert closed.headers["Cache-Control"] == "private, no-cache"
 
 
-@pytest.mark.sqlite_alone
 def test_asking_does_not_make_a_database(databases: Databases) -> None:
     database = databases.new()
     with _client(database, "open") as client:
@@ -110,7 +111,6 @@ def _until_running(lines: IO[str]) -> list[str]:
     raise AssertionError("".join(said))
 
 
-@pytest.mark.sqlite_alone
 def test_a_key_is_in_no_log(database: str, engine: Engine) -> None:
     key = create_key(engine, "one", Scope.WRITE)
     command = [sys.executable, "-m", "uvicorn", "--factory", "service.app:create_app", "--port", "0"]

@@ -15,6 +15,8 @@ from threadstate.library.write import open_library
 from threadstate.state.solve import SolveOptions
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 
+pytestmark = pytest.mark.sqlite_alone
+
 
 @pytest.mark.parametrize("name", ["latest", "1", "1-4-20-unc", "1%2F4-20%20UNC", "1%2f4-20+UNC".replace("+", "%20")])
 def test_every_name_of_a_library_finds_it(client: TestClient, made_up: StoredLibrary, name: str) -> None:

@@ -12,6 +12,8 @@ from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.sqlite_alone
+
 LARGEST_ZIPPED_BYTES = 150_000
 
 

@@ -34,6 +34,8 @@ from threadstate.library.grid import Grid
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.sqlite_alone
+
 LIBRARY = "/v1/libraries/latest"
 GRID = Grid(4.0, 4.0, 180.0)
 PAIR = quarter_twenty_unc()

@@ -10,6 +10,8 @@ from tests.service.conftest import StoredLibrary
 from threadstate.state.model import ContactState, StateClass
 from threadstate.units import MILLIMETRES_PER_INCH
 
+pytestmark = pytest.mark.sqlite_alone
+
 ORIENTATIONS = "/v1/libraries/latest/orientations"
 
 

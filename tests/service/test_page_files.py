@@ -13,6 +13,8 @@ from service.explorer.files import page
 from service.media_types import HTML
 from service.problems import MEDIA_TYPE
 
+pytestmark = pytest.mark.sqlite_alone
+
 LARGEST_PAGE_BYTES = 1_000_000
 
 

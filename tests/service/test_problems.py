@@ -11,6 +11,8 @@ from tests.service.conftest import StoredLibrary, client_of
 from threadstate.library.schema import SCHEMA_REVISION
 from threadstate.settings import read_settings
 
+pytestmark = pytest.mark.sqlite_alone
+
 STATES = "/v1/libraries/latest/states"
 
 

@@ -16,6 +16,8 @@ from threadstate.state.document import state_document
 from threadstate.state.model import ContactState, Flag, StateClass
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 
+pytestmark = pytest.mark.sqlite_alone
+
 STATES = "/v1/libraries/latest/states"
 
 angles = st.sampled_from((-1, 0, 1))
@@ -102,7 +104,6 @@ def test_pages_have_each_state_once_and_in_order(
     assert found == [state_document(state) for state in expected(made_up, which, SORTS[sort])]
 
 
-@pytest.mark.sqlite_alone
 @pytest.mark.parametrize("sort", SORTS)
 def test_pages_of_one_state_walk_through_all(client: TestClient, made_up: StoredLibrary, sort: str) -> None:
     found = walk(client, {"sort": sort, "limit": 1, "fields": "roll,pitch,phase"})

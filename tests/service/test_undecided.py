@@ -14,6 +14,8 @@ from threadstate.mesh.options import MeshOptions
 from threadstate.state.model import Answer, UndecidedPose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.sqlite_alone
+
 LISTED = "/v1/libraries/latest-mesh/undecided"
 
 

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from harness.databases import Databases
+from tests.archive.history_library import content_of
 from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE
 from worker.cli import run_command_line
@@ -53,18 +55,21 @@ class CommandLine:
         )
 
     def out(self, *arguments: str) -> str:
-        """What a command that succeeds, in a process of its own, prints."""
-        with self.start(*arguments) as process:
-            out, err = process.communicate(timeout=300)
-        assert process.returncode == 0, err
+        """What a command that succeeds, in this process, prints."""
+        code, out, err = self.here(*arguments)
+        assert code == 0, err
         return out
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
+def expected_content() -> str:
+    """The content hash of the small library, computed without any database or process of its own."""
+    return content_of(GRID)
+
+
+@pytest.fixture(scope="session")
 def environment() -> Mapping[str, str]:
     """The environment of commands; this source tree goes before anything installed."""
-    import os
-
     return {**os.environ, "PYTHONPATH": str(Path(__file__).parent.parent.parent)}
 
 

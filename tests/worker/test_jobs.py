@@ -31,7 +31,6 @@ from threadstate.library.tables import chunk, state
 from threadstate.settings import HEARTBEAT_FILE, LEASE_S
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.rebuild import rebuild
 
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
@@ -68,21 +67,6 @@ def jobs(
 ) -> Iterator[Jobs]:
     with databases.lent() as database, writing(database) as engine:
         yield Jobs(engine, CommandLine(database, {**environment, LEASE_S: "1"}, capsys))
-
-
-@pytest.fixture(scope="session")
-def expected_content(sqlite_databases: Databases) -> str:
-    """The content hash of the small library as ``rebuild`` computes it."""
-    with writing(sqlite_databases.migrated()) as engine:
-        return rebuild(engine, INPUTS, 2, _Unwatched()).content_sha256
-
-
-class _Unwatched:
-    def begin(self, committed: int, total: int) -> None: ...
-
-    def ready(self) -> None: ...
-
-    def advance(self, poses: int) -> None: ...
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
@@ -124,6 +108,7 @@ def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, expected_content: s
     assert beats(jobs.engine) == {}
 
 
+@pytest.mark.postgresql_alone
 def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_content: str) -> None:
     moments = random.Random(20060128)
     ask_for(jobs.engine, INPUTS)
@@ -202,8 +187,9 @@ def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
 @pytest.mark.sqlite_alone
 def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, expected_content: str) -> None:
     ask_for(jobs.engine, INPUTS)
+    database = ("--database", jobs.command_line.database)
     with jobs.start() as worker:
-        rebuilt = json.loads(jobs.command_line.out("rebuild", *SMALL_GRID, "--json"))
+        rebuilt = json.loads(jobs.command_line.out("rebuild", *SMALL_GRID, *database, "--json"))
         _end(worker)
     assert rebuilt["content_sha256"] == expected_content
     _check_whole(jobs, expected_content)

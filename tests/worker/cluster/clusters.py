@@ -50,6 +50,12 @@ class Cluster:
         self.workers.append(worker)
         return worker
 
+    def replace_dead_workers(self, count: int) -> None:
+        """Have that many living workers again, and no others."""
+        self.workers = [worker for worker in self.workers if worker.poll() is None]
+        while len(self.workers) < count:
+            self.add_worker()
+
     def close(self) -> None:
         """End all processes, whatever they are at."""
         for process in (*self.workers, self.scheduler):

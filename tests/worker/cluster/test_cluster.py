@@ -13,6 +13,7 @@ import pytest
 from sqlalchemy import func, select
 
 from harness.databases import Databases
+from tests.prepared import prepared_chunk, use_prepared_chunks
 from tests.worker.cluster.clusters import Cluster, running_cluster
 from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
 from threadstate.jobs.ask import ask_for
@@ -27,39 +28,24 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.cluster.chunks import computing_cluster
 from worker.processes import ASKED_AHEAD
-from worker.rebuild import rebuild
 
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
-
-
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    """Where the processes of a cluster work; the tests' own files lie elsewhere."""
-    made = tmp_path / "cluster"
-    made.mkdir()
-    return made
-
-
-@pytest.fixture
-def cluster(folder: Path, environment: Mapping[str, str]) -> Iterator[Cluster]:
-    with running_cluster(folder, environment, workers=2) as made:
-        yield made
+WORKERS = 2
 
 
 @pytest.fixture(scope="module")
-def expected_content(sqlite_databases: Databases) -> str:
-    """The content hash of the small library as processes of one's own compute it."""
-    with writing(sqlite_databases.migrated()) as engine:
-        return rebuild(engine, INPUTS, 1, _Unwatched()).content_sha256
+def shared_cluster(tmp_path_factory: pytest.TempPathFactory, environment: Mapping[str, str]) -> Iterator[Cluster]:
+    """A cluster whose scheduler lives as long as the tests here do."""
+    with running_cluster(tmp_path_factory.mktemp("cluster"), environment, workers=WORKERS) as made:
+        yield made
 
 
-class _Unwatched:
-    def begin(self, committed: int, total: int) -> None: ...
-
-    def ready(self) -> None: ...
-
-    def advance(self, poses: int) -> None: ...
+@pytest.fixture
+def cluster(shared_cluster: Cluster) -> Cluster:
+    """The shared cluster with all its workers, new ones in place of those that the test before has killed."""
+    shared_cluster.replace_dead_workers(WORKERS)
+    return shared_cluster
 
 
 def _committed(database: str) -> int:
@@ -85,20 +71,11 @@ def _wait_for(condition: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
-def test_two_workers_compute_what_processes_here_do(
-    command_line: CommandLine, cluster: Cluster, expected_content: str
-) -> None:
-    out = command_line.out("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json")
-    assert json.loads(out)["content_sha256"] == expected_content
-    assert json.loads(out)["computed"] == GRID.state_count
-    _check_whole(command_line.database, expected_content)
-
-
 @pytest.mark.sqlite_alone
 def test_chunks_of_a_killed_worker_are_computed_by_others(
     command_line: CommandLine, cluster: Cluster, expected_content: str
 ) -> None:
-    command_line.out("migrate")
+    command_line.here("migrate")
     with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json") as process:
         _wait_for(lambda: _committed(command_line.database) > 0)
         cluster.workers[0].kill()
@@ -112,7 +89,7 @@ def test_chunks_of_a_killed_worker_are_computed_by_others(
 def test_a_killed_rebuild_goes_on_where_it_was(
     command_line: CommandLine, cluster: Cluster, expected_content: str
 ) -> None:
-    command_line.out("migrate")
+    command_line.here("migrate")
     arguments = ("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json")
     with command_line.start(*arguments) as killed:
         _wait_for(lambda: _committed(command_line.database) > 1)
@@ -126,57 +103,55 @@ def test_a_killed_rebuild_goes_on_where_it_was(
 
 @pytest.mark.sqlite_alone
 def test_without_its_scheduler_a_rebuild_ends_and_what_is_committed_stays(
-    command_line: CommandLine, cluster: Cluster, expected_content: str
+    command_line: CommandLine,
+    tmp_path: Path,
+    environment: Mapping[str, str],
+    monkeypatch: pytest.MonkeyPatch,
+    expected_content: str,
 ) -> None:
-    command_line.out("migrate")
-    with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process:
+    command_line.here("migrate")
+    with (
+        running_cluster(tmp_path, environment, workers=1) as cluster,
+        command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process,
+    ):
         _wait_for(lambda: _committed(command_line.database) > 0)
         cluster.scheduler.kill()
         _, err = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 1
     assert f"threadstate: the Dask scheduler {cluster.address} is gone" in err
-    command_line.out("rebuild", *SMALL_GRID)
+    use_prepared_chunks(monkeypatch)
+    assert command_line.here("rebuild", *SMALL_GRID)[0] == 0
     _check_whole(command_line.database, expected_content)
 
 
 @pytest.mark.sqlite_alone
-def test_a_worker_whose_history_code_differs_is_refused(
-    command_line: CommandLine, folder: Path, environment: Mapping[str, str], tmp_path: Path, repository_root: Path
+def test_a_worker_whose_history_code_differs_is_refused_whenever_it_joins(
+    command_line: CommandLine, environment: Mapping[str, str], tmp_path: Path, repository_root: Path
 ) -> None:
+    folder, other = tmp_path / "cluster", tmp_path / "other"
+    folder.mkdir()
     for room in ("threadstate", "worker"):
-        shutil.copytree(repository_root / room, tmp_path / "other" / room)
-    with (tmp_path / "other/threadstate/history/build.py").open("a") as source:
+        shutil.copytree(repository_root / room, other / room)
+    with (other / "threadstate/history/build.py").open("a") as source:
         source.write("# another version\n")
-    with running_cluster(folder, environment, workers=1) as cluster:
-        cluster.add_worker(PYTHONPATH=str(tmp_path / "other"))
+    with running_cluster(folder, environment, workers=0) as cluster:
+        with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process:
+            assert process.stderr is not None
+            waiting = f"the Dask scheduler {cluster.address} has no worker yet; waiting for one\n"
+            assert process.stderr.readline() == waiting
+            cluster.add_worker(PYTHONPATH=str(other))
+            _, late = process.communicate(timeout=PATIENCE_S)
+        cluster.add_worker()
         _wait_for(lambda: (folder / "log").read_text().count("Starting worker compute stream") == 2)
-        code, _, err = command_line.here("rebuild", *SMALL_GRID, "--scheduler", cluster.address)
-    assert code == 1
-    assert "a Dask worker cannot compute the same bits: code " in err.splitlines()[-1]
-    assert "(at tcp://127.0.0.1:" in err
+        code, _, early = command_line.here("rebuild", *SMALL_GRID, "--scheduler", cluster.address)
+    assert (process.returncode, code) == (1, 1)
+    for err in (late, early):
+        assert "a Dask worker cannot compute the same bits: code " in err.splitlines()[-1]
+    assert "(at tcp://127.0.0.1:" in early
 
 
 @pytest.mark.sqlite_alone
-def test_a_worker_that_joins_late_is_looked_at_too(
-    command_line: CommandLine, folder: Path, environment: Mapping[str, str], tmp_path: Path, repository_root: Path
-) -> None:
-    for room in ("threadstate", "worker"):
-        shutil.copytree(repository_root / room, tmp_path / "other" / room)
-    (tmp_path / "other/threadstate/late.py").write_text("")
-    with (
-        running_cluster(folder, environment, workers=0) as cluster,
-        command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process,
-    ):
-        assert process.stderr is not None
-        assert process.stderr.readline() == f"the Dask scheduler {cluster.address} has no worker yet; waiting for one\n"
-        cluster.add_worker(PYTHONPATH=str(tmp_path / "other"))
-        _, err = process.communicate(timeout=PATIENCE_S)
-    assert process.returncode == 1
-    assert "a Dask worker cannot compute the same bits: code " in err.splitlines()[-1]
-
-
-@pytest.mark.sqlite_alone
-def test_no_more_chunks_are_asked_for_than_workers_have_room_for(cluster: Cluster) -> None:
+def test_chunks_are_those_computed_here_and_no_more_are_asked_for_than_there_is_room_for(cluster: Cluster) -> None:
     taken = 0
 
     def orientations() -> Iterator[int]:
@@ -186,14 +161,14 @@ def test_no_more_chunks_are_asked_for_than_workers_have_room_for(cluster: Cluste
             yield index
 
     with computing_cluster(INPUTS, cluster.address) as computing:
-        received = 0
+        received = {}
         for one in computing.chunks(orientations(), lambda: None):
-            received += 1
-            assert one.rows.orientation.index in range(GRID.orientation_count)
-            assert taken - received < ASKED_AHEAD * len(cluster.workers)
-    assert received == taken == GRID.orientation_count
+            received[one.rows.orientation.index] = one
+            assert taken - len(received) < ASKED_AHEAD * WORKERS
+    assert received == {index: prepared_chunk(GRID, index) for index in range(GRID.orientation_count)}
 
 
+@pytest.mark.postgresql_alone
 def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
     databases: Databases,
     cluster: Cluster,
