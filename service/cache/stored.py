@@ -8,18 +8,22 @@ from __future__ import annotations
 
 import re
 
+import orjson
 from fastapi.concurrency import run_in_threadpool
-from sqlalchemy import Engine
+from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.cache.responses import CachedResponse
-from service.histories.rows import HISTORY_ROUTE, history_rows_json
 from service.representation import JSON, VARY_ACCEPT, etag_of
-from service.states.pose import STATE_ROUTE, content_location
 from service.units import UNIT_HEADER
 from threadstate.library.pose import PoseReader
-from threadstate.library.read import LibraryRecord
+from threadstate.library.read import LibraryRecord, undecided_between
+from threadstate.library.states_json import orientation_states_json
+from threadstate.numbers import number_text
 from threadstate.state.json import state_json
+
+STATE_ROUTE = "/v1/libraries/{id}/states/{roll}/{pitch}/{phase}"
+HISTORY_ROUTE = "/v1/libraries/{id}/histories/{roll}/{pitch}"
 
 _ANGLE = r"(-?[0-9]{1,3}(?:\.[0-9]{1,6})?)"
 _STATE = re.compile(f"/states/{_ANGLE}/{_ANGLE}/{_ANGLE}")
@@ -90,3 +94,34 @@ class StoredResponses:
             (b"content-type", _JSON),
         ]
         return CachedResponse(route, etag, headers, content)
+
+
+def content_location(library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float) -> str:
+    """The address of a state in this very library, angles in degrees."""
+    return f"/v1/libraries/{library_id}/states/{'/'.join(map(number_text, (roll_deg, pitch_deg, phase_deg)))}"
+
+
+def undecided_phases(connection: Connection, library: LibraryRecord, orientation: int) -> list[dict[str, object]]:
+    """The phases of an orientation without a state, and why, in order."""
+    if not library.undecided_count:
+        return []
+    first = library.grid.first_ordinal(orientation)
+    poses = undecided_between(connection, library.id, first, first + library.grid.phase_count - 1)
+    return [{"phase": pose.phase_deg, "reason": pose.reason} for _, pose in poses]
+
+
+def history_rows_json(connection: Connection, library: LibraryRecord, orientation: int) -> bytes:
+    """The history of the orientation with that number, in the library's own unit."""
+    place = library.grid.orientation(orientation)
+    states = orientation_states_json(connection, library.id, library.grid, orientation)
+    undecided = undecided_phases(connection, library, orientation)
+    return orjson.dumps(
+        {
+            "library": library.id,
+            "unit": library.length_unit.value,
+            "roll": place.roll_deg + 0.0,
+            "pitch": place.pitch_deg + 0.0,
+            "states": orjson.Fragment(states),
+            "undecided": undecided,
+        }
+    )

@@ -8,9 +8,9 @@ from fastapi import APIRouter, Query, Request, Response
 
 from service.accepted import prefers_csv
 from service.angles import PitchPath, RollPath
+from service.cache.stored import history_rows_json, undecided_phases
 from service.database import ReadConnection
 from service.histories.columns import csv_table, history_columns
-from service.histories.rows import history_rows_json, undecided_phases
 from service.histories.schemas import HistoryColumns, HistoryFormat, HistoryRows
 from service.libraries.identify import IdentifiedLibrary
 from service.representation import CSV, JSON, NOT_MODIFIED, VARY_ACCEPT, json_response, representation

@@ -7,12 +7,12 @@ from urllib.parse import urlencode
 from fastapi import APIRouter, Request, Response
 
 from service.angles import PhasePath, PitchPath, RollPath
+from service.cache.stored import content_location
 from service.database import ReadConnection
 from service.libraries.identify import IdentifiedLibrary
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
 from service.states.cursor import decode_cursor, encode_cursor
 from service.states.parameters import FIELDS, CursorQuery, FieldsQuery, FilterQuery, LimitQuery, SortQuery
-from service.states.pose import content_location
 from service.states.repository import places
 from service.states.schemas import StatePage
 from service.units import UNIT_HEADER, UnitQuery
