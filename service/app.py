@@ -40,6 +40,7 @@ from service.kept.answers import KeptAnswers
 from service.kept.compression import Compression
 from service.kept.middleware import AnswerKept
 from service.kept.names import LibraryNames
+from service.kernels import Kernels
 from service.keys import guard_reading, may_read
 from service.limits.admission import Admission, Limits
 from service.limits.body import BodyLimit
@@ -79,6 +80,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     admission = Admission(settings.concurrency, settings.streams)
     drain = Drain()
     registry = CollectorRegistry()
+    kernels = Kernels()
     warming = Warming()
     registry.register(StateMetrics(engine, kept, admission, warming))
     shelf = None
@@ -87,10 +89,11 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
-        background = asyncio.create_task(warming.run(app, names, shelf)) if serving else None
+        background = [warming.run(app, names, shelf), kernels.run()] if serving else []
+        tasks = [asyncio.create_task(one) for one in background]
         yield
-        if background is not None:
-            background.cancel()
+        for task in tasks:
+            task.cancel()
         if shelf is not None:
             await shelf.close()
         names.close()
@@ -113,6 +116,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     )
     app.outermost = partial(Edge, metrics=RequestMetrics(registry), drain=drain, logging=serving)
     app.state.engine = engine
+    app.state.kernels = kernels
     app.state.control = control
     app.state.read_keys_required = settings.read_keys_required
     app.state.networks = NetworkStore()
