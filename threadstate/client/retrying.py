@@ -33,8 +33,8 @@ class Retrying:
 
     A connection that was never made and a 429 have not acted, and are tried again whatever was asked. A connection that
     broke and a 503 are tried again where the request is repeatable. Nothing else is: what was not answered in time
-    would only be more work for a service that is late already. A service that compiles its kernels says so, and is asked
-    again for ten minutes.
+    would only be more work for a service that is late already. A service that compiles its kernels says so, and is
+    asked again for ten minutes.
     """
 
     times: int
