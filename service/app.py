@@ -40,6 +40,7 @@ from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplica
 from service.edge.drain import Drain
 from service.edge.middleware import Edge
 from service.explorer.unknown import install_unknown_page
+from service.kernels import Kernels
 from service.keys import guard_reading, may_read
 from service.limits.admission import Admission, Limits
 from service.limits.body import BodyLimit
@@ -81,15 +82,17 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     admission = Admission(settings.concurrency, settings.streams)
     drain = Drain()
     registry = CollectorRegistry()
+    kernels = Kernels()
     warming = Warming()
     registry.register(StateMetrics(engine, cache, admission, warming))
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
-        background = asyncio.create_task(warming.run(app, names)) if serving else None
+        background = [warming.run(app, names), kernels.run()] if serving else []
+        tasks = [asyncio.create_task(one) for one in background]
         yield
-        if background is not None:
-            background.cancel()
+        for task in tasks:
+            task.cancel()
         names.close()
         stored.close()
         engine.dispose()
@@ -111,6 +114,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     )
     app.outermost = partial(Edge, metrics=RequestMetrics(registry), drain=drain, logging=serving)
     app.state.engine = engine
+    app.state.kernels = kernels
     app.state.control = control
     app.state.read_keys_required = settings.read_keys_required
     app.state.networks = NetworkStore()

@@ -16,6 +16,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
+from service.kernels import KernelsCompilingError
 from service.request_id import INSTANCE_PREFIX, current_request_id
 from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
 from threadstate.errors import (
@@ -35,6 +36,8 @@ TYPE_PREFIX = "urn:threadstate:problem:"
 _LONGEST_ECHO = 100
 RETRY_AFTER_S = 5
 """After how many seconds a client may ask again where the database failed."""
+KERNELS_RETRY_AFTER_S = 30
+"""The same where kernels are being compiled."""
 NO_HEADERS: Mapping[str, str] = MappingProxyType({})
 
 
@@ -82,6 +85,7 @@ JOB_ENDED = Kind("job-ended", HTTPStatus.CONFLICT, "Job has ended")
 NOT_INSTALLED = Kind("not-installed", HTTPStatus.NOT_IMPLEMENTED, "Not installed here")
 TOO_MANY_REQUESTS = Kind("too-many-requests", HTTPStatus.TOO_MANY_REQUESTS, "Too many requests at once")
 TOO_MANY_STREAMS = Kind("too-many-streams", HTTPStatus.TOO_MANY_REQUESTS, "Too many event streams")
+KERNELS_COMPILING = Kind("kernels-compiling", HTTPStatus.SERVICE_UNAVAILABLE, "Kernels being compiled")
 OUT_OF_TIME = Kind("out-of-time", HTTPStatus.SERVICE_UNAVAILABLE, "Out of time")
 DRAINING = Kind("draining", HTTPStatus.SERVICE_UNAVAILABLE, "About to end")
 INTERNAL = Kind("internal", HTTPStatus.INTERNAL_SERVER_ERROR, "Internal error")
@@ -101,6 +105,7 @@ KINDS = (
     NOT_INSTALLED,
     TOO_MANY_REQUESTS,
     TOO_MANY_STREAMS,
+    KERNELS_COMPILING,
     OUT_OF_TIME,
     DRAINING,
     INTERNAL,
@@ -137,6 +142,7 @@ def install_problem_handlers(app: FastAPI) -> None:
         (UnreadableDatabaseError, _unreadable),
         (SchemaError, _schema),
         (MissingExtraError, _missing_extra),
+        (KernelsCompilingError, _kernels_compiling),
         (SQLAlchemyError, _database),
         (HTTPException, _http),
         (Exception, _internal),
@@ -220,6 +226,10 @@ def _schema(_request: Request, error: Any) -> Response:
 
 def _missing_extra(_request: Request, error: Any) -> Response:
     return problem_response(NOT_INSTALLED, str(error))
+
+
+def _kernels_compiling(_request: Request, error: Any) -> Response:
+    return problem_response(KERNELS_COMPILING, str(error), headers={"Retry-After": str(KERNELS_RETRY_AFTER_S)})
 
 
 def _unreadable(request: Request, error: Any) -> Response:

@@ -50,6 +50,7 @@ class Warming:
 
 
 async def _prepare_at_leisure(app: FastAPI, library: LibraryRecord) -> None:
+    await app.state.kernels.settled()
     for number in count(STEPS_AT_START):
         began = time.monotonic()
         if not await run_in_threadpool(_prepare, app.state.engine, app.state.networks, library, number):

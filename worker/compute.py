@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
 from multiprocessing.connection import Connection
 
 from threadstate.archive.rows import history_rows
@@ -39,15 +42,21 @@ def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
     """
     # Ctrl-C reaches the whole group; the parent alone decides what it means.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with suppress(EOFError, ConnectionError):  # the parent is gone
+        message = _tried(partial(_prepared, inputs))
+        connection.send(message)
+        while not isinstance(message, Failure):
+            message = _tried(partial(compute_chunk, inputs, connection.recv()))
+            connection.send(message)
+
+
+def _prepared(inputs: LibraryInputs) -> Ready:
+    exact_answers(inputs.pair, inputs.options, inputs.grid.poses(0)[:1])
+    return Ready()
+
+
+def _tried(compute: Callable[[], Ready | Chunk]) -> Ready | Chunk | Failure:
     try:
-        try:
-            exact_answers(inputs.pair, inputs.options, inputs.grid.poses(0)[:1])
-            connection.send(Ready())
-            while True:
-                connection.send(compute_chunk(inputs, connection.recv()))
-        except (EOFError, ConnectionError):
-            return
-        except Exception as error:  # whatever it is, the parent has to learn of it
-            connection.send(Failure(f"{type(error).__name__}: {error}"))
-    except ConnectionError:
-        return
+        return compute()
+    except Exception as error:  # whatever it is, the parent has to learn of it
+        return Failure(f"{type(error).__name__}: {error}")

@@ -7,6 +7,7 @@ from pydantic import BaseModel, Field
 
 from service.database import engine_of
 from service.edge.drain import drain_of
+from service.kernels import KernelState, kernels_of
 from service.problems import DRAINING, NOT_READY, problem_response
 from threadstate.errors import NotFoundError
 from threadstate.library.read import latest_library
@@ -27,6 +28,9 @@ class Readiness(BaseModel):
     status: str = Field(examples=["ready"])
     schema_revision: str = Field(examples=[SCHEMA_REVISION])
     library: int = Field(description="number of the latest library", examples=[1])
+    kernels: KernelState = Field(
+        description="`compiling`: stored states are answered, what is to be solved is refused for a minute or two"
+    )
 
 
 @router.get("/healthz", summary="Does the process live?")
@@ -52,4 +56,6 @@ def readyz(request: Request, response: Response) -> Readiness | Response:
     except NotFoundError as error:
         return problem_response(NOT_READY, str(error))
     response.headers["Cache-Control"] = "no-store"
-    return Readiness(status="ready", schema_revision=SCHEMA_REVISION, library=library.id)
+    return Readiness(
+        status="ready", schema_revision=SCHEMA_REVISION, library=library.id, kernels=kernels_of(request).state
+    )

@@ -9,6 +9,7 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import AllowInfNan
 
 from service.angles import PitchPath, RollPath
+from service.kernels import require_kernels
 from service.libraries.solved_pair import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
 from service.network.parameters import LeastQuery
 from service.network.schemas import ComputedFalls, ComputedHeights, ComputedIntervals
@@ -31,7 +32,7 @@ from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import conversion_factor
 
-router = APIRouter(prefix="/v1/histories", tags=["histories"])
+router = APIRouter(prefix="/v1/histories", tags=["histories"], dependencies=[Depends(require_kernels)])
 
 DesignationQuery = Annotated[
     str | None,

@@ -6,10 +6,11 @@ from typing import Annotated
 from urllib.parse import urlencode
 
 from annotated_types import Ge, Le
-from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi import APIRouter, Depends, Path, Query, Request, Response
 
 from service.angles import PhaseQuery, PitchPath, PitchQuery, RollPath, RollQuery
 from service.database import ReadConnection
+from service.kernels import require_kernels
 from service.network.parameters import (
     LeastQuery,
     MovesQuery,
@@ -88,6 +89,7 @@ def get_intervals(
     summary="Height against phase",
     response_model=HeightsAnswer,
     responses=NOT_MODIFIED,
+    dependencies=[Depends(require_kernels)],
 )
 def get_heights(
     request: Request,
@@ -104,7 +106,13 @@ def get_heights(
     return _json(request, HeightsAnswer(library=network.library.id, unit=shown, heights=heights), shown)
 
 
-@router.get("/transitions", summary="Transitions", response_model=TransitionsPage, responses=NOT_MODIFIED)
+@router.get(
+    "/transitions",
+    summary="Transitions",
+    response_model=TransitionsPage,
+    responses=NOT_MODIFIED,
+    dependencies=[Depends(require_kernels)],
+)
 def list_transitions(
     request: Request,
     network: RequestedNetwork,

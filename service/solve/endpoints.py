@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Depends, Request, Response
 
+from service.kernels import require_kernels
 from service.libraries.solved_pair import solved_pair
 from service.representation import JSON
 from service.solve.schemas import SolveAnswer, SolveRequest
@@ -15,7 +16,9 @@ from threadstate.state.document import state_document
 from threadstate.state.solve import solve_poses
 from threadstate.units import conversion_factor
 
-router = APIRouter(prefix="/v1/solve", tags=["solve"], route_class=StrictJsonRoute)
+router = APIRouter(
+    prefix="/v1/solve", tags=["solve"], route_class=StrictJsonRoute, dependencies=[Depends(require_kernels)]
+)
 
 
 @router.post("", summary="Solve poses", response_model=SolveAnswer)

@@ -93,6 +93,7 @@ def test_with_a_library_it_is_ready(client: TestClient, made_up: StoredLibrary) 
         "status": "ready",
         "schema_revision": SCHEMA_REVISION,
         "library": made_up.id,
+        "kernels": "ready",
     }
 
 

@@ -66,3 +66,9 @@ def test_a_dimension_is_refused_by_its_key_and_text(capsys: pytest.CaptureFixtur
         given = ["--pair", "mine", "--dimension", "like=1/4-20 UNC", "--dimension", f"thread_pitch={text}"]
         assert run_command_line(["settings", *given]) == 2
         assert f"thread_pitch is {text!r}; valid: a valid number" in capsys.readouterr().err
+
+
+def test_a_tilt_is_refused_as_it_was_given(capsys: pytest.CaptureFixture[str]) -> None:
+    for text in ("1_0,2", "0,nan", "0,٣", "0"):
+        assert run_command_line(["compare", f"--tilt={text}", "--database", "sqlite:////nowhere/at/all"]) == 2
+        assert f"--tilt is {text!r}; valid: two angles in degrees" in capsys.readouterr().err

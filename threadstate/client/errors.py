@@ -126,7 +126,7 @@ class TooManyRequestsError(ProblemError):
 
 
 class ServiceUnavailableError(ProblemError):
-    """The service cannot answer now (503): its database is not ready or not there."""
+    """The service cannot answer now (503): its database is not ready, or its kernels are being compiled."""
 
 
 class ServerError(ProblemError):

@@ -18,6 +18,9 @@ from threadstate.client.errors import (
 from threadstate.errors import InvalidValueError
 
 LARGEST_RETRY_COUNT = 100
+COMPILING_TIMES = 20
+"""How often at least a service is asked again that compiles its kernels, unless nothing is to be sent again."""
+KERNELS_COMPILING = "kernels-compiling"
 FIRST_PAUSE_S = 0.2
 LONGEST_PAUSE_S = 30.0
 
@@ -30,7 +33,8 @@ class Retrying:
 
     A connection that was never made and a 429 have not acted, and are tried again whatever was asked. A connection that
     broke and a 503 are tried again where the request is repeatable. Nothing else is: what was not answered in time
-    would only be more work for a service that is late already.
+    would only be more work for a service that is late already. A service that compiles its kernels says so, and is
+    asked again for ten minutes.
     """
 
     times: int
@@ -41,7 +45,8 @@ class Retrying:
 
     def pause_s(self, error: ClientError, tried: int, *, repeatable: bool) -> float | None:
         """How many seconds to wait after the failure number ``tried``, from 0; None where it is final."""
-        if tried >= self.times:
+        compiling = isinstance(error, ServiceUnavailableError) and error.name == KERNELS_COMPILING
+        if tried >= (max(self.times, COMPILING_TIMES) if compiling and self.times else self.times):
             return None
         match error:
             case TimedOutError(reached=True):

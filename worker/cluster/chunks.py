@@ -122,9 +122,10 @@ class ComputingCluster:
             raise _skewed(str(error)) from None
         except KilledWorker as error:
             raise ComputeError(f"one Dask worker after another died of a chunk: {error}") from None
-        except (CancelledError, OSError, TimeoutError) as error:
-            raise self._gone(error) from None
-        except Exception as error:  # whatever it is that a worker raises
+        except Exception as error:
+            # A worker may raise anything, an OSError too; what it did not raise is of the connection.
+            if future.status != "error" and isinstance(error, (CancelledError, OSError, TimeoutError)):
+                raise self._gone(error) from None
             raise ComputeError(f"a Dask worker failed: {type(error).__name__}: {error}") from None
         assert isinstance(chunk, Chunk)
         return chunk

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number
 from worker.options import Database, Json, UnitName
 from worker.output import print_json
 
@@ -70,7 +71,7 @@ def compare(
 def _angles(text: str) -> tuple[float, float]:
     parts = text.split(",")
     try:
-        roll, pitch = map(float, parts)
+        roll, pitch = (number(part.strip(" ")) for part in parts)
     except ValueError:
         raise InvalidValueError("--tilt", text, "two angles in degrees with a comma, as 0,-4") from None
     return roll, pitch

@@ -1,0 +1,104 @@
+"""No request waits for the compiler: what solves is refused until the kernels are there, and says so."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx2
+import pytest
+from fastapi.testclient import TestClient
+
+from service.app import create_app
+from tests.service.conftest import StoredLibrary
+from tests.service.test_problems import problem
+from threadstate.client.errors import ServiceUnavailableError, problem_error
+from threadstate.client.models.problem import Problem
+from threadstate.client.options import DEFAULT_RETRIES
+from threadstate.client.retrying import Retrying, retry_after_s
+from threadstate.settings import DATA_DIR, DATABASE, read_settings
+
+pytestmark = pytest.mark.sqlite_alone
+
+SOLVE = {"poses": [{"roll": 4, "pitch": 0, "phase": 185}]}
+SOLVING = [
+    "/v1/histories/1/1/intervals",
+    "/v1/histories/1/1/heights",
+    "/v1/histories/1/1/falls",
+    "/v1/libraries/1/histories/1/1/heights",
+    "/v1/libraries/1/transitions",
+]
+COMPILING = """
+import pathlib, sys, time
+while not pathlib.Path(sys.argv[1]).exists():
+    time.sleep(0.01)
+sys.exit(int(sys.argv[2]))
+"""
+"""In place of the compiler: ends with a code when a file is there."""
+LONGEST_S = 60.0
+
+
+@pytest.fixture(params=[0, 1], ids=["compiled", "failed"])
+def compiling(
+    made_up: StoredLibrary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> Iterator[TestClient]:
+    """A client of a service whose kernels are compiled until the file ``compiled`` is there."""
+    command = (sys.executable, "-c", COMPILING, str(tmp_path / "compiled"), str(request.param))
+    monkeypatch.setattr("service.kernels.COMPILE", command)
+    monkeypatch.setattr("service.kernels.kernels_are_compiled", lambda: False)
+    settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
+    with TestClient(create_app(settings, serving=True)) as client:
+        yield client
+
+
+def _wait_until_ready(client: TestClient) -> None:
+    until = time.monotonic() + LONGEST_S
+    while client.get("/readyz").json()["kernels"] != "ready":
+        assert time.monotonic() < until
+        time.sleep(0.05)
+
+
+def test_what_solves_is_refused_while_kernels_are_compiled(
+    compiling: TestClient, tmp_path: Path, caplog: pytest.LogCaptureFixture, request: pytest.FixtureRequest
+) -> None:
+    assert compiling.get("/readyz").json()["kernels"] == "compiling"
+    for response in (compiling.post("/v1/solve", json=SOLVE), *(compiling.get(path) for path in SOLVING)):
+        refused = problem(response, 503)
+        assert refused.type.endswith(":kernels-compiling")
+        assert "are being compiled" in refused.detail
+        assert response.headers["Retry-After"] == "30"
+    for path in ("/v1/libraries/1/states/0/0/30", "/v1/libraries/1/histories/0/0", "/v1/jobs", "/"):
+        assert compiling.get(path).status_code == 200, path
+    caplog.set_level(logging.ERROR)
+    (tmp_path / "compiled").touch()
+    _wait_until_ready(compiling)
+    assert compiling.post("/v1/solve", json=SOLVE).status_code == 200
+    failed = "failed" in request.node.name
+    assert ("ended with code 1" in caplog.text) is failed
+
+
+def test_a_client_tries_again_for_as_long_as_it_takes(compiling: TestClient) -> None:
+    response = compiling.post("/v1/solve", json=SOLVE)
+    error = _error(response)
+    pauses = [Retrying(DEFAULT_RETRIES).pause_s(error, tried, repeatable=True) for tried in range(21)]
+    assert pauses == [30.0] * 20 + [None]
+    assert Retrying(0).pause_s(error, 0, repeatable=True) is None
+    assert Retrying(DEFAULT_RETRIES).pause_s(error, 0, repeatable=False) is None
+    assert Retrying(30).pause_s(error, 25, repeatable=True) == 30.0
+
+
+def _error(response: httpx2.Response) -> ServiceUnavailableError:
+    after = retry_after_s(response.headers["Retry-After"])
+    error = problem_error("POST /v1/solve", Problem.model_validate_json(response.content), after)
+    assert isinstance(error, ServiceUnavailableError)
+    return error
+
+
+def test_kernels_that_are_compiled_are_ready_at_once(made_up: StoredLibrary, tmp_path: Path) -> None:
+    settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
+    with TestClient(create_app(settings, serving=True)) as client:
+        assert client.get("/readyz").json()["kernels"] == "ready"
+        assert client.post("/v1/solve", json=SOLVE).status_code == 200
