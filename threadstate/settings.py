@@ -32,7 +32,6 @@ HEARTBEAT_FILE = "THREADSTATE_HEARTBEAT_FILE"
 SERVICE = "THREADSTATE_SERVICE"
 KEY = "THREADSTATE_KEY"
 CACHE_MB = "THREADSTATE_CACHE_MB"
-RENDITIONS_MB = "THREADSTATE_RENDITIONS_MB"
 CONCURRENCY = "THREADSTATE_CONCURRENCY"
 STREAMS = "THREADSTATE_STREAMS"
 TIME_LIMIT_S = "THREADSTATE_TIME_LIMIT_S"
@@ -56,7 +55,6 @@ NAMES = (
     SERVICE,
     KEY,
     CACHE_MB,
-    RENDITIONS_MB,
     CONCURRENCY,
     STREAMS,
     TIME_LIMIT_S,
@@ -71,7 +69,7 @@ NAMES = (
 DATABASE_FILE = "threadstate.sqlite3"
 LARGEST_WORKER_COUNT = 256
 DEFAULT_LEASE_S, LARGEST_LEASE_S = 20, 3600
-DEFAULT_CACHE_MB, DEFAULT_RENDITIONS_MB, LARGEST_ROOM_MB = 256, 1024, 1_000_000
+DEFAULT_CACHE_MB, LARGEST_CACHE_MB = 256, 1_000_000
 DEFAULT_CONCURRENCY, LARGEST_CONCURRENCY = 4, 1000
 DEFAULT_STREAMS, LARGEST_STREAMS = 100, 10_000
 DEFAULT_TIME_LIMIT_S, LARGEST_TIME_LIMIT_S = 30, 3600
@@ -111,8 +109,7 @@ class Settings:
         read_keys_required: whether reading, too, needs a key.
         lease_s: after how many seconds of silence a worker is taken for dead.
         heartbeat_file: file that a worker touches with every heartbeat; None: none.
-        cache_mb: room for answers that are kept in memory, in megabytes (10^6 bytes).
-        renditions_mb: room for renditions of whole libraries, in files below ``data_dir``, in megabytes.
+        cache_mb: size of the cache of responses, in megabytes (10^6 bytes).
         concurrency: how many requests compute at once.
         streams: how many event streams may be open.
         time_limit_s: how long a request may take until its answer begins.
@@ -133,7 +130,6 @@ class Settings:
     lease_s: int
     heartbeat_file: Path | None
     cache_mb: int
-    renditions_mb: int
     concurrency: int
     streams: int
     time_limit_s: int
@@ -161,8 +157,7 @@ def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
         read_keys_required=_one_of(environment, READ_KEYS, ("open", "required")) == "required",
         lease_s=_integer(environment, LEASE_S, DEFAULT_LEASE_S, LARGEST_LEASE_S),
         heartbeat_file=Path(file) if (file := environment.get(HEARTBEAT_FILE)) else None,
-        cache_mb=_integer(environment, CACHE_MB, DEFAULT_CACHE_MB, LARGEST_ROOM_MB, 0),
-        renditions_mb=_integer(environment, RENDITIONS_MB, DEFAULT_RENDITIONS_MB, LARGEST_ROOM_MB, 0),
+        cache_mb=_integer(environment, CACHE_MB, DEFAULT_CACHE_MB, LARGEST_CACHE_MB, 0),
         concurrency=_integer(environment, CONCURRENCY, DEFAULT_CONCURRENCY, LARGEST_CONCURRENCY),
         streams=_integer(environment, STREAMS, DEFAULT_STREAMS, LARGEST_STREAMS, 0),
         time_limit_s=_integer(environment, TIME_LIMIT_S, DEFAULT_TIME_LIMIT_S, LARGEST_TIME_LIMIT_S),

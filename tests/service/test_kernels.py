@@ -16,7 +16,7 @@ from service.app import create_app
 from tests.service.conftest import StoredLibrary
 from tests.service.test_problems import problem
 from threadstate.client.errors import ServiceUnavailableError, problem_error
-from threadstate.client.models.problem import Problem
+from threadstate.client.models.service import Problem
 from threadstate.client.options import DEFAULT_RETRIES
 from threadstate.client.retrying import Retrying, retry_after_s
 from threadstate.settings import DATA_DIR, DATABASE, read_settings
