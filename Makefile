@@ -119,19 +119,6 @@ $(VENV)/.dependencies: requirements.lock $(VENV)/.running
 	$(PIP) -r requirements.lock
 	@touch $@
 
-$(VENV)-audit/.dependencies node_modules/.installed
-	$(VENV)-audit/bin/pip-audit --strict --disable-pip --require-hashes --progress-spinner off -r requirements.lock
-	PATH="$$PATH:$(CURDIR)/$(BIN)" npm audit --audit-level=low
-
-$(VENV)/.created:
-	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)
-	@touch $@
-
-$(VENV)/.dependencies: requirements.lock $(VENV)/.created
-	@echo "Installing the locked dependencies ..."
-	$(PIP) -r requirements.lock
-	@touch $@
-
 $(VENV)-audit/.dependencies: requirements-audit.lock
 	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)-audit
 	$(VENV)-audit/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $<
@@ -148,7 +135,7 @@ node_modules/.served: package.json package-lock.json requirements-node.lock $(VE
 	$(NPM) --omit=dev
 	@touch $@
 
-node_modules/.installed: node_modules/.served $(VENV)/.dependencies
+node_modules/.installed: node_modules/.served
 	$(NPM)
 	@touch node_modules/.served $@
 
