@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from functools import partial
@@ -62,6 +63,8 @@ NO_TELEMETRY = TelemetryConfig(tracing=False, metrics=False, logs=False)
 LARGEST_BODY_BYTES = 256 * 1024
 """Room for 1,000 poses with all the digits that a double has."""
 
+_log = logging.getLogger(__name__)
+
 
 def create_app(settings: Settings | None = None, *, serving: bool = False) -> FastAPI:
     """The service over the database of ``settings`` (None: of the environment).
@@ -90,6 +93,8 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
         background = [warming.run(app, names), kernels.run()] if serving else []
         tasks = [asyncio.create_task(one) for one in background]
+        for task in tasks:
+            task.add_done_callback(_log_failure)
         yield
         for task in tasks:
             task.cancel()
@@ -154,3 +159,8 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     if settings.cors_origins:
         app.add_middleware(CORSMiddleware, **cors_options(settings.cors_origins))
     return app
+
+
+def _log_failure(task: asyncio.Task[None]) -> None:
+    if not task.cancelled() and (error := task.exception()) is not None:
+        _log.error("what is done in the background failed", exc_info=error)

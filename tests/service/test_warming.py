@@ -48,3 +48,17 @@ def _wait_for(client: TestClient, line: str) -> None:
     while line not in client.get("/metrics").text:
         assert time.monotonic() < until, f"{line} never"
         time.sleep(0.05)
+
+
+@pytest.mark.sqlite_alone
+def test_what_fails_in_the_background_is_logged(
+    databases: Databases, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    async def failing(*_: object) -> None:
+        raise RuntimeError("a fault of the preparation")
+
+    monkeypatch.setattr("service.warming.Warming.run", failing)
+    settings = read_settings({DATABASE: databases.migrated(), DATA_DIR: str(tmp_path)})
+    with TestClient(create_app(settings, serving=True)) as client:
+        assert client.get("/healthz").status_code == 200
+        assert "a fault of the preparation" in caplog.text
