@@ -1,5 +1,6 @@
 # make setup      everything that run, test and bench stand on; instant the second time
 # make run        migrate, compute the library if this very one is not published yet, serve it
+# make unit       format, lint, types and the tests that take no time: the loop while one works
 # make test       check, then all tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
 # make check      format, lint, types, bandit, the units of the explorer's JavaScript
 # make bench      poses per second, beside a mesh collision library
@@ -27,17 +28,26 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --requir
 NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test check bench load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test check bench load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
+# Processes that tests start would compile their modules each time.
+unexport PYTHONDONTWRITEBYTECODE
 
 setup: $(VENV)/.kernels
 
 run: setup
 	$(BIN)/threadstate run
 
+unit: setup
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(NODE) --test tests/page/*.test.js
+	$(BIN)/pytest -q -m "not slow" -n 2 --dist worksteal --durations 10 --durations-min 1
+
 test:
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check setup
-	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder
+	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder --durations 20
 
 check: $(VENV)/.project
 	$(BIN)/ruff format --check .

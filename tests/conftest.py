@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import settings
 
 from tests.archive.history_library import SMALL_GRID, histories_of_grid
-from tests.databases import KINDS, Databases, PostgresqlDatabases, SqliteDatabases
+from tests.databases import KINDS, POSTGRESQL, SQLITE, Databases, PostgresqlDatabases, SqliteDatabases
 from tests.postgresql_server import PostgresqlServer, running_server
 from tests.shared import FOLDER
 from threadstate.history.model import History
@@ -21,13 +22,23 @@ TAKE_LONGEST = ("worker", "faults", "test_benchmarks.py", "studies", "explorer",
 """Folders and files of tests, those first that are begun first, so that no lane is left alone with them at the end."""
 
 
+WHOLLY_SLOW = re.compile(r"^pytestmark = .*\bpytest\.mark\.slow\b", re.M)
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Make the folder of what the processes of a run share; those of pytest-xdist inherit it."""
     if FOLDER not in os.environ:
         folder = tempfile.TemporaryDirectory(prefix="threadstate-tests-")
         os.environ[FOLDER] = folder.name
         config.add_cleanup(folder.cleanup)
-        config.add_cleanup(lambda: os.environ.pop(FOLDER, None))
+        config.add_cleanup(lambda: os.environ.__delitem__(FOLDER))
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Where slow tests are left out, do not even import files that have no others."""
+    if config.option.markexpr == "not slow" and collection_path.suffix == ".py":
+        return WHOLLY_SLOW.search(collection_path.read_text()) is not None or None
+    return None
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -42,11 +53,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """A test on databases runs on each kind, unless it is marked as one of one kind alone."""
+    """A test on databases runs on each kind, unless it is marked as one of one kind alone; PostgreSQL is slow."""
     if "databases" in metafunc.fixturenames:
         marked = {mark.name for mark in metafunc.definition.iter_markers()}
         kinds = [kind for kind in KINDS if not marked & {f"{other}_alone" for other in KINDS if other != kind}]
-        metafunc.parametrize("databases", kinds, indirect=True, scope="session")
+        slow = {SQLITE: (), POSTGRESQL: (pytest.mark.slow,)}
+        chosen = [pytest.param(kind, marks=slow[kind]) for kind in kinds]
+        metafunc.parametrize("databases", chosen, indirect=True, scope="session")
 
 
 @pytest.fixture(scope="session")

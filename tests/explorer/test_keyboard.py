@@ -8,6 +8,8 @@ from selenium.webdriver.common.keys import Keys
 
 from tests.explorer.browser import Explorer, phase_of
 
+pytestmark = pytest.mark.slow
+
 FOCUSED = """
 const at = document.activeElement;
 const all = [...document.querySelectorAll('*')];

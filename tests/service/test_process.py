@@ -10,7 +10,7 @@ import pytest
 from tests.service.conftest import StoredLibrary
 from tests.service.running import running_service
 
-pytestmark = pytest.mark.sqlite_alone
+pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 
 @pytest.fixture(scope="module")

@@ -17,6 +17,8 @@ from studies.stability.laws import broken_laws
 from tests.studies.states import EXACT, FLUSH, PAIR, THREE_POINT, answered
 from threadstate.state.model import ContactState, StateClass
 
+pytestmark = pytest.mark.slow
+
 
 def changed(one: Answered, **values: object) -> Answered:
     return Answered(one.case, replace(one.state, **values))  # type: ignore[arg-type]
