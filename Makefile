@@ -1,5 +1,6 @@
 # make setup      everything that run, test and bench stand on; instant the second time
 # make run        migrate, compute the library if this very one is not published yet, serve it
+# make unit       format, lint, types and the tests that take no time: the loop while one works
 # make test       check, then all tests, the explorer's in Chromium (apt-get install chromium chromium-driver)
 # make check      format, lint, imports, types, bandit, the units of the explorer's JavaScript
 # make bench      poses per second, beside a mesh collision library
@@ -29,8 +30,10 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run test check bench client load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test check bench client load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
+# Processes that tests start would compile their modules each time.
+unexport PYTHONDONTWRITEBYTECODE
 
 setup: $(VENV)/.kernels $(VENV)/.dependencies node_modules/.installed
 
@@ -38,9 +41,16 @@ run:
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target $(VENV)/.kernels node_modules/.served
 	$(BIN)/threadstate run
 
+unit: setup
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(NODE) --test tests/page/*.test.js
+	$(BIN)/pytest -q -m "not slow" -n 2 --dist worksteal --durations 10 --durations-min 1
+
 test:
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check setup
-	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder
+	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder --durations 20
 
 check: $(VENV)/.project $(VENV)/.dependencies node_modules/.installed
 	$(BIN)/ruff format --check .

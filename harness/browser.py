@@ -24,6 +24,8 @@ ARGUMENTS = (
     "--force-color-profile=srgb",
 )
 WAIT_S = 20.0
+SCRIPT_S = 120.0
+"""axe-core looks at every element of the page, without a graphics card."""
 
 
 def start_chromium(width: int, height: int) -> webdriver.Chrome:
@@ -35,6 +37,7 @@ def start_chromium(width: int, height: int) -> webdriver.Chrome:
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     chromium = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    chromium.set_script_timeout(SCRIPT_S)
     resize(chromium, width, height)
     return chromium
 

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,7 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-from harness.databases import KINDS, Databases, PostgresqlDatabases, SqliteDatabases
+from harness.databases import KINDS, POSTGRESQL, SQLITE, Databases, PostgresqlDatabases, SqliteDatabases
 from harness.postgresql_server import PostgresqlServer, running_server
 from tests.archive.history_library import SMALL_GRID, histories_of_grid
 from tests.shared import FOLDER
@@ -19,6 +20,9 @@ settings.load_profile("repeatable")
 
 TAKE_LONGEST = ("worker", "faults", "test_benchmarks.py", "studies", "explorer", "service", "contact")
 """Folders and files of tests, those first that are begun first, so that no lane is left alone with them at the end."""
+
+
+WHOLLY_SLOW = re.compile(r"^pytestmark = .*\bpytest\.mark\.slow\b", re.M)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -34,6 +38,13 @@ def pytest_configure(config: pytest.Config) -> None:
         config.add_cleanup(forget_folder)
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Where slow tests are left out, do not even import files that have no others."""
+    if config.option.markexpr == "not slow" and collection_path.suffix == ".py":
+        return WHOLLY_SLOW.search(collection_path.read_text()) is not None or None
+    return None
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with what takes longest; a file's tests stay together and in order."""
     tests = Path(__file__).parent
@@ -46,11 +57,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """A test on databases runs on each kind, unless it is marked as one of one kind alone."""
+    """A test on databases runs on each kind, unless it is marked as one of one kind alone; PostgreSQL is slow."""
     if "databases" in metafunc.fixturenames:
         marked = {mark.name for mark in metafunc.definition.iter_markers()}
         kinds = [kind for kind in KINDS if not marked & {f"{other}_alone" for other in KINDS if other != kind}]
-        metafunc.parametrize("databases", kinds, indirect=True, scope="session")
+        slow = {SQLITE: (), POSTGRESQL: (pytest.mark.slow,)}
+        chosen = [pytest.param(kind, marks=slow[kind]) for kind in kinds]
+        metafunc.parametrize("databases", chosen, indirect=True, scope="session")
 
 
 @pytest.fixture(scope="session")

@@ -53,6 +53,8 @@ from threadstate.state.model import Contact, ContactState, FeaturePair, Flag
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 POSE = (1.0, -2.0, 10.0)
 SMALL = Scale(poses=2, compared=2, extrapolated=1, presets=(Preset.COARSE,), bracketings=(), chords=(1e-2, 5e-3))

@@ -28,6 +28,8 @@ from threadstate.jobs.work import publish_job
 from threadstate.jobs.workers import join
 from threadstate.library.engine import writing
 
+pytestmark = pytest.mark.slow
+
 RUNS: dict[str, tuple[list[list[str]], list[str]]] = {
     "feel_before_the_window": (
         [["0", "-3"], ["0", "-3", "--library", "1/4-20 UNC"]],

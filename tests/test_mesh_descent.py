@@ -7,6 +7,8 @@ from benchmarks.mesh_descent import FASTER, SAFE, Descent, mesh_first_heights
 from oracle.first_height import first_height
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 
 

@@ -10,6 +10,8 @@ import pytest
 
 from threadstate._numba_cache import kernel_sources_hash
 
+pytestmark = pytest.mark.slow
+
 EVALUATE = (
     "import os; from threadstate.thread._profile_kernel import fold; fold(0.01, 0.05); "
     "print(os.environ['NUMBA_CACHE_DIR'])"

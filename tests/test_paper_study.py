@@ -23,6 +23,8 @@ from threadstate.state.model import Flag, StateClass
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 SMALL = Scale(tilts_deg=(-4, 0, 4), phase_step_deg=1, sampled=100)
 
 

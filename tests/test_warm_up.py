@@ -6,6 +6,10 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.slow
+
 AFTER_THAT_NOTHING_COMPILES = """
 import gc
 import pickle

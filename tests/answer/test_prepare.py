@@ -12,6 +12,8 @@ from threadstate.answer.library_network import LibraryNetwork
 from threadstate.answer.prepare import preparation
 from threadstate.answer.transitions import transition_documents
 
+pytestmark = pytest.mark.slow
+
 
 def test_afterwards_nothing_is_solved_for_a_question(connection: Connection, network: LibraryNetwork) -> None:
     for step in preparation(connection, network):

@@ -8,6 +8,8 @@ from threadstate.network.moves import Move
 from threadstate.network.transitions import Transition
 from threadstate.state.solve import solve_poses
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def tilts(network: LibraryNetwork) -> list[Transition]:

@@ -41,6 +41,7 @@ def older(databases: Databases, small_histories: list[History]) -> Iterator[tupl
     engine.dispose()
 
 
+@pytest.mark.slow
 def test_completed_histories_are_those_computed_now(older: tuple[Engine, LibraryRecord, list[str]]) -> None:
     engine, record, chunks = older
     with engine.connect() as connection, pytest.raises(SchemaError, match="threadstate migrate"):

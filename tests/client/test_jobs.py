@@ -37,6 +37,8 @@ from threadstate.jobs.work import publish_job, set_back
 from threadstate.jobs.workers import join
 from threadstate.library.engine import writing
 
+pytestmark = pytest.mark.slow
+
 SMALL = {"tilt_max": 1, "tilt_step": 1, "phase_step": 180}
 """The grid of ``tests.jobs.jobs``."""
 STREAM = "text/event-stream"

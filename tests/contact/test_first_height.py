@@ -15,6 +15,8 @@ from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 HEIGHT_TOLERANCE_INCH = 1e-9
 EVENT_REACH_DEG = 0.5
 NEAR_PHASE_ZERO_DEG = 20.0

@@ -14,6 +14,8 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 LENGTH_TOLERANCE_INCH = 1e-12
 LIFT_TOLERANCE_INCH = 1e-10
 """The brute force is good to 1e-10 of the thread pitch or to 1e-12 in, its own steps."""

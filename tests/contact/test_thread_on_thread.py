@@ -13,6 +13,8 @@ from threadstate.contact._solve_kernel import S_CONVEX, S_PROVE, S_TIE, S_TURN_L
 from threadstate.contact._stage_kernel import THREAD_EDGE, THREAD_THREAD
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 LENGTHS = [record.O_POSE + 11, record.O_LAMBDA, record.O_MU]
 FIRST_PAIR = record.O_CONTACT + record.P_PAIR

@@ -14,6 +14,8 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 POSE_TOLERANCE = 1e-10
 """Of a rotation's elements and of a translation in inches: the axis here comes from slopes by differences."""
 LEVEL_TOLERANCE = 1e-12

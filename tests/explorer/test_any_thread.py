@@ -19,6 +19,8 @@ from threadstate.library.grid import Grid
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose
 
+pytestmark = pytest.mark.slow
+
 UNC, OWN = 1, 2
 
 

@@ -11,6 +11,8 @@ from selenium.webdriver.common.keys import Keys
 
 from harness.browser import Explorer, phase_of, resize
 
+pytestmark = pytest.mark.slow
+
 LIBRARY = "/v1/libraries/latest"
 CLASS_NAMES = {
     "unstable_two_point": "unstable two-point",

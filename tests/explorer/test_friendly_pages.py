@@ -26,6 +26,8 @@ from threadstate.settings import READ_KEYS
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 
 def kind_of(explorer: Explorer) -> str:
     return str(explorer.run("return document.querySelector('#message:not([hidden])')?.dataset.kind ?? ''"))

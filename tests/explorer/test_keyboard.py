@@ -8,6 +8,8 @@ from selenium.webdriver.common.keys import Keys
 
 from harness.browser import Explorer, phase_of
 
+pytestmark = pytest.mark.slow
+
 FOCUSED = """
 const at = document.activeElement;
 const all = [...document.querySelectorAll('*')];

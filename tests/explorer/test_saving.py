@@ -17,6 +17,8 @@ from harness.browser import Explorer
 from tests.explorer.test_explorer import choose_pose, wait_for_scene
 from threadstate.client.models.states import State
 
+pytestmark = pytest.mark.slow
+
 PNG = b"\x89PNG\r\n\x1a\n"
 TABS = {"disks": "regions", "follows": "follows", "path": "follows", "network": "network", "state": "state"}
 Save = Callable[[str, str], bytes]

@@ -14,6 +14,8 @@ from threadstate.export.names import FileFormat
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 ALLOWED = 12e6
 """Bytes: less than the file as text has, and a tenth of what the documents of the library's states take."""
 

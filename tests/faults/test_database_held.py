@@ -19,6 +19,8 @@ from threadstate.library.engine import writing
 from worker.jobs.serve import serve_jobs
 from worker.rebuild import rebuild
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(autouse=True)
 def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:

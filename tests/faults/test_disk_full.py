@@ -35,6 +35,8 @@ from threadstate.settings import DATABASE
 from worker.jobs.serve import serve_jobs
 from worker.rebuild import rebuild
 
+pytestmark = pytest.mark.slow
+
 FREE_PAGES = (8, 20, 45)
 """Room for no chunk, for one, for some; nine need about 80."""
 MANY_PAGES = 1_000_000

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
+
 from harness.databases import Databases
 from tests.archive.history_library import PAIR, content_of
 from tests.faults.conftest import Unwatched, published
@@ -12,6 +14,8 @@ from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.state.options import SolveOptions
 from worker.rebuild import Rebuild, rebuild
+
+pytestmark = pytest.mark.slow
 
 GRIDS = [Grid(6.0, 6.0, step) for step in (30.0, 45.0, 60.0)]
 EACH = 2

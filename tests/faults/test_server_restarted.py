@@ -26,6 +26,8 @@ from threadstate.library.tables import chunk, state
 from threadstate.settings import DATABASE, LEASE_S
 from worker.rebuild import rebuild
 
+pytestmark = pytest.mark.slow
+
 RESTARTS = 2
 PATIENCE_S = 300.0
 FAILS = "the database fails, it is tried again"

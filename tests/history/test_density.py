@@ -7,6 +7,8 @@ import pytest
 from studies.history.boundaries import check_density
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 
 SPREAD_DEG = 2e-6

@@ -20,6 +20,8 @@ from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 BESIDE_DEG = 1e-5
 ORIENTATIONS = [(0.0, -4.0), (3.0, 3.0), *np.random.default_rng(71).uniform(-4.0, 4.0, (2, 2)).tolist()]

@@ -18,6 +18,8 @@ from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.play import axial_play
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 
 

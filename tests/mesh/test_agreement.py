@@ -13,6 +13,8 @@ from threadstate.mesh.solve import solve_poses_by_mesh
 from threadstate.state.model import Contact, ContactState, FeaturePair, Flag
 from threadstate.state.solve import solve_pose
 
+pytestmark = pytest.mark.slow
+
 NEAR = 1e-3
 THREE = solve_pose(UNC, 1.0, -2.0, 10.0)
 FLUSH = solve_pose(UNC, 4.0, 0.0, 185.0)

@@ -22,6 +22,8 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose
 from threadstate.thread.pair import Pair
 
+pytestmark = pytest.mark.slow
+
 Pose = tuple[float, float, float]
 
 COARSE, PAPER, MEDIUM = (

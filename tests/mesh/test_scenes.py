@@ -27,6 +27,8 @@ from threadstate.state.solve import solve_pose
 from threadstate.thread.pair import Pair
 from threadstate.thread.profile import Profile
 
+pytestmark = pytest.mark.slow
+
 PAPER, MEDIUM, FINE = (preset.tessellation for preset in (Preset.PAPER, Preset.MEDIUM, Preset.FINE))
 OPEN = (Scene.BAND, Scene.EDGES)
 MICROINCH = 1e-6

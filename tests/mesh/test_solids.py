@@ -53,6 +53,7 @@ def test_solids_are_closed_turned_outward_and_within_the_chord_height(pair: Pair
     assert 0.2 * chord < report.edge_deviation < chord
 
 
+@pytest.mark.slow
 def test_presets_go_from_coarse_to_finest() -> None:
     reports = [mesh_report(UNC, Part.BOLT, preset.tessellation) for preset in Preset]
     assert all(report.watertight for report in reports)
@@ -130,6 +131,7 @@ def test_a_hole_in_a_mesh_is_seen() -> None:
     assert not as_trimesh(torn).is_watertight
 
 
+@pytest.mark.slow
 @given(PROFILES)
 def test_any_thread_surface_is_a_tube_of_small_chords(profile: Profile) -> None:
     size = math.hypot(math.sqrt(2.0) * profile.major_diameter, profile.thread_pitch)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import igraph
 import networkx as nx
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -70,6 +71,7 @@ def test_a_quoted_string_of_dot_ends_at_its_last_quote(text: str) -> None:
     assert re.sub(r"\\.", lambda found: escapes[found[0]], quoted[1:-1]) == text
 
 
+@pytest.mark.slow
 def test_bytes_do_not_depend_on_the_seed_of_hashes() -> None:
     code = (
         "import sys; from tests.network.test_export import FORMATS, NETWORK;"

@@ -11,7 +11,7 @@ from fastapi.testclient import TestClient
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-pytestmark = pytest.mark.sqlite_alone
+pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 NAMES = (
     *("roll", "pitch", "phase", "phase_min", "phase_max", "class", "bolt_region", "nut_region", "flag"),

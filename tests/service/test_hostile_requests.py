@@ -19,7 +19,7 @@ from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.library.engine import writing
 
-pytestmark = pytest.mark.sqlite_alone
+pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 STATES = "/v1/libraries/latest/states"
 JSON = {"Content-Type": "application/json"}

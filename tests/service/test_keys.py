@@ -111,6 +111,7 @@ def _until_running(lines: IO[str]) -> list[str]:
     raise AssertionError("".join(said))
 
 
+@pytest.mark.slow
 def test_a_key_is_in_no_log(database: str, engine: Engine) -> None:
     key = create_key(engine, "one", Scope.WRITE)
     command = [sys.executable, "-m", "uvicorn", "--factory", "service.app:create_app", "--port", "0"]

@@ -18,6 +18,8 @@ from tests.service.made_up_states import made_up_states
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 Clients = tuple[TestClient, TestClient]
 
 MADE_UP, WITH_HISTORIES = "/v1/libraries/1", "/v1/libraries/2"

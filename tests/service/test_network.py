@@ -66,6 +66,7 @@ def _key(client: TestClient) -> str:
     return str(next(found)["formation"]["key"])
 
 
+@pytest.mark.slow
 def test_answers_have_the_documented_shape(network_client: TestClient) -> None:
     key = _key(network_client)
     answers: list[tuple[str, type[BaseModel]]] = [
@@ -151,6 +152,7 @@ def test_falls_of_any_tilt_are_those_of_its_history(network_client: TestClient) 
     assert narrow["snap"]["fall"] == falls["falls"]["snap"]["fall"]
 
 
+@pytest.mark.slow
 def test_a_tolerance_of_the_angles_gives_a_range(network_client: TestClient) -> None:
     within = _json(network_client, "/v1/histories/2.5/-1.2/falls?tolerance=0.3")
     centre, found = within["falls"], within["range"]
@@ -309,6 +311,7 @@ def test_what_is_wrong_is_said(network_client: TestClient, path: str, status: in
     assert response.headers["Content-Type"] == "application/problem+json"
 
 
+@pytest.mark.slow
 def test_histories_off_the_grid_are_of_a_librarys_own_pair_and_tolerances(own_client: TestClient) -> None:
     found = computed_history(OWN_PAIR, -4.0, 1.5, OWN_OPTIONS)
     intervals = _json(own_client, "/v1/histories/-4/1.5/intervals?library=m6x1")

@@ -10,7 +10,7 @@ import pytest
 from harness.running_service import running_service
 from tests.service.conftest import StoredLibrary
 
-pytestmark = pytest.mark.sqlite_alone
+pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 
 @pytest.fixture(scope="module")

@@ -29,7 +29,7 @@ from threadstate.settings import DATABASE, GRACE_S, LOG_LEVEL, PORT
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 
-pytestmark = pytest.mark.sqlite_alone
+pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 
 @contextmanager

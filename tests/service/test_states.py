@@ -96,6 +96,7 @@ def walk(client: TestClient, query: dict[str, Any]) -> list[dict[str, Any]]:
         response = client.get(page["next"])
 
 
+@pytest.mark.slow
 @given(which=filters, sort=st.sampled_from(list(SORTS)), limit=st.integers(1, 40))
 def test_pages_have_each_state_once_and_in_order(
     client: TestClient, made_up: StoredLibrary, which: dict[str, Any], sort: str, limit: int
@@ -104,6 +105,7 @@ def test_pages_have_each_state_once_and_in_order(
     assert found == [state_document(state) for state in expected(made_up, which, SORTS[sort])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sort", SORTS)
 def test_pages_of_one_state_walk_through_all(client: TestClient, made_up: StoredLibrary, sort: str) -> None:
     found = walk(client, {"sort": sort, "limit": 1, "fields": "roll,pitch,phase"})

@@ -83,6 +83,7 @@ def test_nothing_changes_without_a_key_for_writing(client: TestClient, engine: E
     assert _content(engine) != before
 
 
+@pytest.mark.slow
 def test_what_is_safe_or_computes_changes_nothing(client: TestClient, engine: Engine) -> None:
     before = _content(engine)
     for path, method, _ in described(client):

@@ -26,6 +26,8 @@ from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose
 
+pytestmark = pytest.mark.slow
+
 COARSE = MeshStates(Preset.COARSE, Descent.DECADES)
 
 

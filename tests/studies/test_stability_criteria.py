@@ -16,6 +16,8 @@ from studies.stability.place_study import Surroundings
 from tests.studies.states import EXACT, FLUSH, PAIR, THREE_POINT, answered
 from threadstate.state.model import ContactState, StateClass
 
+pytestmark = pytest.mark.slow
+
 
 def changed(one: Answered, **values: object) -> Answered:
     return Answered(one.case, replace(one.state, **values))  # type: ignore[arg-type]

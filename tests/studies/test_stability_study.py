@@ -31,6 +31,8 @@ from threadstate.library.grid import Grid
 from threadstate.mesh.options import Descent
 from threadstate.mesh.presets import Preset
 
+pytestmark = pytest.mark.slow
+
 CENTRE = Case(PAIR, THREE_POINT)
 TUNNEL = Case(PAIR, (0.0, -4.0, 350.0))
 SAFE, DECADES_DOWN = (MeshStates(Preset.COARSE, descent) for descent in (Descent.SAFE, Descent.DECADES))

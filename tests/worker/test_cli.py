@@ -153,6 +153,7 @@ def test_a_named_pair_is_solved(command_line: CommandLine) -> None:
     assert out == _line(solve_pose(pair_by_designation(name), 4.0, 0.0, 185.0))
 
 
+@pytest.mark.slow
 def test_a_pose_is_solved_by_meshes(command_line: CommandLine) -> None:
     chosen = ["--preset", "coarse", "--descent", "decades", "--final-step", "10uin", "--tangent", "azimuthal"]
     chosen += ["--scene", "edges"]
@@ -258,6 +259,7 @@ def test_a_folder_that_cannot_be_made_is_a_bad_value(command_line: CommandLine, 
     assert len(err.splitlines()) == 1
 
 
+@pytest.mark.slow
 def test_a_reader_that_has_enough_is_no_traceback(environment: Mapping[str, str], tmp_path: Path) -> None:
     path = tmp_path / "poses.csv"
     path.write_text("roll,pitch,phase\n" + "1,2,3\n" * 200)

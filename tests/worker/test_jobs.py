@@ -32,6 +32,8 @@ from threadstate.settings import HEARTBEAT_FILE, LEASE_S
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
 

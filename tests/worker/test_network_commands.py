@@ -7,14 +7,12 @@ from pathlib import Path
 import pytest
 
 from harness.databases import Databases
+from tests.archive.history_library import SMALL_GRID as GRID
 from tests.archive.history_library import histories_of_grid, store_histories
 from tests.worker.conftest import CommandLine
-from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE
 
-GRID = Grid(2.0, 2.0, 180.0)
-
-pytestmark = pytest.mark.sqlite_alone
+pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 
 @pytest.fixture(scope="module")
@@ -41,12 +39,12 @@ def ask(
 
 
 def test_a_history_stored_is_the_one_computed(ask: Callable[..., str]) -> None:
-    orientation = ("--roll", "0", "--pitch", "-2", "--json")
+    orientation = ("--roll", "0", "--pitch", "-3", "--json")
     assert json.loads(ask("history", *orientation, "--stored")) == json.loads(ask("history", *orientation))
 
 
 def test_heights_stored_are_those_computed(ask: Callable[..., str]) -> None:
-    orientation = ("--roll", "0", "--pitch", "-2")
+    orientation = ("--roll", "0", "--pitch", "-3")
     heights = json.loads(ask("heights", *orientation, "--stored", "--json"))
     assert heights == json.loads(ask("heights", *orientation, "--json"))
     lines = ask("heights", *orientation, "--stored").splitlines()
@@ -55,19 +53,19 @@ def test_heights_stored_are_those_computed(ask: Callable[..., str]) -> None:
 
 
 def test_tables_name_what_the_objects_hold(ask: Callable[..., str]) -> None:
-    history = json.loads(ask("history", "--roll", "0", "--pitch", "-2", "--stored", "--json"))
-    shown = ask("history", "--roll", "0", "--pitch", "-2", "--stored")
+    history = json.loads(ask("history", "--roll", "0", "--pitch", "-3", "--stored", "--json"))
+    shown = ask("history", "--roll", "0", "--pitch", "-3", "--stored")
     assert all(one["formation"]["key"] in shown for one in history["intervals"])
-    (orientation,) = json.loads(ask("windows", "--roll", "0", "--pitch", "-2", "--json"))["orientations"]
-    shown = ask("windows", "--roll", "0", "--pitch", "-2")
+    (orientation,) = json.loads(ask("windows", "--roll", "0", "--pitch", "-3", "--json"))["orientations"]
+    shown = ask("windows", "--roll", "0", "--pitch", "-3")
     assert f"{orientation['snap']['fall']:.6f}" in shown
     assert f"{orientation['snap']['from']:.6f}" in shown
     assert f"{orientation['windows'][0]['enter']:.6f}" in shown
     key = next(one for one in history["intervals"] if not one["in_window"])["formation"]["key"]
     node = json.loads(ask("formation", "--key", key, "--json"))
     assert all(one["formation"] in ask("formation", "--key", key) for one in node["following"])
-    path = json.loads(ask("path", "--from", key, "--roll", "0", "--pitch", "-2", "--json"))
-    assert f"{path['turning']:.6f} deg" in ask("path", "--from", key, "--roll", "0", "--pitch", "-2")
+    path = json.loads(ask("path", "--from", key, "--roll", "0", "--pitch", "-3", "--json"))
+    assert f"{path['turning']:.6f} deg" in ask("path", "--from", key, "--roll", "0", "--pitch", "-3")
     location = json.loads(ask("locate", "--class", "stable_three_point", "--contacts", "3", "--json"))
     assert f"{100.0 * location['share']:.3f} %" in ask("locate", "--class", "stable_three_point", "--contacts", "3")
     summary = json.loads(ask("network", "--json"))
@@ -75,9 +73,9 @@ def test_tables_name_what_the_objects_hold(ask: Callable[..., str]) -> None:
     assert ask("network", "--export", "dot").count(" -> ") == summary["edges"]
     for name in ("node-link", "graphml"):
         assert ask("network", "--export", name).count(key) > 0
-    lines = ask("transitions", "--roll", "0", "--pitch", "-2", "--move", "ccw", "--limit", "5", "--json").splitlines()
+    lines = ask("transitions", "--roll", "0", "--pitch", "-3", "--move", "ccw", "--limit", "5", "--json").splitlines()
     assert [json.loads(line)["move"] for line in lines] == ["ccw"] * 5
-    assert json.loads(lines[0])["target"]["formation"] in ask("transitions", "--roll", "0", "--pitch", "-2")
+    assert json.loads(lines[0])["target"]["formation"] in ask("transitions", "--roll", "0", "--pitch", "-3")
 
 
 def test_windows_of_all_orientations_are_one_object(ask: Callable[..., str]) -> None:
@@ -113,7 +111,7 @@ def test_a_map_of_the_snaps_is_drawn(ask: Callable[..., str], tmp_path: Path) ->
 
 
 def test_a_tolerance_gives_a_range(ask: Callable[..., str]) -> None:
-    asked = ("windows", "--roll", "0", "--pitch", "-2", "--tolerance", "0.2")
+    asked = ("windows", "--roll", "0", "--pitch", "-3", "--tolerance", "0.2")
     found = json.loads(ask(*asked, "--json"))
     low, high = found["range"]["fall"]
     assert low < found["orientations"][0]["snap"]["fall"] < high
@@ -124,7 +122,7 @@ def test_a_tolerance_gives_a_range(ask: Callable[..., str]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--roll", "2.5"], "one of -2, 0, 2 deg"),
+        (["--roll", "2.5"], "one of -3, 0, 3 deg"),
         (["--tolerance", "0.3"], "with --roll and --pitch"),
         (["--plot", "map.svg", "--roll", "0"], "`heights --plot`"),
         (["--roll", "0", "--pitch", "0", "--tolerance", "3"], "at most 2 deg"),
@@ -141,10 +139,10 @@ def test_what_cannot_be_answered_says_what_can(
 
 
 def test_orientations_are_compared_side_by_side(ask: Callable[..., str]) -> None:
-    asked = ("compare", "--tilt", "0,-2", "--tilt", "2.5,-1.2", "--library", "1", "--library", "latest")
+    asked = ("compare", "--tilt", "0,-3", "--tilt", "2.5,-1.2", "--library", "1", "--library", "latest")
     found = json.loads(ask(*asked, "--json"))["orientations"]
-    assert [(one["library"], one["roll"], one["pitch"]) for one in found] == [(1, 0, -2), (1, 2.5, -1.2)] * 2
-    (stored,) = json.loads(ask("windows", "--roll", "0", "--pitch", "-2", "--json"))["orientations"]
+    assert [(one["library"], one["roll"], one["pitch"]) for one in found] == [(1, 0, -3), (1, 2.5, -1.2)] * 2
+    (stored,) = json.loads(ask("windows", "--roll", "0", "--pitch", "-3", "--json"))["orientations"]
     assert found[0] == {"library": 1, "designation": "1/4-20 UNC", "thread_pitch": 0.05, **stored}
     # All of this fall is within 3 deg, so that it is the steepest, too.
     assert ask(*asked).count(f"{stored['snap']['fall']:.6f}") == 4
@@ -163,8 +161,8 @@ def test_a_library_is_asked_by_its_name(ask: Callable[..., str]) -> None:
         ("transitions", "--roll", "0", "--limit", "3", "--json"),
         ("network", "--json"),
         ("locate", "--flag", "tie", "--json"),
-        ("history", "--roll", "0", "--pitch", "-2", "--json"),
-        ("heights", "--roll", "0", "--pitch", "-2", "--json"),
+        ("history", "--roll", "0", "--pitch", "-3", "--json"),
+        ("heights", "--roll", "0", "--pitch", "-3", "--json"),
         ("summary", "--json"),
     ):
         said = {ask(*arguments, "--library", name) for name in ("1", "latest", "1/4-20 UNC", "1-4-20-unc")}
@@ -173,13 +171,13 @@ def test_a_library_is_asked_by_its_name(ask: Callable[..., str]) -> None:
 
 def test_lengths_are_in_the_unit_that_is_asked_for(ask: Callable[..., str]) -> None:
     inches, millimetres = (
-        json.loads(ask("history", "--roll", "0", "--pitch", "-2", "--library", "1", "--unit", unit, "--json"))
+        json.loads(ask("history", "--roll", "0", "--pitch", "-3", "--library", "1", "--unit", unit, "--json"))
         for unit in ("in", "mm")
     )
     assert (inches["unit"], millimetres["unit"]) == ("in", "mm")
     for one, other in zip(inches["intervals"], millimetres["intervals"], strict=True):
         assert other["first_height"] == pytest.approx(25.4 * one["first_height"], rel=1e-15)
-    shown = ask("history", "--roll", "0", "--pitch", "-2", "--library", "1", "--unit", "mm")
+    shown = ask("history", "--roll", "0", "--pitch", "-3", "--library", "1", "--unit", "mm")
     assert "height (mm)" in shown
     assert f"{millimetres['intervals'][3]['first_height']:.5f}" in shown
     key = inches["intervals"][3]["formation"]["key"]
@@ -187,7 +185,7 @@ def test_lengths_are_in_the_unit_that_is_asked_for(ask: Callable[..., str]) -> N
         ("transitions", "--from", key, "--limit", "1"),
         ("formation", "--key", key),
         ("path", "--from", key),
-        ("heights", "--roll", "0", "--pitch", "-2", "--library", "1"),
+        ("heights", "--roll", "0", "--pitch", "-3", "--library", "1"),
     ):
         assert [json.loads(ask(*arguments, "--unit", unit, "--json"))["unit"] for unit in ("in", "mm")] == ["in", "mm"]
         if arguments[0] != "formation":
@@ -195,10 +193,10 @@ def test_lengths_are_in_the_unit_that_is_asked_for(ask: Callable[..., str]) -> N
 
 
 def test_phases_are_in_the_turn_and_intervals_past_it_marked(ask: Callable[..., str]) -> None:
-    history = json.loads(ask("history", "--roll", "0", "--pitch", "-2", "--library", "1", "--json"))
+    history = json.loads(ask("history", "--roll", "0", "--pitch", "-3", "--library", "1", "--json"))
     last = history["intervals"][-1]
     assert last["end"] > 360.0
-    shown = ask("history", "--roll", "0", "--pitch", "-2", "--library", "1")
+    shown = ask("history", "--roll", "0", "--pitch", "-3", "--library", "1")
     assert f"{last['start']:.6f}  -> {last['end'] - 360.0:.6f}" in shown
     assert f"{last['end']:.6f}" not in shown
 
@@ -223,11 +221,11 @@ def test_off_the_grid_a_library_is_computed(
 ) -> None:
     monkeypatch.setenv(DATABASE, database)
     command_line = command_line_on(database)
-    orientation = ("--roll", "2.5", "--pitch", "-2", "--json")
+    orientation = ("--roll", "2.5", "--pitch", "-3", "--json")
     code, out, err = command_line.here(command, *orientation, "--library", "latest")
     assert (code, err) == (0, "computed: roll 2.5 is not on the grid of library 1\n")
     assert out == command_line.here(command, *orientation)[1]
-    on_grid = command_line.here(command, "--roll", "2", "--pitch", "-2", "--library", "1")
+    on_grid = command_line.here(command, "--roll", "3", "--pitch", "-3", "--library", "1")
     assert (on_grid[0], on_grid[2]) == (0, "")
     code, _, err = command_line.here(command, *orientation, "--library", "latest", "--stored")
     assert (code, "no orientation of roll 2.5" in err) == (4, True)

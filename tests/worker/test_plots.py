@@ -135,6 +135,7 @@ def test_what_cannot_be_written_is_said_before_anything_is_computed(
     assert valid in err
 
 
+@pytest.mark.slow
 def test_heights_draws_beside_what_it_prints(command_line: CommandLine, tmp_path: Path) -> None:
     path = tmp_path / "heights.svg"
     arguments = ("heights", "--roll", "6", "--pitch", "-6", "--unit", "mm", "--json")

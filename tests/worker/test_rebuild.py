@@ -28,6 +28,8 @@ from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.processes import ComputeError, computing_processes
 
+pytestmark = pytest.mark.slow
+
 PATIENCE_S = 60.0
 
 

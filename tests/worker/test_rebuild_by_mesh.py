@@ -18,7 +18,7 @@ from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.answers import exact_answers
 
-pytestmark = pytest.mark.sqlite_alone
+pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 GRID = ["--tilt-max", "0", "--phase-step", "180"]
 """Level and in phase, which meshes cannot decide, and out of phase, which they can."""

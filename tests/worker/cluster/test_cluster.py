@@ -29,6 +29,8 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.cluster.chunks import computing_cluster
 from worker.processes import ASKED_AHEAD
 
+pytestmark = pytest.mark.slow
+
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 PATIENCE_S = 120.0
 WORKERS = 2
