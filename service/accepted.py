@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 _WEIGHT = re.compile(r"0(\.[0-9]{0,3})?|1(\.0{0,3})?", re.ASCII)
 
 _Weights = dict[str, tuple[float, int]]
 """Weight, and place from the end, of each member of a header by its name: what is preferred is larger."""
+
+
+def header_value(headers: Iterable[tuple[bytes, bytes]], name: bytes) -> str:
+    """The value of a header of an ASGI scope; where it comes in several lines, all of them as one list (RFC 9110)."""
+    return ", ".join(value.decode("latin-1") for one, value in headers if one == name)
 
 
 def takes_gzip(accept_encoding: str) -> bool:

@@ -7,7 +7,7 @@ import gzip
 from fastapi.concurrency import run_in_threadpool
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.accepted import takes_gzip
+from service.accepted import header_value, takes_gzip
 
 Headers = list[tuple[bytes, bytes]]
 
@@ -83,9 +83,7 @@ class CompressionMiddleware:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        taken = any(
-            name == b"accept-encoding" and takes_gzip(value.decode("latin-1")) for name, value in scope["headers"]
-        )
+        taken = takes_gzip(header_value(scope["headers"], b"accept-encoding"))
         held: Message | None = None
 
         async def send_zipped(message: Message) -> None:

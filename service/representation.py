@@ -7,7 +7,7 @@ import json
 
 from fastapi import Request, Response
 
-from service.accepted import names_etag, takes_gzip
+from service.accepted import header_value, names_etag, takes_gzip
 from service.compression import worth_compressing, zipped_etag
 
 REVALIDATE = "public, no-cache"
@@ -44,11 +44,11 @@ def representation(
     headers = headers or {}
     etag = etag_of(content)
     will_be_zipped = "Content-Encoding" not in headers and worth_compressing(media_type, len(content))
-    if will_be_zipped and takes_gzip(request.headers.get("accept-encoding", "")):
+    if will_be_zipped and takes_gzip(header_value(request.headers.raw, b"accept-encoding")):
         etag = zipped_etag(etag)
     cached = REVALIDATE_PRIVATELY if request.app.state.read_keys_required else REVALIDATE
     all_headers = {"ETag": etag, "Cache-Control": cached, **headers}
-    if names_etag(request.headers.get("if-none-match", ""), etag):
+    if names_etag(header_value(request.headers.raw, b"if-none-match"), etag):
         return Response(status_code=304, headers=all_headers)
     return Response(content, 200, all_headers, media_type)
 
@@ -58,6 +58,6 @@ def zipped_representation(
 ) -> Response:
     """``content``, or to a client that takes gzip the same as ``zipped``; each has an ETag of its own."""
     all_headers = {"Vary": "Accept-Encoding", **(headers or {})}
-    if takes_gzip(request.headers.get("accept-encoding", "")):
+    if takes_gzip(header_value(request.headers.raw, b"accept-encoding")):
         return representation(request, zipped, media_type, {"Content-Encoding": "gzip", **all_headers})
     return representation(request, content, media_type, all_headers)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.accepted import names_etag, prefers_csv, takes_gzip
+from service.accepted import header_value, names_etag, prefers_csv, takes_gzip
 from service.cache.library_names import LibraryNames
 from service.cache.responses import CachedResponse, ResponseCache
 from service.cache.stored import StoredResponses
@@ -36,17 +36,12 @@ class _RequestHeaders(NamedTuple):
 
     @classmethod
     def read(cls, headers: Headers) -> _RequestHeaders:
-        gzip, csv, if_none_match, authorization = False, False, "", None
-        for name, value in headers:
-            if name == b"accept-encoding":
-                gzip = takes_gzip(value.decode("latin-1"))
-            elif name == b"accept":
-                csv = prefers_csv(value.decode("latin-1"))
-            elif name == b"if-none-match":
-                if_none_match = value.decode("latin-1")
-            elif name == b"authorization":
-                authorization = value.decode("latin-1")
-        return cls(gzip, csv, if_none_match, authorization)
+        return cls(
+            takes_gzip(header_value(headers, b"accept-encoding")),
+            prefers_csv(header_value(headers, b"accept")),
+            header_value(headers, b"if-none-match"),
+            header_value(headers, b"authorization") or None,
+        )
 
 
 class _Key(NamedTuple):

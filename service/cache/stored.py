@@ -25,7 +25,7 @@ from threadstate.state.json import state_json
 STATE_ROUTE = "/v1/libraries/{id}/states/{roll}/{pitch}/{phase}"
 HISTORY_ROUTE = "/v1/libraries/{id}/histories/{roll}/{pitch}"
 
-_ANGLE = r"(-?[0-9]{1,3}(?:\.[0-9]{1,6})?)"
+_ANGLE = r"(-?[0-9]{1,3}(?:\.[0-9]{1,15})?)"
 _STATE = re.compile(f"/states/{_ANGLE}/{_ANGLE}/{_ANGLE}")
 _HISTORY = re.compile(f"/histories/{_ANGLE}/{_ANGLE}")
 _JSON = JSON.encode()

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 
-from service.accepted import prefers_csv
+from service.accepted import header_value, prefers_csv
 from service.angles import PitchPath, RollPath
 from service.cache.stored import history_rows_json, undecided_phases
 from service.database import ReadConnection
@@ -52,7 +52,7 @@ def get_history(
         raise not_on_the_grid(library, roll, pitch)
     shown = unit or library.length_unit
     headers = {UNIT_HEADER: shown.value, "Vary": VARY_ACCEPT}
-    accepted = HistoryFormat.CSV if prefers_csv(request.headers.get("accept", "")) else HistoryFormat.ROWS
+    accepted = HistoryFormat.CSV if prefers_csv(header_value(request.headers.raw, b"accept")) else HistoryFormat.ROWS
     chosen = format or accepted
     if chosen is HistoryFormat.ROWS and shown is library.length_unit:
         return representation(request, history_rows_json(connection, library, orientation), JSON, headers)

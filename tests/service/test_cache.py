@@ -203,3 +203,14 @@ def test_stream_of_a_known_length_goes_through_whole(made_up: StoredLibrary) -> 
             for _ in range(2):
                 answer = client.get("/v1/libraries/latest/parts", headers={"Accept-Encoding": encoding})
                 assert answer.content == b"".join(parts)
+
+
+def test_a_header_in_several_lines_is_one_list(client: TestClient) -> None:
+    for path in (HISTORY, "/v1/libraries", "/openapi.json", "/v1/libraries/latest/meshes/nut"):
+        for second, coding in (("gzip;q=0.5", None), ("gzip", "gzip")):
+            answer = client.get(path, headers=[("Accept-Encoding", "identity;q=0.7"), ("Accept-Encoding", second)])
+            assert answer.headers.get("Content-Encoding") == coding
+    lines = [("Accept", "application/json;q=0.5"), ("Accept", "text/csv")]
+    assert client.get(HISTORY, headers=lines).headers["Content-Type"].startswith("text/csv")
+    tags = [("If-None-Match", '"x"'), ("If-None-Match", client.get(HISTORY).headers["ETag"])]
+    assert client.get(HISTORY, headers=[*tags, ("Accept-Encoding", "gzip")]).status_code == 304
