@@ -113,6 +113,7 @@ def test_the_service_alone_can_be_reached_and_from_this_machine_alone(
         assert "secrets" not in services[name]
 
 
+@pytest.mark.slow
 def test_every_command_is_one_of_the_command_line(services: dict[str, dict[str, Any]], repository_root: Path) -> None:
     commands = get_command(app)
     assert isinstance(commands, TyperGroup)

@@ -73,6 +73,7 @@ def test_a_library_goes_by_any_of_its_names(client: Client, name: int | str) -> 
     assert client.library(name).designation == "1/4-20 UNC"
 
 
+@pytest.mark.slow
 def test_both_clients_get_the_same_of_every_method(client: Client, address: str) -> None:
     """Each of the methods that answer, but those of jobs, and what is listed."""
     key = next(

@@ -14,6 +14,8 @@ from threadstate.state.rest import rests
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 ORIENTATIONS = [(0.0, -4.0), (-1.37, -2.61)]
 TOLERANCE = 1e-5

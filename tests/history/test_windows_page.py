@@ -14,6 +14,8 @@ from threadstate.history.height_curve import height_curve
 from threadstate.history.window import windows_of
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 PAIR = quarter_twenty_unc()
 ORIENTATIONS = 81
 FALLS, WINDOWS, JUMPS = range(3)

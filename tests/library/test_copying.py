@@ -28,6 +28,8 @@ from threadstate.library.tables import contact, library
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+pytestmark = pytest.mark.slow
+
 LIBRARY = 1
 
 

@@ -41,6 +41,7 @@ def vertices_of(solid: Solid, face: Face) -> Floats:
     return solid.vertices[np.unique(solid.triangles[solid.faces == face])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", Part)
 @pytest.mark.parametrize("preset", ROUGH)
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.designation)

@@ -45,6 +45,7 @@ def _at_once(settings: dict[str, str], count: int) -> list[httpx2.Response]:
     return asyncio.run(ask())
 
 
+@pytest.mark.slow
 def test_more_than_can_wait_are_refused(made_up: StoredLibrary, monkeypatch: pytest.MonkeyPatch) -> None:
     begun = _slow(0.3, monkeypatch)
     places = 2
@@ -61,6 +62,7 @@ def test_more_than_can_wait_are_refused(made_up: StoredLibrary, monkeypatch: pyt
         assert two - one > 0.25, "more than there are places computed at once"
 
 
+@pytest.mark.slow
 def test_request_over_its_time_is_given_up_and_keeps_its_place(
     made_up: StoredLibrary, monkeypatch: pytest.MonkeyPatch
 ) -> None:

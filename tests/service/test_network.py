@@ -25,19 +25,18 @@ from service.network.schemas import (
     TransitionsPage,
     WindowsAnswer,
 )
+from tests.archive.history_library import SMALL_GRID as GRID
 from tests.archive.history_library import histories_of_grid, store_histories
 from tests.service.conftest import client_of
 from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
 from threadstate.answer.heights import computed_heights, heights_document
 from threadstate.answer.histories import computed_history, history_document
-from threadstate.library.grid import Grid
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.sqlite_alone
 
 LIBRARY = "/v1/libraries/latest"
-GRID = Grid(4.0, 4.0, 180.0)
 PAIR = quarter_twenty_unc()
 
 
@@ -56,7 +55,7 @@ def _json(client: TestClient, path: str) -> Any:
 
 
 def _intervals(client: TestClient) -> list[Any]:
-    found: list[Any] = _json(client, f"{LIBRARY}/histories/0/-4/intervals")["history"]["intervals"]
+    found: list[Any] = _json(client, f"{LIBRARY}/histories/0/-3/intervals")["history"]["intervals"]
     return found
 
 
@@ -70,8 +69,8 @@ def _key(client: TestClient) -> str:
 def test_answers_have_the_documented_shape(network_client: TestClient) -> None:
     key = _key(network_client)
     answers: list[tuple[str, type[BaseModel]]] = [
-        (f"{LIBRARY}/histories/0/-4/intervals", IntervalsAnswer),
-        (f"{LIBRARY}/histories/0/-4/heights", HeightsAnswer),
+        (f"{LIBRARY}/histories/0/-3/intervals", IntervalsAnswer),
+        (f"{LIBRARY}/histories/0/-3/heights", HeightsAnswer),
         ("/v1/histories/1.5/-0.5/intervals", ComputedIntervals),
         ("/v1/histories/1.5/-0.5/heights", ComputedHeights),
         ("/v1/histories/1.5/-0.5/falls?tolerance=0.1", ComputedFalls),
@@ -93,7 +92,7 @@ def test_states_have_the_labels_of_their_interval(network_client: TestClient) ->
     for interval in _intervals(network_client):
         if interval["formation"]["class"] is None or interval["end"] - interval["start"] < 1e-3:
             continue
-        state = solve_pose(PAIR, 0.0, -4.0, 0.5 * (interval["start"] + interval["end"]) % 360.0)
+        state = solve_pose(PAIR, 0.0, -3.0, 0.5 * (interval["start"] + interval["end"]) % 360.0)
         assert state.state_class == interval["formation"]["class"]
         assert [contact.features for contact in state.contacts] == [
             contact["features"] for contact in interval["formation"]["contacts"]
@@ -102,40 +101,40 @@ def test_states_have_the_labels_of_their_interval(network_client: TestClient) ->
 
 
 def test_heights_stored_and_solved_are_those_computed(network_client: TestClient) -> None:
-    stored = _json(network_client, f"{LIBRARY}/histories/0/-4/heights")["heights"]
-    assert stored == _json(network_client, "/v1/histories/0/-4/heights")["heights"]
+    stored = _json(network_client, f"{LIBRARY}/histories/0/-3/heights")["heights"]
+    assert stored == _json(network_client, "/v1/histories/0/-3/heights")["heights"]
     first = dict(zip(stored["phases"], stored["first_heights"], strict=True))
     rest = dict(zip(stored["phases"], stored["rest_heights"], strict=True))
-    for boundary in _json(network_client, f"{LIBRARY}/histories/0/-4/intervals")["history"]["boundaries"]:
+    for boundary in _json(network_client, f"{LIBRARY}/histories/0/-3/intervals")["history"]["boundaries"]:
         for phase, side in ((boundary["low"], 0), (boundary["high"], 1)):
             assert first[phase] == boundary["first_height"][side]
             assert rest[phase] in (None, boundary["last_height"][side])
     assert {height is None for height in stored["rest_heights"]} == {True, False}
-    millimetres = _json(network_client, f"{LIBRARY}/histories/0/-4/heights?unit=mm")["heights"]
+    millimetres = _json(network_client, f"{LIBRARY}/histories/0/-3/heights?unit=mm")["heights"]
     assert millimetres["first_heights"] == [25.4 * height for height in stored["first_heights"]]
     assert millimetres["tolerance"] == pytest.approx(25.4 * stored["tolerance"], rel=1e-12)
 
 
-def test_the_snap_of_pitch_minus_four(network_client: TestClient) -> None:
-    answer = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4")
+def test_the_snap_of_pitch_minus_three(network_client: TestClient) -> None:
+    answer = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-3")
     (orientation,) = answer["orientations"]
     snap = orientation["snap"]
     assert set(snap) == {"from", "to", "fall", "steepest", "steepest_from", "jump", "jump_at"}
-    assert (round(snap["fall"], 4), round(snap["jump"], 4)) == (0.0110, 0.0075)
+    assert (round(snap["fall"], 4), round(snap["jump"], 4)) == (0.0089, 0.0062)
     assert 356.0 < snap["from"] < snap["jump_at"] <= snap["to"] < 358.0
     assert snap["fall"] >= snap["steepest"] == orientation["steepest"] >= snap["jump"]
     (descent,) = [one for one in orientation["descents"] if one["from"] == snap["from"]]
     assert (descent["to"], descent["fall"]) == (snap["to"], snap["fall"])
     assert max(jump["fall"] for jump in descent["jumps"]) == snap["jump"]
-    history = _json(network_client, f"{LIBRARY}/histories/0/-4/intervals")["history"]
+    history = _json(network_client, f"{LIBRARY}/histories/0/-3/intervals")["history"]
     assert {name: history[name] for name in orientation} == orientation
-    millimetres = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4&unit=mm")["orientations"][0]
+    millimetres = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-3&unit=mm")["orientations"][0]
     assert millimetres["snap"]["fall"] == pytest.approx(25.4 * snap["fall"], rel=1e-12)
     assert millimetres["windows"][0]["enter"] == orientation["windows"][0]["enter"]
 
 
 def test_what_counts_as_a_snap_can_be_chosen(network_client: TestClient) -> None:
-    for least, snaps in ((0.0, 9), (0.2, 1), (1.0, 0)):
+    for least, snaps in ((0.0, 9), (0.17, 1), (1.0, 0)):
         found = _json(network_client, f"{LIBRARY}/windows?least={least}")["orientations"]
         assert len(found) == GRID.orientation_count
         assert sum(one["snap"] is not None for one in found) == snaps, least
@@ -143,11 +142,11 @@ def test_what_counts_as_a_snap_can_be_chosen(network_client: TestClient) -> None
 
 
 def test_falls_of_any_tilt_are_those_of_its_history(network_client: TestClient) -> None:
-    falls = _json(network_client, "/v1/histories/0/-4/falls?library=latest")
-    (stored,) = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-4")["orientations"]
+    falls = _json(network_client, "/v1/histories/0/-3/falls?library=latest")
+    (stored,) = _json(network_client, f"{LIBRARY}/windows?roll=0&pitch=-3")["orientations"]
     assert falls["falls"] == {name: stored[name] for name in falls["falls"]}
     assert falls["range"] is None
-    narrow = _json(network_client, "/v1/histories/0/-4/falls?span=0.5&least=0")["falls"]
+    narrow = _json(network_client, "/v1/histories/0/-3/falls?span=0.2&least=0")["falls"]
     assert narrow["steepest"] < falls["falls"]["steepest"]
     assert narrow["snap"]["fall"] == falls["falls"]["snap"]["fall"]
 
@@ -174,7 +173,7 @@ def test_a_tolerance_of_the_angles_gives_a_range(network_client: TestClient) -> 
     [("tolerance=0", "tolerance"), ("tolerance=3", "tolerance"), ("steps=4&tolerance=1", "steps"), ("span=0", "span")],
 )
 def test_a_range_that_cannot_be_asked_for_is_refused(network_client: TestClient, query: str, name: str) -> None:
-    response = network_client.get(f"/v1/histories/0/-4/falls?{query}")
+    response = network_client.get(f"/v1/histories/0/-3/falls?{query}")
     assert response.status_code == 400
     assert name in response.text
 
@@ -186,7 +185,7 @@ def test_a_tolerance_beyond_the_tilts_of_the_solver_is_refused(network_client: T
 
 
 def test_pages_of_transitions_hold_each_once(network_client: TestClient) -> None:
-    path = f"{LIBRARY}/transitions?roll=0&pitch=-4&limit=17"
+    path = f"{LIBRARY}/transitions?roll=0&pitch=-3&limit=17"
     walked: list[Any] = []
     while path:
         page = _json(network_client, path)
@@ -195,14 +194,14 @@ def test_pages_of_transitions_hold_each_once(network_client: TestClient) -> None
     assert len(walked) == page["count"]
     assert len({json.dumps(one) for one in walked}) == len(walked)
     turns = [one for one in walked if one["move"] == "ccw"]
-    boundaries = _json(network_client, f"{LIBRARY}/histories/0/-4/intervals")["history"]["boundaries"]
+    boundaries = _json(network_client, f"{LIBRARY}/histories/0/-3/intervals")["history"]["boundaries"]
     assert [one["phase"] for one in turns] == pytest.approx([one["phase"] for one in boundaries], abs=1e-9)
     assert [one["first_height"] for one in turns] == [one["first_height"] for one in boundaries]
 
 
 def test_a_turn_back_is_the_turn_reversed(network_client: TestClient) -> None:
     forth, back = (
-        _json(network_client, f"{LIBRARY}/transitions?roll=0&pitch=-4&limit=100&move={move}")["transitions"]
+        _json(network_client, f"{LIBRARY}/transitions?roll=0&pitch=-3&limit=100&move={move}")["transitions"]
         for move in ("ccw", "cw")
     )
     by_phase = {one["phase"]: one for one in back}
@@ -218,7 +217,7 @@ def test_a_turn_back_is_the_turn_reversed(network_client: TestClient) -> None:
 def test_filters_of_transitions_keep_what_they_say(network_client: TestClient) -> None:
     for query, holds in (
         ("move=roll%2B", lambda one: one["move"] == "roll+"),
-        ("roll=4", lambda one: one["source"]["roll"] == 4.0),
+        ("roll=3", lambda one: one["source"]["roll"] == 3.0),
         ("class=stable_three_point", lambda one: one["source"]["class"] == "stable_three_point"),
         ("change=lost", lambda one: "lost" in one["text"]),
         ("move=ccw&phase_min=100&phase_max=200", lambda one: 100.0 <= one["phase"] <= 200.0),
@@ -268,7 +267,7 @@ def test_a_formation_a_path_and_a_location_belong_together(network_client: TestC
     key = _key(network_client)
     node = _json(network_client, f"{LIBRARY}/network/formations/{key}")["node"]
     assert sum(one["end"] - one["start"] for one in node["occurrences"]) == pytest.approx(node["cover"])
-    path = _json(network_client, f"{LIBRARY}/network/paths?from={key}&roll=0&pitch=-4")["path"]
+    path = _json(network_client, f"{LIBRARY}/network/paths?from={key}&roll=0&pitch=-3")["path"]
     assert path["steps"][0]["formation"] == key
     assert path["steps"][-1]["in_window"]
     assert all(one["move"] == "ccw" for one in path["steps"][1:])

@@ -67,6 +67,7 @@ def test_contacts_of_a_level_bolt_are_the_extreme_points_of_its_patch(phase: flo
 # --- Threads in phase
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [-0.99, -0.5, 0.0, 0.3, 0.99])
 def test_level_bolt_in_phase_drops_until_the_flanks_meet_along_a_strip(share: float) -> None:
     phase = share * IN_PHASE_DEG

@@ -34,12 +34,6 @@ class Labels:
         """Whether the solver is certain of the state."""
         return self.state_class is not None
 
-    @property
-    def stage_counts(self) -> tuple[int, int, int]:
-        """How many contacts each of the three stages has."""
-        stages = [contact.stage for contact in self.contacts]
-        return stages.count(1), stages.count(2), stages.count(3)
-
 
 UNDECIDED = Labels(None, (), ())
 """The labels of a pose that the solver refuses."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from dataclasses import dataclass
 
 from threadstate.history.labels import ContactLabels, Labels
@@ -85,16 +84,6 @@ class Boundary:
             return None
         return _height(self.after, -1) - _height(self.before, -1)
 
-    @property
-    def class_changes(self) -> bool:
-        """Whether the states on both sides are of different classes; undecided counts as one of its own."""
-        return (self.before and self.before.state_class) != (self.after and self.after.state_class)
-
-    @property
-    def flags_change(self) -> bool:
-        """Whether the flags differ."""
-        return (self.before and self.before.flags) != (self.after and self.after.flags)
-
 
 @dataclass(frozen=True, slots=True)
 class Interval:
@@ -132,11 +121,6 @@ class History:
     intervals: tuple[Interval, ...]
     boundaries: tuple[Boundary, ...]
     solve_count: int
-
-    def interval_at(self, phase_deg: float) -> Interval:
-        """The interval that holds a phase."""
-        phase = phase_deg % CIRCLE_DEG
-        return self.intervals[bisect_right([i.start_deg for i in self.intervals], phase) - 1]
 
 
 def _height(state: ContactState, stage: int) -> float:
