@@ -4,11 +4,12 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
-from threadstate._numba_cache import kernel_sources_hash
+from threadstate._numba_cache import UNUSED_DAYS, kernel_sources_hash, remove_unused
 
 pytestmark = pytest.mark.slow
 
@@ -88,3 +89,87 @@ def test_hash_follows_kernels_alone(tmp_path: Path) -> None:
     assert kernel_sources_hash(tmp_path) == first
     (tmp_path / "kernel.py").write_text("@njit\ndef f(): return 2\n")
     assert kernel_sources_hash(tmp_path) != first
+
+
+@pytest.mark.parametrize("mark", ["@kernel(contract=True)\n", "from numba import cfunc\n"])
+def test_hash_follows_whatever_is_compiled(tmp_path: Path, mark: str) -> None:
+    (tmp_path / "kernel.py").write_text(f"{mark}def f(): return 1\n")
+    first = kernel_sources_hash(tmp_path)
+    (tmp_path / "kernel.py").write_text(f"{mark}def f(): return 2\n")
+    assert kernel_sources_hash(tmp_path) != first
+
+
+OLD, YOUNG, LOCKED, MADE_BEFORE = (digit * 16 for digit in "0123")
+OTHERS = ("f" * 15, "somebody-elses", "a" * 16)
+
+
+@pytest.fixture
+def caches(tmp_path: Path) -> Path:
+    """Caches of other versions: unused for long, used lately, in use for long, without a marker; and what is none."""
+    parent = tmp_path / "caches"
+    long_ago = time.time() - (UNUSED_DAYS + 1.0) * 86400.0
+    for name in (OLD, YOUNG, LOCKED, MADE_BEFORE, *OTHERS[:2]):
+        (parent / name / "contact_0").mkdir(parents=True)
+        (parent / name / "contact_0" / "kernel.nbi").touch()
+        if name != MADE_BEFORE:
+            (parent / name / "used").touch()
+    (parent / OTHERS[2]).mkdir()
+    for path in (*(parent / name / "used" for name in (OLD, LOCKED)), parent / MADE_BEFORE, parent / OTHERS[2]):
+        os.utime(path, (long_ago, long_ago))
+    return parent
+
+
+USES_FOR_A_WHILE = """
+import sys
+from pathlib import Path
+from threadstate import _numba_cache
+_numba_cache._use(Path(sys.argv[1]))
+print("held", flush=True)
+sys.stdin.read()
+"""
+
+
+def test_caches_are_removed_that_no_process_has_used_for_long(caches: Path) -> None:
+    held = caches / LOCKED
+    long_ago = (held / "used").stat().st_mtime
+    with subprocess.Popen(
+        [sys.executable, "-c", USES_FOR_A_WHILE, str(held)], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as using:
+        assert using.stdout is not None
+        assert using.stdout.readline() == b"held\n"
+        # It has noted its use and looked at the others.
+        assert (held / "used").stat().st_mtime > long_ago
+        assert {path.name for path in caches.iterdir()} == {YOUNG, LOCKED, *OTHERS}
+        # One that runs for longer than that is left alone for as long as it runs.
+        os.utime(held / "used", (long_ago, long_ago))
+        remove_unused(caches)
+        assert list(held.rglob("*.nbi"))
+        using.communicate()
+    remove_unused(caches)
+    assert {path.name for path in caches.iterdir()} == {YOUNG, *OTHERS}
+
+
+def test_a_process_uses_the_directory_that_it_was_given_by_the_one_that_started_it(caches: Path) -> None:
+    code = "import os, threadstate; from threadstate import _numba_cache as c; print(c._held[0].name)"
+    for name, expected in ((YOUNG, 0), (OTHERS[2], 1)):
+        run = subprocess.run(
+            [sys.executable, "-c", code],
+            env={"PYTHONPATH": str(Path.cwd()), "PATH": os.environ["PATH"], "NUMBA_CACHE_DIR": str(caches / name)},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert run.returncode == expected
+        assert run.stdout.strip() == ("" if expected else str(caches / name / "used"))
+
+
+def test_versions_that_come_and_go_leave_one_cache(read_only_tree: Path, tmp_path: Path) -> None:
+    first = cache_used(read_only_tree, HOME=str(tmp_path))
+    long_ago = time.time() - (UNUSED_DAYS + 1.0) * 86400.0
+    os.utime(first / "used", (long_ago, long_ago))
+    kernel = read_only_tree / "threadstate" / "thread" / "_profile_kernel.py"
+    kernel.chmod(0o644)
+    kernel.write_text(kernel.read_text() + "# changed\n")
+    second = cache_used(read_only_tree, HOME=str(tmp_path))
+    assert second != first
+    assert list(second.parent.iterdir()) == [second]

@@ -8,31 +8,15 @@ from contextlib import suppress
 from functools import partial
 from multiprocessing.connection import Connection
 
-from threadstate.archive.rows import history_rows
-from threadstate.history.build import histories_of
-from threadstate.history.descents import falls_of
-from threadstate.history.height_curve import height_curve
-from threadstate.history.records import RecordStore
-from threadstate.history.window import windows_of
+from threadstate.archive.answers import exact_answers
+from threadstate.archive.compute import computed_rows
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.rows import chunk_rows
-from worker.answers import exact_answers, mesh_answers
 from worker.messages import Chunk, Failure, Ready
 
 
 def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
     """The answers for all poses of an orientation and, by the exact method, its history, as rows."""
-    grid, pair = inputs.grid, inputs.pair
-    orientation, poses = grid.orientation(index), grid.poses(index)
-    first = grid.first_ordinal(index)
-    if inputs.mesh is not None:
-        return Chunk(chunk_rows(orientation, first, mesh_answers(pair, inputs.options, inputs.mesh, poses)), None)
-    store = RecordStore(pair, inputs.options)
-    answers = exact_answers(pair, inputs.options, poses, store)
-    tilt = (orientation.roll_deg, orientation.pitch_deg)
-    (history,) = histories_of(pair, [tilt], inputs.options, store=store)
-    falls = falls_of(height_curve(pair, *tilt, inputs.options, store), pair.thread_pitch)
-    return Chunk(chunk_rows(orientation, first, answers), history_rows(history, windows_of(pair, history), falls))
+    return Chunk(*computed_rows(inputs, index))
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:

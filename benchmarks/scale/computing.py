@@ -11,12 +11,12 @@ from sqlalchemy import Engine
 
 from benchmarks.scale.figures import Committed, Computed
 from benchmarks.scale.processor import Stopwatch
+from threadstate.archive.answers import exact_answers
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.write import open_library, write_chunk
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.answers import exact_answers
 from worker.compute import compute_chunk
 from worker.messages import Chunk
 

@@ -63,7 +63,7 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
     stage.rotation(0.05, 0.02, 1.0, pose)
     pose[11] = 0.01
     down, none = np.array([0.0, 0.0, -1.0]), np.empty((0, stage.CONTACT_SIZE))
-    count, said, _ = stage.earliest.py_func(
+    count, said, _ = stage.earliest(
         pose, False, down, down, none, 0, 0.02, 1e-12, BOLT, NUT, stage.RIDGES_ONLY, stage.new_work(), out
     )
     assert (count, said) == (stage.MAX_CONTACTS, status)

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import ast
+import importlib.metadata
 import json
 import math
 import shutil
@@ -43,7 +45,7 @@ def test_every_input_changes_the_hash(monkeypatch: pytest.MonkeyPatch) -> None:
     ]
     hashes = {inputs.sha256 for inputs in variants}
     assert len(hashes) == len(variants)
-    monkeypatch.setattr(identity, "_code_version", lambda patterns: f"another{len(patterns)}")
+    monkeypatch.setattr(identity, "_code_version", lambda patterns, _: f"another{len(patterns)}")
     changed = {LibraryInputs(pair, Grid(), SolveOptions(), mesh).sha256 for mesh in (None, MeshOptions())}
     assert len(changed) == 2
     assert changed.isdisjoint(hashes)
@@ -78,16 +80,27 @@ def test_a_change_of_the_physics_makes_another_code_version(tmp_path: Path) -> N
     shutil.copytree(package, copy, ignore=shutil.ignore_patterns("__pycache__"))
     before = physics_sha256(package)
     assert physics_sha256(copy) == before
-    for unrelated in ("library/tables.py", "state/document.py", "settings.py"):
+    for unrelated in ("library/tables.py", "state/document.py", "state/rest.py", "history/heights.py", "settings.py"):
         with (copy / unrelated).open("a") as file:
             file.write("# changed\n")
     assert physics_sha256(copy) == before
     seen = {before}
-    for part in ("thread/profile.py", "state/model.py", "contact/__init__.py"):
+    parts = (
+        "thread/profile.py",
+        "state/model.py",
+        "contact/__init__.py",
+        "history/falls.py",
+        "history/window.py",
+        "network/from_history.py",
+        "archive/rows.py",
+        "library/rows.py",
+        "errors.py",
+    )
+    for part in parts:
         with (copy / part).open("a") as file:
             file.write("# changed\n")
         seen.add(physics_sha256(copy))
-    assert len(seen) == 4
+    assert len(seen) == len(parts) + 1
 
 
 def test_the_options_of_meshes_are_written_down_with_those_of_every_method() -> None:
@@ -105,3 +118,104 @@ def test_a_change_of_the_mesh_method_changes_libraries_by_meshes_alone(tmp_path:
         file.write("# changed\n")
     assert physics_sha256(package, identity.PHYSICS) == exact
     assert physics_sha256(package, identity.MESH_PHYSICS) != by_mesh
+
+
+def test_a_change_of_histories_changes_libraries_by_the_exact_method_alone(tmp_path: Path) -> None:
+    package = tmp_path / "threadstate"
+    shutil.copytree(Path(threadstate.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
+    patterns = (identity.PHYSICS, identity.MESH_PHYSICS)
+    exact, by_mesh = (physics_sha256(package, pattern) for pattern in patterns)
+    with (package / "history" / "falls.py").open("a") as file:
+        file.write("# changed\n")
+    assert physics_sha256(package, identity.PHYSICS) != exact
+    assert physics_sha256(package, identity.MESH_PHYSICS) == by_mesh
+
+
+@pytest.mark.parametrize("library", ["numba", "llvmlite", "numpy"])
+def test_another_version_of_what_computes_makes_another_library(monkeypatch: pytest.MonkeyPatch, library: str) -> None:
+    known = importlib.metadata.version
+    before = INPUTS.code_version, BY_MESH.code_version
+    identity._code_version.cache_clear()
+    try:
+        monkeypatch.setattr(
+            "threadstate.library.identity.version", lambda name: "0.0" if name == library else known(name)
+        )
+        assert INPUTS.code_version != before[0]
+        assert BY_MESH.code_version != before[1]
+    finally:
+        identity._code_version.cache_clear()
+
+
+COMPUTING = ("threadstate/archive/compute.py",)
+"""What computes all that is stored."""
+
+NO_PART_OF_THE_BITS = {
+    "__init__.py": "the version, which is in the code version by itself",
+    "_numba_cache.py": "where kernels are kept",
+    "library/identity.py": "the inputs, which are in the hash by themselves",
+    "library/method.py": "the method's name, which is in the hash by itself",
+    "library/tables.py": "in which columns rows are kept",
+    "library/history_tables.py": "the same of histories",
+    "library/text.py": "how the database compares text",
+    "library/utc.py": "how it keeps instants",
+}
+
+
+def imported_by(start: tuple[str, ...], root: Path) -> set[str]:
+    """The files of the package that these import, directly or not, and themselves."""
+    found: set[str] = set()
+    waiting = [root / name for name in start]
+    while waiting:
+        path = waiting.pop()
+        name = path.relative_to(root / "threadstate").as_posix()
+        if name in found:
+            continue
+        found.add(name)
+        for node in ast.walk(ast.parse(path.read_text())):
+            names: list[str] = []
+            if isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+                names = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
+            elif isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            for module in names:
+                file = root / Path(*module.split("."))
+                candidates = (file.with_suffix(".py"), file / "__init__.py")
+                waiting += [one for one in candidates if module.startswith("threadstate") and one.is_file()]
+    return found
+
+
+def hashed(package: Path, patterns: tuple[str, ...]) -> set[str]:
+    names = {path.relative_to(package).as_posix() for pattern in patterns for path in package.glob(pattern)}
+    return names - set(identity.NOT_PHYSICS)
+
+
+def test_all_that_stored_rows_are_computed_by_is_in_the_hash(repository_root: Path) -> None:
+    package = repository_root / "threadstate"
+    imported = imported_by(COMPUTING, repository_root)
+    inits = {name for name in imported if name.endswith("/__init__.py")}
+    exact = {name for name in imported if not name.startswith("mesh/")} - set(NO_PART_OF_THE_BITS) - inits
+    assert exact <= hashed(package, identity.PHYSICS)
+    assert set(NO_PART_OF_THE_BITS) <= imported
+    of_states = ("thread/", "contact/", "state/", "mesh/")
+    assert {name for name in imported if name.startswith(of_states)} <= hashed(package, identity.MESH_PHYSICS)
+    # What computes nothing is not in it, so that its change does not cost everyone a new library.
+    assert {name for name in hashed(package, identity.PHYSICS) if not name.endswith("__init__.py")} <= exact
+
+
+def test_every_pattern_of_the_hash_finds_files(repository_root: Path) -> None:
+    package = repository_root / "threadstate"
+    for pattern in (*identity.PHYSICS, *identity.MESH_PHYSICS):
+        assert any(package.glob(pattern)), pattern
+    for name in identity.NOT_PHYSICS:
+        assert (package / name).is_file(), name
+
+
+def test_the_computing_process_computes_nothing_beside_it(repository_root: Path) -> None:
+    """Rows come from ``threadstate.archive.compute`` alone: the worker imports no physics of its own."""
+    tree = ast.parse((repository_root / "worker" / "compute.py").read_text())
+    modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module}
+    assert {name for name in modules if name.startswith("threadstate")} == {
+        "threadstate.archive.answers",
+        "threadstate.archive.compute",
+        "threadstate.library.identity",
+    }

@@ -10,7 +10,7 @@ import pytest
 from tests.contact.samples import Floats
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
-from threadstate.contact._stage_kernel import RESOLVED, UNRESOLVED, new_work
+from threadstate.contact._stage_kernel import RESOLVED, UNRESOLVED, earliest, new_work
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.outline import outline_is_convex
 
@@ -48,7 +48,7 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
     followed: list[Floats] = []
 
     def third_stage(*arguments: Floats) -> None:
-        axis, row = arguments[2], arguments[10]
+        axis, row = arguments[2], arguments[11]
         row[rk.O_MU], row[rk.O_STATUS] = senses[len(followed)]
         followed.append(axis.copy())
 
@@ -57,7 +57,7 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
     options[[sk.S_TURN_LIMIT, sk.S_TIE]] = math.radians(45.0), 1e-6 * PAIR.thread_pitch
     options[sk.S_CONVEX] = outline_is_convex(PAIR.bolt) and outline_is_convex(PAIR.nut)
     row = np.empty(rk.RECORD_SIZE)
-    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.row, PAIR.nut.row, new_work(), row)
+    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.row, PAIR.nut.row, earliest, new_work(), row)
     assert int(row[rk.O_FLAGS]) & rk.FLAG_BALANCED
     np.testing.assert_array_equal(followed[0], -followed[1])
     assert row[rk.O_STATUS] == kept[1]

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from tests.worker.conftest import CommandLine
+from threadstate.archive.answers import exact_answers
 from threadstate.library.engine import reader_engine
 from threadstate.library.method import Method
 from threadstate.library.pose import state_of_pose
@@ -16,7 +17,6 @@ from threadstate.state.model import UndecidedPose
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.answers import exact_answers
 
 pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._geometry_kernel import (
     M_COPLANAR,
@@ -39,7 +39,7 @@ J_G_2, J_G_MIXED, J_PHI_2, J_PHI_MIXED, J_X, J_Y, J_Z = range(6, 13)
 JET_SIZE = 13
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_jet(theta: float, tau: float, motion: Array, row_c: Array, row_s: Array, path: Array, jet: Array) -> None:
     """The functions whose zeros are births, at one point of the edge curve and one time."""
     is_turn = motion[M_KIND] != 0.0
@@ -92,7 +92,7 @@ def set_jet(theta: float, tau: float, motion: Array, row_c: Array, row_s: Array,
     jet[J_G_MIXED] = -sigma * wz
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def pin(
     kind: int,
     theta: float,
@@ -143,7 +143,7 @@ def pin(
     return False, t, tau
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def peak(
     low: float, high: float, tau: float, motion: Array, row_c: Array, row_s: Array, path: Array, jet: Array
 ) -> tuple[bool, int, float]:
@@ -175,7 +175,7 @@ def peak(
     return True, int(ONE_PLANE if on_edge else ONE_THREAD), low
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def pin_narrow(
     theta: float,
     half: float,
@@ -228,7 +228,7 @@ def pin_narrow(
     return True, kind, t, tau
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def wedge(theta: float, row: Array, sigma: float, out: Array) -> None:
     """Unit vectors at the edge point: along the edge (counter-clockwise), into the flat face, into the thread face."""
     x, y, ex, ey = edge_point(theta, row)
@@ -253,13 +253,13 @@ def wedge(theta: float, row: Array, sigma: float, out: Array) -> None:
     out[8] = tz / n
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def dot(ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> float:
     """Scalar product."""
     return ax * bx + ay * by + az * bz
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def wedge_support(motion: Array, tau: float, w: Array, nx: float, ny: float, nz: float) -> tuple[float, float]:
     """Components along n of the walker's two face directions after ``tau``."""
     ax, ay, az = turn_vector(w[3], w[4], w[5], motion, tau)
@@ -267,7 +267,7 @@ def wedge_support(motion: Array, tau: float, w: Array, nx: float, ny: float, nz:
     return dot(ax, ay, az, nx, ny, nz), dot(bx, by, bz, nx, ny, nz)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def edges_apart(
     theta_c: float, theta_s: float, tau: float, motion: Array, row_c: Array, row_s: Array, w: Array
 ) -> bool:
@@ -298,7 +298,7 @@ def edges_apart(
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def face_apart(
     theta_c: float, tau: float, nx: float, ny: float, nz: float, motion: Array, row_c: Array, w: Array
 ) -> bool:
@@ -308,7 +308,7 @@ def face_apart(
     return c1 >= -1e-12 and c2 >= -1e-12
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def add_candidate(
     time: float, kind: int, theta: float, other: float, x: float, y: float, z: float, count: int, found: Array
 ) -> int:
@@ -337,7 +337,7 @@ def add_candidate(
     return count + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def rises(kind: int, jet: Array) -> bool:
     """Whether the peak of min(g, phi) rises through zero there: a birth, and not the end of an overlap."""
     if kind == ONE_EDGE:
@@ -346,7 +346,7 @@ def rises(kind: int, jet: Array) -> bool:
     return jet[J_PHI_TAU] > 0.0 if kind == ONE_THREAD else jet[J_G_TAU] > 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def is_contact(
     kind: int, theta: float, tau: float, motion: Array, row_c: Array, row_s: Array, jet: Array, w: Array
 ) -> bool:

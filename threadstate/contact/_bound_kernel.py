@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import M_KIND, TWO_PI
 from threadstate.thread import _profile_kernel as pk
 
@@ -29,7 +29,7 @@ B_R_LOW = 6
 BOUNDS_SIZE = 7
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def second_derivative_bound(row: Array) -> float:
     """Largest |f''| of a profile; infinite for a sharp corner."""
     cube = (1.0 + row[pk.COT] * row[pk.COT]) ** 1.5
@@ -37,7 +37,7 @@ def second_derivative_bound(row: Array) -> float:
     return cube / rho if rho > 0.0 else math.inf
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_bounds(motion: Array, row_c: Array, row_s: Array, bounds: Array) -> None:
     """The constants of a search for the edge curve of ``row_c`` in the solid of ``row_s``."""
     k = row_c[pk.P] / TWO_PI
@@ -59,7 +59,7 @@ def set_bounds(motion: Array, row_c: Array, row_s: Array, bounds: Array) -> None
     bounds[B_R_LOW] = r_low
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def sine_of_tilt(motion: Array, bounds: Array, tau: float) -> float:
     """Bound on the sine of the angle between the axes up to ``tau``."""
     if motion[M_KIND] == 0.0:

@@ -9,9 +9,9 @@ a box exclude every kind of birth the box is closed.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._lane_kernel import Numbers, larger, profile_numbers, smaller
@@ -52,7 +52,7 @@ PAD = 4e-15
 """Round-off of the middle's values, in thread pitches."""
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def verdict(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float) -> float:
     """What the :func:`ranges` of a box with half-widths ``a`` and ``b`` say of it."""
     phi, phi_t, phi_v, tt_low, tt_high, tv_mid, tv_var, vv = of_phi
@@ -138,7 +138,7 @@ def verdict(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p:
     return EMPTY if outside else word
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@kernel(contract=True)
 def judge_boxes(count: int, motion: Array, row_c: Array, row_s: Array, boxes: Array) -> None:
     """Sets the verdicts of the first ``count`` boxes."""
     x_axis, y_axis, origin, rest = motion_numbers(motion)

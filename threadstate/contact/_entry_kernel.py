@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI, field, position, velocity
 from threadstate.contact._lane_kernel import larger
 from threadstate.thread import _profile_kernel as pk
@@ -32,7 +32,7 @@ INSIDE = 3
 """Inside from the start."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, float]:
     """First interval of ``tau >= 0`` on which g = g0 + gc cos(tau) + gs sin(tau) (or g0 + gs tau) is >= 0.
 
@@ -67,7 +67,7 @@ def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, f
     return (first, second) if lo < NEVER else (NEVER, NEVER)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def time_bend(
     span: float, s: float, speed: float, level: float, is_turn: bool, row: Array, lipschitz: float, r_low: float
 ) -> float:
@@ -85,7 +85,7 @@ def time_bend(
     return f2 * along * along + (row[pk.COT] * k_r * 2.0 + 1.0) / r_low * level * speed + swing * speed
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def entry(
     path: Array,
     is_turn: bool,

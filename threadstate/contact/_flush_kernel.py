@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point
 from threadstate.thread import _profile_kernel as pk
 
@@ -20,7 +20,7 @@ F_THETA, F_CORNER, F_X, F_Y = range(4)
 EXTREME_SIZE = 4
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float, float]:
     """Point of the bolt's edge at ``theta`` in the nut's plane, and its derivative; the bolt is flush."""
     x, y, dx, dy = edge_point(theta, bolt)
@@ -32,14 +32,14 @@ def outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
     """How far the bolt's edge at ``theta`` lies outside the nut's outline, radially."""
     x, y, _, _ = outline(theta, pose, bolt)
     return math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
     """Azimuth in [a, b] where the outlines cross (``corner``) or the edge runs across (nx, ny) (Illinois)."""
     fa = outline_value(a, corner, nx, ny, pose, bolt, nut)
@@ -66,7 +66,7 @@ def root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bo
     return a if abs(fa) < abs(fb) else b
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
     """The function whose root is sought."""
     if corner:
@@ -75,7 +75,7 @@ def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array,
     return nx * dx + ny * dy
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, out: Array) -> int:
     """The patch's farthest points across the axis (ax, ay) (left, then right) and along it (forth, then back).
 
@@ -89,8 +89,8 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
     corner_count = 0
     for i in range(SAMPLES + 1):
         theta[i] = TWO_PI * i / SAMPLES
-        place[i] = outline(theta[i], pose, bolt)
-        x, y = place[i, 0], place[i, 1]
+        x, y, dx, dy = outline(theta[i], pose, bolt)
+        place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
         over[i] = math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
     for i in range(SAMPLES):
         if (over[i] > 0.0) != (over[i + 1] > 0.0):

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import M_AXIS, M_COPLANAR, M_KIND, M_OFF, M_POINT, M_SIGMA
 from threadstate.contact._lane_kernel import Numbers, sine_cosine
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def across(ax: float, ay: float, az: float, x: float, y: float, z: float) -> tuple[float, float, float]:
     """The vector product of two vectors."""
     return ay * z - az * y, az * x - ax * z, ax * y - ay * x
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def motion_numbers(motion: Array) -> tuple[Numbers, Numbers, Numbers, Numbers]:
     """A motion as tuples: the walker's x direction, y direction and origin; then the rest.
 
@@ -46,7 +46,7 @@ def motion_numbers(motion: Array) -> tuple[Numbers, Numbers, Numbers, Numbers]:
     )
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def shares(tau: float, turning: float) -> tuple[float, float, float, float]:
     """The sine and the versine of a turn (of a translation: the way and 0), and their derivatives."""
     sine, cosine = sine_cosine(tau)
@@ -55,21 +55,21 @@ def shares(tau: float, turning: float) -> tuple[float, float, float, float]:
     return tau, 0.0, 1.0, 0.0
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def moved(vector: Numbers, by_sine: float, by_versine: float) -> tuple[float, float, float]:
     """A vector of :func:`motion_numbers` after a motion."""
     x, y, z, xs, ys, zs, xv, yv, zv = vector
     return x + by_sine * xs + by_versine * xv, y + by_sine * ys + by_versine * yv, z + by_sine * zs + by_versine * zv
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def moving_by(vector: Numbers, by_sine: float, by_versine: float) -> tuple[float, float, float]:
     """The derivative of such a vector by tau; the shares are those of the derivative."""
     _, _, _, xs, ys, zs, xv, yv, zv = vector
     return by_sine * xs + by_versine * xv, by_sine * ys + by_versine * yv, by_sine * zs + by_versine * zv
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def around_axis(
     u: tuple[float, float, float], v: tuple[float, float, float], cosine: float, sine: float
 ) -> tuple[float, float, float]:
@@ -77,7 +77,7 @@ def around_axis(
     return u[0] * cosine + v[0] * sine, u[1] * cosine + v[1] * sine, u[2] * cosine + v[2] * sine
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def polar(u: tuple[float, float, float], rx: float, ry: float, k_r: float) -> tuple[float, float, float]:
     """A vector's parts along the solid's radius and azimuth, and its derivative of s."""
     azimuthal = u[1] * rx - u[0] * ry

@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -39,13 +39,20 @@ STRIDE_PITCHES = 20.0
 """What is walked in steps of a radian in a turn is walked in steps of so many thread pitches in a translation."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
+def copy_numbers(source: Array, target: Array) -> None:
+    """Copies an array into one of its length; assigned as a slice it would be compiled with messages on shapes."""
+    for i in range(target.shape[0]):
+        target[i] = source[i]
+
+
+@kernel()
 def stride(motion: Array, bolt: Array) -> float:
     """The measure of a motion's steps and tolerances: a radian for a turn, ``STRIDE_PITCHES`` for a translation."""
     return STRIDE_PITCHES * bolt[pk.P] if motion[M_KIND] == 0.0 else 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def edge_point(theta: float, row: Array) -> tuple[float, float, float, float]:
     """Point (x, y) of the edge curve at azimuth ``theta`` (rad) and its derivative by ``theta``."""
     k = row[pk.P] / TWO_PI
@@ -56,7 +63,7 @@ def edge_point(theta: float, row: Array) -> tuple[float, float, float, float]:
     return r * c, r * s, dr * c - r * s, dr * s + r * c
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def field(x: float, y: float, z: float, row: Array, sigma: float) -> tuple[float, float, float, float]:
     """``phi = sigma (r - f(s))``, positive inside the thread, and its gradient; undefined on the axis."""
     k = row[pk.P] / TWO_PI
@@ -71,13 +78,13 @@ def field(x: float, y: float, z: float, row: Array, sigma: float) -> tuple[float
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_path(x: float, y: float, motion: Array, path: Array) -> None:
     """The path of the walker that starts at (x, y, 0) of its own frame."""
     set_path_from(x, y, 0.0, motion, path)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_path_from(x: float, y: float, z: float, motion: Array, path: Array) -> None:
     """The path of the point that starts at (x, y, z) of the walker's own frame."""
     qx = motion[0] * x + motion[1] * y + motion[2] * z + motion[9]
@@ -117,7 +124,7 @@ def set_path_from(x: float, y: float, z: float, motion: Array, path: Array) -> N
     path[9] = math.sqrt(dx * dx + dy * dy + dz * dz)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def turn_vector(x: float, y: float, z: float, motion: Array, tau: float) -> tuple[float, float, float]:
     """A vector of the walker's own frame, in the solid's frame after ``tau``."""
     vx = motion[0] * x + motion[1] * y + motion[2] * z
@@ -141,7 +148,7 @@ def turn_vector(x: float, y: float, z: float, motion: Array, tau: float) -> tupl
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def position(path: Array, tau: float, is_turn: bool) -> tuple[float, float, float]:
     """Where the walker is after ``tau``."""
     if is_turn:
@@ -155,7 +162,7 @@ def position(path: Array, tau: float, is_turn: bool) -> tuple[float, float, floa
     return path[0] + tau * path[6], path[1] + tau * path[7], path[2] + tau * path[8]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def velocity(path: Array, tau: float, is_turn: bool) -> tuple[float, float, float]:
     """The walker's velocity by ``tau``."""
     if is_turn:

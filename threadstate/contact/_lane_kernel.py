@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ ROUNDER = 1.5 * 2.0**52
 TINY = 1e-300
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def sine_cosine(x: float) -> tuple[float, float]:
     """Sine and cosine of an angle of a few turns at most (rad): Taylor series about the nearest quarter turn."""
     n = (x * TWO_OVER_PI + ROUNDER) - ROUNDER
@@ -71,7 +71,7 @@ def sine_cosine(x: float) -> tuple[float, float]:
     return (-sine if quarter >= 2.0 else sine), (-cosine if quarter == 1.0 or quarter == 2.0 else cosine)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def azimuth(x: float, y: float, r: float) -> float:
     """``atan2(y, x)`` where ``r`` is the length of (x, y): a polynomial of the tangent of a quarter of it."""
     t = abs(y) / (r + abs(x))
@@ -91,26 +91,26 @@ def azimuth(x: float, y: float, r: float) -> float:
     return -a if y < 0.0 else a
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def larger(x: float, y: float) -> float:
     """The larger of two numbers; not a number where either is none."""
     return x if x > y or math.isnan(x) else y
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def smaller(x: float, y: float) -> float:
     """The smaller of two numbers; not a number where either is none."""
     return x if x < y or math.isnan(x) else y
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def clamp(x: float, low: float, high: float) -> float:
     """``x`` brought into [low, high]."""
     x = low if x <= low else x
     return high if x >= high else x
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def profile_numbers(row: Array) -> Numbers:
     """What :func:`radius_and_slope` and :func:`bends` need of a profile's row."""
     return (
@@ -129,7 +129,7 @@ def profile_numbers(row: Array) -> Numbers:
     )
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
     """The profile's radius and slope at ``s``, and the coordinate ``u`` of its rising half period."""
     p, per_p, u_flat, u_flank, r_pitch, cot, u_crest, u_top, low_middle, high_middle, minor2, major2 = numbers
@@ -150,7 +150,7 @@ def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
     return radius, (slope if q > 0.0 else -slope), u
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def bends(u: float, reach: float, numbers: Numbers) -> tuple[float, float]:
     """Smallest and largest ``f''`` within ``reach`` of ``u``; not a number at a corner without a fillet.
 

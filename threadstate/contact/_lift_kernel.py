@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact._bound_kernel import B_BEND, B_LIPSCHITZ, BOUNDS_SIZE, set_bounds
 from threadstate.contact._geometry_kernel import (
@@ -28,6 +28,7 @@ from threadstate.contact._geometry_kernel import (
 )
 from threadstate.contact._lane_kernel import larger, smaller
 from threadstate.contact._rest_kernel import start_height
+from threadstate.contact._search_kernel import Search
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     K_BOLT,
@@ -44,7 +45,6 @@ from threadstate.contact._stage_kernel import (
     THREAD_THREAD,
     UNRESOLVED,
     Work,
-    earliest,
     set_motions,
 )
 from threadstate.contact._sweep_kernel import INSIDE, NOT_DECIDED, OUTSIDE, inside_at
@@ -68,7 +68,7 @@ MOST_WITNESSES = 40
 MOST_STEPS = 4000
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def inside_until(
     path: Array, since: float, until: float, sign: float, row: Array, sigma: float, bounds: Array
 ) -> float:
@@ -105,7 +105,7 @@ def inside_until(
     return reached
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def overlaps_from(
     contact: Array,
     lift: float,
@@ -135,7 +135,7 @@ def overlaps_from(
     return walker_from(contact[K_BOLT], lift, bolt_walks, bolt, nut, bounds, path)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def walker_from(
     theta: float, lift: float, motion: Array, row_c: Array, row_s: Array, bounds: Array, path: Array
 ) -> float:
@@ -145,14 +145,14 @@ def walker_from(
     return inside_until(path, lift, 0.0, -1.0, row_s, motion[M_SIGMA], bounds)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def place_walker(theta: float, motion: Array, row_c: Array, path: Array) -> None:
     """The path of the point of an edge curve at azimuth ``theta``."""
     r = pk.radius(-row_c[pk.P] / TWO_PI * theta, row_c)
     set_path(r * math.cos(theta), r * math.sin(theta), motion, path)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def walker_until(
     theta: float, high: float, motion: Array, row_c: Array, row_s: Array, bounds: Array, path: Array
 ) -> float:
@@ -162,7 +162,7 @@ def walker_until(
     return inside_until(path, 0.0, high, 1.0, row_s, motion[M_SIGMA], bounds)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array, work: Work) -> tuple[int, float]:
     """Whether a point overlaps at ``lift`` (INSIDE, OUTSIDE or NOT_DECIDED), and the lift up to which it does."""
     boxes, others, _, _, bolt_walks, nut_walks, _, _, _ = work
@@ -190,9 +190,17 @@ def witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array, work
     return INSIDE, lift + inside_until(path, 0.0, left, 1.0, nut, 1.0, bounds)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def touch_below(
-    pose: Array, lift: float, reach: float, slack: float, bolt: Array, nut: Array, work: Work, found: Array
+    pose: Array,
+    lift: float,
+    reach: float,
+    slack: float,
+    bolt: Array,
+    nut: Array,
+    search: Search,
+    work: Work,
+    found: Array,
 ) -> tuple[int, float, int]:
     """The greatest lift below ``lift``, by no more than ``reach``, at which an overlap begins as the bolt comes down.
 
@@ -201,15 +209,15 @@ def touch_below(
     down = np.array([0.0, 0.0, -1.0])
     raised = pose.copy()
     raised[11] += lift
-    count, status, best = earliest(
-        raised, False, down, down, found, 0, reach, slack, bolt, nut, RIDGES_ONLY, work, found
-    )
+    count, status, best = search(raised, False, down, down, found, 0, reach, slack, bolt, nut, RIDGES_ONLY, work, found)
     first = min(best, found[0, K_TIME]) if count > 0 else best
     return count, lift - min(first, reach), status
 
 
-@njit(cache=True, error_model="numpy")
-def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, found: Array) -> tuple[float, int]:
+@kernel()
+def least_lift(
+    pose: Array, slack: float, bolt: Array, nut: Array, search: Search, work: Work, found: Array
+) -> tuple[float, int]:
     """The least lift after which the solids of an overlapping pose do not overlap, and a status.
 
     Every lift below it is proved to overlap, but for stretches shorter than ``FURTHER`` thread pitches.
@@ -217,7 +225,7 @@ def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, f
     height = start_height(pose, bolt) - pose[11]
     if height <= 0.0:
         return 0.0, RESOLVED
-    count, last, status = touch_below(pose, height, height, slack, bolt, nut, work, found)
+    count, last, status = touch_below(pose, height, height, slack, bolt, nut, search, work, found)
     if last <= 1e-8 * bolt[pk.P]:
         return 0.0, status
     enough = last
@@ -230,10 +238,10 @@ def least_lift(pose: Array, slack: float, bolt: Array, nut: Array, work: Work, f
         )
     if enough <= 0.0 or status != RESOLVED:
         return last, status
-    return climbed(pose, enough, last, height, slack, bolt, nut, work, found)
+    return climbed(pose, enough, last, height, slack, bolt, nut, search, work, found)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def climbed(
     pose: Array,
     enough: float,
@@ -242,6 +250,7 @@ def climbed(
     slack: float,
     bolt: Array,
     nut: Array,
+    search: Search,
     work: Work,
     found: Array,
 ) -> tuple[float, int]:
@@ -260,13 +269,15 @@ def climbed(
             # Free, but for an overlap too thin for a witness: its end is found from a little above.
             said, _ = witness(pose, lift + FURTHER * bolt[pk.P], height, bolt, nut, work)
             beyond = FURTHER * bolt[pk.P] if said == OUTSIDE else 4.0 * near
-            _, end, status = touch_below(pose, lift + beyond, beyond + 4.0 * near, slack, bolt, nut, work, found)
+            _, end, status = touch_below(
+                pose, lift + beyond, beyond + 4.0 * near, slack, bolt, nut, search, work, found
+            )
             return end, status
         lift = reached + near
-    return lowest_free_touch(pose, lift, last, height, slack, bolt, nut, work, found)
+    return lowest_free_touch(pose, lift, last, height, slack, bolt, nut, search, work, found)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def lowest_free_touch(
     pose: Array,
     lift: float,
@@ -275,6 +286,7 @@ def lowest_free_touch(
     slack: float,
     bolt: Array,
     nut: Array,
+    search: Search,
     work: Work,
     found: Array,
 ) -> tuple[float, int]:
@@ -289,7 +301,7 @@ def lowest_free_touch(
         start = touch - near
         if start <= lift:
             return least, RESOLVED
-        _, touch, status = touch_below(pose, start, start - lift, slack, bolt, nut, work, found)
+        _, touch, status = touch_below(pose, start, start - lift, slack, bolt, nut, search, work, found)
         if status != RESOLVED:
             break
         if touch <= lift:

@@ -16,13 +16,12 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
+from threadstate._compile import kernel
 from threadstate.contact._frame_kernel import around_axis, moved, moving_by, polar, shares
 from threadstate.contact._lane_kernel import Numbers, azimuth, bends, larger, radius_and_slope, sine_cosine, smaller
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def third_derivatives(
     misaligned: float, sine: float, own: float, c1: float, big: float, slope: float, place: float, k_low: float
 ) -> tuple[float, float, float, float]:
@@ -54,7 +53,7 @@ def third_derivatives(
     return radial, helical, factor_r, factor_s
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def ranges(
     theta: float,
     a: float,

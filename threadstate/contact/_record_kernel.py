@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point, field
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
@@ -72,7 +72,7 @@ GRAZING_SINE = 1e-3
 """Two edges that cross at a smaller angle (its sine) graze."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def to_bolt(pose: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
     """A point of the nut's frame in the bolt's."""
     x -= pose[9]
@@ -85,7 +85,7 @@ def to_bolt(pose: Array, x: float, y: float, z: float) -> tuple[float, float, fl
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def put_pose(pose: Array, row: Array) -> None:
     """Appends a pose."""
     n = int(row[O_POSES])
@@ -94,7 +94,7 @@ def put_pose(pose: Array, row: Array) -> None:
     row[O_POSES] = n + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
     """Appends a contact with its points, normal, regions and margins; one for which there is no room is unresolved."""
     n = int(row[O_CONTACTS])
@@ -132,7 +132,7 @@ def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array
     row[O_CONTACTS] = n + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, c: Array) -> None:
     """The unit normal, from the nut into the bolt."""
     x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
@@ -171,7 +171,7 @@ def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, 
     c[P_NORMAL], c[P_NORMAL + 1], c[P_NORMAL + 2] = nx / n, ny / n, nz / n
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def put_flush(stage: int, theta: float, corner: bool, x: float, y: float, bolt: Array, nut: Array, row: Array) -> None:
     """Appends an extreme point of a flush patch; the bolt's edge at ``theta``, on the nut's edge if ``corner``.
 
@@ -203,7 +203,7 @@ def put_flush(stage: int, theta: float, corner: bool, x: float, y: float, bolt: 
     row[O_CONTACTS] = n + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def put_strip(contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
     """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage.
 
@@ -219,7 +219,7 @@ def put_strip(contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) 
     c[P_NUT_REGION] = POSITIVE_FLANK
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def grazes(contact: Array, pose: Array, bolt: Array, nut: Array) -> bool:
     """Whether a contact's features are nearly parallel: edges that cross at a very small angle."""
     if int(contact[K_PAIR]) != EDGE_EDGE:

@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._bound_kernel import (
     B_BEND,
     B_C1,
@@ -61,7 +61,7 @@ TINY_THETA = 2e-3
 OPEN, CLEAR, OUT = range(3)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> int:
     """What a bound says of a rectangle before ``limit``."""
     is_turn = motion[M_KIND] != 0.0
@@ -165,7 +165,7 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
     return OPEN
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def touch(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> float:
     """When the middle of a rectangle meets the nut's thread, a little beyond the limit at the most; else NEVER."""
     theta = rect[R_THETA]
@@ -185,7 +185,7 @@ def touch(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
     return tau if how == THREAD else NEVER
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array) -> tuple[int, int]:
     """All contacts of thread with thread before ``limit``, earliest first, and the number of rectangles looked at.
 

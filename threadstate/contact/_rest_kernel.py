@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point
 from threadstate.contact._stage_kernel import EDGE_SURFACE, K_BOLT, K_NUT, K_PAIR, K_TIME, K_X, K_Y, K_Z
 from threadstate.thread import _profile_kernel as pk
@@ -15,7 +15,7 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def lowest_outline_point(pose: Array, bolt: Array) -> float:
     """Azimuth at which a convex outline is lowest: where its height is stationary, facing down the tilt (Illinois)."""
     # Down the tilt the height falls fastest: azimuth of -(r31, r32) in the bolt's frame. The lowest point of a convex
@@ -45,14 +45,14 @@ def lowest_outline_point(pose: Array, bolt: Array) -> float:
     return a if abs(fa) < abs(fb) else b
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def climb(theta: float, pose: Array, bolt: Array) -> float:
     """Derivative by azimuth of the height of the bolt's outline."""
     _, _, dx, dy = edge_point(theta, bolt)
     return pose[6] * dx + pose[7] * dy
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def rests_on_surface(pose: Array, bolt: Array, nut: Array, out: Array) -> bool:
     """Whether the lowest point of a convex outline meets the nut's surface; then that is the first contact.
 
@@ -77,7 +77,7 @@ def rests_on_surface(pose: Array, bolt: Array, nut: Array, out: Array) -> bool:
     return True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def start_height(pose: Array, bolt: Array) -> float:
     """A height of the bolt's origin at which the whole bolt is above the nut."""
     return bolt[pk.R_MAJOR] * math.hypot(pose[2], pose[5]) * (1.0 + 1e-9) + 1e-4 * bolt[pk.P]

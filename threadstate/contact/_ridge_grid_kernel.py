@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._lane_kernel import profile_numbers, radius_and_slope
 from threadstate.contact._slope_kernel import slopes, standing_numbers
@@ -67,7 +67,7 @@ STEEP = 0.1
 """Less than this is taken for the cosine of the tilt at no time."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
     """Cosines, sines and radii of the base of all columns, ``TWO_PI / azimuths`` apart."""
     step = TWO_PI / azimuths
@@ -89,7 +89,7 @@ def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
         grid[G_BASE + j] = r
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_tops(first: int, lanes: int, standing: Array, bolt: Array, grid: Array) -> float:
     """Up to which z the columns from ``first`` on are below the nut's surface, p at the most; returns the largest."""
     x, y, up = standing[S_ROT + 6], standing[S_ROT + 7], standing[S_ROT + 8]
@@ -106,7 +106,7 @@ def set_tops(first: int, lanes: int, standing: Array, bolt: Array, grid: Array) 
     return highest
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@kernel(contract=True)
 def set_slopes(
     pieces: int, first: int, lanes: int, azimuths: int, standing: Array, bolt: Array, nut: Array, grid: Array
 ) -> None:
@@ -129,7 +129,7 @@ def set_slopes(
             row[G_B + j] = b
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def list_crossings(first: int, columns: int, pieces: int, azimuths: int, grid: Array, crossings: Array) -> int:
     """Lists the pieces of columns in which B falls through zero, by column and then from the base up."""
     count = 0
@@ -158,7 +158,7 @@ def list_crossings(first: int, columns: int, pieces: int, azimuths: int, grid: A
     return count
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@kernel(contract=True)
 def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossings: Array) -> None:
     """Finds where in their pieces the listed crossings are, and A there, by regula falsi.
 
@@ -208,7 +208,7 @@ def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossing
                 break
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def list_maxima(
     count: int, lead: float, step: float, apart: float, aloft: float, crossings: Array, maxima: Array
 ) -> int:

@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI, stride
 from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
@@ -74,7 +74,7 @@ WORTH = 3.0 * SLICE
 """A maximum of phi that by its rate is farther than this from zero is left to the slices nearer to it."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def settle(
     theta: float, z: float, worth: float, standing: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
@@ -114,7 +114,7 @@ def settle(
     return theta, z, False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def follow(
     theta: float,
     z: float,
@@ -163,7 +163,7 @@ def follow(
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def columns_below(standing: Array, azimuths: int, bolt: Array) -> tuple[int, int]:
     """The first column, and how many, of all those that may have a point of the bolt below the nut's surface."""
     x, y, up = standing[S_ROT + 6], standing[S_ROT + 7], standing[S_ROT + 8]
@@ -181,7 +181,7 @@ def columns_below(standing: Array, azimuths: int, bolt: Array) -> tuple[int, int
     return first % azimuths, min(math.floor(middle + half) - first, azimuths) + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def highest_places(
     azimuths: int, standing: Array, bolt: Array, nut: Array, grid: Array, crossings: Array, maxima: Array
 ) -> int:
@@ -212,7 +212,7 @@ def highest_places(
     return places
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def thread_inside(
     motion: Array, shallow: float, azimuths: int, bolt: Array, nut: Array
 ) -> tuple[bool, float, float, float]:
@@ -249,7 +249,7 @@ def thread_inside(
     return True, r * math.cos(at_theta), r * math.sin(at_theta), at_z
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
     """Contacts of thread with thread along a motion before ``limit``, earliest first; returns their number.
 
@@ -266,7 +266,7 @@ def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, 
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def between(
     start: float,
     end: float,
@@ -296,7 +296,7 @@ def between(
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def followed_back(
     entries: Array, limit: float, motion: Array, bolt: Array, nut: Array, found: Array, count: int
 ) -> int:

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._lane_kernel import Numbers, azimuth, radius_and_slope
 from threadstate.contact._tangency_kernel import S_OFF
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def standing_numbers(standing: Array) -> Numbers:
     """Rotation by rows and offset."""
     return (
@@ -33,7 +33,7 @@ def standing_numbers(standing: Array) -> Numbers:
     )
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(contract=True, forceinline=True)
 def slopes(
     bx: float, by: float, z: float, dx: float, dy: float, k: float, place: Numbers, numbers: Numbers
 ) -> tuple[float, float, float]:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
-from threadstate.contact._geometry_kernel import TWO_PI, edge_point
+from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
 from threadstate.contact._lift_kernel import least_lift
 from threadstate.contact._rest_kernel import rests_on_surface, start_height
+from threadstate.contact._search_kernel import Search, search_address, search_at
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     CONTACT_SIZE,
@@ -32,7 +33,6 @@ from threadstate.contact._stage_kernel import (
     THREAD_THREAD,
     UNRESOLVED,
     Work,
-    earliest,
     edges_overlap,
     new_work,
     rotation,
@@ -45,18 +45,19 @@ Array = NDArray[np.float64]
 # Options of a solve: limit of a turn (rad), tolerance of a tie (length), whether both outlines are convex (1 or 0),
 # whether thread on thread is searched by closing rectangles (1) or along ridges (0).
 S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE = range(4)
+OPTIONS_SIZE = 4
 
 BEFORE_FLUSH = 1e-9
 """Where a turn ends flush, contacts are looked for up to this much (rad) before: there all edges meet at once."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def in_plane(pair: int) -> bool:
     """Whether a contact of these features lies both in the bolt's base plane and in the nut's surface plane."""
     return pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == BASE_EDGE
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array) -> None:
     """The axis about which the bolt turns by a positive angle: the reverse of the method's t0."""
     pair = int(contact[K_PAIR])
@@ -78,14 +79,14 @@ def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array
     out[2] = z / n
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def turn_to_flush(pose: Array, axis: Array) -> float:
     """The turn about a horizontal ``axis`` in the base plane after which the base is level; negative: turning away."""
     nx, ny, nz = pose[2], pose[5], pose[8]
     return math.atan2(axis[0] * ny - axis[1] * nx, nz)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def lay_flush(
     stage: int, pose: Array, point: Array, axis: Array, tau: float, bolt: Array, nut: Array, extremes: Array, row: Array
 ) -> bool:
@@ -115,13 +116,13 @@ def lay_flush(
     return True
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def add_flag(row: Array, flag: int) -> None:
     """Sets a flag."""
     row[rk.O_FLAGS] = int(row[rk.O_FLAGS]) | flag
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def ties(found: Array, count: int, slack: float) -> tuple[int, float]:
     """How many contacts appear together with the first, and when that one appears.
 
@@ -140,16 +141,24 @@ def ties(found: Array, count: int, slack: float) -> tuple[int, float]:
     return n, first
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def azimuth(contact: Array) -> float:
     """Azimuth on the nut in [0, 2 pi)."""
     a = math.atan2(contact[K_Y], contact[K_X])
     return a + TWO_PI if a < 0.0 else a
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def solve_pose(
-    roll: float, pitch: float, phase: float, options: Array, bolt: Array, nut: Array, work: Work, row: Array
+    roll: float,
+    pitch: float,
+    phase: float,
+    options: Array,
+    bolt: Array,
+    nut: Array,
+    search: Search,
+    work: Work,
+    row: Array,
 ) -> None:
     """Solves one tilted pose (angles in rad) into ``row``; see ``_record_kernel`` for its layout."""
     row[:] = 0.0
@@ -176,7 +185,7 @@ def solve_pose(
     if options[S_CONVEX] > 0.0 and rests_on_surface(pose, bolt, nut, found[0]):
         time = high - found[0, K_TIME]
     else:
-        count, status, _ = earliest(
+        count, status, _ = search(
             pose,
             False,
             point,
@@ -196,7 +205,7 @@ def solve_pose(
             return
         together, time = ties(found, count, slack)
     pose[11] = high - time
-    known[0] = found[0]
+    copy_numbers(found[0], known[0])
     rk.put_pose(pose, row)
     rk.put_contact(1, known[0], pose, bolt, nut, row)
     if rk.grazes(known[0], pose, bolt, nut):
@@ -211,10 +220,10 @@ def solve_pose(
     tied_third = False
     if together > 1:
         row[rk.O_LAMBDA] = 0.0
-        known[1] = found[1]
-        second[:] = pose
+        copy_numbers(found[1], known[1])
+        copy_numbers(pose, second)
         for i in range(2, together):
-            found[i - 2] = found[i]
+            copy_numbers(found[i], found[i - 2])
         together -= 2
         tied_third = together > 0
     else:
@@ -228,7 +237,7 @@ def solve_pose(
         count = 0
         # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
         if flush < 0.0 or options[S_CONVEX] == 0.0:
-            count, status, _ = earliest(
+            count, status, _ = search(
                 pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, threads, work, found
             )
             if status != RESOLVED:
@@ -245,9 +254,9 @@ def solve_pose(
             add_flag(row, rk.FLAG_TIE)
         row[rk.O_LAMBDA] = time
         turned(pose, point, axis, time, second)
-        known[1] = found[0]
+        copy_numbers(found[0], known[1])
         for i in range(1, together):
-            found[i - 1] = found[i]
+            copy_numbers(found[i], found[i - 1])
         together -= 1
         tied_third = together > 0
     rk.put_pose(second, row)
@@ -270,25 +279,25 @@ def solve_pose(
     row[rk.O_PIVOT] = math.sqrt(cx * cx + cy * cy + cz * cz)
     if tied_third:
         row[rk.O_MU] = 0.0
-        put_third(second, 0.0, known, together, slack, bolt, nut, work, found, row)
+        put_third(second, 0.0, known, together, slack, bolt, nut, search, work, found, row)
         return
     if cz > 0.0:
         for i in range(3):
             axis[i] = -axis[i]
     if abs(cz) > slack:
-        third_stage(second, point, axis, known, options, bolt, nut, work, found, extremes, row)
+        third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, row)
         return
     # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is kept.
     add_flag(row, rk.FLAG_BALANCED)
     other = row.copy()
-    third_stage(second, point, axis, known, options, bolt, nut, work, found, extremes, row)
+    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, row)
     for i in range(3):
         axis[i] = -axis[i]
-    third_stage(second, point, axis, known, options, bolt, nut, work, found, extremes, other)
+    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, other)
     keep_shorter_turn(row, other)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def keep_shorter_turn(row: Array, other: Array) -> None:
     """Leaves in ``row`` that of two senses of the third turn which ends first; unresolved where that is not certain.
 
@@ -300,10 +309,10 @@ def keep_shorter_turn(row: Array, other: Array) -> None:
             row[rk.O_STATUS] = UNRESOLVED
             return
     if not math.isnan(other[rk.O_MU]) and not row[rk.O_MU] <= other[rk.O_MU]:
-        row[:] = other
+        copy_numbers(other, row)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def third_stage(
     second: Array,
     point: Array,
@@ -312,6 +321,7 @@ def third_stage(
     options: Array,
     bolt: Array,
     nut: Array,
+    search: Search,
     work: Work,
     found: Array,
     extremes: Array,
@@ -327,7 +337,7 @@ def third_stage(
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - BEFORE_FLUSH
-    count, status, _ = earliest(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, threads, work, found)
+    count, status, _ = search(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, threads, work, found)
     if status != RESOLVED:
         row[rk.O_STATUS] = UNRESOLVED
         return
@@ -345,10 +355,10 @@ def third_stage(
         add_flag(row, rk.FLAG_TIE)
     row[rk.O_MU] = time
     turned(second, point, axis, time, third)
-    put_third(third, second[11] - third[11], known, together, slack, bolt, nut, work, found, row)
+    put_third(third, second[11] - third[11], known, together, slack, bolt, nut, search, work, found, row)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def put_third(
     third: Array,
     drop: float,
@@ -357,6 +367,7 @@ def put_third(
     slack: float,
     bolt: Array,
     nut: Array,
+    search: Search,
     work: Work,
     found: Array,
     row: Array,
@@ -364,25 +375,23 @@ def put_third(
     """Appends the third pose and its contacts, the first ``together`` found; sets the drop and the embedment."""
     rk.put_pose(third, row)
     contacts = np.empty((2 + together, CONTACT_SIZE))
-    for j in range(CONTACT_SIZE):
-        for i in range(2):
-            contacts[i, j] = known[i, j]
-        for i in range(together):
-            contacts[2 + i, j] = found[i, j]
+    for i in range(2):
+        copy_numbers(known[i], contacts[i])
     for i in range(together):
+        copy_numbers(found[i], contacts[2 + i])
         rk.put_contact(3, found[i], third, bolt, nut, row)
         if rk.grazes(found[i], third, bolt, nut):
             add_flag(row, rk.FLAG_GRAZING)
     row[rk.O_DROP] = drop
     row[rk.O_EMBEDMENT] = 0.0
     if threads_touch(contacts) or edges_overlap(third, contacts, 2 + together, bolt, nut, work):
-        lift, status = least_lift(third, slack, bolt, nut, work, found)
+        lift, status = least_lift(third, slack, bolt, nut, search, work, found)
         row[rk.O_EMBEDMENT] = lift
         if status != RESOLVED:
             row[rk.O_STATUS] = UNRESOLVED
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def threads_touch(contacts: Array) -> bool:
     """Whether thread meets thread at one of the contacts: beside it they may overlap with no edge inside."""
     for i in range(contacts.shape[0]):
@@ -391,12 +400,18 @@ def threads_touch(contacts: Array) -> bool:
     return False
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
 def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> None:
     """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE).
 
     Other threads of Python go on in the meantime.
     """
+    solve_with(poses, options, bolt, nut, search_address(), rows)
+
+
+@kernel(nogil=True)
+def solve_with(poses: Array, options: Array, bolt: Array, nut: Array, address: int, rows: Array) -> None:
+    """As :func:`solve_rows`, with the search at an address."""
+    search = search_at(address)
     work = new_work()
     for i in range(poses.shape[0]):
-        solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, work, rows[i])
+        solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, search, work, rows[i])

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact import _rectangle_kernel as rect
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _tangency_kernel as tk
@@ -23,7 +23,7 @@ from threadstate.contact._birth_kernel import (
     MAX_CANDIDATES,
 )
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
-from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point, stride
+from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, copy_numbers, edge_point, stride
 from threadstate.contact._sweep_kernel import ENTRY_SIZE, EPS_PUNCTURE, MAX_ENTRIES, OUTSIDE, OVERFLOW, inside_at, sweep
 from threadstate.thread import _profile_kernel as pk
 
@@ -60,7 +60,7 @@ SHORTEST_SPAN = 1e-9
 """How much shorter a span is made that has too many boxes, and where that ends (of the motion's ``stride``)."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def rotation(roll: float, pitch: float, phase: float, out: Array) -> None:
     """``Rz(phase) Ry(pitch) Rx(roll)``, angles in rad, by rows."""
     ca, sa = math.cos(roll), math.sin(roll)
@@ -77,7 +77,7 @@ def rotation(roll: float, pitch: float, phase: float, out: Array) -> None:
     out[8] = cb * ca
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def turned(pose: Array, point: Array, axis: Array, tau: float, out: Array) -> None:
     """``pose`` (rotation by rows, translation) turned by ``tau`` about the axis through ``point``."""
     c = math.cos(tau)
@@ -101,7 +101,7 @@ def turned(pose: Array, point: Array, axis: Array, tau: float, out: Array) -> No
     out[11] = point[2] + m20 * a + m21 * b + m22 * d
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_motions(
     pose: Array, is_turn: bool, coplanar: bool, point: Array, axis: Array, bolt_walks: Array, nut_walks: Array
 ) -> None:
@@ -127,7 +127,7 @@ def set_motions(
         nut_walks[16 + i] = -(pose[i] * axis[0] + pose[3 + i] * axis[1] + pose[6 + i] * axis[2])
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z: float, count: int, out: Array) -> int:
     """Inserts a contact by time unless the same is there already (found from the other edge).
 
@@ -142,8 +142,7 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
         count -= 1
     i = count
     while i > 0 and out[i - 1, K_TIME] > time:
-        for j in range(CONTACT_SIZE):
-            out[i, j] = out[i - 1, j]
+        copy_numbers(out[i - 1], out[i])
         i -= 1
     out[i, K_TIME] = time
     out[i, K_PAIR] = pair
@@ -155,13 +154,13 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
     return count + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def is_full(listed: Array, count: int, until: float) -> bool:
     """Whether a list by time, in its first column, has no room for all that there may be up to ``until``."""
     return count == listed.shape[0] and listed[count - 1, 0] <= until
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def new_work() -> Work:
     """The scratch arrays of one thread of work."""
     return (
@@ -177,7 +176,7 @@ def new_work() -> Work:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def on_bolt_edge(contact: Array, pose: Array, bolt: Array) -> bool:
     """Whether a contact of the bolt's thread or base is at the bolt's edge, too, as far as azimuths are told apart."""
     near = EPS_PUNCTURE * bolt[pk.R_MAJOR]
@@ -188,7 +187,7 @@ def on_bolt_edge(contact: Array, pose: Array, bolt: Array) -> bool:
     return abs(r - pk.radius(-bolt[pk.P] / TWO_PI * contact[K_BOLT], bolt)) < near
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def on_nut_edge(contact: Array, nut: Array) -> bool:
     """Whether a contact of the nut's thread or surface is at the nut's edge, too, as far as azimuths are told apart."""
     near = EPS_PUNCTURE * nut[pk.R_MAJOR]
@@ -198,7 +197,7 @@ def on_nut_edge(contact: Array, nut: Array) -> bool:
     return abs(r - pk.radius(-nut[pk.P] / TWO_PI * contact[K_NUT], nut)) < near
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_marks(
     known: Array, known_count: int, pose: Array, bolt: Array, nut: Array, bolt_marks: Array, nut_marks: Array
 ) -> tuple[int, int]:
@@ -220,7 +219,7 @@ def set_marks(
     return on_bolt, on_nut
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def axis_in_both_planes(known: Array, known_count: int) -> bool:
     """Whether the axis of a turn through contacts lies in the bolt's base plane and the nut's surface plane."""
     if known_count == 1:
@@ -232,7 +231,6 @@ def axis_in_both_planes(known: Array, known_count: int) -> bool:
     return known_count > 0
 
 
-@njit(cache=True, error_model="numpy")
 def earliest(
     pose: Array,
     is_turn: bool,
@@ -249,6 +247,8 @@ def earliest(
     out: Array,
 ) -> tuple[int, int, float]:
     """The earliest contacts of a motion by all pairs of features, sorted by time.
+
+    Kernels call it as a ``Search`` of ``_search_kernel``, which compiles it.
 
     ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number
     of contacts (those within ``slack`` of the earliest are listed, or the status is UNRESOLVED), a status, and the
@@ -366,7 +366,7 @@ def earliest(
     return count, RESOLVED, best
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
     boxes, others, _, _, bolt_walks, nut_walks, _, _, _ = work

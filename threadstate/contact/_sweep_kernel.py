@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._birth_kernel import (
     J_G,
     J_PHI,
@@ -81,7 +81,7 @@ ENTRY_SIZE = 3
 MAX_ENTRIES = 16
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def begin(since: float, until: float, boxes: Array) -> int:
     """The boxes all round with which a span of time is begun; their number."""
     for i in range(AZIMUTHS):
@@ -92,7 +92,7 @@ def begin(since: float, until: float, boxes: Array) -> int:
     return AZIMUTHS
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def fill(count: int, boxes: Array) -> int:
     """Fills the last vector of a list with empty boxes; the number of boxes then."""
     while count % LANES != 0:
@@ -104,7 +104,7 @@ def fill(count: int, boxes: Array) -> int:
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def keep_open(i: int, end: float, by_time: bool, count: int, boxes: Array) -> int:
     """Moves an open box to the front of its list, with how it is to be split; the number of open boxes then."""
     boxes[X_THETA + count] = boxes[X_THETA + i]
@@ -115,7 +115,7 @@ def keep_open(i: int, end: float, by_time: bool, count: int, boxes: Array) -> in
     return count + 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def split(count: int, boxes: Array, others: Array) -> int:
     """Splits the boxes at the front of a list into another: in halves, or finer where lanes would stay idle."""
     parts = 2
@@ -135,7 +135,7 @@ def split(count: int, boxes: Array, others: Array) -> int:
     return m
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def mark_distance(theta: float, marks: Array, mark_count: int) -> float:
     """How far from an azimuth the nearest earlier contact is (rad)."""
     nearest = math.pi
@@ -146,7 +146,7 @@ def mark_distance(theta: float, marks: Array, mark_count: int) -> float:
     return nearest
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def arches(
     theta: float,
     half: float,
@@ -179,7 +179,7 @@ def arches(
     return spare[X_BEND] < 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def only_outside(
     verdict: int,
     theta: float,
@@ -206,7 +206,7 @@ def only_outside(
     return inside
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def joined(
     theta: float,
     tau: float,
@@ -238,7 +238,7 @@ def joined(
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def add_entry(tau: float, theta: float, motion: Array, jet: Array, entries: Array) -> None:
     """Notes where on the bolt's thread an edge comes into an overlap that is open already; the earliest are kept."""
     place = int(entries[0, 0]) + 1
@@ -257,7 +257,7 @@ def add_entry(tau: float, theta: float, motion: Array, jet: Array, entries: Arra
     entries[place, E_Z] = 0.0 if bolt_walks else jet[J_Z]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def sweep(
     since: float,
     until: float,
@@ -356,7 +356,7 @@ def sweep(
     return count, looked, best
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def inside_at(
     motion: Array,
     row_c: Array,

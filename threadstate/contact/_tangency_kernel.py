@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from threadstate.contact._geometry_kernel import M_AXIS, M_KIND, M_OFF, M_POINT, M_ROT, TWO_PI, stride
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import M_AXIS, M_KIND, M_OFF, M_POINT, M_ROT, TWO_PI, copy_numbers, stride
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -62,7 +62,7 @@ J_ZT = 11
 JET_SIZE = 12
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_standing(motion: Array, tau: float, standing: Array) -> None:
     """Where ``motion`` has brought the bolt after ``tau``."""
     if motion[M_KIND] == 0.0:
@@ -102,7 +102,7 @@ def set_standing(motion: Array, tau: float, standing: Array) -> None:
     standing[S_DRIFT + 2] = ay * px - ax * py
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@kernel(forceinline=True)
 def rotated(x: float, y: float, z: float, standing: Array) -> tuple[float, float, float]:
     """A vector of the bolt's frame in the nut's frame."""
     return (
@@ -112,7 +112,7 @@ def rotated(x: float, y: float, z: float, standing: Array) -> tuple[float, float
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def set_jet(theta: float, z: float, standing: Array, bolt: Array, nut: Array, jet: Array) -> None:
     """Phi and its derivatives at (theta, z) of the bolt's thread, where the bolt stands."""
     k = bolt[pk.P] / TWO_PI
@@ -177,7 +177,7 @@ def set_jet(theta: float, z: float, standing: Array, bolt: Array, nut: Array, je
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def polish(
     theta_start: float,
     z_start: float,
@@ -253,7 +253,7 @@ def polish(
         count -= 1
     i = count
     while i > 0 and found[i - 1, T_TIME] > tau:
-        found[i] = found[i - 1]
+        copy_numbers(found[i - 1], found[i])
         i -= 1
     found[i, T_TIME] = tau
     found[i, T_THETA] = theta

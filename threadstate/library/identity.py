@@ -17,10 +17,42 @@ from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
-PHYSICS = ("thread/*.py", "contact/*.py", "state/*.py")
-MESH_PHYSICS = (*PHYSICS, "mesh/*.py")
+STATES = (
+    "_compile.py",
+    "errors.py",
+    "units.py",
+    "thread/*.py",
+    "contact/*.py",
+    "state/*.py",
+    "library/fingerprint.py",
+    "library/grid.py",
+    "library/history_rows.py",
+    "library/rows.py",
+    "archive/answers.py",
+    "archive/compute.py",
+)
+"""The sources that decide what is stored of states, whatever the method."""
+PHYSICS = (
+    *STATES,
+    "history/*.py",
+    "network/cells.py",
+    "network/formation.py",
+    "network/from_history.py",
+    "network/margin.py",
+    "network/moves.py",
+    "archive/rows.py",
+    "archive/stored.py",
+)
+"""With those of histories, windows and falls: what is stored by the exact method."""
+MESH_PHYSICS = (*STATES, "mesh/*.py")
+NOT_PHYSICS = ("thread/catalogue.py", "state/document.py", "state/rest.py", "history/heights.py")
+"""Files of these folders that no stored row is computed by: pairs, which are inputs, and what is read out of rows."""
+COMPUTING = ("llvmlite", "numba", "numpy")
+"""Libraries whose code ends in the bits, by either method."""
+MESH_COMPUTING = (*COMPUTING, "scipy")
 COLLISION_LIBRARY = "python-fcl"
-NOT_PHYSICS = ("state/document.py", "state/rest.py")
+EXACT_CODE = (PHYSICS, COMPUTING)
+MESH_CODE = (MESH_PHYSICS, MESH_COMPUTING)
 
 
 @dataclass(frozen=True)
@@ -52,8 +84,8 @@ class LibraryInputs:
 
     @property
     def code_version(self) -> str:
-        """The project's version and the first 12 digits of the hash of the code that finds the states."""
-        return _code_version(PHYSICS if self.mesh is None else MESH_PHYSICS)
+        """The project's version and the first 12 digits of the hash of the code that computes what is stored."""
+        return _code_version(*(EXACT_CODE if self.mesh is None else MESH_CODE))
 
     @cached_property
     def sha256(self) -> str:
@@ -108,13 +140,15 @@ def _plain(value: object, name: str) -> object:
 
 def code_versions() -> frozenset[str]:
     """The code versions of the libraries that this code computes, one for each method."""
-    return frozenset(_code_version(patterns) for patterns in (PHYSICS, MESH_PHYSICS))
+    return frozenset(_code_version(*code) for code in (EXACT_CODE, MESH_CODE))
 
 
 @cache
-def _code_version(patterns: tuple[str, ...]) -> str:
+def _code_version(patterns: tuple[str, ...], libraries: tuple[str, ...]) -> str:
     # Any change of the physics makes new libraries beside the old ones without anyone having to remember a number.
-    return f"{threadstate.__version__}+{physics_sha256(Path(threadstate.__file__).parent, patterns)[:12]}"
+    sources = physics_sha256(Path(threadstate.__file__).parent, patterns)
+    versions = "".join(f"\n{name} {version(name)}" for name in libraries)
+    return f"{threadstate.__version__}+{hashlib.sha256((sources + versions).encode()).hexdigest()[:12]}"
 
 
 def physics_sha256(package: Path, patterns: tuple[str, ...] = PHYSICS) -> str:

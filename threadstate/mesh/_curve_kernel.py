@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 TWO_PI = 2.0 * math.pi
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def depths(points: Array, T: Array, row: Array, sigma: float, out: Array) -> None:
     """How deep points of shape (n, 3) are behind the cut plane and within the thread, both positive inside; (n, 2).
 
@@ -32,7 +32,7 @@ def depths(points: Array, T: Array, row: Array, sigma: float, out: Array) -> Non
         out[i, 1] = sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), row))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def part_above(a: float, b: float) -> tuple[float, float]:
     """Where along a segment (0 to 1) a linear function with these ends is positive; an empty part is (1, 0)."""
     if a > 0.0:
@@ -40,7 +40,7 @@ def part_above(a: float, b: float) -> tuple[float, float]:
     return (a / (a - b), 1.0) if b > 0.0 else (1.0, 0.0)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def runs(depth: Array, out: Array) -> int:
     """The parts of a closed polygon at which both depths, linear along its sides, are positive.
 

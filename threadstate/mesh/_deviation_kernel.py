@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import field
 
 Array = NDArray[np.float64]
@@ -19,7 +19,7 @@ STEPS = 3
 """Newton steps towards the surface."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def distance(x: float, y: float, z: float, in_plane: bool, row: Array) -> float:
     """The distance to a point of the surface that lies along the gradient: never less than the true distance.
 
@@ -37,7 +37,7 @@ def distance(x: float, y: float, z: float, in_plane: bool, row: Array) -> float:
     return math.sqrt((px - x) ** 2 + (py - y) ** 2 + (pz - z) ** 2)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def largest_of_triangles(vertices: Array, triangles: Indices, row: Array) -> float:
     """The largest distance from triangles, of shape (m, 3), to the surface."""
     largest = 0.0
@@ -56,7 +56,7 @@ def largest_of_triangles(vertices: Array, triangles: Indices, row: Array) -> flo
     return largest
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def largest_of_outline(points: Array, row: Array) -> float:
     """The largest distance, within their plane, from a closed polygon of shape (k, 3) to the edge curve."""
     largest = 0.0

@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from threadstate._compile import kernel
 
 Row = NDArray[np.float64]
 
@@ -19,7 +20,7 @@ P, R_MINOR, U_FLAT, U_FLANK, R_PITCH, COT, U_CREST, U_TOP, R_MAJOR, RHO_MINOR, R
 ROW_SIZE = 11
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@kernel(inline="always")
 def fold(s: float, p: float) -> tuple[float, float]:
     """The rising-half coordinate ``u`` in [-p/4, p/4] of ``s``, and the sign of the half (+1 rising, -1 falling)."""
     u = s - p * math.floor(s / p + 0.25)
@@ -28,7 +29,7 @@ def fold(s: float, p: float) -> tuple[float, float]:
     return u, 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def rising(u: float, row: Row) -> tuple[float, float, float]:
     """Radius, slope and second derivative at ``u`` of the rising half."""
     if u <= row[U_FLAT]:
@@ -48,14 +49,14 @@ def rising(u: float, row: Row) -> tuple[float, float, float]:
     return row[R_MAJOR], 0.0, 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def radius(s: float, row: Row) -> float:
     """``f(s)``."""
     u, _ = fold(s, row[P])
     return rising(u, row)[0]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def jet(s: float, row: Row) -> tuple[float, float, float]:
     """``f, f', f''`` at ``s``."""
     u, sign = fold(s, row[P])
@@ -63,7 +64,7 @@ def jet(s: float, row: Row) -> tuple[float, float, float]:
     return r, sign * d1, d2
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def inverse_rising(r: float, row: Row) -> float:
     """The ``u`` of the rising half with radius ``r``, for r_minor <= r <= r_major.
 
@@ -83,7 +84,7 @@ def inverse_rising(r: float, row: Row) -> float:
     return u
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def bend_range(s: float, half: float, row: Row) -> tuple[float, float]:
     """Smallest and largest ``f''`` on [s - half, s + half]; on a fillet it grows in size towards the flank.
 
@@ -109,7 +110,7 @@ def bend_range(s: float, half: float, row: Row) -> tuple[float, float]:
     return low, high
 
 
-@njit(cache=True, error_model="numpy")
+@kernel()
 def region_index(s: float, row: Row) -> tuple[int, float]:
     """Index 0..7 of the region by growing ``s`` from the small flat, and the arc length to its nearest boundary."""
     u, sign = fold(s, row[P])

@@ -13,7 +13,7 @@ import worker
 from threadstate.library.identity import physics_sha256
 
 EVERY_SOURCE = ("**/*.py",)
-OF_WORKER = ("answers.py", "compute.py")
+OF_WORKER = ("compute.py",)
 SHOWN_DIGITS = 12
 
 
@@ -22,7 +22,7 @@ class Versions:
     """The versions of a process that computes.
 
     ``code`` is the version and a hash of all sources of ``threadstate``, and of what calls them here: more than a
-    library's code version, which leaves out what follows from the states, as histories do.
+    library's code version, which covers what its rows are computed by alone.
     """
 
     code: str
