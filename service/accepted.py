@@ -18,6 +18,8 @@ def header_value(headers: Iterable[tuple[bytes, bytes]], name: bytes) -> str:
 
 def takes_gzip(accept_encoding: str) -> bool:
     """Whether the header accepts gzip, and does not prefer bytes without any coding (RFC 9110, section 12.5.3)."""
+    if not accept_encoding:
+        return False
     weights = _weights(accept_encoding)
     gzip, _ = _first(weights, "gzip", "x-gzip", "*")
     identity, _ = _first(weights, "identity", "*")
@@ -26,6 +28,8 @@ def takes_gzip(accept_encoding: str) -> bool:
 
 def prefers_csv(accept: str) -> bool:
     """Whether the header accepts text/csv and gives it more weight than JSON, or the same and names it earlier."""
+    if not accept:
+        return False
     weights = _weights(accept)
     csv = _first(weights, "text/csv", "text/*", "*/*")
     return csv[0] > 0.0 and csv > _first(weights, "application/json", "application/*", "*/*")

@@ -16,11 +16,16 @@ from sqlalchemy.exc import SQLAlchemyError
 from service.cache.responses import CachedResponse
 from service.representation import JSON, VARY_ACCEPT, etag_of
 from service.units import UNIT_HEADER
-from threadstate.library.pose import PoseReader
+from threadstate.errors import NotFoundError, UndecidedPoseError
+from threadstate.library.address import is_sqlite
+from threadstate.library.direct_reader import DirectReader
+from threadstate.library.pose import state_of_pose
 from threadstate.library.read import LibraryRecord, undecided_between
+from threadstate.library.rows import unpacked_states
 from threadstate.library.states_json import orientation_states_json
 from threadstate.numbers import number_text
 from threadstate.state.json import state_json
+from threadstate.state.model import ContactState
 
 STATE_ROUTE = "/v1/libraries/{id}/states/{roll}/{pitch}/{phase}"
 HISTORY_ROUTE = "/v1/libraries/{id}/histories/{roll}/{pitch}"
@@ -35,31 +40,32 @@ _UNIT_HEADER = UNIT_HEADER.lower().encode()
 class StoredResponses:
     """States and histories of the database behind ``engine``, in their library's own unit.
 
-    A pose is read within the event loop where that never waits (SQLite), everything else in a thread.
+    They are read within the event loop where that never waits (SQLite), else in a thread.
     """
 
     def __init__(self, engine: Engine, cache_control: str) -> None:
         self._engine = engine
-        self._poses = PoseReader(engine)
+        self._reader = DirectReader(engine) if is_sqlite(engine.url) else None
         self._cache_control = cache_control.encode()
 
     def close(self) -> None:
-        """Close the connection that reads poses."""
-        self._poses.close()
+        """Close the connection that reads within the event loop."""
+        if self._reader is not None:
+            self._reader.close()
 
     async def state(self, library: LibraryRecord, path: str) -> CachedResponse | None:
         """The state that ``path``, below the library's address, is about; None where it is not the path of one."""
         match = _STATE.fullmatch(path)
         if match is None:
             return None
-        roll, pitch, phase = float(match[1]), float(match[2]), float(match[3])
-        if self._poses.waits:
-            state = await run_in_threadpool(self._poses.state, library.id, roll, pitch, phase)
+        pose = float(match[1]), float(match[2]), float(match[3])
+        if self._reader is not None:
+            state = self._reader.state(library.id, *pose)
         else:
-            state = self._poses.state(library.id, roll, pitch, phase)
+            state = await run_in_threadpool(self._read_state, library.id, *pose)
         if state is None:
             return None
-        location = content_location(library.id, roll, pitch, phase)
+        location = content_location(library.id, *pose)
         return self._response(STATE_ROUTE, library, state_json(state), ("content-location", location))
 
     async def history(self, library: LibraryRecord, path: str) -> CachedResponse | None:
@@ -70,14 +76,27 @@ class StoredResponses:
         orientation = library.grid.orientation_index(float(match[1]), float(match[2]))
         if orientation is None:
             return None
+        if self._reader is not None and not library.undecided_count:
+            packed = self._reader.packed_states(library.id, orientation)
+            if packed is not None:
+                return self._history(library, _history_json(library, orientation, unpacked_states(packed), []))
         return await run_in_threadpool(self._read_history, library, orientation)
+
+    def _read_state(self, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float) -> ContactState | None:
+        try:
+            with self._engine.connect() as connection:
+                return state_of_pose(connection, library_id, roll_deg, pitch_deg, phase_deg)
+        except (NotFoundError, UndecidedPoseError, SQLAlchemyError):
+            return None
 
     def _read_history(self, library: LibraryRecord, orientation: int) -> CachedResponse | None:
         try:
             with self._engine.connect() as connection:
-                content = history_rows_json(connection, library, orientation)
+                return self._history(library, history_rows_json(connection, library, orientation))
         except SQLAlchemyError:
             return None
+
+    def _history(self, library: LibraryRecord, content: bytes) -> CachedResponse:
         return self._response(HISTORY_ROUTE, library, content, vary=VARY_ACCEPT)
 
     def _response(
@@ -112,9 +131,12 @@ def undecided_phases(connection: Connection, library: LibraryRecord, orientation
 
 def history_rows_json(connection: Connection, library: LibraryRecord, orientation: int) -> bytes:
     """The history of the orientation with that number, in the library's own unit."""
-    place = library.grid.orientation(orientation)
     states = orientation_states_json(connection, library.id, library.grid, orientation)
-    undecided = undecided_phases(connection, library, orientation)
+    return _history_json(library, orientation, states, undecided_phases(connection, library, orientation))
+
+
+def _history_json(library: LibraryRecord, orientation: int, states: bytes, undecided: list[dict[str, object]]) -> bytes:
+    place = library.grid.orientation(orientation)
     return orjson.dumps(
         {
             "library": library.id,

@@ -17,9 +17,11 @@ from tests.service.test_problems import problem
 from threadstate.access.keys import create_key, revoke_key
 from threadstate.access.scope import Scope
 from threadstate.library.address import database_url, sqlite_path
+from threadstate.library.direct_reader import DirectReader
 from threadstate.library.engine import reading, writing
 from threadstate.library.grid import Grid
-from threadstate.library.pose import PoseReader, state_of_pose
+from threadstate.library.pose import state_of_pose
+from threadstate.library.rows import unpacked_states
 from threadstate.library.states_json import fill_states_json, orientation_states_json, orientations_without_json
 from threadstate.library.tables import chunk
 from threadstate.settings import CACHE_MB, DATABASE, READ_KEYS, read_settings
@@ -110,21 +112,28 @@ def test_where_reading_needs_a_key_none_is_answered_without(databases: Databases
             problem(client.get("/v1/libraries/latest/states/0/0/30", headers=shown), 401)
 
 
-def test_reader_of_poses_finds_what_is_stored(stored: StoredLibrary) -> None:
+@pytest.mark.sqlite_alone
+def test_reader_finds_what_is_stored(stored: StoredLibrary) -> None:
     with reading(stored.database) as engine, engine.connect() as connection:
-        reader = PoseReader(engine)
+        reader = DirectReader(engine)
         for state in stored.states:
             pose = (state.roll_deg, state.pitch_deg, state.phase_deg)
             assert reader.state(stored.id, *pose) == state_of_pose(connection, stored.id, *pose) == state
         assert reader.state(stored.id, *UNDECIDED) is None
         assert reader.state(stored.id, 0.5, 0.0, 0.0) is None
         assert reader.state(stored.id + 1, 0.0, 0.0, 0.0) is None
+        packed = [reader.packed_states(stored.id, index) for index in range(GRID.orientation_count)]
+        assert [None if one is None else unpacked_states(one) for one in packed] == [
+            orientation_states_json(connection, stored.id, GRID, index) for index in range(GRID.orientation_count)
+        ]
+        assert reader.packed_states(stored.id, GRID.orientation_count) is None
         reader.close()
 
 
+@pytest.mark.sqlite_alone
 def test_missing_database_is_left_to_the_endpoints(databases: Databases) -> None:
     with reading(databases.new()) as engine:
-        assert PoseReader(engine).state(1, 0.0, 0.0, 0.0) is None
+        assert DirectReader(engine).state(1, 0.0, 0.0, 0.0) is None
 
 
 @pytest.mark.sqlite_alone
@@ -135,7 +144,7 @@ def test_lock_is_not_waited_for(databases: Databases) -> None:
         holder.execute("PRAGMA locking_mode = EXCLUSIVE")
         holder.execute("BEGIN EXCLUSIVE")
         with reading(database) as engine:
-            reader = PoseReader(engine)
+            reader = DirectReader(engine)
             assert reader.state(library.id, 0.0, 0.0, 0.0) is None
             holder.close()
             assert reader.state(library.id, 0.0, 0.0, 0.0) is not None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Callable, Iterable, Sequence
 from operator import itemgetter
 from typing import Any
@@ -13,7 +12,6 @@ from sqlalchemy import (
     CompoundSelect,
     Connection,
     Double,
-    Engine,
     Integer,
     Select,
     String,
@@ -25,10 +23,8 @@ from sqlalchemy import (
     select,
     union_all,
 )
-from sqlalchemy.exc import SQLAlchemyError
 
 from threadstate.errors import NotFoundError, UndecidedPoseError
-from threadstate.library.address import is_sqlite
 from threadstate.library.rows import Row, states_from_rows
 from threadstate.library.tables import contact, stage_pose, state, state_flag, undecided
 from threadstate.numbers import number_text
@@ -47,7 +43,7 @@ def state_of_pose(
         NotFoundError: the pose is not one of the grid's.
     """
     pose = {"library": library_id, "roll": roll_deg, "pitch": pitch_deg, "phase": phase_deg}
-    found = _state_of(connection.execute(_STATEMENT, pose))
+    found = state_of_rows(connection.execute(STATE_OF_POSE, pose))
     if found is not None:
         return found
     roll, pitch, phase = map(number_text, (roll_deg, pitch_deg, phase_deg))
@@ -58,48 +54,8 @@ def state_of_pose(
     raise NotFoundError(place)
 
 
-class PoseReader:
-    """Reads states by their poses, one after another, with nothing between the driver and the statement.
-
-    ``waits`` is whether a read may wait: for PostgreSQL's server; a SQLite file's lock is never waited for.
-    """
-
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
-        self.waits = not is_sqlite(engine.url)
-        compiled = _STATEMENT.compile(dialect=engine.dialect)
-        self._sql = str(compiled)
-        self._names = tuple(compiled.positiontup or ())
-        self._connection: Connection | None = None
-        self._cursor: Any = None
-
-    def state(self, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float) -> ContactState | None:
-        """The state of a pose, as :func:`state_of_pose`; None where there is none or it cannot be read now."""
-        if self.waits:
-            try:
-                with self._engine.connect() as connection:
-                    return state_of_pose(connection, library_id, roll_deg, pitch_deg, phase_deg)
-            except (NotFoundError, UndecidedPoseError, SQLAlchemyError):
-                return None
-        pose = {"library": library_id, "roll": roll_deg, "pitch": pitch_deg, "phase": phase_deg}
-        try:
-            if self._cursor is None:
-                self._connection = self._engine.connect()
-                self._cursor = self._connection.connection.cursor()
-                self._cursor.execute("PRAGMA busy_timeout = 0")
-            return _state_of(self._cursor.execute(self._sql, [pose[name] for name in self._names]))
-        except (SQLAlchemyError, sqlite3.Error):
-            return None
-
-    def close(self) -> None:
-        """Close its connection, if it has one."""
-        if self._connection is not None:
-            self._connection.close()
-            self._connection = self._cursor = None
-
-
-def _state_of(rows: Iterable[Sequence[Any]]) -> ContactState | None:
-    """The state whose rows these are, each as :func:`_statement` says; None where there are none."""
+def state_of_rows(rows: Iterable[Sequence[Any]]) -> ContactState | None:
+    """The state whose rows ``STATE_OF_POSE`` has given; None where there are none."""
     parts: tuple[list[Row], ...] = ([], [], [], [])
     for row in rows:
         number = row[0]
@@ -145,4 +101,5 @@ def _statement() -> tuple[CompoundSelect[Any], tuple[Callable[[Sequence[Any]], R
     return union_all(*selects), tuple(cells_of)
 
 
-_STATEMENT, _CELLS = _statement()
+STATE_OF_POSE, _CELLS = _statement()
+"""The statement and its parameters: ``library``, ``roll``, ``pitch`` and ``phase`` (degrees)."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
 from typing import Any
+
+import zstandard
 
 from threadstate.library.fingerprint import answers_sha256
 from threadstate.library.grid import Orientation
@@ -26,8 +27,11 @@ from threadstate.state.quantities import QUANTITIES
 from threadstate.thread.regions import Region
 
 _LEVEL = 1
-"""Of zlib: higher ones save a tenth of the bytes and take six times as long."""
+"""The fastest; higher ones save nothing worth their time."""
 
+# A dictionary is five times as fast as the call of an enumeration.
+_REGIONS = {region.value: region for region in Region}
+_FEATURES = {features.value: features for features in FeaturePair}
 _ATTRIBUTES = tuple(quantity.attribute for quantity in QUANTITIES)
 _quantities_of = attrgetter(*_ATTRIBUTES)
 
@@ -112,9 +116,14 @@ def chunk_rows(orientation: Orientation, first_ordinal: int, answers: Sequence[A
 
 
 def packed_states(answers: Iterable[Answer]) -> bytes:
-    """The states among an orientation's answers as a JSON array, compressed as ``chunk.states_json`` has it."""
+    """The states among an orientation's answers as a JSON array, compressed by Zstandard, as ``chunk.states_json``."""
     texts = (state_json(answer) for answer in answers if isinstance(answer, ContactState))
-    return zlib.compress(b"[" + b",".join(texts) + b"]", _LEVEL)
+    return zstandard.compress(b"[" + b",".join(texts) + b"]", _LEVEL)
+
+
+def unpacked_states(packed: bytes) -> bytes:
+    """The JSON array of :func:`packed_states`."""
+    return zstandard.decompress(packed)
 
 
 def states_from_rows(
@@ -136,9 +145,9 @@ def states_from_rows(
                 point=_vector(values[0:3]),
                 point_bolt=_vector(values[3:6]),
                 normal=_vector(values[6:9]),
-                bolt_region=Region(values[9]),
-                nut_region=Region(values[10]),
-                features=FeaturePair(values[11]),
+                bolt_region=_REGIONS[values[9]],
+                nut_region=_REGIONS[values[10]],
+                features=_FEATURES[values[11]],
                 bolt_margin=values[12],
                 nut_margin=values[13],
             )

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterator
 
 from sqlalchemy import Connection, Engine, select, update
 
 from threadstate.library.grid import Grid
 from threadstate.library.read import states_between
-from threadstate.library.rows import packed_states
+from threadstate.library.rows import packed_states, unpacked_states
 from threadstate.library.tables import chunk, library
 
 
 def orientation_states_json(connection: Connection, library_id: int, grid: Grid, orientation: int) -> bytes:
     """The states of the orientation with that number as a JSON array, in order; lengths in the library's unit."""
     query = select(chunk.c.states_json).where(chunk.c.library_id == library_id, chunk.c.orientation == orientation)
-    stored: bytes | None = connection.scalar(query)
-    return zlib.decompress(_packed_from_rows(connection, library_id, grid, orientation) if stored is None else stored)
+    packed: bytes | None = connection.scalar(query)
+    return unpacked_states(_packed_from_rows(connection, library_id, grid, orientation) if packed is None else packed)
 
 
 def orientations_without_json(engine: Engine) -> list[tuple[int, int]]:

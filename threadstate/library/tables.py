@@ -106,8 +106,8 @@ chunk = Table(
     Column("pitch_deg", Double, nullable=False),
     Column("state_count", Integer, nullable=False),
     Column("content_sha256", bytewise_string(SHA256_LENGTH), nullable=False),
-    # Its states as one JSON array, compressed by zlib: a history is answered from it. It follows from the rows of the
-    # states; null where an older threadstate wrote them, until `threadstate migrate` has filled it in.
+    # Its states as one JSON array, compressed by Zstandard: a history is answered from it. It follows from the rows of
+    # the states; null where an older threadstate wrote them, until `threadstate migrate` has filled it in.
     Column("states_json", LargeBinary),
     # Serves: which orientations are committed; the hashes in order when publishing.
     PrimaryKeyConstraint("library_id", "orientation"),

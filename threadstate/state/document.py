@@ -127,7 +127,10 @@ def _contact(contact: Contact, length_factor: float) -> ContactDocument:
 
 
 def _vector(vector: tuple[float, float, float], factor: float) -> list[float]:
-    return [_finite(value * factor + 0.0) for value in vector]
+    x, y, z = vector
+    if not (isfinite(x) and isfinite(y) and isfinite(z)):
+        raise _not_finite(vector)
+    return [x * factor + 0.0, y * factor + 0.0, z * factor + 0.0]
 
 
 def _number(value: float | None, factor: float) -> float | None:
@@ -136,5 +139,9 @@ def _number(value: float | None, factor: float) -> float | None:
 
 def _finite(value: float) -> float:
     if not isfinite(value):
-        raise InvalidValueError("number of a state", value, "a finite one")
+        raise _not_finite(value)
     return value
+
+
+def _not_finite(value: object) -> InvalidValueError:
+    return InvalidValueError("number of a state", value, "a finite one")
