@@ -29,7 +29,7 @@ from threadstate.errors import (
     UnresolvedPoseError,
 )
 from threadstate.jobs.model import JobEndedError
-from threadstate.library.trouble import Trouble, trouble_of
+from threadstate.library.database_errors import DatabaseFailure, database_failure
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:threadstate:problem:"
@@ -237,9 +237,13 @@ def _unreadable(request: Request, error: Any) -> Response:
 
 
 def _database(_request: Request, error: Any) -> Response:
-    trouble = trouble_of(error)
-    cure = "" if trouble in (Trouble.HELD, Trouble.FULL) else "; `threadstate migrate` makes one that is missing"
-    return problem_response(DATABASE_UNAVAILABLE, f"{trouble}{cure}", headers={"Retry-After": str(RETRY_AFTER_S)})
+    failure = database_failure(error)
+    remedy = (
+        ""
+        if failure in (DatabaseFailure.LOCKED, DatabaseFailure.FULL)
+        else "; `threadstate migrate` makes one that is missing"
+    )
+    return problem_response(DATABASE_UNAVAILABLE, f"{failure}{remedy}", headers={"Retry-After": str(RETRY_AFTER_S)})
 
 
 def _http(request: Request, error: Any) -> Response:

@@ -28,7 +28,7 @@ _NOW = datetime(2026, 1, 2, tzinfo=UTC)
 _JOB = JobDocument(
     id=1,
     state=JobState.FAILED,
-    reason="a mishap",
+    reason="a failure",
     designation="1/4-20 UNC",
     method=Method.EXACT,
     grid=GridDocument(tilt_max=0.0, tilt_step=1.0, phase_step=1.0, orientations=1),

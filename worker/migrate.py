@@ -9,9 +9,9 @@ from pathlib import Path
 from sqlalchemy import Engine
 
 from threadstate.archive.complete import completed, incomplete_orientations
+from threadstate.library.advisory_locks import WriterLock, take_lock
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.library.states_json import fill_states_json, orientations_without_json
-from threadstate.library.turns import Turn, take_turn
 from worker.progress import followed
 
 
@@ -80,6 +80,6 @@ def _upgrade(engine: Engine) -> None:
     config = Config()
     config.set_main_option("script_location", str(Path(migrations.__file__).parent).replace("%", "%%"))
     with engine.begin() as connection:
-        take_turn(connection, Turn.MIGRATE)
+        take_lock(connection, WriterLock.MIGRATE)
         config.attributes["connection"] = connection
         command.upgrade(config, SCHEMA_REVISION)

@@ -18,10 +18,9 @@ from service.middleware import ASKED_AS_HEAD
 from service.numbers import INTEGER_TEXT
 from service.representation import JSON, NOT_MODIFIED, json_response
 from service.strict_json import StrictJsonRoute
-from threadstate.jobs.ask import ask_for, cancel
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind
-from threadstate.jobs.read import job_by_id, jobs_before
+from threadstate.jobs.queue import cancel, job_by_id, jobs_before, submit_job
 from threadstate.library.read import LARGEST_ID
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"], route_class=StrictJsonRoute)
@@ -74,7 +73,7 @@ _EVENT_DESCRIPTION = {"responses": {"200": {"content": {EventStream.media_type: 
 )
 def post_job(engine: RequestedControl, body: JobRequest) -> Response:
     """Have a library computed. The same inputs are the same job; one that failed or was cancelled begins again."""
-    job = ask_for(engine, body.inputs())
+    job = submit_job(engine, body.inputs())
     return _job_response(job, 200 if job.state.ended else 202)
 
 

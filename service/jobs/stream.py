@@ -12,7 +12,7 @@ from sqlalchemy import Engine
 from service.edge.drain import Drain
 from service.jobs.schemas import event_document
 from threadstate.jobs.model import JobEvent, JobRecord
-from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.queue import events_after, job_by_id
 
 POLL_S = 0.5
 QUIET_POLLS = 30

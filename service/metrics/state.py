@@ -14,7 +14,7 @@ from service.cache.responses import ResponseCache
 from service.limits.admission import Admission
 from service.warming import Warming
 from threadstate.jobs.names import JobState
-from threadstate.jobs.read import job_counts
+from threadstate.jobs.queue import job_counts
 from threadstate.library.read import published_libraries
 
 

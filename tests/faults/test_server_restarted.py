@@ -18,9 +18,8 @@ from tests.service.test_problems import problem
 from tests.worker.conftest import COMMAND
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
-from threadstate.jobs.ask import ask_for
 from threadstate.jobs.names import JobState
-from threadstate.jobs.read import job_by_id
+from threadstate.jobs.queue import job_by_id, submit_job
 from threadstate.library.engine import writing
 from threadstate.library.tables import chunk, state
 from threadstate.settings import DATABASE, LEASE_S
@@ -28,7 +27,7 @@ from worker.rebuild import rebuild
 
 RESTARTS = 2
 PATIENCE_S = 300.0
-FAILS = "the database fails, it is tried again"
+FAILS = "the database failed, retrying"
 UNAVAILABLE = "urn:threadstate:problem:database-unavailable"
 
 
@@ -90,7 +89,7 @@ def test_workers_end_a_job_whole_after_restarts(
     said = tmp_path / "said"
     told = 0
     with writing(database) as engine:
-        job = ask_for(engine, INPUTS)
+        job = submit_job(engine, INPUTS)
         command = [*COMMAND, "worker", "--workers", "1", "--until-idle"]
         with said.open("ab") as stderr:
             workers = [subprocess.Popen(command, env=environment, stderr=stderr) for _ in range(2)]

@@ -19,10 +19,9 @@ from sqlalchemy import Engine, select
 
 from harness.databases import Databases
 from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
-from threadstate.jobs.ask import ask_for, cancel
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.queue import cancel, events_after, job_by_id, submit_job
 from threadstate.jobs.workers import beats
 from threadstate.library.engine import writing
 from threadstate.library.identity import LibraryInputs
@@ -101,7 +100,7 @@ def _check_whole(jobs: Jobs, expected_content: str) -> None:
 
 @pytest.mark.postgresql_alone
 def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, expected_content: str) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     with jobs.start() as one, jobs.start() as other:
         _end(one, other)
     _check_whole(jobs, expected_content)
@@ -111,7 +110,7 @@ def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, expected_content: s
 @pytest.mark.postgresql_alone
 def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_content: str) -> None:
     moments = random.Random(20060128)
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     for _ in range(2):
         with jobs.start() as killed:
             before = jobs.committed()
@@ -127,7 +126,7 @@ def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_conten
 
 @pytest.mark.sqlite_alone
 def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs, expected_content: str) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     with jobs.start() as asleep:
         _wait_for(lambda: jobs.job().lease_count > 0)
         os.kill(asleep.pid, signal.SIGSTOP)
@@ -141,7 +140,7 @@ def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs,
 
 @pytest.mark.sqlite_alone
 def test_told_to_stop_a_worker_leaves_at_once(jobs: Jobs) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     with jobs.start() as worker:
         _wait_for(lambda: jobs.committed() > 0)
         worker.terminate()
@@ -175,7 +174,7 @@ def test_a_worker_touches_its_heartbeat_file_while_the_database_takes_its_beats(
 
 @pytest.mark.sqlite_alone
 def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
-    asked = ask_for(jobs.engine, INPUTS)
+    asked = submit_job(jobs.engine, INPUTS)
     with jobs.start() as worker:
         _wait_for(lambda: jobs.committed() > 0)
         cancel(jobs.engine, asked.id)
@@ -186,7 +185,7 @@ def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
 
 @pytest.mark.sqlite_alone
 def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, expected_content: str) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     database = ("--database", jobs.command_line.database)
     with jobs.start() as worker:
         rebuilt = json.loads(jobs.command_line.out("rebuild", *SMALL_GRID, *database, "--json"))

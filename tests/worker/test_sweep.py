@@ -12,7 +12,7 @@ import worker.sweep.run
 from tests.worker.conftest import CommandLine
 from threadstate.errors import InvalidValueError
 from threadstate.jobs.names import JobState
-from threadstate.jobs.read import jobs_before
+from threadstate.jobs.queue import jobs_before
 from threadstate.library.engine import reading
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs

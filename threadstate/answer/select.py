@@ -53,7 +53,7 @@ def selected(network: LibraryNetwork, which: TransitionFilter) -> tuple[Transiti
     if which.state_class is not None:
         found = tuple(one for one in found if one.source.formation.state_class is which.state_class)
     if which.roll_deg is not None or which.pitch_deg is not None:
-        found = tuple(one for one in found if _is_at(network, one, which))
+        found = tuple(one for one in found if _holds_chunks_of(network, one, which))
     if which.phase_min_deg is not None or which.phase_max_deg is not None:
         high = 360.0 if which.phase_max_deg is None else which.phase_max_deg
         found = kept.within_phases(found, which.phase_min_deg or 0.0, high)
@@ -62,6 +62,6 @@ def selected(network: LibraryNetwork, which: TransitionFilter) -> tuple[Transiti
     return found
 
 
-def _is_at(network: LibraryNetwork, one: Transition, which: TransitionFilter) -> bool:
+def _holds_chunks_of(network: LibraryNetwork, one: Transition, which: TransitionFilter) -> bool:
     roll, pitch = network.cell_map.tilt_deg(one.source.orientation)
     return which.roll_deg in (None, roll) and which.pitch_deg in (None, pitch)

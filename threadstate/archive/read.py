@@ -22,7 +22,7 @@ from threadstate.library import history_tables as tables
 from threadstate.library.grid import Grid
 from threadstate.library.history_rows import FormationRows, HistoryRows
 from threadstate.library.rows import Row
-from threadstate.library.schema import MENDING_COMMAND
+from threadstate.library.schema import MIGRATE_COMMAND
 from threadstate.network.cells import Cell
 from threadstate.network.formation import Formation
 from threadstate.state.model import FeaturePair, Flag, StateClass, Vector
@@ -52,7 +52,7 @@ def stored_histories(connection: Connection, library_id: int, grid: Grid) -> Sto
         return None
     if not all(parts[-1]):
         raise SchemaError(
-            f"histories of library {library_id} lack the descents that this threadstate reads: run `{MENDING_COMMAND}`"
+            f"histories of library {library_id} lack the descents that this threadstate reads: run `{MIGRATE_COMMAND}`"
         )
     known = formations(_formation_rows(connection, library_id))
     histories = tuple(

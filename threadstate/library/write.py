@@ -10,6 +10,7 @@ from functools import lru_cache
 from sqlalchemy import Connection, Dialect, Engine, Table, delete, func, insert, select, update
 
 from threadstate.errors import ThreadstateError
+from threadstate.library.advisory_locks import WriterLock, take_lock
 from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.history_rows import HistoryRows, content_sha256_of
@@ -19,7 +20,6 @@ from threadstate.library.method import Method
 from threadstate.library.read import LibraryRecord
 from threadstate.library.rows import ChunkRows, Row
 from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag, undecided
-from threadstate.library.turns import Turn, take_turn
 from threadstate.units import LengthUnit
 
 
@@ -81,7 +81,7 @@ def open_copy(engine: Engine, record: LibraryRecord) -> int:
 def _opened(engine: Engine, head: _Head) -> int:
     grid = head.grid
     with engine.begin() as connection:
-        take_turn(connection, Turn.OPEN_LIBRARY)
+        take_lock(connection, WriterLock.OPEN_LIBRARY)
         known = connection.scalar(select(library.c.id).where(library.c.input_sha256 == head.input_sha256))
         if known is not None:
             return int(known)

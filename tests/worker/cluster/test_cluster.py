@@ -16,9 +16,8 @@ from harness.databases import Databases
 from tests.prepared import prepared_chunk, use_prepared_chunks
 from tests.worker.cluster.clusters import Cluster, running_cluster
 from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
-from threadstate.jobs.ask import ask_for
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.queue import events_after, job_by_id, submit_job
 from threadstate.library.engine import reading, writing
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
@@ -177,7 +176,7 @@ def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
     expected_content: str,
 ) -> None:
     with databases.lent() as database, writing(database) as engine:
-        asked = ask_for(engine, INPUTS)
+        asked = submit_job(engine, INPUTS)
         commands = CommandLine(database, {**environment, LEASE_S: "2", SCHEDULER: cluster.address}, capsys)
         with commands.start("worker", "--until-idle") as process:
             _wait_for(lambda: _committed(database) > 0)
@@ -188,7 +187,7 @@ def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
             done = job_by_id(connection, asked.id)
             kinds = [event.kind for event in events_after(connection, asked.id, 0)]
         assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
-        # No mishap of the job: it was queued once.
+        # No failure of the job: it was queued once.
         assert [kinds.count(kind) for kind in (EventKind.QUEUED, EventKind.PUBLISHED)] == [1, 1]
         _check_whole(database, expected_content)
 
@@ -198,14 +197,14 @@ def test_a_worker_of_jobs_waits_for_its_scheduler(
     databases: Databases, environment: Mapping[str, str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     with databases.lent() as database, writing(database) as engine:
-        asked = ask_for(engine, INPUTS)
+        asked = submit_job(engine, INPUTS)
         commands = CommandLine(database, {**environment, SCHEDULER: "tcp://127.0.0.1:1"}, capsys)
         with commands.start("worker") as process:
             assert process.stderr is not None
             told = [process.stderr.readline() for _ in range(2)]
             process.terminate()
             process.communicate(timeout=PATIENCE_S)
-        assert told[1] == ("the cluster fails, it is tried again: no Dask scheduler answers at tcp://127.0.0.1:1\n")
+        assert told[1] == ("the cluster failed, retrying: no Dask scheduler answers at tcp://127.0.0.1:1\n")
         with engine.connect() as connection:
             waiting = job_by_id(connection, asked.id)
         assert (waiting.state, waiting.lease_count) == (JobState.RUNNING, 0)

@@ -8,12 +8,10 @@ from sqlalchemy import Engine, delete
 
 from tests.jobs.jobs import GRID, INPUTS, events, opened, published_count, read_job, work_off
 from threadstate.errors import NotFoundError
-from threadstate.jobs.ask import ask_for, cancel
-from threadstate.jobs.inputs import inputs_from_json, inputs_json
-from threadstate.jobs.model import JobEndedError
+from threadstate.jobs.model import JobEndedError, inputs_from_json, inputs_json
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.read import jobs_before
-from threadstate.jobs.work import hand_in, publish_job, take_chunks
+from threadstate.jobs.queue import cancel, jobs_before, submit_job
+from threadstate.jobs.work import complete_chunk, lease_chunks, publish_job
 from threadstate.jobs.workers import join
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -38,16 +36,16 @@ def test_inputs_are_the_same_after_the_database(inputs: LibraryInputs) -> None:
 
 
 def test_the_same_job_asked_for_twice_is_one(engine: Engine) -> None:
-    first, second = ask_for(engine, INPUTS), ask_for(engine, INPUTS)
+    first, second = submit_job(engine, INPUTS), submit_job(engine, INPUTS)
     assert first == second
     assert (first.state, first.chunk_count, first.done_count) == (JobState.QUEUED, 9, 0)
     assert [event.kind for event in events(engine, first.id)] == [EventKind.QUEUED]
-    assert ask_for(engine, replace(INPUTS, grid=Grid(0.0, 1.0, 180.0))).id != first.id
+    assert submit_job(engine, replace(INPUTS, grid=Grid(0.0, 1.0, 180.0))).id != first.id
 
 
 def test_the_same_job_asked_for_by_many_at_once_is_one(engine: Engine) -> None:
     with ThreadPoolExecutor(8) as pool:
-        asked = list(pool.map(lambda _: ask_for(engine, INPUTS), range(16)))
+        asked = list(pool.map(lambda _: submit_job(engine, INPUTS), range(16)))
     assert len({one.id for one in asked}) == 1
     with engine.connect() as connection:
         assert len(jobs_before(connection, 2**31, 10)) == 1
@@ -55,21 +53,21 @@ def test_the_same_job_asked_for_by_many_at_once_is_one(engine: Engine) -> None:
 
 
 def test_the_latest_jobs_come_first_page_by_page(engine: Engine) -> None:
-    ids = [ask_for(engine, replace(INPUTS, grid=Grid(0.0, 1.0, 360.0 / n))).id for n in (1, 2, 3)]
+    ids = [submit_job(engine, replace(INPUTS, grid=Grid(0.0, 1.0, 360.0 / n))).id for n in (1, 2, 3)]
     with engine.connect() as connection:
         assert [one.id for one in jobs_before(connection, 2**63, 2)] == [ids[2], ids[1]]
         assert [one.id for one in jobs_before(connection, ids[1], 2)] == [ids[0]]
 
 
 def test_a_cancelled_job_is_not_worked_on_and_publishes_nothing(engine: Engine) -> None:
-    job = ask_for(engine, INPUTS)
+    job = submit_job(engine, INPUTS)
     worker = join(engine, "one")
     library_id = opened(engine, job.id)
     work_off(engine, worker, job.id, library_id, most=8)
-    (last,) = take_chunks(engine, worker, job.id, 9)
+    (last,) = lease_chunks(engine, worker, job.id, 9)
     assert cancel(engine, job.id).state is JobState.CANCELLED
-    assert not hand_in(engine, worker, job.id, last)
-    assert take_chunks(engine, worker, job.id, 9) == ()
+    assert not complete_chunk(engine, worker, job.id, last)
+    assert lease_chunks(engine, worker, job.id, 9) == ()
     assert not publish_job(engine, worker, job.id, library_id, GRID)
     assert published_count(engine) == 0
     assert cancel(engine, job.id) == read_job(engine, job.id)
@@ -77,12 +75,12 @@ def test_a_cancelled_job_is_not_worked_on_and_publishes_nothing(engine: Engine) 
 
 
 def test_a_cancelled_job_asked_for_again_goes_on_with_what_is_committed(engine: Engine) -> None:
-    job = ask_for(engine, INPUTS)
+    job = submit_job(engine, INPUTS)
     worker = join(engine, "one")
     library_id = opened(engine, job.id)
     work_off(engine, worker, job.id, library_id, most=4)
     cancel(engine, job.id)
-    again = ask_for(engine, INPUTS)
+    again = submit_job(engine, INPUTS)
     assert (again.id, again.state, again.ended_at, again.done_count) == (job.id, JobState.QUEUED, None, 0)
     assert opened(engine, job.id) == library_id
     assert read_job(engine, job.id).done_count == 4
@@ -93,18 +91,18 @@ def test_a_cancelled_job_asked_for_again_goes_on_with_what_is_committed(engine: 
 
 
 def test_a_job_that_is_done_stays_done_while_its_library_is_there(engine: Engine) -> None:
-    job = ask_for(engine, INPUTS)
+    job = submit_job(engine, INPUTS)
     worker = join(engine, "one")
     library_id = opened(engine, job.id)
     work_off(engine, worker, job.id, library_id)
     publish_job(engine, worker, job.id, library_id, GRID)
-    done = ask_for(engine, INPUTS)
+    done = submit_job(engine, INPUTS)
     assert (done.state, done.library_id) == (JobState.DONE, library_id)
     with pytest.raises(JobEndedError):
         cancel(engine, job.id)
     with engine.begin() as connection:
         connection.execute(delete(library))
-    assert ask_for(engine, INPUTS).state is JobState.QUEUED
+    assert submit_job(engine, INPUTS).state is JobState.QUEUED
 
 
 def test_a_job_that_is_not_there_is_not_found(engine: Engine) -> None:

@@ -1,4 +1,4 @@
-"""Finding out who is silent, by a steady clock of one's own and counts alone."""
+"""Detection of dead workers by their heartbeat counters and a local monotonic clock."""
 
 from __future__ import annotations
 
@@ -13,11 +13,10 @@ class _Seen:
     since_s: float
 
 
-class Watch:
-    """Remembers when each count was seen first.
+class SilenceDetector:
+    """Remembers when each counter value was first seen.
 
-    No clock but the watcher's own is read, and that one only goes forward: setting clocks, back or forth, on this
-    machine or another, changes nothing.
+    Reads a monotonic clock of this process alone: setting the clock of any machine has no effect.
     """
 
     def __init__(self, lease_s: float, clock: Callable[[], float] = time.monotonic) -> None:
@@ -27,10 +26,11 @@ class Watch:
         self._looked_s = clock()
 
     def silent(self, beats: Mapping[str, int]) -> list[tuple[str, int]]:
-        """Those whose count has stood still for longer than the lease, with that count.
+        """The workers whose counter has not changed for longer than the lease, with the counter.
 
-        A watcher that has not looked itself for half a lease (it was stopped, or the database was away) begins anew:
-        the others may not have been able to count either.
+        A detector that was not called for half a lease (the process was stopped, or the database was unreachable)
+        starts
+        again: the other workers may not have been able to send heartbeats either.
         """
         now_s = self._clock()
         if now_s - self._looked_s > 0.5 * self._lease_s:
