@@ -107,7 +107,7 @@ def _check(engine: Engine, current: JobRecord, expected: str) -> None:
         assert published in ([], [expected]), published
         return
     assert published == [expected]
-    assert (chunks, states) == (GRID.orientation_count, GRID.state_count)
+    assert (chunks, states) == (GRID.orientation_count, GRID.pose_count)
     progress = [event.done_count for event in events if event.kind is EventKind.PROGRESS]
     assert progress == sorted(set(progress)), progress
     assert [event.kind for event in events].count(EventKind.PUBLISHED) == 1

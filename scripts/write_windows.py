@@ -154,7 +154,7 @@ def _mirrored(network: LibraryNetwork) -> tuple[float, int]:
     grid = network.library.grid
     engine = reader_engine(read_settings().database)
     with engine.connect() as connection:
-        states = states_between(connection, network.library.id, 0, grid.state_count - 1)
+        states = states_between(connection, network.library.id, 0, grid.pose_count - 1)
     engine.dispose()
     by_pose = {(state.roll_deg, state.pitch_deg, state.phase_deg): state for state in states}
     worst, compared = 0.0, 0

@@ -1,4 +1,4 @@
-"""The engine that writes jobs, and nothing of libraries."""
+"""The engine that writes jobs; libraries are never written by the service."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ from service.database import engine_of
 from threadstate.library.engine import writer_engine
 from threadstate.library.schema import check_schema
 
-PATIENCE_S = 2.0
-"""How long a request waits for what another process is writing; a thread of the service waits with it."""
+LOCK_TIMEOUT_S = 2.0
+"""How long a request, and its thread, waits for another process's write lock."""
 
 
 class ControlEngine:
-    """An engine that may write, made when it is first needed: a SQLite file that is missing is not made by it."""
+    """An engine that may write, created when it is first needed, after the schema check: it never creates a SQLite
+    file.
+    """
 
     def __init__(self, database: str) -> None:
         self._database = database
@@ -25,10 +27,10 @@ class ControlEngine:
         self._lock = Lock()
 
     def get(self) -> Engine:
-        """The engine; the database has to be there."""
+        """The engine; the database must exist."""
         with self._lock:
             if self._engine is None:
-                self._engine = writer_engine(self._database, PATIENCE_S)
+                self._engine = writer_engine(self._database, LOCK_TIMEOUT_S)
             return self._engine
 
     def dispose(self) -> None:

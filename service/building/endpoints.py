@@ -8,8 +8,8 @@ from fastapi import APIRouter, Response
 from pydantic import BaseModel, Field
 
 from service.database import ReadConnection
-from threadstate.library.building import building_libraries
-from threadstate.library.method import Method
+from threadstate.library.builds import library_builds
+from threadstate.library.solver_method import SolverMethod
 
 router = APIRouter(prefix="/v1/building", tags=["libraries"])
 
@@ -18,7 +18,7 @@ class BuildingDocument(BaseModel):
     """A library that is not published yet."""
 
     designation: str = Field(examples=["1/4-20 UNC"])
-    method: Method
+    method: SolverMethod
     orientations: int = Field(description="how many there are to compute")
     done: int = Field(description="how many of them are stored")
     created_at: datetime
@@ -43,6 +43,6 @@ def list_building(connection: ReadConnection, response: Response) -> BuildingLis
                 done=one.done,
                 created_at=one.created_at,
             )
-            for one in building_libraries(connection)
+            for one in library_builds(connection)
         ]
     )

@@ -14,7 +14,7 @@ from threadstate.jobs.model import JobEvent, JobRecord
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
@@ -69,13 +69,13 @@ class JobRequest(BaseModel):
         json_schema_extra={
             "examples": [{"designation": DEFAULT_DESIGNATION, "grid": {"phase_step": 5.0}}],
             "if": {"required": ["mesh"], "properties": {"mesh": {"type": "object"}}},
-            "then": {"required": ["method"], "properties": {"method": {"const": Method.MESH.value}}},
+            "then": {"required": ["method"], "properties": {"method": {"const": SolverMethod.MESH.value}}},
         },
     )
 
     designation: Annotated[str, Field(min_length=1, max_length=100, description="the thread")] = DEFAULT_DESIGNATION
     grid: GridToCompute = GridToCompute()
-    method: Method = Method.EXACT
+    method: SolverMethod = SolverMethod.EXACT
     tolerances: Tolerances = Tolerances()
     mesh: MeshSettings | None = Field(default=None, description="of the method `mesh` alone")
 
@@ -85,13 +85,13 @@ class JobRequest(BaseModel):
         Raises:
             InvalidValueError: a value is out of range, or there are settings of meshes for another method.
         """
-        if self.mesh is not None and self.method is not Method.MESH:
+        if self.mesh is not None and self.method is not SolverMethod.MESH:
             raise InvalidValueError("mesh", "given", "settings of the method `mesh` alone")
         return LibraryInputs(
             pair_by_designation(self.designation),
             Grid(self.grid.tilt_max, self.grid.tilt_step, self.grid.phase_step),
             SolveOptions(**dict(self.tolerances)),
-            None if self.method is Method.EXACT else _mesh_options(self.mesh or MeshSettings()),
+            None if self.method is SolverMethod.EXACT else _mesh_options(self.mesh or MeshSettings()),
         )
 
 
@@ -102,7 +102,7 @@ class JobDocument(BaseModel):
     state: JobState
     reason: str | None = Field(description="why it failed")
     designation: str
-    method: Method
+    method: SolverMethod
     grid: GridDocument
     options: dict[str, float | str | bool] = Field(description="limits and tolerances of the method")
     input_sha256: str = Field(description="hash of all of these; the same is the same job")

@@ -8,9 +8,9 @@ from datetime import datetime
 
 from pydantic import BaseModel, Field, TypeAdapter
 
-from threadstate.library.method import Method
 from threadstate.library.named import slug
 from threadstate.library.read import Counts, LibraryRecord
+from threadstate.library.solver_method import SolverMethod
 from threadstate.state.model import Flag, StateClass
 from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit, conversion_factor
@@ -37,7 +37,7 @@ class LibraryDocument(BaseModel):
     stored_unit: LengthUnit = Field(description="unit in which the library was computed and is stored")
     pair: Pair = Field(description="the bolt and the nut; lengths in this answer's unit, fillets per thread pitch")
     grid: GridDocument
-    method: Method
+    method: SolverMethod
     options: dict[str, float | str] = Field(description="limits and tolerances of the method; lengths per thread pitch")
     state_count: int
     undecided_count: int = Field(description="how many more poses of the grid the method could not decide")

@@ -10,7 +10,7 @@ import math
 
 from service.states.query import Place, Sort, StateFilter
 from threadstate.errors import InvalidValueError
-from threadstate.library.grid import LARGEST_STATE_COUNT
+from threadstate.library.grid import LARGEST_POSE_COUNT
 from threadstate.state.model import StateClass
 
 LONGEST_CURSOR = 256
@@ -37,7 +37,7 @@ def decode_cursor(cursor: str, library_id: int, which: StateFilter, sort: Sort) 
             digest == _query_digest(library_id, which, sort)
             and not isinstance(value, bool)
             and not isinstance(ordinal, bool)
-            and 0 <= ordinal < LARGEST_STATE_COUNT
+            and 0 <= ordinal < LARGEST_POSE_COUNT
             and _can_be_of(sort.key, value)
         ):
             return Place(value, ordinal)

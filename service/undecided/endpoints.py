@@ -14,13 +14,13 @@ from service.numbers import INTEGER_TEXT
 from service.representation import NOT_MODIFIED, json_response
 from service.states.parameters import LimitQuery
 from service.undecided.schemas import UndecidedPage, undecided_document
-from threadstate.library.grid import LARGEST_STATE_COUNT
+from threadstate.library.grid import LARGEST_POSE_COUNT
 from threadstate.library.read import undecided_between
 
 router = APIRouter(prefix="/v1/libraries/{id}/undecided", tags=["states"])
 
 AfterQuery = Annotated[
-    int, Ge(-1), Le(LARGEST_STATE_COUNT), INTEGER_TEXT, Query(description="from the `next` link of the page before")
+    int, Ge(-1), Le(LARGEST_POSE_COUNT), INTEGER_TEXT, Query(description="from the `next` link of the page before")
 ]
 
 
@@ -33,7 +33,7 @@ def list_undecided(
     after: AfterQuery = -1,
 ) -> Response:
     """The poses of the grid that the library's method could not decide, and why, page by page."""
-    found = undecided_between(connection, library.id, after + 1, LARGEST_STATE_COUNT, limit + 1)
+    found = undecided_between(connection, library.id, after + 1, LARGEST_POSE_COUNT, limit + 1)
     shown = found[:limit]
     following = None
     headers = {}

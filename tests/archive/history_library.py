@@ -16,9 +16,8 @@ from threadstate.history.window import windows_of
 from threadstate.library.engine import writer_engine
 from threadstate.library.fingerprint import answers_sha256, chunk_sha256, library_sha256
 from threadstate.library.grid import Grid
-from threadstate.library.history_rows import HistoryRows
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.rows import chunk_rows
+from threadstate.library.rows import HistoryRows, chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc

@@ -22,8 +22,8 @@ from worker.rebuild import rebuild
 
 @pytest.fixture(autouse=True)
 def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("threadstate.library.sqlite_engine.BUSY_TIMEOUT_S", 0.2)
-    monkeypatch.setattr("service.control.PATIENCE_S", 0.2)
+    monkeypatch.setattr("threadstate.library.engine.BUSY_TIMEOUT_S", 0.2)
+    monkeypatch.setattr("service.control.LOCK_TIMEOUT_S", 0.2)
     monkeypatch.setattr("worker.jobs.serve.RETRY_S", 0.1)
 
 

@@ -31,6 +31,6 @@ def test_same_and_different_libraries_at_once(databases: Databases) -> None:
         assert [one.content_sha256 for one in ended] == [content for content in expected for _ in range(EACH)]
         for grid, one, other in zip(GRIDS, ended[::EACH], ended[1::EACH], strict=True):
             assert one.library_id == other.library_id
-            assert one.computed + other.computed == grid.state_count, "each pose is counted once"
+            assert one.computed + other.computed == grid.pose_count, "each pose is counted once"
         with writing(database) as engine:
             assert sorted(published(engine)) == sorted(expected)

@@ -26,7 +26,7 @@ from threadstate.settings import DATABASE, LEASE_S
 from worker.rebuild import rebuild
 
 RESTARTS = 2
-PATIENCE_S = 300.0
+TIMEOUT_S = 300.0
 FAILS = "the database failed, retrying"
 UNAVAILABLE = "urn:threadstate:problem:database-unavailable"
 
@@ -99,9 +99,9 @@ def test_workers_end_a_job_whole_after_restarts(
             _wait_for(lambda told=told: said.read_text().count(FAILS) > told)  # type: ignore[misc]
             told = said.read_text().count(FAILS)
             server.start()
-        assert [worker.wait(PATIENCE_S) for worker in workers] == [0, 0], said.read_text()
+        assert [worker.wait(TIMEOUT_S) for worker in workers] == [0, 0], said.read_text()
         assert published(engine) == [expected_content]
-        assert (_count(engine, chunk), _count(engine, state)) == (GRID.orientation_count, GRID.state_count)
+        assert (_count(engine, chunk), _count(engine, state)) == (GRID.orientation_count, GRID.pose_count)
         with engine.connect() as connection:
             assert job_by_id(connection, job.id).state is JobState.DONE
 
@@ -115,7 +115,7 @@ def test_a_rebuild_says_so_and_goes_on(
         with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:
             _wait_for(lambda: _count(engine, chunk) > 0)
             server.stop()
-            _, err = process.communicate(timeout=PATIENCE_S)
+            _, err = process.communicate(timeout=TIMEOUT_S)
         server.start()
         assert process.returncode == 1, err
         assert len([line for line in err.splitlines() if line.startswith("threadstate: ")]) == 1
@@ -132,7 +132,7 @@ def _count(engine: Engine, table: Table) -> int:
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
-    end = time.monotonic() + PATIENCE_S
+    end = time.monotonic() + TIMEOUT_S
     while not condition():
         assert time.monotonic() < end, "in vain"
         time.sleep(0.01)

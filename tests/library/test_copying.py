@@ -72,7 +72,7 @@ def _write_some(way: Way, indexes: range) -> int:
 def test_a_copy_is_the_same_to_the_last_bit(way: Way) -> None:
     copied = copy_library(way.source, way.target, LIBRARY)
     assert not copied.was_there
-    assert copied.pose_count == GRID.state_count
+    assert copied.pose_count == GRID.pose_count
     with way.source.connect() as source, way.target.connect() as target:
         record = library_by_id(source, LIBRARY)
         there = library_by_id(target, copied.library_id)
@@ -166,6 +166,6 @@ def _peak_bytes(databases: Databases, grid: Grid) -> int:
 @pytest.mark.sqlite_alone
 def test_memory_does_not_grow_with_the_number_of_orientations(databases: Databases) -> None:
     few, many = Grid(0.0, 1.0, 15.0), Grid(2.0, 1.0, 15.0)
-    assert many.state_count == 25 * few.state_count
+    assert many.pose_count == 25 * few.pose_count
     _peak_bytes(databases, few)  # what is loaded and compiled once does not count
     assert _peak_bytes(databases, many) < 2 * _peak_bytes(databases, few)

@@ -32,7 +32,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
-PATIENCE_S = 120.0
+TIMEOUT_S = 120.0
 
 
 class Jobs:
@@ -69,7 +69,7 @@ def jobs(
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
-    end = time.monotonic() + PATIENCE_S
+    end = time.monotonic() + TIMEOUT_S
     while not condition():
         assert time.monotonic() < end, "in vain"
         time.sleep(0.01)
@@ -78,7 +78,7 @@ def _wait_for(condition: Callable[[], bool]) -> None:
 def _end(*workers: subprocess.Popen[str]) -> None:
     """Wait until workers have ended by themselves, without an error."""
     for worker in workers:
-        _, err = worker.communicate(timeout=PATIENCE_S)
+        _, err = worker.communicate(timeout=TIMEOUT_S)
         assert worker.returncode == 0, err
 
 
@@ -89,8 +89,8 @@ def _check_whole(jobs: Jobs, expected_content: str) -> None:
     assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
     with jobs.engine.connect() as connection:
         assert done.library_id is not None
-        assert library_by_id(connection, done.library_id).state_count == GRID.state_count
-        assert len(connection.execute(select(state.c.ordinal)).all()) == GRID.state_count
+        assert library_by_id(connection, done.library_id).state_count == GRID.pose_count
+        assert len(connection.execute(select(state.c.ordinal)).all()) == GRID.pose_count
         told = events_after(connection, done.id, 0)
     assert [event.number for event in told] == list(range(1, done.event_count + 1))
     progress = [event.done_count for event in told if event.kind is EventKind.PROGRESS]
@@ -144,7 +144,7 @@ def test_told_to_stop_a_worker_leaves_at_once(jobs: Jobs) -> None:
     with jobs.start() as worker:
         _wait_for(lambda: jobs.committed() > 0)
         worker.terminate()
-        _, err = worker.communicate(timeout=PATIENCE_S)
+        _, err = worker.communicate(timeout=TIMEOUT_S)
     assert worker.returncode == 0, err
     assert err.splitlines()[-1] == "stopped"
     assert beats(jobs.engine) == {}
@@ -169,7 +169,7 @@ def test_a_worker_touches_its_heartbeat_file_while_the_database_takes_its_beats(
             assert file.stat().st_mtime_ns == last
             os.kill(worker.pid, signal.SIGCONT)
             worker.terminate()
-            worker.communicate(timeout=PATIENCE_S)
+            worker.communicate(timeout=TIMEOUT_S)
 
 
 @pytest.mark.sqlite_alone

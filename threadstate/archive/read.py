@@ -20,8 +20,7 @@ from threadstate.history.labels import ContactLabels
 from threadstate.history.window import Course, Window
 from threadstate.library import history_tables as tables
 from threadstate.library.grid import Grid
-from threadstate.library.history_rows import FormationRows, HistoryRows
-from threadstate.library.rows import Row
+from threadstate.library.rows import FormationRows, HistoryRows, Row
 from threadstate.library.schema import MIGRATE_COMMAND
 from threadstate.network.cells import Cell
 from threadstate.network.formation import Formation

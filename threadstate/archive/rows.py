@@ -10,8 +10,7 @@ from threadstate.history.falls import Falls
 from threadstate.history.labels import ContactLabels
 from threadstate.history.model import Boundary, History
 from threadstate.history.window import Window
-from threadstate.library.history_rows import FormationRows, HistoryRows
-from threadstate.library.rows import Row
+from threadstate.library.rows import FormationRows, HistoryRows, Row
 from threadstate.network.cells import Cell
 from threadstate.network.formation import Formation
 from threadstate.network.from_history import cells_of

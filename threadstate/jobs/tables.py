@@ -14,9 +14,8 @@ from sqlalchemy import (
 )
 
 from threadstate.jobs.names import EventKind, JobState
+from threadstate.library.column_types import UtcDateTime, bytewise_string, bytewise_text
 from threadstate.library.tables import NAME_LENGTH, SHA256_LENGTH, metadata, one_of
-from threadstate.library.text import bytewise_string, bytewise_text
-from threadstate.library.utc import UtcDateTime
 
 WORKER_ID_LENGTH = 32
 WORKER_NAME_LENGTH = 200

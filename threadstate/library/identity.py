@@ -12,7 +12,7 @@ from pathlib import Path
 import threadstate
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
@@ -33,9 +33,9 @@ class LibraryInputs:
     mesh: MeshOptions | None = None
 
     @property
-    def method(self) -> Method:
+    def method(self) -> SolverMethod:
         """How states are found."""
-        return Method.EXACT if self.mesh is None else Method.MESH
+        return SolverMethod.EXACT if self.mesh is None else SolverMethod.MESH
 
     @cached_property
     def pair_json(self) -> str:
@@ -61,7 +61,7 @@ class LibraryInputs:
         return inputs_sha256(self.pair_json, self.grid, self.method, self.options_json, self.code_version)
 
 
-def inputs_sha256(pair_json: str, grid: Grid, method: Method, options_json: str, code_version: str) -> str:
+def inputs_sha256(pair_json: str, grid: Grid, method: SolverMethod, options_json: str, code_version: str) -> str:
     """SHA-256, in hexadecimal, of what a library's content depends on."""
     parts = (pair_json, canonical_json(grid), method, options_json, code_version)
     return hashlib.sha256(json.dumps(parts, separators=(",", ":")).encode()).hexdigest()
