@@ -13,13 +13,13 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from service.cache.library_names import LibraryNames
 from service.network.store import NetworkStore
-from threadstate.answer.prepare import preparation
 from threadstate.errors import NotFoundError
 from threadstate.library.named import LATEST
 from threadstate.library.read import LibraryRecord
+from threadstate.responses.precompute import precompute_steps
 
 STEPS_AT_START = 3
-"""Of the preparation, those that solve nothing; what solves is done one by one, at leisure."""
+"""Of the precompute_steps, those that solve nothing; what solves is done one by one, at leisure."""
 LEISURE = 3.0
 """After each step at leisure requests have the machine to themselves for so many times as long."""
 
@@ -59,10 +59,10 @@ async def _prepare_at_leisure(app: FastAPI, library: LibraryRecord) -> None:
 
 
 def _prepare(engine: Engine, networks: NetworkStore, library: LibraryRecord, number: int) -> bool:
-    """Do one step of the preparation; whether there was one that could be done."""
+    """Do one step of the precompute_steps; whether there was one that could be done."""
     try:
         with engine.connect() as connection:
-            steps = preparation(connection, networks.of(connection, library))
+            steps = precompute_steps(connection, networks.of(connection, library))
             step = next(islice(steps, number, None), None)
             if step is not None:
                 step()

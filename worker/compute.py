@@ -8,7 +8,6 @@ from contextlib import suppress
 from functools import partial
 from multiprocessing.connection import Connection
 
-from threadstate.archive.rows import history_rows
 from threadstate.history.build import histories_of
 from threadstate.history.descents import falls_of
 from threadstate.history.height_curve import height_curve
@@ -16,6 +15,7 @@ from threadstate.history.records import RecordStore
 from threadstate.history.window import windows_of
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
+from threadstate.stored_histories.mapping import history_rows
 from worker.answers import exact_answers, mesh_answers
 from worker.messages import Chunk, Failure, Ready
 

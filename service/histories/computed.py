@@ -16,8 +16,9 @@ from service.network.schemas import ComputedFalls, ComputedHeights, ComputedInte
 from service.numbers import INTEGER_TEXT, NUMBER_TEXT
 from service.representation import JSON
 from service.units import UNIT_HEADER, UnitQuery
-from threadstate.answer.documents import FallsDocument
-from threadstate.answer.falls_range import (
+from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
+from threadstate.responses.documents import FallsDocument
+from threadstate.responses.falls_range import (
     LARGEST_SPAN_DEG,
     LARGEST_TOLERANCE_DEG,
     MOST_STEPS,
@@ -26,9 +27,8 @@ from threadstate.answer.falls_range import (
     falls_range,
     tilts_within,
 )
-from threadstate.answer.heights import computed_heights, heights_document
-from threadstate.answer.histories import computed_history, history_document
-from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
+from threadstate.responses.heights import computed_heights, heights_document
+from threadstate.responses.histories import computed_history, history_document
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import conversion_factor
 

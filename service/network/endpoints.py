@@ -36,19 +36,19 @@ from service.network.store import RequestedNetwork
 from service.numbers import INTEGER_TEXT
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
 from service.units import UNIT_HEADER, UnitQuery
-from threadstate.answer.heights import heights_document, stored_heights
-from threadstate.answer.histories import history_document
-from threadstate.answer.library_network import LibraryNetwork
-from threadstate.answer.networks import location_document, node_document, path_document
-from threadstate.answer.select import selected
-from threadstate.answer.transitions import transition_documents
-from threadstate.answer.windows import windows_of_histories
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES
 from threadstate.network.formation import KEY_DIGITS
 from threadstate.network.locate import locate
 from threadstate.network.paths import best_path
 from threadstate.network.search import Objective
+from threadstate.responses.heights import heights_document, stored_heights
+from threadstate.responses.histories import history_document
+from threadstate.responses.library_network import LibraryNetwork
+from threadstate.responses.networks import location_document, node_document, path_document
+from threadstate.responses.query import filter_transitions
+from threadstate.responses.transitions import transition_documents
+from threadstate.responses.windows import windows_of_histories
 from threadstate.units import LengthUnit, conversion_factor
 
 router = APIRouter(prefix="/v1/libraries/{id}", tags=["network"])
@@ -131,7 +131,7 @@ def list_transitions(
     stretch over which the tilt can be made, unless that is shorter than 0.001 deg.
     """
     shown, factor = _unit(network, unit)
-    found = selected(network, which)
+    found = filter_transitions(network, which)
     page = found[after : after + limit]
     following = None
     headers = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import BaseModel, Field
 
-from threadstate.answer.documents import (
+from threadstate.responses.documents import (
     FallsDocument,
     FallsRangeDocument,
     FormationSummaryDocument,

@@ -10,8 +10,8 @@ from sqlalchemy import Connection
 
 from service.database import ReadConnection
 from service.libraries.identify import IdentifiedLibrary
-from threadstate.answer.library_network import LibraryNetwork, library_network
 from threadstate.library.read import LibraryRecord
+from threadstate.responses.library_network import LibraryNetwork, library_network
 
 MOST_LIBRARIES = 4
 """How many libraries' networks are kept; the one that was asked for longest ago goes first."""

@@ -12,9 +12,9 @@ from selenium.webdriver.common.keys import Keys
 from harness.browser import Explorer
 from harness.databases import Databases
 from harness.running_service import running_service
-from tests.archive.history_library import histories_of_grid, rows_of, store_histories
 from tests.explorer.conftest import GRID
 from tests.explorer.test_accessibility import AXE, violations
+from tests.stored_histories.history_library import histories_of_grid, rows_of, store_histories
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.jobs.queue import submit_job

@@ -9,8 +9,8 @@ import pytest
 from sqlalchemy import Engine, create_engine, event
 
 from harness.databases import SqliteDatabases
-from tests.archive.history_library import content_of
 from tests.prepared import use_prepared_chunks
+from tests.stored_histories.history_library import content_of
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries

@@ -5,8 +5,8 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 
 from harness.databases import Databases
-from tests.archive.history_library import PAIR, content_of
 from tests.faults.conftest import Unwatched, published
+from tests.stored_histories.history_library import PAIR, content_of
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs

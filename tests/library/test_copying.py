@@ -9,12 +9,12 @@ import pytest
 from sqlalchemy import Engine, Table, update
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID as GRID
-from tests.archive.history_library import store_histories
 from tests.library.states import plain_state
 from tests.library.test_undecided import published as published_with_undecided
+from tests.stored_histories.history_library import SMALL_GRID as GRID
+from tests.stored_histories.history_library import store_histories
 from threadstate.errors import NotFoundError
-from threadstate.history.model import History
+from threadstate.history.model import SolvedHistory
 from threadstate.library import copying, write
 from threadstate.library.copying import CopyError, copy_library
 from threadstate.library.engine import reading, writing
@@ -32,7 +32,7 @@ LIBRARY = 1
 
 
 @pytest.fixture(scope="module")
-def with_histories(databases: Databases, small_histories: list[History]) -> str:
+def with_histories(databases: Databases, small_histories: list[SolvedHistory]) -> str:
     """A database with a library that has histories."""
     database = databases.migrated()
     store_histories(database, GRID, small_histories)

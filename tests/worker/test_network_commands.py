@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from harness.databases import Databases
-from tests.archive.history_library import histories_of_grid, store_histories
+from tests.stored_histories.history_library import histories_of_grid, store_histories
 from tests.worker.conftest import CommandLine
 from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE

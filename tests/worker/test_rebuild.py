@@ -12,10 +12,9 @@ from pathlib import Path
 import pytest
 from sqlalchemy import select
 
-from tests.archive.history_library import histories_of_grid, rows_of
 from tests.prepared import use_prepared_chunks
+from tests.stored_histories.history_library import histories_of_grid, rows_of
 from tests.worker.conftest import GRID, ONE_ORIENTATION, SMALL_GRID, CommandLine
-from threadstate.archive.read import formations, orientation_history, stored_histories
 from threadstate.errors import NotFoundError
 from threadstate.library.engine import reader_engine
 from threadstate.library.grid import Grid
@@ -25,6 +24,7 @@ from threadstate.library.rows import HistoryRows
 from threadstate.library.schema import stored_revision
 from threadstate.library.tables import chunk
 from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.stored_histories.mapping import formations, orientation_history, stored_histories
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.processes import ComputeError, computing_processes
 

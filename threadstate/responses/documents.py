@@ -1,6 +1,6 @@
-"""The shapes of answers about histories, transitions, clearance windows and the constraint network.
+"""Response models of histories, transitions, clearance windows and the constraint network.
 
-Angles in degrees; lengths in the unit that the answer, or whoever asked, names. An interval, window or stretch that
+Angles in degrees; lengths in the unit that the response, or the caller, names. An interval, window or stretch that
 holds phase 0 ends above 360.
 """
 
@@ -28,7 +28,7 @@ class _Document(BaseModel):
 
 
 class LabelsDocument(_Document):
-    """What touches what at one contact."""
+    """The labels of a contact."""
 
     stage: int
     bolt_region: Region

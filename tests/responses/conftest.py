@@ -6,15 +6,15 @@ import pytest
 from sqlalchemy import Connection
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID, store_histories
-from threadstate.answer.library_network import LibraryNetwork, library_network
-from threadstate.history.model import History
+from tests.stored_histories.history_library import SMALL_GRID, store_histories
+from threadstate.history.model import SolvedHistory
 from threadstate.library.engine import reader_engine
 from threadstate.library.read import library_by_id
+from threadstate.responses.library_network import LibraryNetwork, library_network
 
 
 @pytest.fixture(scope="module")
-def database(sqlite_databases: Databases, small_histories: list[History]) -> str:
+def database(sqlite_databases: Databases, small_histories: list[SolvedHistory]) -> str:
     """A database with a library of nine orientations."""
     url = sqlite_databases.migrated()
     store_histories(url, SMALL_GRID, small_histories)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from threadstate.answer.documents import FallsDocument, FallsRangeDocument
-from threadstate.answer.windows import falls_document
 from threadstate.errors import InvalidValueError
 from threadstate.history.descents import falls_of
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
 from threadstate.history.height_curve import height_curve
 from threadstate.numbers import number_text
+from threadstate.responses.documents import FallsDocument, FallsRangeDocument
+from threadstate.responses.windows import falls_document
 from threadstate.state.options import TILT_LIMIT_DEG, SolveOptions
 from threadstate.thread.pair import Pair
 

@@ -1,4 +1,4 @@
-"""Histories as they are stored: labels, phases, heights, and what changes at each boundary."""
+"""Stored histories: labels, phases, heights, and the changes at each boundary."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from threadstate.state.model import Contact, ContactState, Flag, Vector
 
 @dataclass(frozen=True, slots=True)
 class StoredContactChange:
-    """A contact that changes at a boundary; labels and normals (nut's frame) are None where it is not there.
+    """A contact that changes at a boundary; labels and normals (nut's frame) are None on a side without it.
 
     ``stage`` and ``place`` (from 0, within its stage) say which contact; ``moved`` is a length, None where the contact
     is on one side alone.
@@ -69,7 +69,7 @@ class StoredHeights:
 
 
 @dataclass(frozen=True)
-class OrientationHistory:
+class StoredHistory:
     """The history of an orientation: ``heights[i]`` belong to ``cells[i]``, which begins at ``boundaries[i]``."""
 
     cells: tuple[Cell, ...]
@@ -81,10 +81,10 @@ class OrientationHistory:
 
 @dataclass(frozen=True)
 class StoredHistories:
-    """All that is stored of a library's histories, by orientation."""
+    """The stored histories of a library, by orientation."""
 
     tilts_deg: tuple[float, ...]
-    orientations: tuple[OrientationHistory, ...]
+    orientations: tuple[StoredHistory, ...]
 
     def tilt_deg(self, orientation: int) -> tuple[float, float]:
         """Roll and pitch of an orientation."""
@@ -100,7 +100,7 @@ class StoredHistories:
 def stored_changes(
     changes: Sequence[ContactChange], before: ContactState | None, after: ContactState | None
 ) -> tuple[StoredContactChange, ...]:
-    """Changes between two states with the contacts' normals in these."""
+    """The changes between two states, with the normals of the contacts in both."""
     return tuple(
         StoredContactChange(
             change.stage,

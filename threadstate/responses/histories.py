@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from threadstate.answer.changes import change_documents
-from threadstate.answer.documents import BoundaryDocument, IntervalDocument, OrientationHistoryDocument
-from threadstate.answer.formations import formation_document
-from threadstate.answer.lengths import scaled, sides
-from threadstate.answer.windows import windows_document
-from threadstate.archive.read import formations, orientation_history
-from threadstate.archive.rows import history_rows
-from threadstate.archive.stored import OrientationHistory, StoredBoundary, StoredHeights
 from threadstate.history.build import histories_of
 from threadstate.history.descents import falls_of
 from threadstate.history.height_curve import height_curve
 from threadstate.history.records import RecordStore
 from threadstate.history.window import windows_of
 from threadstate.network.cells import Cell
+from threadstate.responses.documents import BoundaryDocument, IntervalDocument, OrientationHistoryDocument
+from threadstate.responses.formations import change_documents, formation_document
+from threadstate.responses.windows import windows_document
 from threadstate.state.options import SolveOptions
+from threadstate.stored_histories.mapping import formations, history_rows, orientation_history
+from threadstate.stored_histories.model import StoredBoundary, StoredHeights, StoredHistory
 from threadstate.thread.pair import Pair
+from threadstate.units import scale_length, scale_pair
 
 
 def computed_history(
     pair: Pair, roll_deg: float, pitch_deg: float, options: SolveOptions | None = None
-) -> OrientationHistory:
+) -> StoredHistory:
     """The history of any orientation, as a library stores it; its cells have orientation 0.
 
     Raises:
@@ -37,7 +35,7 @@ def computed_history(
 
 
 def history_document(
-    history: OrientationHistory, roll_deg: float, pitch_deg: float, thread_pitch: float, factor: float
+    history: StoredHistory, roll_deg: float, pitch_deg: float, thread_pitch: float, factor: float
 ) -> OrientationHistoryDocument:
     """The document of an orientation's history, lengths multiplied by ``factor``; ``thread_pitch`` before that."""
     keys = [cell.formation.key for cell in history.cells]
@@ -56,9 +54,9 @@ def _interval(cell: Cell, heights: StoredHeights, factor: float) -> IntervalDocu
         end=cell.end_deg,
         formation=formation_document(cell.formation),
         flags=list(cell.flags),
-        margin=scaled(cell.margin, factor),
-        first_height=scaled(heights.first, factor),
-        last_height=scaled(heights.last, factor),
+        margin=scale_length(cell.margin, factor),
+        first_height=scale_length(heights.first, factor),
+        last_height=scale_length(heights.last, factor),
         in_window=cell.in_window,
     )
 
@@ -70,8 +68,8 @@ def _boundary(boundary: StoredBoundary, before: str, after: str, factor: float) 
         high=boundary.high_deg,
         before=before,
         after=after,
-        first_height=sides(boundary.first_height_before, boundary.first_height_after, factor),
-        last_height=sides(boundary.last_height_before, boundary.last_height_after, factor),
+        first_height=scale_pair(boundary.first_height_before, boundary.first_height_after, factor),
+        last_height=scale_pair(boundary.last_height_before, boundary.last_height_after, factor),
         flags_between=list(boundary.flags_between),
         changes=change_documents(boundary.changes, factor),
     )

@@ -6,11 +6,11 @@ import math
 
 from sqlalchemy import Connection
 
-from threadstate.answer.documents import HeightsDocument
-from threadstate.answer.library_network import LibraryNetwork
 from threadstate.history.build import history_of
 from threadstate.history.heights import Floats, Heights, heights_of
 from threadstate.library.read import heights_between
+from threadstate.responses.documents import HeightsDocument
+from threadstate.responses.library_network import LibraryNetwork
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
@@ -21,10 +21,10 @@ _UNDECIDED = (math.nan, math.nan)
 
 
 def stored_heights(connection: Connection, network: LibraryNetwork, roll_deg: float, pitch_deg: float) -> Heights:
-    """The curve of an orientation of a library: what its tables lack is solved, once.
+    """The curve of an orientation of a library: heights that its tables lack are solved, once.
 
     Raises:
-        NotFoundError: the orientation is none of the library's grid.
+        NotFoundError: the library's grid does not have the orientation.
     """
     number = network.orientation(roll_deg, pitch_deg)
     found = network.curves.get(number)

@@ -5,21 +5,21 @@ from unittest import mock
 import pytest
 from sqlalchemy import Connection
 
-import threadstate.answer.heights
-import threadstate.answer.tilts
-from threadstate.answer.heights import heights_document, stored_heights
-from threadstate.answer.library_network import LibraryNetwork
-from threadstate.answer.prepare import preparation
-from threadstate.answer.transitions import transition_documents
+import threadstate.responses.heights
+import threadstate.responses.transitions
+from threadstate.responses.heights import heights_document, stored_heights
+from threadstate.responses.library_network import LibraryNetwork
+from threadstate.responses.precompute import precompute_steps
+from threadstate.responses.transitions import transition_documents
 
 
 def test_afterwards_nothing_is_solved_for_a_question(connection: Connection, network: LibraryNetwork) -> None:
-    for step in preparation(connection, network):
+    for step in precompute_steps(connection, network):
         step()
     solving = AssertionError("a question solves")
     with (
-        mock.patch.object(threadstate.answer.heights, "heights_of", side_effect=solving),
-        mock.patch.object(threadstate.answer.tilts, "solve_poses", side_effect=solving),
+        mock.patch.object(threadstate.responses.heights, "heights_of", side_effect=solving),
+        mock.patch.object(threadstate.responses.transitions, "solve_poses", side_effect=solving),
     ):
         for number in range(network.cell_map.orientation_count):
             roll, pitch = network.histories.tilt_deg(number)
@@ -35,7 +35,7 @@ def test_a_curve_is_made_once(connection: Connection, network: LibraryNetwork) -
 
 
 def test_no_step_is_taken_before_it_is_called(connection: Connection, network: LibraryNetwork) -> None:
-    next(preparation(connection, network))
+    next(precompute_steps(connection, network))
     assert "transitions" not in vars(network)
     with pytest.raises(StopIteration):
         next(iter(network.curves))

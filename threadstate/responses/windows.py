@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from threadstate.answer.documents import (
+from threadstate.history.falls import SNAP_PITCHES, Descent, Falls, Jump
+from threadstate.history.window import Course, Window
+from threadstate.responses.documents import (
     CourseDocument,
     DescentDocument,
     FallsDocument,
@@ -11,9 +13,7 @@ from threadstate.answer.documents import (
     SnapDocument,
     WindowDocument,
 )
-from threadstate.archive.stored import OrientationHistory, StoredHistories
-from threadstate.history.falls import SNAP_PITCHES, Descent, Falls, Jump
-from threadstate.history.window import Course, Window
+from threadstate.stored_histories.model import StoredHistories, StoredHistory
 
 
 def falls_document(
@@ -40,7 +40,7 @@ def falls_document(
 
 
 def windows_document(
-    history: OrientationHistory,
+    history: StoredHistory,
     roll_deg: float,
     pitch_deg: float,
     thread_pitch: float,

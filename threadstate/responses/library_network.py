@@ -1,4 +1,4 @@
-"""A library's histories and what follows from them, each made when it is first needed."""
+"""A library's histories and what is derived from them; each derived value is computed once, when it is first needed."""
 
 from __future__ import annotations
 
@@ -7,11 +7,6 @@ from functools import cached_property
 
 from sqlalchemy import Connection
 
-from threadstate.answer.documents import FormationSummaryDocument, NetworkSummaryDocument
-from threadstate.answer.networks import formation_summaries, summary_document
-from threadstate.answer.tilts import TiltChanges
-from threadstate.archive.read import stored_histories
-from threadstate.archive.stored import StoredHistories
 from threadstate.errors import NotFoundError
 from threadstate.history.heights import Heights
 from threadstate.library.read import LibraryRecord, not_on_the_grid
@@ -20,13 +15,18 @@ from threadstate.network.cells import CellMap
 from threadstate.network.export import dot, graphml, node_link_json
 from threadstate.network.graph import ConstraintNetwork, constraint_network
 from threadstate.network.transitions import Transition, transitions
+from threadstate.responses.documents import FormationSummaryDocument, NetworkSummaryDocument
+from threadstate.responses.networks import formation_summaries, summary_document
+from threadstate.responses.transitions import TiltChanges
 from threadstate.state.options import SolveOptions
+from threadstate.stored_histories.mapping import stored_histories
+from threadstate.stored_histories.model import StoredHistories
 from threadstate.thread.pair import Pair
 
 
 @dataclass(frozen=True)
 class LibraryNetwork:
-    """A library's histories, and what follows from them, made when it is first needed."""
+    """A library's histories and the values derived from them, computed when first needed and cached."""
 
     library: LibraryRecord
     histories: StoredHistories
@@ -58,12 +58,12 @@ class LibraryNetwork:
 
     @cached_property
     def curves(self) -> dict[int, Heights]:
-        """Heights against phase by orientation, as far as they were asked for."""
+        """Cached curves of height against phase, by orientation."""
         return {}
 
     @cached_property
     def tilts(self) -> TiltChanges:
-        """What tilts change, as far as it was asked for."""
+        """The changes by tilts, cached."""
         return TiltChanges(self.histories, self.pair, self.options)
 
     @cached_property
@@ -73,7 +73,7 @@ class LibraryNetwork:
 
     @cached_property
     def formations(self) -> list[FormationSummaryDocument]:
-        """Every formation in few words."""
+        """A summary of every formation."""
         return formation_summaries(self.network)
 
     @cached_property
@@ -95,7 +95,7 @@ class LibraryNetwork:
         """The number of an orientation.
 
         Raises:
-            NotFoundError: it is none of the library's grid.
+            NotFoundError: the library's grid does not have it.
         """
         tilts = self.library.grid.tilts_deg
         if roll_deg not in tilts or pitch_deg not in tilts:
@@ -112,6 +112,7 @@ def library_network(connection: Connection, library: LibraryRecord) -> LibraryNe
     histories = stored_histories(connection, library.id, library.grid)
     if histories is None:
         raise NotFoundError(
-            f"library {library.id}, by the {library.method} method, has no histories; those by the exact method have"
+            f"library {library.id}, by the {library.method} method, has no histories; "
+            "libraries of the exact method have"
         )
     return LibraryNetwork(library, histories)

@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import pytest
 
-from threadstate.answer.library_network import LibraryNetwork
-from threadstate.answer.tilts import NOT_SOLVED, SOLVED_DEG, TiltChanges
 from threadstate.network.moves import Move
 from threadstate.network.transitions import Transition
+from threadstate.responses.library_network import LibraryNetwork
+from threadstate.responses.transitions import NOT_SOLVED, SOLVED_DEG, TiltChanges
 from threadstate.state.solve import solve_poses
 
 

@@ -1,4 +1,4 @@
-"""Completing histories that an older threadstate stored without falls."""
+"""Adding falls to histories that an older threadstate stored without them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from threadstate.library.stored_inputs import options_of, pair_of
 from threadstate.library.tables import chunk, library
 
 
-def incomplete_orientations(engine: Engine) -> list[tuple[int, int]]:
-    """The numbers of libraries and orientations, in order, whose histories have no falls."""
+def orientations_without_falls(engine: Engine) -> list[tuple[int, int]]:
+    """The library ids and orientation numbers, in order, of histories without falls."""
     interval, fall = tables.history_interval.c, tables.steepest_fall.c
     has_falls = select(fall.orientation).where(
         fall.library_id == interval.library_id, fall.orientation == interval.orientation
@@ -30,24 +30,24 @@ def incomplete_orientations(engine: Engine) -> list[tuple[int, int]]:
         return [(row.library_id, row.orientation) for row in connection.execute(query)]
 
 
-def completed(engine: Engine, incomplete: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
-    """Compute and store the falls of orientations, each in a transaction of its own; gives each when it is stored.
+def add_falls(engine: Engine, incomplete: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
+    """Compute and store the falls of orientations, each in its own transaction; yields each after it is stored.
 
-    Content hashes follow: those of a library's orientations one by one, the library's own with its last one, so that it
-    is that of a library computed now. May be stopped at any moment, and called again with what is left; another process
-    may do the same meanwhile.
+    Updates the content hash of each orientation, and with a library's last orientation the hash of the library, which
+    is then that of a library computed now. May be stopped at any time and called again with the remaining orientations;
+    another process may do the same concurrently.
     """
     for number, (library_id, orientation) in enumerate(incomplete):
         is_last = number + 1 == len(incomplete) or incomplete[number + 1][0] != library_id
-        _complete(engine, library_id, orientation, is_last=is_last)
+        _add_falls_of(engine, library_id, orientation, is_last=is_last)
         yield library_id, orientation
 
 
-def _complete(engine: Engine, library_id: int, orientation: int, *, is_last: bool) -> None:
-    # The kernels take a second to load; who only asks what is incomplete is not to wait for them.
-    from threadstate.archive.rows import falls_rows
+def _add_falls_of(engine: Engine, library_id: int, orientation: int, *, is_last: bool) -> None:
+    # Imported late: the kernels take a second to load, and listing orientations needs none.
     from threadstate.history.descents import falls_of
     from threadstate.history.height_curve import height_curve
+    from threadstate.stored_histories.mapping import falls_rows
 
     with engine.connect() as connection:
         head = connection.execute(select(library).where(library.c.id == library_id)).one()
@@ -58,7 +58,7 @@ def _complete(engine: Engine, library_id: int, orientation: int, *, is_last: boo
     fall = tables.steepest_fall.c
     stored = select(fall.orientation).where(fall.library_id == library_id, fall.orientation == orientation)
     with engine.begin() as connection:
-        # The row's lock makes two that complete one library take turns, on databases that lock rows.
+        # The row's lock serialises two processes that do this for one library, on databases that lock rows.
         connection.execute(select(library.c.id).where(library.c.id == library_id).with_for_update())
         if connection.execute(stored).first() is not None:
             return

@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from functools import cache
 
 from tests.shared import computed_once
-from threadstate.archive.rows import history_rows
 from threadstate.history.build import histories_of
 from threadstate.history.descents import falls_of
 from threadstate.history.falls import Falls
 from threadstate.history.height_curve import height_curve
-from threadstate.history.model import History
+from threadstate.history.model import SolvedHistory
 from threadstate.history.window import windows_of
 from threadstate.library.engine import writer_engine
 from threadstate.library.fingerprint import answers_sha256, chunk_sha256, library_sha256
@@ -20,6 +19,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import HistoryRows, chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.stored_histories.mapping import history_rows
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
@@ -28,13 +28,13 @@ SMALL_GRID = Grid(3.0, 3.0, 180.0)
 """9 orientations."""
 
 
-def histories_of_grid(grid: Grid) -> list[History]:
+def histories_of_grid(grid: Grid) -> list[SolvedHistory]:
     """The histories of all orientations of a grid, in order; its phases do not matter."""
     return list(_histories_of_tilts(grid.tilts_deg))
 
 
 @cache
-def _histories_of_tilts(tilts_deg: tuple[float, ...]) -> tuple[History, ...]:
+def _histories_of_tilts(tilts_deg: tuple[float, ...]) -> tuple[SolvedHistory, ...]:
     orientations = [(roll, pitch) for roll in tilts_deg for pitch in tilts_deg]
     name = f"histories of tilts {tilts_deg}"
     return computed_once(name, lambda: tuple(histories_of(quarter_twenty_unc(), orientations)))
@@ -52,7 +52,7 @@ def falls_at(roll_deg: float, pitch_deg: float, pair: Pair = PAIR, options: Solv
     return computed_once(f"falls at {roll_deg} {pitch_deg}", computed)
 
 
-def rows_of(history: History, pair: Pair = PAIR, options: SolveOptions | None = None) -> HistoryRows:
+def rows_of(history: SolvedHistory, pair: Pair = PAIR, options: SolveOptions | None = None) -> HistoryRows:
     """The rows of a history, with its windows and falls."""
     falls = falls_at(history.roll_deg, history.pitch_deg, pair, options)
     return history_rows(history, windows_of(pair, history), falls)
@@ -71,7 +71,7 @@ def content_of(grid: Grid) -> str:
     return computed_once(f"content of {grid}", computed)
 
 
-def store_histories(database: str, grid: Grid, histories: Sequence[History]) -> None:
+def store_histories(database: str, grid: Grid, histories: Sequence[SolvedHistory]) -> None:
     """Publish the library of a grid with its histories in a migrated database; chunks are written last to first."""
     pair = quarter_twenty_unc()
     engine = writer_engine(database)

@@ -2,21 +2,6 @@
 
 from __future__ import annotations
 
-from threadstate.answer.documents import (
-    FollowingDocument,
-    FormationSummaryDocument,
-    LocatedFormationDocument,
-    LocationDocument,
-    NetworkSummaryDocument,
-    NodeDocument,
-    OccurrenceDocument,
-    PathDocument,
-    ReachDocument,
-    StepDocument,
-    StretchDocument,
-)
-from threadstate.answer.formations import formation_document
-from threadstate.answer.lengths import scaled
 from threadstate.network.analysis import (
     WindowReach,
     cut_formations,
@@ -31,6 +16,21 @@ from threadstate.network.changes import difference
 from threadstate.network.graph import ConstraintNetwork
 from threadstate.network.locate import Location
 from threadstate.network.paths import Path
+from threadstate.responses.documents import (
+    FollowingDocument,
+    FormationSummaryDocument,
+    LocatedFormationDocument,
+    LocationDocument,
+    NetworkSummaryDocument,
+    NodeDocument,
+    OccurrenceDocument,
+    PathDocument,
+    ReachDocument,
+    StepDocument,
+    StretchDocument,
+)
+from threadstate.responses.formations import formation_document
+from threadstate.units import scale_length
 
 
 def summary_document(network: ConstraintNetwork, window_count: int) -> NetworkSummaryDocument:
@@ -110,7 +110,7 @@ def path_document(path: Path, cell_map: CellMap, factor: float) -> PathDocument:
                 formation=step.cell.formation.key,
                 state_class=step.cell.formation.state_class,
                 text=step.cell.formation.text,
-                margin=scaled(step.cell.margin, factor),
+                margin=scale_length(step.cell.margin, factor),
                 in_window=step.cell.in_window,
             )
         )
@@ -159,6 +159,6 @@ def _occurrence(cell: Cell, cell_map: CellMap, factor: float) -> OccurrenceDocum
         pitch=pitch,
         start=cell.start_deg,
         end=cell.end_deg,
-        margin=scaled(cell.margin, factor),
+        margin=scale_length(cell.margin, factor),
         in_window=cell.in_window,
     )

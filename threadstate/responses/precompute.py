@@ -1,4 +1,4 @@
-"""Makes beforehand what questions on a library would else have to wait for."""
+"""Precomputes what requests about a library's network need."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from functools import partial
 
 from sqlalchemy import Connection
 
-from threadstate.answer.heights import stored_heights
-from threadstate.answer.library_network import LibraryNetwork
+from threadstate.responses.heights import stored_heights
+from threadstate.responses.library_network import LibraryNetwork
 
 TILTS_A_STEP = 50
 
 
-def preparation(connection: Connection, network: LibraryNetwork) -> Iterator[Callable[[], object]]:
-    """Steps of some seconds at most, to be called one by one, after which a network holds all that it can keep.
+def precompute_steps(connection: Connection, network: LibraryNetwork) -> Iterator[Callable[[], object]]:
+    """Steps of a few seconds at most, after which a network has cached all that it can.
 
-    What is asked for first comes first; who wants to stop calls no more.
+    The steps come in the order in which the explorer needs their results; call them one by one, and stop at any time.
     """
     yield lambda: network.transitions
     yield lambda: network.summary

@@ -8,11 +8,9 @@ import pytest
 from sqlalchemy import func, select
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID as GRID
-from tests.archive.history_library import falls_at, rows_of, store_histories
-from threadstate.archive.read import formations, orientation_history, stored_histories
-from threadstate.archive.stored import StoredHistories
-from threadstate.history.model import History
+from tests.stored_histories.history_library import SMALL_GRID as GRID
+from tests.stored_histories.history_library import falls_at, rows_of, store_histories
+from threadstate.history.model import SolvedHistory
 from threadstate.history.window import windows_of
 from threadstate.library.engine import reader_engine, writer_engine
 from threadstate.library.history_tables import history_interval
@@ -22,6 +20,8 @@ from threadstate.library.write import open_library
 from threadstate.network.formation import formation_of
 from threadstate.network.margin import smallest_margin
 from threadstate.state.solve import SolveOptions
+from threadstate.stored_histories.mapping import formations, orientation_history, stored_histories
+from threadstate.stored_histories.model import StoredHistories
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()
@@ -29,12 +29,12 @@ INPUTS = LibraryInputs(PAIR, GRID, SolveOptions())
 
 
 @pytest.fixture
-def histories(small_histories: list[History]) -> list[History]:
+def histories(small_histories: list[SolvedHistory]) -> list[SolvedHistory]:
     return small_histories
 
 
 @pytest.fixture(scope="module")
-def database(small_histories: list[History], databases: Databases) -> str:
+def database(small_histories: list[SolvedHistory], databases: Databases) -> str:
     url = databases.migrated()
     store_histories(url, GRID, small_histories)
     return url
@@ -50,7 +50,7 @@ def stored(database: str) -> Iterator[StoredHistories]:
     yield found
 
 
-def test_a_history_is_read_back_as_it_was(stored: StoredHistories, histories: list[History]) -> None:
+def test_a_history_is_read_back_as_it_was(stored: StoredHistories, histories: list[SolvedHistory]) -> None:
     for number, history in enumerate(histories):
         kept = stored.orientations[number]
         assert stored.tilt_deg(number) == (history.roll_deg, history.pitch_deg)
@@ -64,7 +64,7 @@ def test_a_history_is_read_back_as_it_was(stored: StoredHistories, histories: li
         assert kept.falls == falls_at(history.roll_deg, history.pitch_deg)
 
 
-def test_a_boundary_keeps_both_sides(stored: StoredHistories, histories: list[History]) -> None:
+def test_a_boundary_keeps_both_sides(stored: StoredHistories, histories: list[SolvedHistory]) -> None:
     for kept, history in zip(stored.orientations, histories, strict=True):
         for one, boundary in zip(kept.boundaries, history.boundaries, strict=True):
             assert (one.low_deg, one.high_deg, one.phase_deg) == (
@@ -97,7 +97,7 @@ def test_the_window_is_marked_on_its_intervals(stored: StoredHistories) -> None:
         assert any(cell.in_window for cell in history.cells) == bool(history.windows)
 
 
-def test_the_hash_of_a_history_knows_every_number(histories: list[History]) -> None:
+def test_the_hash_of_a_history_knows_every_number(histories: list[SolvedHistory]) -> None:
     history = histories[1]
     rows = rows_of(history)
     assert rows_of(histories[1]).content_sha256 == rows.content_sha256
@@ -115,7 +115,7 @@ def test_the_hash_of_a_history_knows_every_number(histories: list[History]) -> N
     assert len({one.content_sha256 for one in variants}) == len(variants)
 
 
-def test_rows_alone_give_the_history(histories: list[History], stored: StoredHistories) -> None:
+def test_rows_alone_give_the_history(histories: list[SolvedHistory], stored: StoredHistories) -> None:
     rows = rows_of(histories[2])
     assert orientation_history(2, rows, formations(rows.formations)) == stored.orientations[2]
 

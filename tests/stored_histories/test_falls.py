@@ -8,23 +8,25 @@ import pytest
 from sqlalchemy import Engine, delete, select, update
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID as GRID
-from tests.archive.history_library import store_histories
-from threadstate.archive.complete import completed, incomplete_orientations
-from threadstate.archive.read import stored_histories
+from tests.stored_histories.history_library import SMALL_GRID as GRID
+from tests.stored_histories.history_library import store_histories
 from threadstate.errors import SchemaError
-from threadstate.history.model import History
+from threadstate.history.model import SolvedHistory
 from threadstate.library.engine import writer_engine
 from threadstate.library.history_tables import descent, steepest_fall
 from threadstate.library.read import LibraryRecord, library_by_id
 from threadstate.library.tables import chunk, library
+from threadstate.stored_histories.falls import add_falls, orientations_without_falls
+from threadstate.stored_histories.mapping import stored_histories
 from worker.migrate import migrate
 
 LIBRARY = 1
 
 
 @pytest.fixture
-def older(databases: Databases, small_histories: list[History]) -> Iterator[tuple[Engine, LibraryRecord, list[str]]]:
+def older(
+    databases: Databases, small_histories: list[SolvedHistory]
+) -> Iterator[tuple[Engine, LibraryRecord, list[str]]]:
     """A library that lost its falls and the hashes of chunks that had them; what it was before."""
     url = databases.migrated()
     store_histories(url, GRID, small_histories)
@@ -45,13 +47,13 @@ def test_completed_histories_are_those_computed_now(older: tuple[Engine, Library
     engine, record, chunks = older
     with engine.connect() as connection, pytest.raises(SchemaError, match="threadstate migrate"):
         stored_histories(connection, LIBRARY, GRID)
-    incomplete = incomplete_orientations(engine)
+    incomplete = orientations_without_falls(engine)
     assert incomplete == [(LIBRARY, index) for index in range(GRID.orientation_count)]
     # Two at once, both stopped after two, and gone on with.
-    passed, beside = completed(engine, incomplete), completed(engine, incomplete)
+    passed, beside = add_falls(engine, incomplete), add_falls(engine, incomplete)
     for one in incomplete[:2]:
         assert (next(passed), next(beside)) == (one, one)
-    assert incomplete_orientations(engine) == incomplete[2:]
+    assert orientations_without_falls(engine) == incomplete[2:]
     migration = migrate(engine)
     assert (migration.before, migration.completed) == (migration.after, GRID.orientation_count - 2)
     with engine.connect() as connection:
