@@ -1,4 +1,4 @@
-"""What is asked of a library's histories and its constraint network."""
+"""A library's histories, and its constraint network."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from urllib.parse import urlencode
 from annotated_types import Ge, Le
 from fastapi import APIRouter, Depends, Path, Query, Request, Response
 
-from service.angles import PhaseQuery, PitchPath, PitchQuery, RollPath, RollQuery
 from service.database import ReadConnection
 from service.kernels import require_kernels
+from service.network.cache import RequestedNetwork
 from service.network.parameters import (
     LeastQuery,
     MovesQuery,
@@ -32,10 +32,17 @@ from service.network.schemas import (
     TransitionsPage,
     WindowsAnswer,
 )
-from service.network.store import RequestedNetwork
-from service.numbers import INTEGER_TEXT
+from service.quantities import (
+    INTEGER_TEXT,
+    UNIT_HEADER,
+    PhaseQuery,
+    PitchPath,
+    PitchQuery,
+    RollPath,
+    RollQuery,
+    UnitQuery,
+)
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
-from service.units import UNIT_HEADER, UnitQuery
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES
 from threadstate.network.formation import KEY_DIGITS

@@ -9,8 +9,7 @@ from annotated_types import Ge, Le
 from fastapi import Depends, Query
 from pydantic import AllowInfNan
 
-from service.angles import PhaseMaxQuery, PhaseMinQuery, PitchQuery, RollQuery
-from service.numbers import INTEGER_TEXT, NUMBER_TEXT
+from service.quantities import INTEGER_TEXT, NUMBER_TEXT, PhaseMaxQuery, PhaseMinQuery, PitchQuery, RollQuery
 from threadstate.network.changes import ChangeKind
 from threadstate.network.formation import KEY_DIGITS
 from threadstate.network.locate import Observation

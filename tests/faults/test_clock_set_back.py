@@ -32,8 +32,8 @@ TELL_TIME = {
     "threadstate/library/write.py",
     "threadstate/access/keys.py",
     "threadstate/client/retrying.py",
-    "service/logs/configure.py",
-    "service/metrics/state.py",
+    "service/logs.py",
+    "service/metrics.py",
 }
 """Files that write down when something happened, or show its age; some servers tell a client until when to wait."""
 WALL_CLOCKS = {"now", "utcnow", "today", "time", "time_ns", "localtime", "gmtime", "current_timestamp", "fromtimestamp"}

@@ -23,7 +23,7 @@ from worker.rebuild import rebuild
 @pytest.fixture(autouse=True)
 def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("threadstate.library.engine.BUSY_TIMEOUT_S", 0.2)
-    monkeypatch.setattr("service.control.LOCK_TIMEOUT_S", 0.2)
+    monkeypatch.setattr("service.database.LOCK_TIMEOUT_S", 0.2)
     monkeypatch.setattr("worker.jobs.serve.RETRY_S", 0.1)
 
 
