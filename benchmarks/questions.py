@@ -13,7 +13,7 @@ from fastapi.testclient import TestClient
 
 from benchmarks.sample import SEED
 from service.app import create_app
-from service.logs.configure import configure_logs
+from service.logs import configure_logs
 from threadstate.library.grid import Grid
 from threadstate.settings import LogLevel, read_settings
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 import argparse
 import sys
 
-from threadstate.answer.documents import FallsDocument
 from threadstate.client import Client, NotFoundError
 from threadstate.client.models.network import ComputedIntervals, IntervalsAnswer
 from threadstate.errors import ThreadstateError
+from threadstate.responses.documents import FallsDocument
 
 MOST = 12
 

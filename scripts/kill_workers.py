@@ -24,10 +24,9 @@ from sqlalchemy import Engine, delete, func, select
 
 from harness.databases import Databases, PostgresqlDatabases, SqliteDatabases
 from harness.postgresql_server import running_server
-from threadstate.jobs.ask import ask_for
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.queue import events_after, job_by_id, submit_job
 from threadstate.jobs.tables import job, job_chunk, job_worker
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
@@ -76,7 +75,7 @@ def kill_workers(databases: Databases, kills: int, seed: int) -> Tally:
     database = databases.migrated()
     done = killed = in_hand = 0
     with writing(database) as engine, _workers(database) as workers:
-        current = ask_for(engine, INPUTS)
+        current = submit_job(engine, INPUTS)
         while killed < kills or current.state is not JobState.DONE:
             time.sleep(moments.uniform(0.0, LONGEST_PAUSE_S) if killed < kills else 0.2)
             current = _job(engine, current.id)
@@ -85,7 +84,7 @@ def kill_workers(databases: Databases, kills: int, seed: int) -> Tally:
                 done += 1
                 if killed < kills:
                     _forget(engine)
-                    current = ask_for(engine, INPUTS)
+                    current = submit_job(engine, INPUTS)
             if killed < kills:
                 victim = moments.randrange(WORKERS)
                 in_hand += _holds_chunks(engine, workers[victim].pid)
@@ -108,7 +107,7 @@ def _check(engine: Engine, current: JobRecord, expected: str) -> None:
         assert published in ([], [expected]), published
         return
     assert published == [expected]
-    assert (chunks, states) == (GRID.orientation_count, GRID.state_count)
+    assert (chunks, states) == (GRID.orientation_count, GRID.pose_count)
     progress = [event.done_count for event in events if event.kind is EventKind.PROGRESS]
     assert progress == sorted(set(progress)), progress
     assert [event.kind for event in events].count(EventKind.PUBLISHED) == 1

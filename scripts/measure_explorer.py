@@ -17,7 +17,7 @@ from threadstate.settings import read_settings
 
 LOADS = 7
 FRAMES = 120
-PATIENCE_S = 300.0
+TIMEOUT_S = 300.0
 VIEW = "/#roll=0&pitch=-4&phase=10"
 SEEN = ("map", "depth", "state", "solids")
 MARKED = "return performance.getEntriesByType('mark').map((one) => one.name)"
@@ -54,7 +54,7 @@ requestAnimationFrame(next);
 def main() -> None:
     """Print all figures."""
     chromium = start_chromium(1280, 800)
-    chromium.set_script_timeout(PATIENCE_S)
+    chromium.set_script_timeout(TIMEOUT_S)
     try:
         with running_service(read_settings().database) as address:
             explorer = Explorer(chromium, address)
@@ -75,7 +75,7 @@ def main() -> None:
 def _warm(address: str) -> None:
     """Have the service load what its first answers need: it starts without its solver."""
     for path in ("histories/0/-4/heights", "meshes/bolt", "meshes/nut"):
-        with urlopen(f"{address}/v1/libraries/latest/{path}", timeout=PATIENCE_S) as answer:
+        with urlopen(f"{address}/v1/libraries/latest/{path}", timeout=TIMEOUT_S) as answer:
             answer.read()
 
 

@@ -10,11 +10,11 @@ from itertools import product
 from pathlib import Path
 from textwrap import fill
 
-from threadstate.answer.documents import JumpDocument, OrientationWindowsDocument, SnapDocument, WindowDocument
-from threadstate.answer.library_network import LibraryNetwork
-from threadstate.answer.windows import windows_of_histories
 from threadstate.library.engine import reader_engine
 from threadstate.library.read import states_between
+from threadstate.responses.documents import JumpDocument, OrientationWindowsDocument, SnapDocument, WindowDocument
+from threadstate.responses.library_network import LibraryNetwork
+from threadstate.responses.windows import windows_of_histories
 from threadstate.settings import read_settings
 from threadstate.state.model import ContactState, FeaturePair
 from worker.stored_network import stored_network
@@ -154,7 +154,7 @@ def _mirrored(network: LibraryNetwork) -> tuple[float, int]:
     grid = network.library.grid
     engine = reader_engine(read_settings().database)
     with engine.connect() as connection:
-        states = states_between(connection, network.library.id, 0, grid.state_count - 1)
+        states = states_between(connection, network.library.id, 0, grid.pose_count - 1)
     engine.dispose()
     by_pose = {(state.roll_deg, state.pitch_deg, state.phase_deg): state for state in states}
     worst, compared = 0.0, 0

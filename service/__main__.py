@@ -1,4 +1,4 @@
-"""``python -m service``: the service as a process of its own; what ``threadstate serve`` becomes."""
+"""``python -m service``: the service as a process; ``threadstate serve`` replaces itself by it."""
 
 from __future__ import annotations
 
@@ -9,21 +9,23 @@ import sys
 import uvicorn
 
 from service.app import create_app
-from service.logs.configure import configure_logs
-from service.server import LEAVE_TAKING_S, Server, bound_socket, inherited_socket
+from service.logs import configure_logs
+from service.server import DRAIN_S, Server, bound_socket, inherited_socket
 from threadstate.errors import SchemaError, ThreadstateError
 from threadstate.library.engine import reading
 from threadstate.library.schema import check_schema
 from threadstate.settings import read_settings
 
 SWITCH_S = 0.0005
-"""How long a thread that computes may hold up the one that answers; Python's own default is ten times that."""
+"""Python's thread switch interval: how long a computing thread may delay the event loop; the default is ten times
+that.
+"""
 SCHEMA_EXIT_CODE = 3
-"""As that of the command line."""
+"""The same as that of the command line."""
 
 
 def main() -> int:
-    """Serve until told to end.
+    """Serve until SIGTERM or SIGINT.
 
     Returns:
         The exit code.
@@ -39,11 +41,11 @@ def main() -> int:
         log_config=None,
         access_log=False,
         server_header=False,
-        timeout_graceful_shutdown=max(1, round(settings.grace_s - LEAVE_TAKING_S)),
+        timeout_graceful_shutdown=max(1, round(settings.grace_s - DRAIN_S)),
     )
     sys.setswitchinterval(SWITCH_S)
-    gc.freeze()  # what is here now stays for good
-    Server(config, app.state.drain).run([listening])
+    gc.freeze()  # all objects so far live as long as the process
+    Server(config, app.state.shutdown).run([listening])
     return 0
 
 
@@ -55,5 +57,5 @@ if __name__ == "__main__":
         code = SCHEMA_EXIT_CODE if isinstance(error, SchemaError) else 1
     sys.stdout.flush()
     sys.stderr.flush()
-    # A thread that still computes for a request that was given up would be waited for otherwise.
+    # Does not wait for threads that still compute for requests that timed out.
     os._exit(code)

@@ -13,53 +13,55 @@ from fastapi.telemetry import TelemetryConfig
 from prometheus_client import CollectorRegistry
 from starlette.middleware.cors import CORSMiddleware
 
-import service.building.endpoints
+import service.builds
 import service.docs.endpoints
 import service.explorer.endpoints
-import service.export.endpoints
-import service.health.endpoints
+import service.export
+import service.health
 import service.histories.computed
 import service.histories.endpoints
 import service.jobs.endpoints
 import service.libraries.endpoints
-import service.meshes.endpoints
-import service.metrics.endpoints
+import service.meshes
+import service.metrics
 import service.network.endpoints
-import service.orientations.endpoints
-import service.solve.endpoints
+import service.orientations
+import service.solve
 import service.states.endpoints
-import service.undecided.endpoints
+import service.undecided
 import threadstate
 from service.cache.library_names import LibraryNames
 from service.cache.middleware import CacheMiddleware
 from service.cache.responses import ResponseCache
 from service.cache.stored import StoredResponses
 from service.compression import CompressionMiddleware
-from service.control import ControlEngine
 from service.cors import cors_options
+from service.database import ControlEngine
 from service.description import DESCRIPTION, PROBLEM_RESPONSES, DescribedApplication
-from service.edge.drain import Drain
-from service.edge.middleware import Edge
-from service.explorer.unknown import install_unknown_page
+from service.explorer.endpoints import install_unknown_page
 from service.kernels import Kernels
-from service.keys import guard_reading, may_read
-from service.limits.admission import Admission, Limits
-from service.limits.body import BodyLimit
-from service.metrics.requests import RequestMetrics
-from service.metrics.state import StateMetrics
-from service.middleware import EncodedSlashes, HeadAsGet
-from service.network.store import NetworkStore
+from service.keys import may_read, require_read_key
+from service.limits import Admission, LimitsMiddleware
+from service.metrics import RequestMetrics, StateMetrics
+from service.network.cache import NetworkCache
 from service.parameters import refuse_unknown_parameters
 from service.problems import install_problem_handlers
 from service.representation import REVALIDATE, REVALIDATE_PRIVATELY
-from service.route_notes import note_matched_route
+from service.request_middleware import (
+    BodyLimitMiddleware,
+    EncodedSlashesMiddleware,
+    HeadAsGetMiddleware,
+    RequestMiddleware,
+)
+from service.request_scope import note_matched_route
+from service.shutdown import Shutdown
 from service.warming import Warming
 from threadstate.library.engine import reader_engine
 from threadstate.settings import Settings, read_settings
 
 MEGABYTE = 10**6
 NO_TELEMETRY = TelemetryConfig(tracing=False, metrics=False, logs=False)
-"""FastAPI's own would look at every request whether OpenTelemetry has been set up."""
+"""FastAPI's default checks at every request whether OpenTelemetry is configured."""
 LARGEST_BODY_BYTES = 256 * 1024
 """Room for 1,000 poses with all the digits that a double has."""
 
@@ -69,8 +71,8 @@ _log = logging.getLogger(__name__)
 def create_app(settings: Settings | None = None, *, serving: bool = False) -> FastAPI:
     """The service over the database of ``settings`` (None: of the environment).
 
-    The database need not be there yet: ``/readyz`` and the resources say what is missing. ``serving`` is whether this
-    is the application of a process of its own, which logs every request and prepares the latest library's network.
+    The database need not exist yet: ``/readyz`` and the resources report what is missing. With ``serving`` the
+    application logs every request, loads the kernels and precomputes the network of the latest library.
 
     Raises:
         InvalidValueError: a setting is not valid.
@@ -83,7 +85,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     cache_control = REVALIDATE_PRIVATELY if settings.read_keys_required else REVALIDATE
     stored = StoredResponses(engine, cache_control)
     admission = Admission(settings.concurrency, settings.streams)
-    drain = Drain()
+    shutdown = Shutdown()
     registry = CollectorRegistry()
     kernels = Kernels()
     warming = Warming()
@@ -103,7 +105,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         engine.dispose()
         control.dispose()
 
-    guards = [guard_reading] if settings.read_keys_required else []
+    guards = [require_read_key] if settings.read_keys_required else []
     app = DescribedApplication(
         title="threadstate",
         version=threadstate.__version__,
@@ -117,45 +119,45 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         dependencies=[Depends(one) for one in (note_matched_route, *guards, refuse_unknown_parameters)],
         responses=PROBLEM_RESPONSES,
     )
-    app.outermost = partial(Edge, metrics=RequestMetrics(registry), drain=drain, logging=serving)
+    app.outermost = partial(RequestMiddleware, metrics=RequestMetrics(registry), shutdown=shutdown, logging=serving)
     app.state.engine = engine
     app.state.kernels = kernels
     app.state.control = control
     app.state.read_keys_required = settings.read_keys_required
-    app.state.networks = NetworkStore()
+    app.state.networks = NetworkCache()
     app.state.metrics = registry
-    app.state.drain = drain
+    app.state.shutdown = shutdown
     install_problem_handlers(app)
     install_unknown_page(app)
-    for part in (
-        service.libraries,
-        service.building,
-        service.states,
+    for module in (
+        service.libraries.endpoints,
+        service.builds,
+        service.states.endpoints,
         service.orientations,
-        service.histories,
+        service.histories.endpoints,
         service.undecided,
         service.export,
-        service.network,
+        service.network.endpoints,
         service.meshes,
         service.solve,
-        service.jobs,
+        service.jobs.endpoints,
         service.health,
         service.metrics,
-        service.docs,
-        service.explorer,
+        service.docs.endpoints,
+        service.explorer.endpoints,
+        service.histories.computed,
     ):
-        app.include_router(part.endpoints.router)
-    app.include_router(service.histories.computed.router)
+        app.include_router(module.router)
     # From the innermost to the outermost.
-    app.add_middleware(BodyLimit, largest_bytes=LARGEST_BODY_BYTES)
-    app.add_middleware(Limits, admission=admission, time_limit_s=settings.time_limit_s)
+    app.add_middleware(BodyLimitMiddleware, largest_bytes=LARGEST_BODY_BYTES)
+    app.add_middleware(LimitsMiddleware, admission=admission, time_limit_s=settings.time_limit_s)
     app.add_middleware(CompressionMiddleware)
     allows = partial(may_read, engine) if settings.read_keys_required else None
     app.add_middleware(
         CacheMiddleware, names=names, cache=cache, stored=stored, allows=allows, cache_control=cache_control
     )
-    app.add_middleware(HeadAsGet)
-    app.add_middleware(EncodedSlashes)
+    app.add_middleware(HeadAsGetMiddleware)
+    app.add_middleware(EncodedSlashesMiddleware)
     if settings.cors_origins:
         app.add_middleware(CORSMiddleware, **cors_options(settings.cors_origins))
     return app

@@ -7,7 +7,7 @@ import gzip
 from fastapi.concurrency import run_in_threadpool
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.accepted import header_value, takes_gzip
+from service.content_negotiation import header_value, takes_gzip
 
 Headers = list[tuple[bytes, bytes]]
 
@@ -28,17 +28,17 @@ _ACCEPT_ENCODING = b"Accept-Encoding"
 
 
 def worth_compressing(media_type: str, size_bytes: int) -> bool:
-    """Whether an answer of that type and size is compressed for those who take it."""
+    """Whether a response of that type and size is compressed for clients that accept it."""
     return size_bytes > LEAST_BYTES and media_type.partition(";")[0] in _MEDIA_TYPES
 
 
 def zipped_etag(etag: str) -> str:
-    """The ETag of the compressed bytes, by that of the others."""
+    """The ETag of the compressed bytes, given that of the uncompressed ones."""
     return etag.removesuffix('"') + '-gzip"'
 
 
 def compressible(headers: Headers) -> bool:
-    """Whether an answer with those headers comes in one piece, and is compressed for those who take it."""
+    """Whether a response with those headers has a known length and is compressed for clients that accept it."""
     named = dict(headers)
     size, media_type = named.get(b"content-length", b"0"), named.get(b"content-type", b"")
     return b"content-encoding" not in named and worth_compressing(media_type.decode("latin-1"), int(size))
@@ -56,7 +56,7 @@ def varying(headers: Headers) -> Headers:
 
 
 def zipped_headers(headers: Headers, size_bytes: int) -> Headers:
-    """The headers of the same answer, but for its ETag, compressed to that size."""
+    """The headers of the same response compressed to that size, except its ETag."""
     rest = [(name, value) for name, value in varying(headers) if name != b"content-length"]
     return [*rest, (b"content-length", b"%d" % size_bytes), (b"content-encoding", b"gzip")]
 
@@ -73,7 +73,9 @@ def _gzip(content: bytes) -> bytes:
 
 
 class CompressionMiddleware:
-    """Compresses what comes in one piece, under the ETag that it has been given; streams go through as they are."""
+    """Compresses responses of known length, which already have the ETag of the compressed bytes; streams pass
+    unchanged.
+    """
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app

@@ -1,4 +1,4 @@
-"""The kernels of a process that serves: a process of its own compiles them if need be, and no request waits for it."""
+"""The kernels of the service: compiled by a separate process if necessary, while no request waits for it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _log = logging.getLogger(__name__)
 
 
 class KernelsCompilingError(ThreadstateError):
-    """Something was to be solved while the kernels are being compiled."""
+    """A pose cannot be solved while the kernels are being compiled."""
 
 
 class KernelState(StrEnum):
@@ -31,9 +31,9 @@ class KernelState(StrEnum):
 
 
 class Kernels:
-    """Whether the kernels can be used; :meth:`run` sees to it that they can.
+    """Whether the kernels can be used.
 
-    They can from the beginning where it is not called: the first request that solves loads them then.
+    Without a call of :meth:`run` they can from the start: the first request that solves loads them.
     """
 
     def __init__(self) -> None:
@@ -41,7 +41,7 @@ class Kernels:
         self._settled = asyncio.Event()
 
     async def run(self) -> None:
-        """Load the kernels into this process, compiled by another one where the cache has none, once."""
+        """Load the kernels into this process, once; a separate process compiles them if the cache lacks them."""
         try:
             if not kernels_are_compiled():
                 self.state = KernelState.COMPILING
@@ -66,10 +66,10 @@ def kernels_of(request: Request) -> Kernels:
 
 
 async def require_kernels(request: Request) -> None:
-    """Let a request pass that solves, unless it would have to wait for the compiler.
+    """Reject a request that solves while the kernels are being compiled.
 
     Raises:
-        KernelsCompilingError: it would.
+        KernelsCompilingError: the kernels are being compiled.
     """
     if kernels_of(request).state is KernelState.COMPILING:
         raise KernelsCompilingError(

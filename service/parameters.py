@@ -1,4 +1,4 @@
-"""Query parameters that a resource does not know are refused, and those it knows twice too."""
+"""Query parameters that a resource does not have, or that are repeated, are rejected."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ async def refuse_unknown_parameters(request: Request) -> None:
     """Check the names of a request's query parameters against those that its resource documents.
 
     Raises:
-        RefusedParameterError: a name is unknown (the valid ones are listed) or is there more than once.
+        RefusedParameterError: a name is unknown (the valid ones are listed) or repeated.
     """
     seen: set[str] = set()
     if request.app.openapi_schema is None:

@@ -1,4 +1,4 @@
-"""Every error as a problem document (RFC 9457); the only place that knows which error is which status."""
+"""Errors as problem documents (RFC 9457): the one mapping of errors to HTTP statuses."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
 from service.kernels import KernelsCompilingError
-from service.request_id import INSTANCE_PREFIX, current_request_id
+from service.request_scope import INSTANCE_PREFIX, current_request_id
 from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
 from threadstate.errors import (
     InvalidValueError,
@@ -29,22 +29,22 @@ from threadstate.errors import (
     UnresolvedPoseError,
 )
 from threadstate.jobs.model import JobEndedError
-from threadstate.library.trouble import Trouble, trouble_of
+from threadstate.library.database_errors import DatabaseFailure, database_failure
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:threadstate:problem:"
 _LONGEST_ECHO = 100
 RETRY_AFTER_S = 5
-"""After how many seconds a client may ask again where the database failed."""
+"""Seconds until a retry after the database failed."""
 KERNELS_RETRY_AFTER_S = 30
-"""The same where kernels are being compiled."""
+"""Seconds until a retry while kernels are being compiled."""
 NO_HEADERS: Mapping[str, str] = MappingProxyType({})
 
 
 class ProblemItem(BaseModel):
-    """One value that was refused."""
+    """An invalid value of a request."""
 
-    location: str = Field(description="where it was: `query`, `path` or `body`, and its name or place there")
+    location: str = Field(description="location: `query`, `path` or `body`, and the name or place there")
     value: str = Field(description="the value as received, shortened where long")
     valid: str = Field(description="what would be valid")
 
@@ -114,7 +114,7 @@ KINDS = (
 
 
 class RefusedParameterError(Exception):
-    """A query parameter that a resource does not know, or that was given twice."""
+    """A query parameter that is unknown or repeated."""
 
     def __init__(self, kind: Kind, name: str, value: str, valid: str) -> None:
         super().__init__(kind, name, value, valid)
@@ -163,7 +163,7 @@ def problem_response(
 def _response(problem: Problem, headers: Mapping[str, str]) -> Response:
     if (number := current_request_id.get()) is not None:
         problem = problem.model_copy(update={"instance": INSTANCE_PREFIX + number})
-    # Escaped to ASCII: what a client sent may not be encodable otherwise (lone surrogates).
+    # Escaped to ASCII, as text of a client may have lone surrogates.
     return Response(
         json.dumps(problem.model_dump(exclude_defaults=True)),
         problem.status,
@@ -237,9 +237,13 @@ def _unreadable(request: Request, error: Any) -> Response:
 
 
 def _database(_request: Request, error: Any) -> Response:
-    trouble = trouble_of(error)
-    cure = "" if trouble in (Trouble.HELD, Trouble.FULL) else "; `threadstate migrate` makes one that is missing"
-    return problem_response(DATABASE_UNAVAILABLE, f"{trouble}{cure}", headers={"Retry-After": str(RETRY_AFTER_S)})
+    failure = database_failure(error)
+    remedy = (
+        ""
+        if failure in (DatabaseFailure.LOCKED, DatabaseFailure.FULL)
+        else "; `threadstate migrate` makes one that is missing"
+    )
+    return problem_response(DATABASE_UNAVAILABLE, f"{failure}{remedy}", headers={"Retry-After": str(RETRY_AFTER_S)})
 
 
 def _http(request: Request, error: Any) -> Response:
@@ -252,7 +256,7 @@ def _http(request: Request, error: Any) -> Response:
 
 
 def _allowed_methods(request: Request) -> list[str]:
-    """The methods of a path: each is a route of its own, of which Starlette names the first alone."""
+    """The HTTP methods of a path: each is a separate route, and Starlette names the first alone."""
     found = [
         method
         for method in ("DELETE", "GET", "PATCH", "POST", "PUT")
@@ -262,7 +266,7 @@ def _allowed_methods(request: Request) -> list[str]:
 
 
 def _internal(_request: Request, _error: Any) -> Response:
-    return problem_response(INTERNAL, "the server failed on this request; its log says why")
+    return problem_response(INTERNAL, "the server failed on this request; see its log")
 
 
 def _short(text: str) -> str:

@@ -7,13 +7,13 @@ import json
 
 from fastapi import Request, Response
 
-from service.accepted import header_value, names_etag, takes_gzip
 from service.compression import worth_compressing, zipped_etag
+from service.content_negotiation import header_value, names_etag, takes_gzip
 
 REVALIDATE = "public, no-cache"
-"""May be stored, must be asked for again: a stored library does not change, but ``latest`` moves on."""
+"""Caches must revalidate: a stored library does not change, but ``latest`` may mean another one."""
 REVALIDATE_PRIVATELY = "private, no-cache"
-"""Where reading needs a key, no copy is kept on the way."""
+"""No shared caches where reads need a key."""
 
 JSON = "application/json"
 NOT_MODIFIED: dict[int | str, dict[str, str]] = {304: {"description": "The client's copy is current (`If-None-Match`)"}}

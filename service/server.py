@@ -1,8 +1,8 @@
-"""The server: uvicorn, with an end that no client notices.
+"""The server: uvicorn with a graceful shutdown.
 
-Told to end by SIGTERM it goes on for a moment, and every answer says ``Connection: close``: a client that is at work
-takes its next request elsewhere, and no connection is cut under a request that is on its way. Then what is left is idle
-and is closed, and requests in flight are waited for. Ctrl-C leaves out the moment.
+After SIGTERM it serves for ``DRAIN_S`` more, and every response has ``Connection: close``: active clients open their
+next connection elsewhere, and no connection is closed while a request is on its way. Then idle connections are closed
+and requests in progress are completed. SIGINT skips the draining.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from types import FrameType
 
 import uvicorn
 
-from service.edge.drain import Drain
+from service.shutdown import Shutdown
 from threadstate.errors import ThreadstateError
 
-LEAVE_TAKING_S = 1.0
-"""How long connections are given to make their next request."""
+DRAIN_S = 1.0
+"""How long connections may send one more request."""
 _FIRST_INHERITED = 3
 
 _log = logging.getLogger(__name__)
@@ -33,10 +33,10 @@ class ListenError(ThreadstateError):
 
 
 def inherited_socket(environment: Mapping[str, str]) -> socket.socket | None:
-    """The listening socket that was passed on by systemd's protocol (``LISTEN_PID``, ``LISTEN_FDS``), if one was.
+    """The listening socket passed by systemd's protocol (``LISTEN_PID``, ``LISTEN_FDS``), if one was.
 
     Raises:
-        ListenError: there are several.
+        ListenError: more than one was passed.
     """
     if environment.get("LISTEN_PID") != str(os.getpid()):
         return None
@@ -46,10 +46,10 @@ def inherited_socket(environment: Mapping[str, str]) -> socket.socket | None:
 
 
 def bound_socket(host: str, port: int) -> socket.socket:
-    """A socket that is bound to that address; port 0 is a free one.
+    """A socket bound to that address; port 0 chooses a free port.
 
     Raises:
-        ListenError: it cannot be bound, as where another process listens.
+        ListenError: it cannot be bound, for example because another process listens.
     """
     try:
         family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
@@ -62,38 +62,38 @@ def bound_socket(host: str, port: int) -> socket.socket:
 
 
 class Server(uvicorn.Server):
-    """Serves until it is told to end; ends with code 0."""
+    """Serves until SIGTERM or SIGINT; ends with exit code 0."""
 
-    def __init__(self, config: uvicorn.Config, drain: Drain) -> None:
+    def __init__(self, config: uvicorn.Config, shutdown: Shutdown) -> None:
         super().__init__(config)
-        self._drain = drain
-        self._at_once = False
+        self._shutdown_flag = shutdown
+        self._skip_draining = False
 
     @contextlib.contextmanager
     def capture_signals(self) -> Iterator[None]:
-        """Take SIGTERM and SIGINT; unlike uvicorn's own this does not raise them again at the end."""
+        """Handle SIGTERM and SIGINT; unlike uvicorn's method this does not raise them again at the end."""
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, self.handle_exit)
         yield
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
-        """Begin to end; a second signal leaves out what is waited for."""
-        self._at_once = sig == signal.SIGINT
+        """Start the shutdown; a second signal forces it."""
+        self._skip_draining = sig == signal.SIGINT
         if self.should_exit:
             self.force_exit = True
         self.should_exit = True
         _ = frame
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Listen, and say where."""
+        """Listen, and log the address."""
         await super().startup(sockets)
         for one in sockets or ():
             host, port = one.getsockname()[:2]
             _log.info("running on http://%s:%d", f"[{host}]" if ":" in host else host, port)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Take leave of clients, then end."""
-        self._drain.begin()
-        if not self._at_once:
-            await asyncio.sleep(LEAVE_TAKING_S)
+        """Drain connections, then shut down."""
+        self._shutdown_flag.start()
+        if not self._skip_draining:
+            await asyncio.sleep(DRAIN_S)
         await super().shutdown(sockets)

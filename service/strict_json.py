@@ -1,4 +1,4 @@
-"""Bodies as JSON that means one thing: UTF-8, no name twice in an object, no number that JSON does not have."""
+"""Strict JSON bodies: UTF-8, no duplicate names in an object, no NaN or infinity."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class _StrictRequest(Request):
 
 
 class StrictJsonRoute(APIRoute):
-    """A route whose body is refused (400) where readers of JSON would differ about what it says."""
+    """A route that rejects (400) bodies which JSON parsers may interpret differently."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """The handler of requests."""

@@ -1,4 +1,4 @@
-"""What is slow the first time is done at start, in the background; a request that comes earlier waits for its part."""
+"""Background precomputation at start; a request that comes earlier computes what it needs itself."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.cache.library_names import LibraryNames
-from service.network.store import NetworkStore
-from threadstate.answer.prepare import preparation
+from service.network.cache import NetworkCache
 from threadstate.errors import NotFoundError
 from threadstate.library.named import LATEST
 from threadstate.library.read import LibraryRecord
+from threadstate.responses.precompute import precompute_steps
 
 STEPS_AT_START = 3
-"""Of the preparation, those that solve nothing; what solves is done one by one, at leisure."""
-LEISURE = 3.0
-"""After each step at leisure requests have the machine to themselves for so many times as long."""
+"""The first steps of the precomputation, which solve nothing; the others run one by one, with pauses."""
+PAUSE_FACTOR = 3.0
+"""Each later step is followed by a pause of this many times its duration."""
 
 
 class Warming:
-    """Describes the interface, and prepares the network of the latest library, if there is one.
+    """Builds the OpenAPI document and precomputes the network of the latest library, if there is one.
 
     Attributes:
-        done: whether that was done, or tried.
-        done_in_full: the same of what is done at leisure, too.
+        done: whether the first steps have run.
+        done_in_full: whether all steps have run.
     """
 
     def __init__(self) -> None:
@@ -37,32 +37,36 @@ class Warming:
         self.done_in_full = False
 
     async def run(self, app: FastAPI, names: LibraryNames) -> None:
-        """Do it, once."""
+        """Run the precomputation, once."""
         await run_in_threadpool(app.openapi)
         library = await names.look_up(LATEST)
         if library is not None:
             for number in range(STEPS_AT_START):
-                await run_in_threadpool(_prepare, app.state.engine, app.state.networks, library, number)
+                await run_in_threadpool(_run_step, app.state.engine, app.state.networks, library, number)
         self.done = True
         if library is not None:
-            await _prepare_at_leisure(app, library)
+            await _run_later_steps(app, library)
         self.done_in_full = True
 
 
-async def _prepare_at_leisure(app: FastAPI, library: LibraryRecord) -> None:
+async def _run_later_steps(app: FastAPI, library: LibraryRecord) -> None:
     await app.state.kernels.settled()
     for number in count(STEPS_AT_START):
         began = time.monotonic()
-        if not await run_in_threadpool(_prepare, app.state.engine, app.state.networks, library, number):
+        if not await run_in_threadpool(_run_step, app.state.engine, app.state.networks, library, number):
             return
-        await asyncio.sleep(LEISURE * (time.monotonic() - began))
+        await asyncio.sleep(PAUSE_FACTOR * (time.monotonic() - began))
 
 
-def _prepare(engine: Engine, networks: NetworkStore, library: LibraryRecord, number: int) -> bool:
-    """Do one step of the preparation; whether there was one that could be done."""
+def _run_step(engine: Engine, networks: NetworkCache, library: LibraryRecord, number: int) -> bool:
+    """Run one step of the precomputation.
+
+    Returns:
+        Whether there was such a step, and it could be run.
+    """
     try:
         with engine.connect() as connection:
-            steps = preparation(connection, networks.of(connection, library))
+            steps = precompute_steps(connection, networks.get(connection, library))
             step = next(islice(steps, number, None), None)
             if step is not None:
                 step()

@@ -11,9 +11,9 @@ from hypothesis import settings
 
 from harness.databases import KINDS, POSTGRESQL, SQLITE, Databases, PostgresqlDatabases, SqliteDatabases
 from harness.postgresql_server import PostgresqlServer, running_server
-from tests.archive.history_library import SMALL_GRID, histories_of_grid
 from tests.shared import FOLDER
-from threadstate.history.model import History
+from tests.stored_histories.history_library import SMALL_GRID, histories_of_grid
+from threadstate.history.model import SolvedHistory
 
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("repeatable")
@@ -80,7 +80,7 @@ def postgresql_server() -> Iterator[PostgresqlServer]:
 
 
 @pytest.fixture(scope="session")
-def small_histories() -> list[History]:
+def small_histories() -> list[SolvedHistory]:
     """The histories of the small grid."""
     return histories_of_grid(SMALL_GRID)
 

@@ -8,7 +8,7 @@ from functools import cache
 
 import pytest
 
-from tests.archive.history_library import PAIR, histories_of_grid, rows_of
+from tests.stored_histories.history_library import PAIR, histories_of_grid, rows_of
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows

@@ -19,7 +19,7 @@ from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.libraries import GridDocument
 from threadstate.client.models.service import Problem
 from threadstate.jobs.names import JobState
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 
 ROOMS = ("threadstate", "worker", "service", "migrations")
 ROOT = Path(__file__).parents[1]
@@ -28,9 +28,9 @@ _NOW = datetime(2026, 1, 2, tzinfo=UTC)
 _JOB = JobDocument(
     id=1,
     state=JobState.FAILED,
-    reason="a mishap",
+    reason="a failure",
     designation="1/4-20 UNC",
-    method=Method.EXACT,
+    method=SolverMethod.EXACT,
     grid=GridDocument(tilt_max=0.0, tilt_step=1.0, phase_step=1.0, orientations=1),
     options={},
     input_sha256="0",

@@ -22,13 +22,13 @@ import pytest
 
 from harness.databases import Databases
 from harness.running_service import running_service
-from tests.archive.history_library import SMALL_GRID, store_histories
 from tests.falls_page import falls_shown
 from tests.jobs.jobs import GRID, opened, work_off
+from tests.stored_histories.history_library import SMALL_GRID, store_histories
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.client import Client
-from threadstate.history.model import History
+from threadstate.history.model import SolvedHistory
 from threadstate.jobs.work import publish_job
 from threadstate.jobs.workers import join
 from threadstate.library.engine import writing
@@ -78,7 +78,7 @@ SERVICE = "THREADSTATE_SERVICE"
 
 
 @pytest.fixture(scope="module")
-def served(sqlite_databases: Databases, small_histories: list[History]) -> Iterator[Mapping[str, str]]:
+def served(sqlite_databases: Databases, small_histories: list[SolvedHistory]) -> Iterator[Mapping[str, str]]:
     """The environment of scripts that find a service over the small library with histories."""
     database = sqlite_databases.migrated()
     store_histories(database, SMALL_GRID, small_histories)

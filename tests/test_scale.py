@@ -99,7 +99,7 @@ def test_a_database_grows_by_whole_libraries(databases: Databases, monkeypatch: 
             assert len({library.content_sha256 for library in published_libraries(connection)}) == 1
             assert len(published_libraries(connection)) == 3
             contacts = connection.scalar(select(func.count()).select_from(contact)) or 0
-    assert (one.states, three.states) == (GRID.state_count, 3 * GRID.state_count)
+    assert (one.states, three.states) == (GRID.pose_count, 3 * GRID.pose_count)
     assert three.bytes >= one.bytes > 0
     assert sizes["contact"].rows_each == contacts / three.states
     assert sizes["contact"].table_bytes > 0
@@ -111,7 +111,7 @@ def test_chunks_are_committed_to_a_library_of_their_own(databases: Databases) ->
         found = committed(engine, "this", Grid(1.0, 1.0, 90.0), [compute_chunk(INPUTS, 0)])
         with engine.connect() as connection:
             counts = [connection.scalar(select(func.count()).select_from(table)) for table in (chunk, state)]
-    assert counts == [1, GRID.state_count]
+    assert counts == [1, GRID.pose_count]
     assert found.here_s > 0.0
     assert (found.server_s > 0.0) == (engine.dialect.name == "postgresql")
 

@@ -21,12 +21,12 @@ BUILDS_TEXT = {"format", "join", "replace", "format_map"}
 
 CHECKED_TEXT = {
     # The cache's size and the checkpoint's pages: constants of the file itself.
-    "threadstate/library/sqlite_engine.py": {
+    "threadstate/library/engine.py": {
         "PRAGMA cache_size = -{WRITER_CACHE_KIB}",
         "PRAGMA wal_autocheckpoint = {WRITER_CHECKPOINT_PAGES}",
+        # Names and values of session parameters, written in the file itself; SET takes no bound ones.
+        "SET {name} = '{value}'",
     },
-    # Names and values of session parameters, written in the file itself; SET takes no bound ones.
-    "threadstate/library/postgresql_engine.py": {"SET {name} = '{value}'"},
     # What SQLAlchemy compiles of a table: names alone, with a placeholder for every value.
     "threadstate/library/write.py": {"str(insert(table).compile(dialect=dialect))"},
 }

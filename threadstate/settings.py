@@ -107,7 +107,7 @@ class Settings:
         host: address that the service listens on.
         port: port that it listens on.
         read_keys_required: whether reading, too, needs a key.
-        lease_s: after how many seconds of silence a worker is taken for dead.
+        lease_s: seconds without a heartbeat after which a worker is considered dead.
         heartbeat_file: file that a worker touches with every heartbeat; None: none.
         cache_mb: size of the cache of responses, in megabytes (10^6 bytes).
         concurrency: how many requests compute at once.

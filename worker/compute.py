@@ -8,9 +8,9 @@ from contextlib import suppress
 from functools import partial
 from multiprocessing.connection import Connection
 
-from threadstate.archive.answers import exact_answers
-from threadstate.archive.compute import computed_rows
 from threadstate.library.identity import LibraryInputs
+from threadstate.stored_histories.answers import exact_answers
+from threadstate.stored_histories.compute import computed_rows
 from worker.messages import Chunk, Failure, Ready
 
 

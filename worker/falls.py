@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from threadstate.answer.documents import OrientationWindowsDocument
-from threadstate.answer.falls_range import computed_falls
-from threadstate.answer.histories import computed_history
-from threadstate.answer.library_network import LibraryNetwork
-from threadstate.answer.windows import windows_document, windows_of_histories
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
 from threadstate.numbers import number_text
+from threadstate.responses.documents import OrientationWindowsDocument
+from threadstate.responses.falls_range import computed_falls
+from threadstate.responses.histories import computed_history
+from threadstate.responses.library_network import LibraryNetwork
+from threadstate.responses.windows import windows_document, windows_of_histories
 from worker.output import tell
 from worker.progress import followed
 

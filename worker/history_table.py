@@ -6,7 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from threadstate.answer.documents import (
+from threadstate.history.falls import SPAN_DEG
+from threadstate.numbers import number_text
+from threadstate.responses.documents import (
     FallsDocument,
     FallsRangeDocument,
     HeightsDocument,
@@ -20,8 +22,6 @@ from threadstate.answer.documents import (
     TransitionDocument,
     WindowDocument,
 )
-from threadstate.history.falls import SPAN_DEG
-from threadstate.numbers import number_text
 from threadstate.units import LengthUnit
 from worker.output import print_line
 from worker.tables import angle, interval_end, length, phase, table

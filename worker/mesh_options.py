@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from threadstate.errors import InvalidValueError
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
@@ -43,7 +43,7 @@ Unchecked = Annotated[
 
 
 def mesh_options(
-    method: Method,
+    method: SolverMethod,
     preset: Preset | None,
     descent: Descent | None,
     final_step: FinalStep | None,
@@ -57,7 +57,7 @@ def mesh_options(
     Raises:
         InvalidValueError: something was chosen, and the method is another.
     """
-    if method is Method.MESH:
+    if method is SolverMethod.MESH:
         return MeshOptions(
             tessellation=(preset or Preset.PAPER).tessellation,
             descent=descent or Descent.SAFE,

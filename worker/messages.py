@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from threadstate.library.history_rows import HistoryRows
-from threadstate.library.rows import ChunkRows
+from threadstate.library.rows import ChunkRows, HistoryRows
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from sqlalchemy import Engine
 
-from threadstate.archive.complete import completed, incomplete_orientations
+from threadstate.library.advisory_locks import WriterLock, take_lock
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.library.states_json import fill_states_json, orientations_without_json
-from threadstate.library.turns import Turn, take_turn
+from threadstate.stored_histories.falls import add_falls, orientations_without_falls
 from worker.progress import followed
 
 
@@ -56,10 +56,10 @@ def migrate_empty(engine: Engine) -> None:
 
 def _complete(engine: Engine) -> int:
     """Add to what is stored what it lacks, with progress bars on stderr; to how many orientations falls were added."""
-    incomplete = incomplete_orientations(engine)
+    incomplete = orientations_without_falls(engine)
     without_json = orientations_without_json(engine)
     if incomplete:
-        _exhaust(followed(completed(engine, incomplete), "descents", len(incomplete)))
+        _exhaust(followed(add_falls(engine, incomplete), "descents", len(incomplete)))
     if without_json:
         _exhaust(followed(fill_states_json(engine, without_json), "states as JSON", len(without_json)))
     return len(incomplete)
@@ -80,6 +80,6 @@ def _upgrade(engine: Engine) -> None:
     config = Config()
     config.set_main_option("script_location", str(Path(migrations.__file__).parent).replace("%", "%%"))
     with engine.begin() as connection:
-        take_turn(connection, Turn.MIGRATE)
+        take_lock(connection, WriterLock.MIGRATE)
         config.attributes["connection"] = connection
         command.upgrade(config, SCHEMA_REVISION)

@@ -8,7 +8,7 @@ import typer
 
 from threadstate import settings
 from threadstate.errors import InvalidValueError
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.units import LengthUnit
 from worker.number_options import integer_option, number_option
 
@@ -37,7 +37,7 @@ UnitName = Annotated[
     LengthUnit | None, typer.Option("--unit", help="Unit of all lengths.", show_default="the thread's own")
 ]
 
-MethodName = Annotated[Method, typer.Option("--method", help="How states are found.")]
+MethodName = Annotated[SolverMethod, typer.Option("--method", help="How states are found.")]
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.", show_default=False)]
 

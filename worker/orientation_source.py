@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection
 
-from threadstate.answer.library_network import LibraryNetwork, library_network
 from threadstate.errors import InvalidValueError
 from threadstate.library.stored_inputs import library_options, library_pair
 from threadstate.numbers import number_text
+from threadstate.responses.library_network import LibraryNetwork, library_network
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair

@@ -8,9 +8,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from threadstate.answer.documents import HeightsDocument, WindowDocument
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
+from threadstate.responses.documents import HeightsDocument, WindowDocument
 from threadstate.units import LengthUnit
 
 if TYPE_CHECKING:

@@ -70,7 +70,7 @@ def rebuild(
     library_id = open_library(engine, inputs)
     committed = committed_orientations(engine, library_id)
     missing = [index for index in range(grid.orientation_count) if index not in committed]
-    progress.begin(len(committed) * grid.phase_count, grid.state_count)
+    progress.begin(len(committed) * grid.phase_count, grid.pose_count)
     computed = 0
     if missing:
         with computers(inputs, min(workers, len(missing)), scheduler) as computing:

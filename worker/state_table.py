@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from threadstate.answer.lengths import scaled
 from threadstate.numbers import number_text
 from threadstate.state.model import ContactState
-from threadstate.units import LengthUnit
+from threadstate.units import LengthUnit, scale_length
 from worker.tables import angle, length, table
 
 
@@ -24,9 +23,9 @@ def print_states(states: Sequence[ContactState], unit: LengthUnit, factor: float
             state.state_class.value,
             angle(state.lambda_deg),
             angle(state.mu_deg),
-            length(scaled(state.drop, factor), unit),
-            length(scaled(state.embedment, factor), unit),
-            length(scaled(state.pivot_offset, factor), unit),
+            length(scale_length(state.drop, factor), unit),
+            length(scale_length(state.embedment, factor), unit),
+            length(scale_length(state.pivot_offset, factor), unit),
             ", ".join(state.flags),
         )
     rows.print()

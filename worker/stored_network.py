@@ -7,11 +7,11 @@ from contextlib import contextmanager
 
 from sqlalchemy import Connection
 
-from threadstate.answer.library_network import LibraryNetwork, library_network
 from threadstate.library.engine import reading
 from threadstate.library.named import LATEST, named_library
 from threadstate.library.read import LibraryRecord
 from threadstate.library.schema import check_schema
+from threadstate.responses.library_network import LibraryNetwork, library_network
 from threadstate.settings import read_settings
 
 

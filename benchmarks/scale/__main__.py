@@ -23,10 +23,10 @@ from benchmarks.scale.growing import grown, rooms
 from benchmarks.scale.page import write_page
 from benchmarks.scale.processor import Stopwatch
 from harness.postgresql_server import running_server
-from threadstate.answer.library_network import library_network
 from threadstate.library.copying import copy_library
 from threadstate.library.engine import reading, writing
 from threadstate.library.read import LibraryRecord, latest_library
+from threadstate.responses.library_network import library_network
 from threadstate.settings import read_settings
 from threadstate.tables import metadata
 from threadstate.warm_up import load_kernels

@@ -1,7 +1,7 @@
-"""Which library a name in a path means, known without asking the database at every request.
+"""A cache of the libraries that names in paths mean, so that most requests need no query.
 
-SQLite says by a number whether anybody else has committed since: a name is right as of the request. It is asked once
-for all requests that have come meanwhile. PostgreSQL's names are looked up again after a second.
+On SQLite the cache is valid as long as ``PRAGMA data_version`` has not changed, which another connection's commit does;
+it is read once for all requests of one iteration of the event loop. On PostgreSQL names are cached for a second.
 """
 
 from __future__ import annotations
@@ -16,25 +16,25 @@ from fastapi.concurrency import run_in_threadpool
 from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import SQLAlchemyError
 
-from service.libraries.identify import identified_library
+from service.libraries.requested import identified_library
 from threadstate.errors import NotFoundError
 from threadstate.library.address import is_sqlite
 from threadstate.library.read import LibraryRecord
 
 LONGEST_AGE_S = 1.0
-"""How old a name may be where the database cannot say whether it has changed."""
+"""How long names are cached on PostgreSQL."""
 MOST_NAMES = 1024
 
 
 @dataclass(frozen=True)
 class _Seen:
-    """What was seen of the database: SQLite's count of others' commits, or a time of the steady clock."""
+    """A version of the database: SQLite's ``data_version``, or a time of the monotonic clock."""
 
     value: float
 
 
 class LibraryNames:
-    """The libraries of a database by the names under which they are asked for."""
+    """The cached libraries of a database, by the names of requests."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
@@ -46,9 +46,9 @@ class LibraryNames:
         self._known: dict[str, LibraryRecord] = {}
 
     def known(self, name: str) -> LibraryRecord | None:
-        """The library that a name means, if it is known and nothing has changed; does not wait.
+        """The cached library of a name; None if it is not cached or the cache is outdated. Does not block.
 
-        To be called within the service's event loop.
+        Must be called in the event loop.
         """
         if self._counting:
             if not self._asked and self._commits() != self._seen:
@@ -59,25 +59,27 @@ class LibraryNames:
         return self._known.get(name)
 
     async def look_up(self, name: str) -> LibraryRecord | None:
-        """The library that a name means, by the database; None where there is none, or no database to ask."""
+        """The library of a name, read from the database; None if it does not exist or the database cannot be read."""
         seen = self._commits() if self._counting else _Seen(time.monotonic())
         try:
             found = await run_in_threadpool(self._ask, name)
         except (NotFoundError, SQLAlchemyError):
             return None
-        # Not where another has committed meanwhile: that one may have published.
+        # Not cached if another connection has committed meanwhile, which may have published a library.
         if seen is not None and (not self._counting or seen == self._commits()):
             self._remember(seen, name, found)
         return found
 
     def close(self) -> None:
-        """Close the connection that watches."""
+        """Close the connection that reads ``data_version``."""
         if self._watch is not None:
             self._watch.close()
             self._watch = self._cursor = None
 
     def _trust_until_next_turn(self) -> None:
-        """Take the names for right in what the loop has begun already: it came before the database was asked."""
+        """Consider the cache valid for the rest of this iteration of the event loop, whose requests came before the
+        read.
+        """
         if not self._asked:
             self._asked = True
             asyncio.get_running_loop().call_soon(self._ask_again)
@@ -99,12 +101,12 @@ class LibraryNames:
             return identified_library(connection, name)
 
     def _commits(self) -> _Seen | None:
-        """SQLite's count, which another's commit changes; None where it cannot be read now."""
+        """SQLite's ``data_version``; None if it cannot be read now."""
         try:
             if self._cursor is None:
                 self._watch = self._engine.connect()
                 self._cursor = self._watch.connection.cursor()
-                # Never wait for a lock here: everything else would wait too.
+                # Never wait for a lock here, as the event loop would wait too.
                 self._cursor.execute("PRAGMA busy_timeout = 0")
             return _Seen(self._cursor.execute("PRAGMA data_version").fetchone()[0])
         except (SQLAlchemyError, sqlite3.Error):

@@ -1,7 +1,8 @@
-"""Answers GETs below ``/v1/libraries/{id}`` from the cache or the database, and caches what the application makes.
+"""Answers GET requests below ``/v1/libraries/{id}`` from the cache or the database, and caches the application's
+responses.
 
 A response depends on the library, which does not change, on the address, and on two headers of the request. Errors and
-streams go through untouched.
+streams pass unchanged.
 """
 
 from __future__ import annotations
@@ -12,22 +13,21 @@ from typing import NamedTuple
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.accepted import header_value, names_etag, prefers_csv, takes_gzip
 from service.cache.library_names import LibraryNames
 from service.cache.responses import CachedResponse, ResponseCache
 from service.cache.stored import StoredResponses
 from service.compression import Headers, compressible, varying, zipped, zipped_etag, zipped_headers
-from service.middleware import ASKED_AS_HEAD
-from service.route_notes import note_route, noted_route
+from service.content_negotiation import header_value, names_etag, prefers_csv, takes_gzip
+from service.request_scope import HEAD_REQUEST, note_route, noted_route
 from threadstate.library.read import LibraryRecord
 
 LIBRARIES = "/v1/libraries/"
 NEGOTIATED = "/histories/"
-"""Below a library, what has a JSON and a CSV form, by the header ``Accept``."""
+"""Resources below a library with a JSON and a CSV form, chosen by the header ``Accept``."""
 
 
 class _RequestHeaders(NamedTuple):
-    """What a request's headers ask for, and the key they show."""
+    """The request headers that a response depends on, and the API key."""
 
     gzip: bool
     csv: bool
@@ -45,7 +45,7 @@ class _RequestHeaders(NamedTuple):
 
 
 class _Key(NamedTuple):
-    """What a response depends on."""
+    """The cache key: all that a response depends on."""
 
     library: int
     path: str
@@ -55,10 +55,10 @@ class _Key(NamedTuple):
 
 
 class CacheMiddleware:
-    """Answers from the cache, or with what is read straight from the database; what several ask for is made once.
+    """Answers from the cache or directly from the database; concurrent requests for one response compute it once.
 
-    The state of a pose is read anew every time: that is as fast as a cache. Where reading needs a key, ``allows`` says
-    by the header ``Authorization`` who may read (None: everybody may).
+    The state of a pose is read every time, which is as fast as a cache. Where reads need a key, ``allows`` decides by
+    the header ``Authorization`` who may read (None: everybody may).
     """
 
     def __init__(
@@ -76,7 +76,7 @@ class CacheMiddleware:
         self._stored = stored
         self._allows = allows
         self._cache_control = cache_control.encode()
-        self._being_made: dict[_Key, asyncio.Event] = {}
+        self._pending: dict[_Key, asyncio.Event] = {}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one connection (ASGI)."""
@@ -99,11 +99,11 @@ class CacheMiddleware:
             await self._reply(None, response, headers, scope, send)
             return
         response = self._cache.get(key)
-        if response is None and (making := self._being_made.get(key)) is not None:
+        if response is None and (making := self._pending.get(key)) is not None:
             await making.wait()
             response = self._cache.get(key)
         if response is None or (response.body is None and not names_etag(headers.if_none_match, response.etag)):
-            if ASKED_AS_HEAD in scope:
+            if HEAD_REQUEST in scope:
                 await self._app(scope, receive, send)
                 return
             response = await self._make(key, library if plain else None, scope, receive, send)
@@ -113,11 +113,12 @@ class CacheMiddleware:
     async def _make(
         self, key: _Key, library: LibraryRecord | None, scope: Scope, receive: Receive, send: Send
     ) -> CachedResponse | None:
-        """The response, read or made by the application, and cached; None where it is of another kind and was sent.
+        """Read a response from the database or get it from the application, and cache it.
 
-        ``library`` is None where it cannot be read straight from the database.
+        ``library`` is None if the response cannot be read directly. Returns None if the response cannot be cached and
+        was sent.
         """
-        made = self._being_made.setdefault(key, asyncio.Event())
+        made = self._pending.setdefault(key, asyncio.Event())
         try:
             response = None if library is None else await self._stored.history(library, key.path)
             if response is None:
@@ -130,13 +131,13 @@ class CacheMiddleware:
                 self._cache.put(key, response)
             return None if response is None or response.body is None else response
         finally:
-            self._being_made.pop(key, None)
+            self._pending.pop(key, None)
             made.set()
 
     async def _reply(
         self, key: _Key | None, response: CachedResponse, headers: _RequestHeaders, scope: Scope, send: Send
     ) -> None:
-        """Send a response as the request's headers ask for it; compressed ones are cached under ``key``, if any."""
+        """Send a response as the request's headers require; a compressed one is cached under ``key``, if given."""
         note_route(scope, response.route)
         etag, zipping = response.etag, headers.gzip and compressible(response.headers)
         if zipping:
@@ -165,7 +166,7 @@ class CacheMiddleware:
 
 
 class _Capture:
-    """Holds back a response that is to be cached, whole; sends on any other as it comes."""
+    """Captures a response that can be cached; passes on any other."""
 
     def __init__(self, key: _Key, scope: Scope, send: Send, cache_control: bytes) -> None:
         self._cache_control = cache_control
@@ -176,7 +177,7 @@ class _Capture:
         self.response: CachedResponse | None = None
 
     async def send(self, message: Message) -> None:
-        """Take a message of the application (ASGI)."""
+        """Receive a message of the application (ASGI)."""
         if self._start is not None:
             start, self._start = self._start, None
             if message.get("more_body"):
@@ -198,7 +199,7 @@ class _Capture:
         return CachedResponse(noted_route(self._scope), _named(headers, b"etag").decode("latin-1"), headers, body)
 
     def _is_cacheable(self, headers: Headers) -> bool:
-        """Whether a response is the same for everybody who asks with the same key."""
+        """Whether a response is the same for all requests with the same key."""
         varies = {name.strip() for name in _named(headers, b"vary").lower().split(b",")}
         negotiated = {b"accept"} if self._key.path.startswith(NEGOTIATED) else set()
         return (

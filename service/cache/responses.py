@@ -1,4 +1,4 @@
-"""Responses of status 200 with a strong ETag, as bytes; the least recently used make room for others."""
+"""An LRU cache of responses with status 200 and a strong ETag, as bytes."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from dataclasses import dataclass
 from service.compression import Headers
 
 OVERHEAD_BYTES = 1024
-"""What a response takes beside its body, about."""
+"""Approximate memory of a response besides its body."""
 LARGEST_SHARE = 4
-"""No response takes more than this part of the cache: one over it."""
+"""No response may take more than the cache's size divided by this."""
 
 _OF_CONTENT = (b"content-length", b"content-type")
 
 
 @dataclass(frozen=True, slots=True)
 class CachedResponse:
-    """A response; ``body`` is None where only its ETag is known. ``route`` is the template of its address."""
+    """A response; ``body`` is None if only its ETag is known. ``route`` is the template of its address."""
 
     route: str
     etag: str
@@ -27,12 +27,12 @@ class CachedResponse:
 
     @property
     def headers_of_304(self) -> Headers:
-        """The headers where the client has the body already."""
+        """The headers of a 304 response."""
         return [(name, value) for name, value in self.headers if name not in _OF_CONTENT]
 
 
 class ResponseCache:
-    """Responses by their keys, bounded in bytes; ``hits`` and ``misses`` count how often one was found."""
+    """Responses by key, limited in bytes; ``hits`` and ``misses`` count the lookups."""
 
     def __init__(self, largest_bytes: int) -> None:
         self._largest = largest_bytes
@@ -45,7 +45,7 @@ class ResponseCache:
         return len(self._responses)
 
     def get(self, key: Hashable) -> CachedResponse | None:
-        """The response of that key."""
+        """The cached response of a key; None if there is none."""
         found = self._responses.get(key)
         if found is None:
             self.misses += 1

@@ -1,7 +1,7 @@
 """Responses read straight from the database, before routing: the state of a pose, the history of an orientation.
 
-Each is one read and one serialisation. Only what can be answered for certain is answered here, with the same bytes as
-the endpoints' (a test compares them); everything else, errors too, is the endpoints' business.
+Each is one read and one serialisation. Only successful responses are made here, with the same bytes as the endpoints'
+(a test compares them); everything else, errors included, is left to the endpoints.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.cache.responses import CachedResponse
+from service.quantities import UNIT_HEADER
 from service.representation import JSON, VARY_ACCEPT, etag_of
-from service.units import UNIT_HEADER
 from threadstate.errors import NotFoundError, UndecidedPoseError
 from threadstate.library.address import is_sqlite
 from threadstate.library.direct_reader import DirectReader
@@ -40,7 +40,7 @@ _UNIT_HEADER = UNIT_HEADER.lower().encode()
 class StoredResponses:
     """States and histories of the database behind ``engine``, in their library's own unit.
 
-    They are read within the event loop where that never waits (SQLite), else in a thread.
+    They are read in the event loop where that never blocks (SQLite), else in a thread.
     """
 
     def __init__(self, engine: Engine, cache_control: str) -> None:
@@ -54,7 +54,9 @@ class StoredResponses:
             self._reader.close()
 
     async def state(self, library: LibraryRecord, path: str) -> CachedResponse | None:
-        """The state that ``path``, below the library's address, is about; None where it is not the path of one."""
+        """The response for the state at ``path``, relative to the library; None if it is not the path of a stored
+        state.
+        """
         match = _STATE.fullmatch(path)
         if match is None:
             return None
@@ -69,7 +71,9 @@ class StoredResponses:
         return self._response(STATE_ROUTE, library, state_json(state), ("content-location", location))
 
     async def history(self, library: LibraryRecord, path: str) -> CachedResponse | None:
-        """The history that ``path``, below the library's address, is about; None where it is not the path of one."""
+        """The response for the history at ``path``, relative to the library; None if it is not the path of a stored
+        one.
+        """
         match = _HISTORY.fullmatch(path)
         if match is None:
             return None

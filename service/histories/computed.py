@@ -1,4 +1,6 @@
-"""``/v1/histories/{roll}/{pitch}/intervals``, ``.../heights`` and ``.../falls``: of any orientation."""
+"""``/v1/histories/{roll}/{pitch}/intervals``, ``.../heights`` and ``.../falls``: of any orientation, computed on
+request.
+"""
 
 from __future__ import annotations
 
@@ -8,16 +10,15 @@ from annotated_types import Ge, Gt, Le
 from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import AllowInfNan
 
-from service.angles import PitchPath, RollPath
 from service.kernels import require_kernels
-from service.libraries.solved_pair import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
+from service.libraries.requested import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
 from service.network.parameters import LeastQuery
 from service.network.schemas import ComputedFalls, ComputedHeights, ComputedIntervals
-from service.numbers import INTEGER_TEXT, NUMBER_TEXT
+from service.quantities import INTEGER_TEXT, NUMBER_TEXT, UNIT_HEADER, PitchPath, RollPath, UnitQuery
 from service.representation import JSON
-from service.units import UNIT_HEADER, UnitQuery
-from threadstate.answer.documents import FallsDocument
-from threadstate.answer.falls_range import (
+from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
+from threadstate.responses.documents import FallsDocument
+from threadstate.responses.falls_range import (
     LARGEST_SPAN_DEG,
     LARGEST_TOLERANCE_DEG,
     MOST_STEPS,
@@ -26,9 +27,8 @@ from threadstate.answer.falls_range import (
     falls_range,
     tilts_within,
 )
-from threadstate.answer.heights import computed_heights, heights_document
-from threadstate.answer.histories import computed_history, history_document
-from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
+from threadstate.responses.heights import computed_heights, heights_document
+from threadstate.responses.histories import computed_history, history_document
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import conversion_factor
 
@@ -79,7 +79,7 @@ RequestedPair = Annotated[SolvedPair, Depends(_solved_pair)]
 
 @router.get("/{roll}/{pitch}/intervals", summary="The intervals of any orientation", response_model=ComputedIntervals)
 def get_computed_intervals(roll: RollPath, pitch: PitchPath, asked: RequestedPair, unit: UnitQuery = None) -> Response:
-    """As the intervals of a library's orientation, for any roll and pitch, computed now."""
+    """The intervals of any roll and pitch, computed on request."""
     pair = asked.pair
     shown = unit or pair.unit
     found = computed_history(pair, roll, pitch, asked.options)
@@ -91,7 +91,7 @@ def get_computed_intervals(roll: RollPath, pitch: PitchPath, asked: RequestedPai
 
 @router.get("/{roll}/{pitch}/heights", summary="Height against phase", response_model=ComputedHeights)
 def get_computed_heights(roll: RollPath, pitch: PitchPath, asked: RequestedPair, unit: UnitQuery = None) -> Response:
-    """As the heights of a library's orientation, for any roll and pitch, computed now."""
+    """The heights of any roll and pitch, computed on request."""
     pair = asked.pair
     shown = unit or pair.unit
     found = computed_heights(pair, roll, pitch, asked.options)

@@ -2,22 +2,82 @@
 
 from __future__ import annotations
 
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from enum import StrEnum
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
+from pydantic import BaseModel, Field
 
-from service.accepted import header_value, prefers_csv
-from service.angles import PitchPath, RollPath
 from service.cache.stored import history_rows_json, undecided_phases
+from service.content_negotiation import header_value, prefers_csv
 from service.database import ReadConnection
-from service.histories.columns import csv_table, history_columns
-from service.histories.schemas import HistoryColumns, HistoryFormat, HistoryRows
-from service.libraries.identify import IdentifiedLibrary
+from service.libraries.requested import IdentifiedLibrary
+from service.quantities import UNIT_HEADER, PitchPath, RollPath, UnitQuery
 from service.representation import CSV, JSON, NOT_MODIFIED, VARY_ACCEPT, json_response, representation
-from service.units import UNIT_HEADER, UnitQuery
+from service.undecided import UndecidedPhase
+from threadstate.export.column import Cell
+from threadstate.export.states import STAGES, state_columns
 from threadstate.library.read import not_on_the_grid, states_between
-from threadstate.state.document import state_document
-from threadstate.units import conversion_factor
+from threadstate.state.document import StateDocument, state_document
+from threadstate.units import LengthUnit, conversion_factor
+
+Columns = Mapping[str, tuple[Cell, ...]]
+
+
+def history_columns(states: Sequence[StateDocument]) -> Columns:
+    """The states of an orientation as the columns that an export has of them, None where a state lacks one.
+
+    Left out are roll and pitch, the number of contacts, and the stages and contacts that no state has.
+    """
+    stages = max((len(state["poses"]) for state in states), default=0)
+    contacts = max((len(state["contacts"]) for state in states), default=0)
+    unreached = tuple(f"pose_{stage}_" for stage in STAGES if stage > stages)
+    return {
+        column.name: tuple(column.cell(state) for state in states)
+        for column in state_columns(contacts)
+        if column.name not in ("roll", "pitch", "contacts") and not column.name.startswith(unreached)
+    }
+
+
+def csv_table(columns: Columns) -> bytes:
+    """The columns as CSV with a header, in UTF-8; a cell that is None is empty."""
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(columns)
+    writer.writerows(zip(*columns.values(), strict=True))
+    return text.getvalue().encode()
+
+
+class HistoryFormat(StrEnum):
+    """The formats of a history: states one by one, or columns as JSON or CSV."""
+
+    ROWS = "rows"
+    COLUMNS = "columns"
+    CSV = "csv"
+
+
+class _History(BaseModel):
+    library: int = Field(description="number of the library")
+    unit: LengthUnit = Field(description="unit of all lengths in this response")
+    roll: float
+    pitch: float
+    undecided: list[UndecidedPhase] = Field(description="the phases without a state, and why")
+
+
+class HistoryRows(_History):
+    """A history, state by state."""
+
+    states: list[StateDocument]
+
+
+class HistoryColumns(_History):
+    """A history as columns of equal length, with the names that the CSV has in its header."""
+
+    columns: dict[str, list[float | str | None]]
+
 
 router = APIRouter(prefix="/v1/libraries/{id}/histories", tags=["histories"])
 

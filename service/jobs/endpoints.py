@@ -1,28 +1,72 @@
-"""``/v1/jobs``."""
+"""``/v1/jobs``, and the events of a job as server-sent events."""
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator, Sequence
 from typing import Annotated, Any
 from urllib.parse import urlencode
 
+import anyio
 from annotated_types import Ge, Le
 from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from fastapi.responses import StreamingResponse
+from sqlalchemy import Engine
 
-from service.control import RequestedControl
-from service.database import ReadConnection, engine_of
-from service.edge.drain import drain_of
-from service.jobs.schemas import JobDocument, JobPage, JobRequest, job_document
-from service.jobs.stream import HEADERS, EventStream, told
+from service.database import ReadConnection, RequestedControl, engine_of
+from service.jobs.schemas import JobDocument, JobPage, JobRequest, event_document, job_document
 from service.keys import require_write_key
-from service.middleware import ASKED_AS_HEAD
-from service.numbers import INTEGER_TEXT
+from service.quantities import INTEGER_TEXT
 from service.representation import JSON, NOT_MODIFIED, json_response
+from service.request_scope import HEAD_REQUEST
+from service.shutdown import Shutdown, shutdown_of
 from service.strict_json import StrictJsonRoute
-from threadstate.jobs.ask import ask_for, cancel
-from threadstate.jobs.model import JobRecord
+from threadstate.jobs.model import JobEvent, JobRecord
 from threadstate.jobs.names import EventKind
-from threadstate.jobs.read import job_by_id, jobs_before
+from threadstate.jobs.queue import cancel, events_after, job_by_id, jobs_before, submit_job
 from threadstate.library.read import LARGEST_ID
+
+POLL_S = 0.5
+POLLS_PER_COMMENT = 30
+"""After this many polls without an event a comment is sent, so that proxies and clients see that the connection is
+alive.
+"""
+
+
+HEADERS = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
+"""Proxies neither cache nor buffer the stream."""
+
+
+class EventStream(StreamingResponse):
+    """Server-sent events."""
+
+    media_type = "text/event-stream"
+
+
+async def event_stream(engine: Engine, job_id: int, after: int, shutdown: Shutdown) -> AsyncIterator[str]:
+    """The events of a job after event ``after``, until the job ends or the process shuts down, after which clients
+    reconnect.
+    """
+    idle_polls = 0
+    while True:
+        job, events = await run_in_threadpool(_poll, engine, job_id, after)
+        for event in events:
+            data = event_document(job, event).model_dump_json()
+            yield f"id: {event.number}\nevent: {event.kind}\ndata: {data}\n\n"
+            after = event.number
+        if job.state.ended or shutdown.started:
+            return
+        idle_polls = 0 if events else idle_polls + 1
+        if idle_polls == POLLS_PER_COMMENT:
+            idle_polls = 0
+            yield ": nothing new\n\n"
+        await anyio.sleep(POLL_S)
+
+
+def _poll(engine: Engine, job_id: int, after: int) -> tuple[JobRecord, Sequence[JobEvent]]:
+    with engine.connect() as connection:
+        return job_by_id(connection, job_id), events_after(connection, job_id, after)
+
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"], route_class=StrictJsonRoute)
 
@@ -46,10 +90,10 @@ LastEventHeader = Annotated[
 ]
 
 _ACCEPTED: dict[int | str, dict[str, Any]] = {
-    200: {"description": "The library is there already"},
-    202: {"model": JobDocument, "description": "It is queued, or at work; `Location` says where to look"},
+    200: {"description": "The library exists already"},
+    202: {"model": JobDocument, "description": "It is queued or running; `Location` is its address"},
 }
-_ALL_TOLD: dict[int | str, dict[str, Any]] = {
+_ALL_SENT: dict[int | str, dict[str, Any]] = {
     204: {"description": "The job has ended, and all of it has been received: do not connect again"}
 }
 _EVENT_SCHEMA = {
@@ -67,14 +111,14 @@ _EVENT_DESCRIPTION = {"responses": {"200": {"content": {EventStream.media_type: 
 
 @router.post(
     "",
-    summary="Ask for a library",
+    summary="Request a library",
     response_model=JobDocument,
     responses=_ACCEPTED,
     dependencies=[Depends(require_write_key)],
 )
 def post_job(engine: RequestedControl, body: JobRequest) -> Response:
-    """Have a library computed. The same inputs are the same job; one that failed or was cancelled begins again."""
-    job = ask_for(engine, body.inputs())
+    """Have a library computed. The same inputs are the same job; one that failed or was cancelled is queued again."""
+    job = submit_job(engine, body.inputs())
     return _job_response(job, 200 if job.state.ended else 202)
 
 
@@ -95,37 +139,39 @@ def list_jobs(
 
 @router.get("/{id}", summary="One job", response_model=JobDocument, responses=NOT_MODIFIED)
 def get_job(request: Request, connection: ReadConnection, job_id: JobId) -> Response:
-    """How far a job is, and the number of its library once that is published."""
+    """The progress of a job, and the number of its library once that is published."""
     return json_response(request, job_document(job_by_id(connection, job_id)).model_dump(mode="json"))
 
 
 @router.get(
     "/{id}/events",
-    summary="What happens to a job",
+    summary="Events of a job",
     response_class=EventStream,
-    responses=_ALL_TOLD,
+    responses=_ALL_SENT,
     openapi_extra=_EVENT_DESCRIPTION,
 )
 def get_events(request: Request, job_id: JobId, last_event_id: LastEventHeader = 0) -> Response:
-    """Server-sent events: what has happened, and what happens until the job ends.
+    """Server-sent events: those that have happened, and those that happen until the job ends.
 
     Each has a number, as `id`, a kind, as `event`, and as `data` an object with `job`, `kind`, `at`, `committed`,
-    `chunks` and `reason`. A client that comes back with `Last-Event-ID` is told what it has missed.
+    `chunks` and `reason`. A client that comes back with `Last-Event-ID` receives what it has missed.
     """
     engine = engine_of(request)
-    # Not the request's connection: that one would be held as long as the stream is open.
+    # Not the request's connection, which would be held as long as the stream is open.
     with engine.connect() as connection:
         job = job_by_id(connection, job_id)
     if job.state.ended and last_event_id >= job.event_count:
         return Response(status_code=204, headers={"Cache-Control": "no-store"})
-    if request.scope.get(ASKED_AS_HEAD):
+    if request.scope.get(HEAD_REQUEST):
         return Response(media_type=EventStream.media_type, headers=HEADERS)
-    return EventStream(told(engine, job_id, last_event_id, drain_of(request)), headers=HEADERS)
+    return EventStream(event_stream(engine, job_id, last_event_id, shutdown_of(request)), headers=HEADERS)
 
 
 @router.delete("/{id}", summary="Cancel a job", response_model=JobDocument, dependencies=[Depends(require_write_key)])
 def delete_job(engine: RequestedControl, job_id: JobId) -> Response:
-    """Cancel a job that has not ended. What is computed stays, unpublished, for when it is asked for again."""
+    """Cancel a job that has not ended. Its computed chunks stay, unpublished, for the next request of the same
+    inputs.
+    """
     return _job_response(cancel(engine, job_id), 200)
 
 

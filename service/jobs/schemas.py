@@ -1,4 +1,4 @@
-"""The shape of a job that is asked for, and of one that is told of."""
+"""The request and response models of jobs."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from service.libraries.schemas import GridDocument
+from service.libraries.endpoints import GridDocument
 from threadstate.errors import InvalidValueError
 from threadstate.jobs.model import JobEvent, JobRecord
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
@@ -38,7 +38,7 @@ class GridToCompute(BaseModel):
 
 
 class Tolerances(BaseModel):
-    """Limits and tolerances; lengths in multiples of the thread pitch."""
+    """LimitsMiddleware and tolerances; lengths in multiples of the thread pitch."""
 
     model_config = _FORBID
 
@@ -49,7 +49,7 @@ class Tolerances(BaseModel):
 
 
 class MeshSettings(BaseModel):
-    """Settings of the method by meshes, as on the command line."""
+    """Settings of the solver method `mesh`, as on the command line."""
 
     model_config = _FORBID
 
@@ -62,36 +62,36 @@ class MeshSettings(BaseModel):
 
 
 class JobRequest(BaseModel):
-    """A library to be computed."""
+    """A library to compute."""
 
     model_config = ConfigDict(
         **_FORBID,
         json_schema_extra={
             "examples": [{"designation": DEFAULT_DESIGNATION, "grid": {"phase_step": 5.0}}],
             "if": {"required": ["mesh"], "properties": {"mesh": {"type": "object"}}},
-            "then": {"required": ["method"], "properties": {"method": {"const": Method.MESH.value}}},
+            "then": {"required": ["method"], "properties": {"method": {"const": SolverMethod.MESH.value}}},
         },
     )
 
     designation: Annotated[str, Field(min_length=1, max_length=100, description="the thread")] = DEFAULT_DESIGNATION
     grid: GridToCompute = GridToCompute()
-    method: Method = Method.EXACT
+    method: SolverMethod = SolverMethod.EXACT
     tolerances: Tolerances = Tolerances()
-    mesh: MeshSettings | None = Field(default=None, description="of the method `mesh` alone")
+    mesh: MeshSettings | None = Field(default=None, description="of the solver method `mesh` alone")
 
     def inputs(self) -> LibraryInputs:
         """The inputs of the library.
 
         Raises:
-            InvalidValueError: a value is out of range, or there are settings of meshes for another method.
+            InvalidValueError: a value is out of range, or mesh settings are given for another solver method.
         """
-        if self.mesh is not None and self.method is not Method.MESH:
-            raise InvalidValueError("mesh", "given", "settings of the method `mesh` alone")
+        if self.mesh is not None and self.method is not SolverMethod.MESH:
+            raise InvalidValueError("mesh", "given", "settings of the solver method `mesh` alone")
         return LibraryInputs(
             pair_by_designation(self.designation),
             Grid(self.grid.tilt_max, self.grid.tilt_step, self.grid.phase_step),
             SolveOptions(**dict(self.tolerances)),
-            None if self.method is Method.EXACT else _mesh_options(self.mesh or MeshSettings()),
+            None if self.method is SolverMethod.EXACT else _mesh_options(self.mesh or MeshSettings()),
         )
 
 
@@ -102,14 +102,14 @@ class JobDocument(BaseModel):
     state: JobState
     reason: str | None = Field(description="why it failed")
     designation: str
-    method: Method
+    method: SolverMethod
     grid: GridDocument
     options: dict[str, float | str | bool] = Field(description="limits and tolerances of the method")
-    input_sha256: str = Field(description="hash of all of these; the same is the same job")
+    input_sha256: str = Field(description="hash of all of these; equal hashes are the same job")
     code_version: str = Field(description="workers of another version do not take it")
-    chunks: int = Field(description="how many orientations there are")
-    committed: int = Field(description="how many of them are computed")
-    at_work: int = Field(description="how many of them workers are at")
+    chunks: int = Field(description="number of orientations")
+    committed: int = Field(description="number of computed orientations")
+    at_work: int = Field(description="number of orientations that workers are computing")
     library: int | None = Field(description="number of the published library")
     asked_at: datetime
     ended_at: datetime | None
@@ -123,12 +123,12 @@ class JobPage(BaseModel):
 
 
 class EventDocument(BaseModel):
-    """Something that happened to a job: the ``data`` of an event of the stream."""
+    """An event of a job: the ``data`` of an event of the stream."""
 
     job: int
     kind: EventKind
     at: datetime
-    committed: int = Field(description="how many chunks were committed then")
+    committed: int = Field(description="number of committed chunks at the time")
     chunks: int
     reason: str | None
 

@@ -2,14 +2,126 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import fields, replace
+from datetime import datetime
+
 from fastapi import APIRouter, Request, Response
+from pydantic import BaseModel, Field, TypeAdapter
 
 from service.database import ReadConnection
-from service.libraries.identify import IdentifiedLibrary
-from service.libraries.schemas import LibraryDetail, LibraryList, library_detail, library_document
+from service.libraries.requested import IdentifiedLibrary
+from service.quantities import UnitQuery
 from service.representation import NOT_MODIFIED, json_response
-from service.units import UnitQuery
-from threadstate.library.read import counts, published_libraries
+from threadstate.library.named import slug
+from threadstate.library.read import Counts, LibraryRecord, counts, published_libraries
+from threadstate.library.solver_method import SolverMethod
+from threadstate.state.model import Flag, StateClass
+from threadstate.thread.pair import Pair
+from threadstate.units import LengthUnit, conversion_factor
+
+_PAIR = TypeAdapter(Pair)
+
+
+class GridDocument(BaseModel):
+    """The grid of a library's poses, in degrees: roll and pitch +-``tilt_max``, phase 0 up to but without 360."""
+
+    tilt_max: float
+    tilt_step: float
+    phase_step: float
+    orientations: int = Field(description="how many pairs of roll and pitch there are")
+
+
+class LibraryDocument(BaseModel):
+    """A published library."""
+
+    id: int
+    designation: str = Field(examples=["1/4-20 UNC"])
+    slug: str = Field(examples=["1-4-20-unc"])
+    unit: LengthUnit = Field(description="unit of all lengths in this response")
+    stored_unit: LengthUnit = Field(description="unit in which the library was computed and is stored")
+    pair: Pair = Field(description="the bolt and the nut; lengths in this answer's unit, fillets per thread pitch")
+    grid: GridDocument
+    method: SolverMethod
+    options: dict[str, float | str] = Field(description="limits and tolerances of the method; lengths per thread pitch")
+    state_count: int
+    undecided_count: int = Field(description="how many more poses of the grid the method could not decide")
+    code_version: str
+    input_sha256: str = Field(description="SHA-256 of everything that the content depends on")
+    content_sha256: str = Field(description="SHA-256 of the content; the same on every machine")
+    created_at: datetime
+    published_at: datetime
+
+
+class CountsDocument(BaseModel):
+    """How many states have each class and each flag."""
+
+    classes: dict[StateClass, int]
+    flags: dict[Flag, int]
+
+
+class LibraryDetail(LibraryDocument):
+    """A published library with the counts of its states."""
+
+    counts: CountsDocument
+
+
+class LibraryList(BaseModel):
+    """All published libraries, the latest first."""
+
+    libraries: list[LibraryDocument]
+
+
+def library_document(record: LibraryRecord, unit: LengthUnit | None) -> LibraryDocument:
+    """The document of a library, with its lengths in ``unit`` (None: its own)."""
+    shown = unit or record.length_unit
+    return LibraryDocument(
+        id=record.id,
+        designation=record.designation,
+        slug=slug(record.designation),
+        unit=shown,
+        stored_unit=record.length_unit,
+        pair=_in_unit(_PAIR.validate_json(record.pair), shown),
+        grid=GridDocument(
+            tilt_max=record.grid.tilt_max_deg,
+            tilt_step=record.grid.tilt_step_deg,
+            phase_step=record.grid.phase_step_deg,
+            orientations=record.grid.orientation_count,
+        ),
+        method=record.method,
+        options=json.loads(record.options),
+        state_count=record.state_count,
+        undecided_count=record.undecided_count,
+        code_version=record.code_version,
+        input_sha256=record.input_sha256,
+        content_sha256=record.content_sha256,
+        created_at=record.created_at,
+        published_at=record.published_at,
+    )
+
+
+def library_detail(record: LibraryRecord, counts: Counts, unit: LengthUnit | None) -> LibraryDetail:
+    """The document of a library with its counts."""
+    document = library_document(record, unit)
+    return LibraryDetail(
+        **dict(document), counts=CountsDocument(classes=dict(counts.of_class), flags=dict(counts.of_flag))
+    )
+
+
+def _in_unit(pair: Pair, unit: LengthUnit) -> Pair:
+    """The same pair with its lengths in ``unit``."""
+    factor = conversion_factor(pair.unit, unit)
+    diameters = {
+        field.name: getattr(pair.fit, field.name) * factor for field in fields(pair.fit) if field.name != "name"
+    }
+    return replace(
+        pair,
+        unit=unit,
+        nominal_diameter=pair.nominal_diameter * factor,
+        thread_pitch=pair.thread_pitch * factor,
+        fit=replace(pair.fit, **diameters),
+    )
+
 
 router = APIRouter(prefix="/v1/libraries", tags=["libraries"])
 

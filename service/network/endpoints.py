@@ -1,4 +1,4 @@
-"""What is asked of a library's histories and its constraint network."""
+"""A library's histories, and its constraint network."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from urllib.parse import urlencode
 from annotated_types import Ge, Le
 from fastapi import APIRouter, Depends, Path, Query, Request, Response
 
-from service.angles import PhaseQuery, PitchPath, PitchQuery, RollPath, RollQuery
 from service.database import ReadConnection
 from service.kernels import require_kernels
+from service.network.cache import RequestedNetwork
 from service.network.parameters import (
     LeastQuery,
     MovesQuery,
@@ -32,23 +32,30 @@ from service.network.schemas import (
     TransitionsPage,
     WindowsAnswer,
 )
-from service.network.store import RequestedNetwork
-from service.numbers import INTEGER_TEXT
+from service.quantities import (
+    INTEGER_TEXT,
+    UNIT_HEADER,
+    PhaseQuery,
+    PitchPath,
+    PitchQuery,
+    RollPath,
+    RollQuery,
+    UnitQuery,
+)
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
-from service.units import UNIT_HEADER, UnitQuery
-from threadstate.answer.heights import heights_document, stored_heights
-from threadstate.answer.histories import history_document
-from threadstate.answer.library_network import LibraryNetwork
-from threadstate.answer.networks import location_document, node_document, path_document
-from threadstate.answer.select import selected
-from threadstate.answer.transitions import transition_documents
-from threadstate.answer.windows import windows_of_histories
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES
 from threadstate.network.formation import KEY_DIGITS
 from threadstate.network.locate import locate
 from threadstate.network.paths import best_path
 from threadstate.network.search import Objective
+from threadstate.responses.heights import heights_document, stored_heights
+from threadstate.responses.histories import history_document
+from threadstate.responses.library_network import LibraryNetwork
+from threadstate.responses.networks import location_document, node_document, path_document
+from threadstate.responses.query import filter_transitions
+from threadstate.responses.transitions import transition_documents
+from threadstate.responses.windows import windows_of_histories
 from threadstate.units import LengthUnit, conversion_factor
 
 router = APIRouter(prefix="/v1/libraries/{id}", tags=["network"])
@@ -131,7 +138,7 @@ def list_transitions(
     stretch over which the tilt can be made, unless that is shorter than 0.001 deg.
     """
     shown, factor = _unit(network, unit)
-    found = selected(network, which)
+    found = filter_transitions(network, which)
     page = found[after : after + limit]
     following = None
     headers = {}

@@ -9,15 +9,13 @@ from annotated_types import Ge, Le
 from fastapi import Depends, Query
 from pydantic import AllowInfNan
 
-from service.angles import PhaseMaxQuery, PhaseMinQuery, PitchQuery, RollQuery
-from service.numbers import INTEGER_TEXT, NUMBER_TEXT
-from threadstate.answer.observed import contact_observations, named_moves
-from threadstate.answer.select import TransitionFilter
+from service.quantities import INTEGER_TEXT, NUMBER_TEXT, PhaseMaxQuery, PhaseMinQuery, PitchQuery, RollQuery
 from threadstate.network.changes import ChangeKind
 from threadstate.network.formation import KEY_DIGITS
 from threadstate.network.locate import Observation
 from threadstate.network.moves import Move
 from threadstate.network.search import Objective
+from threadstate.responses.query import TransitionFilter, parse_contact_observations, parse_moves
 from threadstate.state.model import Flag, StateClass
 
 _LONGEST_MOVES = len(",".join(Move))
@@ -85,7 +83,7 @@ def path_moves(
     Raises:
         UnknownNameError: no such move.
     """
-    return named_moves(moves.replace(" ", "+"))
+    return parse_moves(moves.replace(" ", "+"))
 
 
 def observation(
@@ -118,7 +116,7 @@ def observation(
         UnknownNameError: a region or a pair of features that does not exist.
     """
     flags = frozenset() if flag is None else frozenset({flag})
-    return Observation(state_class, contacts, flags, contact_observations(contact or ""), ordered)
+    return Observation(state_class, contacts, flags, parse_contact_observations(contact or ""), ordered)
 
 
 TransitionQuery = Annotated[TransitionFilter, Depends(transition_filter)]

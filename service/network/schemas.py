@@ -1,10 +1,10 @@
-"""The shapes of answers about a library's histories and network."""
+"""The response models of a library's histories and network."""
 
 from __future__ import annotations
 
 from pydantic import BaseModel, Field
 
-from threadstate.answer.documents import (
+from threadstate.responses.documents import (
     FallsDocument,
     FallsRangeDocument,
     FormationSummaryDocument,
@@ -22,7 +22,7 @@ from threadstate.units import LengthUnit
 
 class _OfLibrary(BaseModel):
     library: int = Field(description="number of the library")
-    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    unit: LengthUnit = Field(description="unit of all lengths in this response")
 
 
 class IntervalsAnswer(_OfLibrary):
@@ -32,11 +32,11 @@ class IntervalsAnswer(_OfLibrary):
 
 
 class ComputedIntervals(BaseModel):
-    """The same of any orientation, computed when it is asked for."""
+    """The same of any orientation, computed on request."""
 
     designation: str
     library: int | None = Field(description="number of the library whose pair and tolerances these are")
-    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    unit: LengthUnit = Field(description="unit of all lengths in this response")
     history: OrientationHistoryDocument
 
 
@@ -47,11 +47,11 @@ class HeightsAnswer(_OfLibrary):
 
 
 class ComputedHeights(BaseModel):
-    """The same of any orientation, computed when it is asked for."""
+    """The same of any orientation, computed on request."""
 
     designation: str
     library: int | None = Field(description="number of the library whose pair and tolerances these are")
-    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    unit: LengthUnit = Field(description="unit of all lengths in this response")
     heights: HeightsDocument
 
 
@@ -60,7 +60,7 @@ class ComputedFalls(BaseModel):
 
     designation: str
     library: int | None
-    unit: LengthUnit = Field(description="unit of all lengths in this answer")
+    unit: LengthUnit = Field(description="unit of all lengths in this response")
     falls: FallsDocument
     range: FallsRangeDocument | None
 

@@ -5,22 +5,35 @@ from __future__ import annotations
 from urllib.parse import urlencode
 
 from fastapi import APIRouter, Request, Response
+from pydantic import BaseModel, Field
+from typing_extensions import TypedDict
 
-from service.angles import PhasePath, PitchPath, RollPath
 from service.cache.stored import content_location
 from service.database import ReadConnection
-from service.libraries.identify import IdentifiedLibrary
+from service.libraries.requested import IdentifiedLibrary
+from service.quantities import UNIT_HEADER, PhasePath, PitchPath, RollPath, UnitQuery
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
-from service.states.cursor import decode_cursor, encode_cursor
 from service.states.parameters import FIELDS, CursorQuery, FieldsQuery, FilterQuery, LimitQuery, SortQuery
+from service.states.query import decode_cursor, encode_cursor
 from service.states.repository import places
-from service.states.schemas import StatePage
-from service.units import UNIT_HEADER, UnitQuery
 from threadstate.library.pose import state_of_pose
 from threadstate.library.read import states_at
 from threadstate.state.document import StateDocument, state_document
 from threadstate.state.json import state_json
-from threadstate.units import conversion_factor
+from threadstate.units import LengthUnit, conversion_factor
+
+ChosenFields = TypedDict("ChosenFields", StateDocument.__annotations__, total=False)  # type: ignore[misc]
+"""A contact state; with `fields` those of its fields alone."""
+
+
+class StatePage(BaseModel):
+    """One page of states."""
+
+    library: int = Field(description="number of the library")
+    unit: LengthUnit = Field(description="unit of all lengths in this response")
+    states: list[ChosenFields] = Field(description="with `fields`, only those fields of each")
+    next: str | None = Field(description="address of the next page, null on the last; also as `Link: rel=next`")
+
 
 router = APIRouter(prefix="/v1/libraries/{id}/states", tags=["states"])
 

@@ -7,10 +7,8 @@ from typing import Annotated
 from annotated_types import Ge, Le
 from fastapi import Depends, Query
 
-from service.angles import PhaseMaxQuery, PhaseMinQuery, PhaseQuery, PitchQuery, RollQuery
-from service.numbers import INTEGER_TEXT
-from service.states.cursor import LONGEST_CURSOR
-from service.states.query import SORTS, Sort, StateFilter
+from service.quantities import INTEGER_TEXT, PhaseMaxQuery, PhaseMinQuery, PhaseQuery, PitchQuery, RollQuery
+from service.states.query import LONGEST_CURSOR, SORTS, Sort, StateFilter
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.state.document import StateDocument
 from threadstate.state.model import Flag, StateClass

@@ -10,7 +10,7 @@ import numpy as np
 from threadstate.errors import UnresolvedPoseError
 from threadstate.history.build import RESOLUTION, histories_of
 from threadstate.history.labels import UNDECIDED, Labels, labels_of
-from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
+from threadstate.history.model import CIRCLE_DEG, Boundary, Interval, SolvedHistory
 from threadstate.state.solve import solve_pose
 from threadstate.thread.pair import Pair
 
@@ -45,7 +45,7 @@ class BoundaryCheck:
     failures: tuple[Failure, ...]
 
 
-def check_boundaries(pair: Pair, histories: Sequence[History]) -> BoundaryCheck:
+def check_boundaries(pair: Pair, histories: Sequence[SolvedHistory]) -> BoundaryCheck:
     """Whether labels differ across the boundaries of histories and are those of the intervals beside them.
 
     Beside an undecided stretch a state may be undecided, too: where the solver stops is narrowed to 1e-3 deg alone.
@@ -76,7 +76,7 @@ def check_boundaries(pair: Pair, histories: Sequence[History]) -> BoundaryCheck:
     )
 
 
-def _around(history: History) -> list[tuple[Interval, Boundary, Interval]]:
+def _around(history: SolvedHistory) -> list[tuple[Interval, Boundary, Interval]]:
     earlier = history.intervals[-1:] + history.intervals[:-1]
     return list(zip(earlier, history.boundaries, history.intervals, strict=bool(history.boundaries)))
 
@@ -86,7 +86,7 @@ def _nothing_happens(boundary: Boundary) -> bool:
     return not (boundary.through or moves or boundary.last_height_jump)
 
 
-def _labels_at(pair: Pair, history: History, phase_deg: float) -> Labels:
+def _labels_at(pair: Pair, history: SolvedHistory, phase_deg: float) -> Labels:
     try:
         return labels_of(solve_pose(pair, history.roll_deg, history.pitch_deg, phase_deg % CIRCLE_DEG))
     except UnresolvedPoseError:
@@ -143,7 +143,7 @@ def check_density(pair: Pair, orientations_deg: Sequence[tuple[float, float]], t
     )
 
 
-def _without_partner(history: History, other: History, *, dense: bool) -> list[Unmatched]:
+def _without_partner(history: SolvedHistory, other: SolvedHistory, *, dense: bool) -> list[Unmatched]:
     """The boundaries of ``history`` that are not in ``other``."""
     lows = np.array([boundary.low_deg for boundary in other.boundaries])
     highs = np.array([boundary.high_deg for boundary in other.boundaries])

@@ -7,11 +7,11 @@ import pytest
 from harness.databases import Databases
 from harness.running_service import running_service
 from service.app import create_app
-from tests.archive.history_library import SMALL_GRID, store_histories
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
+from tests.stored_histories.history_library import SMALL_GRID, store_histories
 from threadstate.client import Client
-from threadstate.history.model import History
+from threadstate.history.model import SolvedHistory
 from threadstate.library.grid import Grid
 from threadstate.settings import read_settings
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -26,7 +26,7 @@ def made_up_id() -> int:
 
 
 @pytest.fixture(scope="session")
-def database(sqlite_databases: Databases, small_histories: list[History], made_up_id: int) -> str:
+def database(sqlite_databases: Databases, small_histories: list[SolvedHistory], made_up_id: int) -> str:
     """A database with a library of made-up states and, the latest, one of real histories."""
     database = sqlite_databases.migrated()
     made_up = store_library(database, quarter_twenty_unc(), MADE_UP_GRID, made_up_states)

@@ -33,7 +33,7 @@ from threadstate.client import (
 from threadstate.client._sync import job
 from threadstate.client.models.jobs import JobDocument
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.work import publish_job, set_back
+from threadstate.jobs.work import publish_job, requeue_job
 from threadstate.jobs.workers import join
 from threadstate.library.engine import writing
 
@@ -127,7 +127,7 @@ def test_a_job_that_ends_otherwise_is_an_error(desk: Desk) -> None:
         worker = join(desk.engine, "one")
         while asked.refresh().state is not JobState.FAILED:
             opened(desk.engine, asked.id)
-            set_back(desk.engine, worker, asked.id, "a computing process died")
+            requeue_job(desk.engine, worker, asked.id, "a computing process died")
         with pytest.raises(JobFailedError, match="job 1 failed: a computing process died"):
             asked.wait()
 

@@ -8,7 +8,7 @@ from selenium import webdriver
 from harness.browser import Explorer, hosts_of, start_chromium
 from harness.databases import Databases
 from harness.running_service import running_service
-from tests.archive.history_library import histories_of_grid, store_histories
+from tests.stored_histories.history_library import histories_of_grid, store_histories
 from threadstate.library.grid import Grid
 
 GRID = Grid(4.0, 4.0, 5.0)

@@ -11,10 +11,10 @@ from selenium import webdriver
 from harness.browser import Explorer, phase_of, resize
 from harness.databases import Databases
 from harness.running_service import running_service
-from tests.archive.history_library import histories_of_grid, store_histories
 from tests.explorer.conftest import GRID
 from tests.explorer.test_explorer import MINUS, length_shown, shown_numbers, wait_for_scene
 from tests.service.own_library import OWN_PAIR, store_own_library
+from tests.stored_histories.history_library import histories_of_grid, store_histories
 from threadstate.library.grid import Grid
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose

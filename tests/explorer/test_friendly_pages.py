@@ -12,12 +12,12 @@ from selenium.webdriver.common.keys import Keys
 from harness.browser import Explorer
 from harness.databases import Databases
 from harness.running_service import running_service
-from tests.archive.history_library import histories_of_grid, rows_of, store_histories
 from tests.explorer.conftest import GRID
 from tests.explorer.test_accessibility import AXE, violations
+from tests.stored_histories.history_library import histories_of_grid, rows_of, store_histories
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
-from threadstate.jobs.ask import ask_for
+from threadstate.jobs.queue import submit_job
 from threadstate.library.engine import writer_engine, writing
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
@@ -53,7 +53,7 @@ def test_page_tells_of_no_library_then_of_its_progress_and_goes_on(
 def test_page_tells_of_a_job_that_waits_for_a_worker(chromium: webdriver.Chrome, sqlite_databases: Databases) -> None:
     database = sqlite_databases.migrated()
     with writing(database) as engine:
-        ask_for(engine, LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions()))
+        submit_job(engine, LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions()))
     with running_service(database) as address:
         explorer = Explorer(chromium, address)
         explorer.open()

@@ -6,10 +6,10 @@ import pytest
 from sqlalchemy import Engine
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID, store_histories
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
-from threadstate.history.model import History
+from tests.stored_histories.history_library import SMALL_GRID, store_histories
+from threadstate.history.model import SolvedHistory
 from threadstate.library.engine import reading, writing
 from threadstate.library.grid import Grid
 from threadstate.library.read import LibraryRecord, library_by_id
@@ -17,7 +17,7 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 
 
 @pytest.fixture(scope="session")
-def exported_database(databases: Databases, small_histories: list[History]) -> str:
+def exported_database(databases: Databases, small_histories: list[SolvedHistory]) -> str:
     """A database with a library of made-up states, number 1, and one of real histories, number 2."""
     database = databases.migrated()
     store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)

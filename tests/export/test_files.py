@@ -92,7 +92,7 @@ def test_states_are_all_there_with_all_that_their_documents_have(engine: Engine,
     library = record(engine, 1)
     factor = 1.0 if unit is INCH else 25.4
     with engine.connect() as connection:
-        states = states_between(connection, 1, 0, library.grid.state_count)
+        states = states_between(connection, 1, 0, library.grid.pose_count)
     rows = rows_of(content(engine, library, TableName.STATES, FileFormat.NDJSON, unit), FileFormat.NDJSON, {})
     assert len(rows) == len(states) == 108
     for row, state in zip(rows, states, strict=True):

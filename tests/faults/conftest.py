@@ -9,18 +9,18 @@ import pytest
 from sqlalchemy import Engine, create_engine, event
 
 from harness.databases import SqliteDatabases
-from tests.archive.history_library import content_of
 from tests.prepared import use_prepared_chunks
+from tests.stored_histories.history_library import content_of
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.jobs.serve import Serving
+from worker.jobs.serve import WorkerOptions
 
 GRID = Grid(tilt_max_deg=6.0, tilt_step_deg=6.0, phase_step_deg=30.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
-SERVING = Serving(processes=1, scheduler=None, lease_s=20.0, heartbeat_file=None)
+SERVING = WorkerOptions(processes=1, scheduler=None, lease_s=20.0, heartbeat_file=None)
 GRID_OPTIONS = ("--tilt-max", "6", "--tilt-step", "6", "--phase-step", "30")
 
 

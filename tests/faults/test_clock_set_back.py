@@ -13,10 +13,10 @@ from sqlalchemy import Engine
 from harness.databases import Databases
 from tests.jobs.jobs import GRID, INPUTS, events, opened, published_count, read_job, work_off
 from tests.library.states import plain_state
-from threadstate.jobs.ask import ask_for
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.work import publish_job, take_chunks
-from threadstate.jobs.workers import LostLeaseError, beats, join, remove_silent
+from threadstate.jobs.queue import submit_job
+from threadstate.jobs.work import lease_chunks, publish_job
+from threadstate.jobs.workers import LostLeaseError, beats, join, remove_dead_worker
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -25,16 +25,15 @@ from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.jobs.watch import Watch
+from worker.jobs.silence import SilenceDetector
 
 TELL_TIME = {
-    "threadstate/jobs/ask.py",
-    "threadstate/jobs/events.py",
+    "threadstate/jobs/queue.py",
     "threadstate/library/write.py",
     "threadstate/access/keys.py",
     "threadstate/client/retrying.py",
-    "service/logs/configure.py",
-    "service/metrics/state.py",
+    "service/logs.py",
+    "service/metrics.py",
 }
 """Files that write down when something happened, or show its age; some servers tell a client until when to wait."""
 WALL_CLOCKS = {"now", "utcnow", "today", "time", "time_ns", "localtime", "gmtime", "current_timestamp", "fromtimestamp"}
@@ -55,18 +54,18 @@ class SetBack(datetime):
 @pytest.fixture
 def engine(databases: Databases, monkeypatch: pytest.MonkeyPatch) -> Iterator[Engine]:
     """An engine in a world whose clock goes back."""
-    for module in ("threadstate.jobs.ask", "threadstate.jobs.events", "threadstate.library.write"):
+    for module in ("threadstate.jobs.queue", "threadstate.jobs.queue", "threadstate.library.write"):
         monkeypatch.setattr(f"{module}.datetime", SetBack)
     with databases.lent() as database, writing(database) as engine:
         yield engine
 
 
 def test_a_job_goes_its_way(engine: Engine) -> None:
-    job = ask_for(engine, INPUTS)
+    job = submit_job(engine, INPUTS)
     library_id = opened(engine, job.id)
     silent, other = join(engine, "silent"), join(engine, "other")
-    take_chunks(engine, silent, job.id, 3)
-    assert remove_silent(engine, silent, beats(engine)[silent])
+    lease_chunks(engine, silent, job.id, 3)
+    assert remove_dead_worker(engine, silent, beats(engine)[silent])
     assert work_off(engine, other, job.id, library_id) == GRID.orientation_count
     with pytest.raises(LostLeaseError):
         publish_job(engine, silent, job.id, library_id, GRID)
@@ -97,7 +96,7 @@ def test_nobody_is_taken_for_dead_by_a_clock_that_is_set(monkeypatch: pytest.Mon
         raise AssertionError("the wall clock was read")
 
     steady = iter(range(100))
-    watch = Watch(1.5, clock=lambda: 0.5 * next(steady))
+    watch = SilenceDetector(1.5, clock=lambda: 0.5 * next(steady))
     monkeypatch.setattr("time.time", fail)
     monkeypatch.setattr("time.time_ns", fail)
     assert [watch.silent({"one": 1}) for _ in range(4)] == [[], [], [], []]

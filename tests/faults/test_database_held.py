@@ -13,7 +13,7 @@ from tests.service.conftest import client_of
 from tests.service.test_problems import problem
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
-from threadstate.jobs.ask import ask_for
+from threadstate.jobs.queue import submit_job
 from threadstate.library.copying import copy_library
 from threadstate.library.engine import writing
 from worker.jobs.serve import serve_jobs
@@ -24,8 +24,8 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(autouse=True)
 def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("threadstate.library.sqlite_engine.BUSY_TIMEOUT_S", 0.2)
-    monkeypatch.setattr("service.control.PATIENCE_S", 0.2)
+    monkeypatch.setattr("threadstate.library.engine.BUSY_TIMEOUT_S", 0.2)
+    monkeypatch.setattr("service.database.LOCK_TIMEOUT_S", 0.2)
     monkeypatch.setattr("worker.jobs.serve.RETRY_S", 0.1)
 
 
@@ -50,12 +50,12 @@ def test_a_worker_waits_and_goes_on(
     sqlite_database: str, expected_content: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with writing(sqlite_database) as engine:
-        ask_for(engine, INPUTS)
+        submit_job(engine, INPUTS)
         with holding(sqlite_database):
             worker = Thread(target=serve_jobs, args=(engine, SERVING), kwargs={"until_idle": True}, daemon=True)
             worker.start()
             said = ""
-            while said.count("the database fails, it is tried again: database is locked") < 3:
+            while said.count("the database failed, retrying: database is locked") < 3:
                 worker.join(0.1)
                 said += capsys.readouterr().err
                 assert worker.is_alive()
@@ -67,7 +67,7 @@ def test_a_worker_waits_and_goes_on(
 def test_asking_for_a_job_is_refused_for_now_and_reading_is_answered(sqlite_database: str) -> None:
     with writing(sqlite_database) as engine:
         key = create_key(engine, "one", Scope.WRITE)
-        ask_for(engine, INPUTS)
+        submit_job(engine, INPUTS)
     headers = {"Authorization": f"Bearer {key}"}
     with client_of(sqlite_database) as client:
         with holding(sqlite_database):

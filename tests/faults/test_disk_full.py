@@ -25,9 +25,8 @@ from tests.service.test_problems import problem
 from tests.worker.conftest import COMMAND
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
-from threadstate.jobs.ask import ask_for
 from threadstate.jobs.names import JobState
-from threadstate.jobs.read import job_by_id
+from threadstate.jobs.queue import job_by_id, submit_job
 from threadstate.library.copying import copy_library
 from threadstate.library.engine import writing
 from threadstate.library.tables import chunk, library, state
@@ -99,12 +98,12 @@ def test_a_worker_waits_until_there_is_room_again(
 ) -> None:
     monkeypatch.setattr("worker.jobs.serve.RETRY_S", 0.2)
     with writing(sqlite_database) as engine:
-        job = ask_for(engine, INPUTS)
+        job = submit_job(engine, INPUTS)
     with nearly_full(sqlite_database, FREE_PAGES[1]) as engine:
         worker = Thread(target=serve_jobs, args=(engine, SERVING), kwargs={"until_idle": True}, daemon=True)
         worker.start()
         said = ""
-        while said.count("it is tried again: database or disk is full") < 3:
+        while said.count("retrying: database or disk is full") < 3:
             worker.join(0.2)
             said += capsys.readouterr().err
             assert worker.is_alive()

@@ -7,8 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from harness.databases import Databases
-from tests.archive.history_library import PAIR, content_of
 from tests.faults.conftest import Unwatched, published
+from tests.stored_histories.history_library import PAIR, content_of
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -35,6 +35,6 @@ def test_same_and_different_libraries_at_once(databases: Databases) -> None:
         assert [one.content_sha256 for one in ended] == [content for content in expected for _ in range(EACH)]
         for grid, one, other in zip(GRIDS, ended[::EACH], ended[1::EACH], strict=True):
             assert one.library_id == other.library_id
-            assert one.computed + other.computed == grid.state_count, "each pose is counted once"
+            assert one.computed + other.computed == grid.pose_count, "each pose is counted once"
         with writing(database) as engine:
             assert sorted(published(engine)) == sorted(expected)

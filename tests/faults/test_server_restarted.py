@@ -18,9 +18,8 @@ from tests.service.test_problems import problem
 from tests.worker.conftest import COMMAND
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
-from threadstate.jobs.ask import ask_for
 from threadstate.jobs.names import JobState
-from threadstate.jobs.read import job_by_id
+from threadstate.jobs.queue import job_by_id, submit_job
 from threadstate.library.engine import writing
 from threadstate.library.tables import chunk, state
 from threadstate.settings import DATABASE, LEASE_S
@@ -29,8 +28,8 @@ from worker.rebuild import rebuild
 pytestmark = pytest.mark.slow
 
 RESTARTS = 2
-PATIENCE_S = 300.0
-FAILS = "the database fails, it is tried again"
+TIMEOUT_S = 300.0
+FAILS = "the database failed, retrying"
 UNAVAILABLE = "urn:threadstate:problem:database-unavailable"
 
 
@@ -92,7 +91,7 @@ def test_workers_end_a_job_whole_after_restarts(
     said = tmp_path / "said"
     told = 0
     with writing(database) as engine:
-        job = ask_for(engine, INPUTS)
+        job = submit_job(engine, INPUTS)
         command = [*COMMAND, "worker", "--workers", "1", "--until-idle"]
         with said.open("ab") as stderr:
             workers = [subprocess.Popen(command, env=environment, stderr=stderr) for _ in range(2)]
@@ -102,9 +101,9 @@ def test_workers_end_a_job_whole_after_restarts(
             _wait_for(lambda told=told: said.read_text().count(FAILS) > told)  # type: ignore[misc]
             told = said.read_text().count(FAILS)
             server.start()
-        assert [worker.wait(PATIENCE_S) for worker in workers] == [0, 0], said.read_text()
+        assert [worker.wait(TIMEOUT_S) for worker in workers] == [0, 0], said.read_text()
         assert published(engine) == [expected_content]
-        assert (_count(engine, chunk), _count(engine, state)) == (GRID.orientation_count, GRID.state_count)
+        assert (_count(engine, chunk), _count(engine, state)) == (GRID.orientation_count, GRID.pose_count)
         with engine.connect() as connection:
             assert job_by_id(connection, job.id).state is JobState.DONE
 
@@ -118,7 +117,7 @@ def test_a_rebuild_says_so_and_goes_on(
         with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:
             _wait_for(lambda: _count(engine, chunk) > 0)
             server.stop()
-            _, err = process.communicate(timeout=PATIENCE_S)
+            _, err = process.communicate(timeout=TIMEOUT_S)
         server.start()
         assert process.returncode == 1, err
         assert len([line for line in err.splitlines() if line.startswith("threadstate: ")]) == 1
@@ -135,7 +134,7 @@ def _count(engine: Engine, table: Table) -> int:
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
-    end = time.monotonic() + PATIENCE_S
+    end = time.monotonic() + TIMEOUT_S
     while not condition():
         assert time.monotonic() < end, "in vain"
         time.sleep(0.01)

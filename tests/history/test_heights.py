@@ -9,7 +9,7 @@ from threadstate.history.build import history_of
 from threadstate.history.descents import falls_of
 from threadstate.history.height_curve import height_curve
 from threadstate.history.heights import LEAST_DEG, Heights, heights_of
-from threadstate.history.model import Boundary, History
+from threadstate.history.model import Boundary, SolvedHistory
 from threadstate.state.rest import rests
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -26,13 +26,13 @@ def _sides(boundaries: tuple[Boundary, ...]) -> list[float]:
 
 
 @pytest.fixture(scope="module", params=ORIENTATIONS)
-def history(request: pytest.FixtureRequest) -> History:
+def history(request: pytest.FixtureRequest) -> SolvedHistory:
     roll, pitch = request.param
     return history_of(PAIR, roll, pitch)
 
 
 @pytest.fixture(scope="module")
-def heights(history: History) -> Heights:
+def heights(history: SolvedHistory) -> Heights:
     return heights_of(PAIR, history.roll_deg, history.pitch_deg, _sides(history.boundaries), TOLERANCE)
 
 
@@ -44,7 +44,7 @@ def test_a_curve_goes_once_round_and_ends_as_it_begins(heights: Heights) -> None
     assert not np.isnan(heights.first).any()
 
 
-def test_lines_are_right_anywhere(history: History, heights: Heights) -> None:
+def test_lines_are_right_anywhere(history: SolvedHistory, heights: Heights) -> None:
     phases = np.random.default_rng(17).uniform(0.0, 360.0, 400)
     phases = phases[[all(abs(phase - side) > LEAST_DEG for side in _sides(history.boundaries)) for phase in phases]]
     states = solve_poses(PAIR, [(history.roll_deg, history.pitch_deg, phase) for phase in phases])
@@ -59,7 +59,7 @@ def test_lines_are_right_anywhere(history: History, heights: Heights) -> None:
     assert 0 < resting.sum() < len(states)
 
 
-def test_a_curve_holds_both_sides_of_the_jump(history: History, heights: Heights) -> None:
+def test_a_curve_holds_both_sides_of_the_jump(history: SolvedHistory, heights: Heights) -> None:
     curve = height_curve(PAIR, history.roll_deg, history.pitch_deg)
     (descent,) = falls_of(curve, PAIR.thread_pitch).descents
     jump = descent.largest_jump
@@ -70,7 +70,7 @@ def test_a_curve_holds_both_sides_of_the_jump(history: History, heights: Heights
     assert heights.phases_deg[falls.argmax()] == pytest.approx(jump.phase_deg, abs=LEAST_DEG)
 
 
-def test_what_is_known_changes_no_bit(history: History, heights: Heights) -> None:
+def test_what_is_known_changes_no_bit(history: SolvedHistory, heights: Heights) -> None:
     whole = np.arange(0.0, 360.0)
     states = solve_poses(PAIR, [(history.roll_deg, history.pitch_deg, phase) for phase in whole])
     known = {

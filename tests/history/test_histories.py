@@ -12,7 +12,7 @@ from studies.history.boundaries import check_boundaries
 from threadstate.history import records
 from threadstate.history.build import RESOLUTION, histories_of, history_of
 from threadstate.history.labels import Labels, labels_of
-from threadstate.history.model import POINT_DEG, Boundary, History, Interval
+from threadstate.history.model import POINT_DEG, Boundary, Interval, SolvedHistory
 from threadstate.history.records import RecordStore
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
@@ -28,23 +28,23 @@ ORIENTATIONS = [(0.0, -4.0), (3.0, 3.0), *np.random.default_rng(71).uniform(-4.0
 
 
 @pytest.fixture(scope="module")
-def histories() -> list[History]:
+def histories() -> list[SolvedHistory]:
     return histories_of(PAIR, [(roll, pitch) for roll, pitch in ORIENTATIONS])
 
 
-def labels_at(history: History, phases_deg: list[float]) -> list[Labels]:
+def labels_at(history: SolvedHistory, phases_deg: list[float]) -> list[Labels]:
     """The labels of states that are solved at phases."""
     poses = [(history.roll_deg, history.pitch_deg, phase) for phase in phases_deg]
     return [labels_of(state) for state in solve_poses(PAIR, poses)]
 
 
-def with_sides(history: History) -> list[tuple[Interval, Boundary, Interval]]:
+def with_sides(history: SolvedHistory) -> list[tuple[Interval, Boundary, Interval]]:
     """Every boundary between the interval before it and the one after it."""
     earlier = history.intervals[-1:] + history.intervals[:-1]
     return list(zip(earlier, history.boundaries, history.intervals, strict=True))
 
 
-def test_intervals_cover_the_circle_once(histories: list[History]) -> None:
+def test_intervals_cover_the_circle_once(histories: list[SolvedHistory]) -> None:
     for history in histories:
         assert len(history.intervals) == len(history.boundaries) > 1
         for one, following in pairwise(history.intervals):
@@ -54,7 +54,7 @@ def test_intervals_cover_the_circle_once(histories: list[History]) -> None:
         assert all(interval.width_deg > 0.0 for interval in history.intervals)
 
 
-def test_every_boundary_is_narrow_and_bracketed_by_solved_states(histories: list[History]) -> None:
+def test_every_boundary_is_narrow_and_bracketed_by_solved_states(histories: list[SolvedHistory]) -> None:
     for history in histories:
         for before, boundary, after in with_sides(history):
             for state, phase, interval in (
@@ -68,14 +68,14 @@ def test_every_boundary_is_narrow_and_bracketed_by_solved_states(histories: list
                 assert boundary.flickers or boundary.width_deg <= POINT_DEG
 
 
-def test_labels_differ_across_a_boundary(histories: list[History]) -> None:
+def test_labels_differ_across_a_boundary(histories: list[SolvedHistory]) -> None:
     for history in histories:
         for before, boundary, after in with_sides(history):
             moved = any(change.moved for change in boundary.changes)
             assert before.labels != after.labels or boundary.through or moved or boundary.last_height_jump
 
 
-def test_labels_agree_within_intervals(histories: list[History]) -> None:
+def test_labels_agree_within_intervals(histories: list[SolvedHistory]) -> None:
     compared = 0
     for history in histories:
         opening = history.boundaries
@@ -90,7 +90,7 @@ def test_labels_agree_within_intervals(histories: list[History]) -> None:
     assert compared > 60
 
 
-def test_boundaries_hold_from_outside(histories: list[History]) -> None:
+def test_boundaries_hold_from_outside(histories: list[SolvedHistory]) -> None:
     check = check_boundaries(PAIR, histories)
     assert check.boundaries == sum(len(history.boundaries) for history in histories)
     assert check.sides > 1.9 * (check.boundaries - check.undecided)
@@ -99,12 +99,12 @@ def test_boundaries_hold_from_outside(histories: list[History]) -> None:
     assert check.flickering < 0.1 * check.boundaries
 
 
-def test_a_history_has_the_same_bits_alone_and_beside_others(histories: list[History]) -> None:
+def test_a_history_has_the_same_bits_alone_and_beside_others(histories: list[SolvedHistory]) -> None:
     roll, pitch = ORIENTATIONS[1]
     assert history_of(PAIR, roll, pitch) == histories[1]
 
 
-def test_ten_times_the_density_finds_nothing_new(histories: list[History]) -> None:
+def test_ten_times_the_density_finds_nothing_new(histories: list[SolvedHistory]) -> None:
     dense = histories_of(PAIR, [ORIENTATIONS[0]], resolution=replace(RESOLUTION, step=RESOLUTION.step / 10.0))
     found = histories[0].boundaries
     decided = [boundary for boundary in dense[0].boundaries if boundary.decided]
@@ -114,7 +114,9 @@ def test_ten_times_the_density_finds_nothing_new(histories: list[History]) -> No
         assert apart <= BESIDE_DEG
 
 
-def test_known_records_are_taken_and_change_nothing(histories: list[History], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_known_records_are_taken_and_change_nothing(
+    histories: list[SolvedHistory], monkeypatch: pytest.MonkeyPatch
+) -> None:
     roll, pitch = ORIENTATIONS[1]
     poses = np.column_stack([np.full((360, 2), (roll, pitch)), np.arange(360.0)])
     known = RecordStore(PAIR, SolveOptions())

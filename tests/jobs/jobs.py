@@ -6,8 +6,8 @@ from sqlalchemy import Engine
 
 from tests.library.states import plain_state
 from threadstate.jobs.model import JobEvent, JobRecord
-from threadstate.jobs.read import events_after, job_by_id
-from threadstate.jobs.work import hand_in, open_job, take_chunks
+from threadstate.jobs.queue import events_after, job_by_id
+from threadstate.jobs.work import complete_chunk, lease_chunks, open_job
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
@@ -66,9 +66,9 @@ def work_off(
         How many.
     """
     for done in range(most):
-        taken = take_chunks(engine, worker_id, job_id, 1)
+        taken = lease_chunks(engine, worker_id, job_id, 1)
         if not taken:
             return done
         commit(engine, library_id, taken[0], grid)
-        assert hand_in(engine, worker_id, job_id, taken[0])
+        assert complete_chunk(engine, worker_id, job_id, taken[0])
     return most

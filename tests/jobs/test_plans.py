@@ -8,19 +8,19 @@ import pytest
 from sqlalchemy import Connection, Engine, Select
 
 from tests.jobs.jobs import INPUTS, opened
-from threadstate.jobs.ask import ask_for
-from threadstate.jobs.work import needed_elsewhere_query, next_work_query, take_chunks
+from threadstate.jobs.queue import submit_job
+from threadstate.jobs.work import lease_chunks, next_job_query, switch_job_query
 from threadstate.jobs.workers import join
 
-STATEMENTS = [next_work_query(["one", "two"]), needed_elsewhere_query("worker", 1, ["one", "two"])]
+STATEMENTS = [next_job_query(["one", "two"]), switch_job_query("worker", 1, ["one", "two"])]
 
 
 @pytest.fixture
 def connection(engine: Engine) -> Iterator[Connection]:
     """A connection to a database with a job that somebody is at; PostgreSQL reads a whole table only if it has to."""
-    job_id = ask_for(engine, INPUTS).id
+    job_id = submit_job(engine, INPUTS).id
     opened(engine, job_id)
-    take_chunks(engine, join(engine, "one"), job_id, 1)
+    lease_chunks(engine, join(engine, "one"), job_id, 1)
     with engine.connect() as connection:
         if connection.dialect.name == "postgresql":
             connection.exec_driver_sql("ANALYZE")

@@ -9,12 +9,12 @@ import pytest
 from sqlalchemy import Engine, Table, update
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID as GRID
-from tests.archive.history_library import store_histories
 from tests.library.states import plain_state
 from tests.library.test_undecided import published as published_with_undecided
+from tests.stored_histories.history_library import SMALL_GRID as GRID
+from tests.stored_histories.history_library import store_histories
 from threadstate.errors import NotFoundError
-from threadstate.history.model import History
+from threadstate.history.model import SolvedHistory
 from threadstate.library import copying, write
 from threadstate.library.copying import CopyError, copy_library
 from threadstate.library.engine import reading, writing
@@ -34,7 +34,7 @@ LIBRARY = 1
 
 
 @pytest.fixture(scope="module")
-def with_histories(databases: Databases, small_histories: list[History]) -> str:
+def with_histories(databases: Databases, small_histories: list[SolvedHistory]) -> str:
     """A database with a library that has histories."""
     database = databases.migrated()
     store_histories(database, GRID, small_histories)
@@ -74,7 +74,7 @@ def _write_some(way: Way, indexes: range) -> int:
 def test_a_copy_is_the_same_to_the_last_bit(way: Way) -> None:
     copied = copy_library(way.source, way.target, LIBRARY)
     assert not copied.was_there
-    assert copied.pose_count == GRID.state_count
+    assert copied.pose_count == GRID.pose_count
     with way.source.connect() as source, way.target.connect() as target:
         record = library_by_id(source, LIBRARY)
         there = library_by_id(target, copied.library_id)
@@ -168,6 +168,6 @@ def _peak_bytes(databases: Databases, grid: Grid) -> int:
 @pytest.mark.sqlite_alone
 def test_memory_does_not_grow_with_the_number_of_orientations(databases: Databases) -> None:
     few, many = Grid(0.0, 1.0, 15.0), Grid(2.0, 1.0, 15.0)
-    assert many.state_count == 25 * few.state_count
+    assert many.pose_count == 25 * few.pose_count
     _peak_bytes(databases, few)  # what is loaded and compiled once does not count
     assert _peak_bytes(databases, many) < 2 * _peak_bytes(databases, few)

@@ -14,7 +14,7 @@ def test_the_default_grid_is_81_orientations_of_360_phases() -> None:
     grid = Grid()
     assert grid.tilts_deg == (-4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0)
     assert grid.phases_deg == tuple(float(phase) for phase in range(360))
-    assert (grid.orientation_count, grid.state_count) == (81, 29160)
+    assert (grid.orientation_count, grid.pose_count) == (81, 29160)
 
 
 def test_a_decimal_step_gives_the_decimals_a_reader_would_write() -> None:
@@ -29,7 +29,7 @@ def test_poses_are_in_the_order_of_their_ordinals() -> None:
     grid = Grid(1.0, 1.0, 120.0)
     poses = [pose for index in range(grid.orientation_count) for pose in grid.poses(index)]
     assert poses == sorted(poses)
-    assert len(set(poses)) == grid.state_count == 27
+    assert len(set(poses)) == grid.pose_count == 27
     assert [grid.first_ordinal(index) for index in range(3)] == [0, 3, 6]
     assert poses[grid.first_ordinal(5)] == (0.0, 1.0, 0.0)
 

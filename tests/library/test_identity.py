@@ -80,7 +80,7 @@ def test_a_change_of_the_physics_makes_another_code_version(tmp_path: Path) -> N
     shutil.copytree(package, copy, ignore=shutil.ignore_patterns("__pycache__"))
     before = physics_sha256(package)
     assert physics_sha256(copy) == before
-    for unrelated in ("library/tables.py", "state/document.py", "state/rest.py", "history/heights.py", "settings.py"):
+    for unrelated in ("library/tables.py", "state/rest.py", "history/heights.py", "settings.py"):
         with (copy / unrelated).open("a") as file:
             file.write("# changed\n")
     assert physics_sha256(copy) == before
@@ -88,11 +88,12 @@ def test_a_change_of_the_physics_makes_another_code_version(tmp_path: Path) -> N
     parts = (
         "thread/profile.py",
         "state/model.py",
+        "state/document.py",
         "contact/__init__.py",
         "history/falls.py",
         "history/window.py",
         "network/from_history.py",
-        "archive/rows.py",
+        "stored_histories/mapping.py",
         "library/rows.py",
         "errors.py",
     )
@@ -146,18 +147,21 @@ def test_another_version_of_what_computes_makes_another_library(monkeypatch: pyt
         identity._code_version.cache_clear()
 
 
-COMPUTING = ("threadstate/archive/compute.py",)
+COMPUTING = ("threadstate/stored_histories/compute.py",)
 """What computes all that is stored."""
 
 NO_PART_OF_THE_BITS = {
     "__init__.py": "the version, which is in the code version by itself",
     "_numba_cache.py": "where kernels are kept",
     "library/identity.py": "the inputs, which are in the hash by themselves",
-    "library/method.py": "the method's name, which is in the hash by itself",
+    "numbers.py": "the text of numbers in messages",
+    "settings.py": "the names of settings, in messages",
+    "library/address.py": "the same of databases",
+    "library/schema.py": "the command that mends an older schema, in a message",
+    "library/solver_method.py": "the method's name, which is in the hash by itself",
+    "library/column_types.py": "how the database compares text and keeps instants",
     "library/tables.py": "in which columns rows are kept",
     "library/history_tables.py": "the same of histories",
-    "library/text.py": "how the database compares text",
-    "library/utc.py": "how it keeps instants",
 }
 
 
@@ -211,11 +215,11 @@ def test_every_pattern_of_the_hash_finds_files(repository_root: Path) -> None:
 
 
 def test_the_computing_process_computes_nothing_beside_it(repository_root: Path) -> None:
-    """Rows come from ``threadstate.archive.compute`` alone: the worker imports no physics of its own."""
+    """Rows come from ``threadstate.stored_histories.compute`` alone: the worker imports no physics of its own."""
     tree = ast.parse((repository_root / "worker" / "compute.py").read_text())
     modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module}
     assert {name for name in modules if name.startswith("threadstate")} == {
-        "threadstate.archive.answers",
-        "threadstate.archive.compute",
+        "threadstate.stored_histories.answers",
+        "threadstate.stored_histories.compute",
         "threadstate.library.identity",
     }

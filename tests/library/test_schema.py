@@ -16,7 +16,7 @@ import migrations
 from harness.databases import Databases
 from threadstate.errors import SchemaError
 from threadstate.library.engine import reader_engine, reading, writer_engine, writing
-from threadstate.library.schema import MENDING_COMMAND, SCHEMA_REVISION, check_schema, stored_revision
+from threadstate.library.schema import MIGRATE_COMMAND, SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.tables import metadata
 from worker.migrate import Migration, migrate
 
@@ -117,11 +117,11 @@ def test_a_migration_that_fails_leaves_nothing_behind(empty: Engine) -> None:
 
 
 def test_an_empty_database_names_the_command_that_mends_it(empty: Engine) -> None:
-    with pytest.raises(SchemaError, match=f"has no schema yet.*{MENDING_COMMAND}"):
+    with pytest.raises(SchemaError, match=f"has no schema yet.*{MIGRATE_COMMAND}"):
         check_schema(empty)
 
 
-@pytest.mark.parametrize(("revision", "cure"), [("0000", MENDING_COMMAND), ("9999", "newer threadstate")])
+@pytest.mark.parametrize(("revision", "cure"), [("0000", MIGRATE_COMMAND), ("9999", "newer threadstate")])
 def test_another_revision_names_its_cure(writer: Engine, revision: str, cure: str) -> None:
     with writer.begin() as connection:
         connection.execute(text("UPDATE alembic_version SET version_num = :revision"), {"revision": revision})

@@ -9,9 +9,9 @@ from threadstate.library import read, write
 from threadstate.library.fingerprint import answers_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.method import Method
 from threadstate.library.pose import state_of_pose
 from threadstate.library.rows import chunk_rows
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.model import Answer, UndecidedPose
 from threadstate.state.solve import SolveOptions
@@ -46,15 +46,15 @@ def published(writer: Engine) -> int:
 def test_a_library_with_undecided_poses_is_whole(writer: Engine, reader: Engine) -> None:
     library_id = published(writer)
     with reader.connect() as connection:
-        record = read.latest_library(connection, method=Method.MESH)
+        record = read.latest_library(connection, method=SolverMethod.MESH)
         assert (record.id, record.state_count, record.undecided_count) == (library_id, 16, 11)
-        found = read.undecided_between(connection, library_id, 0, GRID.state_count - 1)
+        found = read.undecided_between(connection, library_id, 0, GRID.pose_count - 1)
         assert [pose for _, pose in found] == [
             answer for i in range(9) for answer in _answers(i) if isinstance(answer, UndecidedPose)
         ]
         assert read.undecided_between(connection, library_id, found[3][0], 26, limit=2) == found[3:5]
         assert read.undecided_reasons(connection, library_id) == [("reason 0", 7), ("reason 1", 4)]
-        assert len(read.states_between(connection, library_id, 0, GRID.state_count - 1)) == 16
+        assert len(read.states_between(connection, library_id, 0, GRID.pose_count - 1)) == 16
 
 
 def test_an_undecided_pose_says_why_it_has_no_state(writer: Engine, reader: Engine) -> None:

@@ -89,7 +89,7 @@ def test_states_are_read_back_bit_by_bit(bits: Bits, data: st.DataObject) -> Non
     write.write_chunk(bits.writer, library_id, rows)
     content_sha256 = write.publish(bits.writer, library_id, grid)
     with bits.reader.connect() as connection:
-        stored = read.states_between(connection, library_id, 0, grid.state_count - 1)
+        stored = read.states_between(connection, library_id, 0, grid.pose_count - 1)
         at_second = read.states_at(connection, library_id, [1, 0])
     _remove_libraries(bits.writer)
     assert stored == states

@@ -6,7 +6,7 @@ import pytest
 
 from tests.network.test_graph import walked
 from threadstate.history.build import history_of
-from threadstate.history.model import History
+from threadstate.history.model import SolvedHistory
 from threadstate.history.window import Window, windows_of
 from threadstate.network.analysis import dead_ends, window_reach
 from threadstate.network.cells import CellMap
@@ -20,23 +20,23 @@ TILT_DEG = -4.0
 
 
 @pytest.fixture(scope="module")
-def history() -> History:
+def history() -> SolvedHistory:
     return history_of(quarter_twenty_unc(), TILT_DEG, TILT_DEG)
 
 
 @pytest.fixture(scope="module")
-def window(history: History) -> Window:
+def window(history: SolvedHistory) -> Window:
     (window,) = windows_of(quarter_twenty_unc(), history)
     return window
 
 
 @pytest.fixture(scope="module")
-def network(history: History, window: Window) -> ConstraintNetwork:
+def network(history: SolvedHistory, window: Window) -> ConstraintNetwork:
     cells = cells_of(0, history, [(window.enter_deg, window.leave_deg)])
     return constraint_network(CellMap((TILT_DEG,), (cells,)))
 
 
-def test_walking_the_network_reproduces_the_history(history: History, network: ConstraintNetwork) -> None:
+def test_walking_the_network_reproduces_the_history(history: SolvedHistory, network: ConstraintNetwork) -> None:
     expected = [
         (formation_of(interval.labels), interval.start_deg)
         for before, interval in zip(history.intervals[-1:] + history.intervals[:-1], history.intervals, strict=True)

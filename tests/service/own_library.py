@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.archive.history_library import rows_of
+from tests.stored_histories.history_library import rows_of
 from threadstate.history.build import histories_of
 from threadstate.library.engine import writer_engine
 from threadstate.library.grid import Grid

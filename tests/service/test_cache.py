@@ -171,7 +171,7 @@ def test_what_several_ask_for_at_once_is_made_once(made_up: StoredLibrary, monke
         release.wait(10.0)
         return orientation_summaries(connection, library_id)
 
-    monkeypatch.setattr("service.orientations.endpoints.orientation_summaries", slow)
+    monkeypatch.setattr("service.orientations.orientation_summaries", slow)
     with TestClient(create_app(read_settings({DATABASE: made_up.database}))) as client:
         answers: list[bytes] = []
         threads = [

@@ -14,14 +14,14 @@ from fastapi.testclient import TestClient
 from jsonschema import Draft202012Validator
 from pydantic import TypeAdapter
 
-from service.docs.assets import ASSETS, PACKAGE
-from service.explorer.files import THIRD_PARTY
-from service.histories.schemas import HistoryColumns, HistoryRows
-from service.libraries.schemas import LibraryDetail, LibraryList
-from service.media_types import JAVASCRIPT
+from service.docs.endpoints import ASSETS, PACKAGE
+from service.explorer.endpoints import THIRD_PARTY
+from service.histories.endpoints import HistoryColumns, HistoryRows
+from service.libraries.endpoints import LibraryDetail, LibraryList
+from service.page_files import JAVASCRIPT
 from service.problems import KINDS
-from service.solve.schemas import SolveAnswer
-from service.states.schemas import StatePage
+from service.solve import SolveAnswer
+from service.states.endpoints import StatePage
 from threadstate.state.document import StateDocument, state_document
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc

@@ -19,7 +19,7 @@ from tests.service.test_problems import problem
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.jobs.names import EventKind
-from threadstate.jobs.work import publish_job, set_back
+from threadstate.jobs.work import publish_job, requeue_job
 from threadstate.jobs.workers import join
 from threadstate.library.engine import writing
 from threadstate.mesh.options import MeshOptions
@@ -128,7 +128,7 @@ def test_a_job_that_failed_says_why(desk: Desk) -> None:
     worker = join(desk.engine, "one")
     while desk.document(job_id)["state"] == "queued":
         opened(desk.engine, job_id)
-        set_back(desk.engine, worker, job_id, "a computing process died")
+        requeue_job(desk.engine, worker, job_id, "a computing process died")
     document = desk.document(job_id)
     assert (document["state"], document["reason"]) == ("failed", "a computing process died")
     assert document["ended_at"] is not None

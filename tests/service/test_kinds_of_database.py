@@ -12,9 +12,9 @@ import pytest
 from fastapi.testclient import TestClient
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID, histories_of_grid, store_histories
 from tests.service.conftest import client_of, store_library
 from tests.service.made_up_states import made_up_states
+from tests.stored_histories.history_library import SMALL_GRID, histories_of_grid, store_histories
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
 

@@ -8,7 +8,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 from service.app import create_app
-from service.limits.admission import QUEUED_PER_PLACE
+from service.limits import QUEUED_PER_PLACE
 from tests.service.conftest import StoredLibrary
 from tests.service.test_problems import problem
 from threadstate.settings import CONCURRENCY, DATABASE, STREAMS, TIME_LIMIT_S, read_settings
@@ -27,7 +27,7 @@ def _slow(seconds: float, monkeypatch: pytest.MonkeyPatch) -> list[float]:
         time.sleep(seconds)
         return ()
 
-    monkeypatch.setattr("service.solve.endpoints.solve_poses", slow)
+    monkeypatch.setattr("service.solve.solve_poses", slow)
     return begun
 
 
@@ -76,7 +76,7 @@ def test_request_over_its_time_is_given_up_and_keeps_its_place(
 
 def test_health_is_answered_when_all_places_are_taken(made_up: StoredLibrary) -> None:
     with TestClient(create_app(read_settings({DATABASE: made_up.database}))) as client:
-        (limits,) = (one for one in client.app.user_middleware if one.cls.__name__ == "Limits")  # type: ignore[attr-defined]
+        (limits,) = (one for one in client.app.user_middleware if one.cls.__name__ == "LimitsMiddleware")  # type: ignore[attr-defined]
         admission = limits.kwargs["admission"]
         admission.queued = 10**6
         assert client.get("/v1/jobs").status_code == 429

@@ -25,12 +25,12 @@ from service.network.schemas import (
     TransitionsPage,
     WindowsAnswer,
 )
-from tests.archive.history_library import SMALL_GRID as GRID
-from tests.archive.history_library import histories_of_grid, store_histories
 from tests.service.conftest import client_of
 from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
-from threadstate.answer.heights import computed_heights, heights_document
-from threadstate.answer.histories import computed_history, history_document
+from tests.stored_histories.history_library import SMALL_GRID as GRID
+from tests.stored_histories.history_library import histories_of_grid, store_histories
+from threadstate.responses.heights import computed_heights, heights_document
+from threadstate.responses.histories import computed_history, history_document
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 import pytest
 from fastapi.testclient import TestClient
 
-from service.orientations.schemas import OrientationsAnswer
+from service.orientations import OrientationsAnswer
 from tests.service.conftest import StoredLibrary
 from threadstate.state.model import ContactState, StateClass
 from threadstate.units import MILLIMETRES_PER_INCH

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 
-from service.explorer.files import page
-from service.media_types import HTML
+from service.explorer.endpoints import page
+from service.page_files import HTML
 from service.problems import MEDIA_TYPE
 
 pytestmark = pytest.mark.sqlite_alone

@@ -21,7 +21,7 @@ from scripts.hand_over import hand_over
 from tests.service.conftest import StoredLibrary
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
-from threadstate.jobs.ask import ask_for
+from threadstate.jobs.queue import submit_job
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -85,7 +85,7 @@ def test_request_in_flight_is_answered_and_the_connection_closed(made_up: Stored
 def test_streams_end_when_the_process_does(databases: Databases) -> None:
     database = databases.migrated()
     with writing(database) as engine:
-        job = ask_for(engine, LibraryInputs(quarter_twenty_unc(), Grid(1.0, 1.0, 90.0), SolveOptions()))
+        job = submit_job(engine, LibraryInputs(quarter_twenty_unc(), Grid(1.0, 1.0, 90.0), SolveOptions()))
     with serving(database, **{GRACE_S: "30"}) as (process, address, _):
         with httpx2.stream("GET", f"{address}/v1/jobs/{job.id}/events", timeout=20.0) as answer:
             lines = answer.iter_lines()

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from service.solve.schemas import LARGEST_POSE_COUNT
+from service.solve import LARGEST_POSE_COUNT
 from tests.service.conftest import StoredLibrary
 from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
 from threadstate.errors import UnresolvedPoseError
@@ -140,7 +140,7 @@ def test_a_pose_that_cannot_be_decided_is_named(client: TestClient, monkeypatch:
     def undecided(_pair: Pair, poses: list[tuple[float, float, float]], _options: SolveOptions) -> list[ContactState]:
         raise UnresolvedPoseError(*poses[0])
 
-    monkeypatch.setattr("service.solve.endpoints.solve_poses", undecided)
+    monkeypatch.setattr("service.solve.solve_poses", undecided)
     response = client.post("/v1/solve", json=body(POSES[0]))
     assert response.status_code == 422
     assert response.json()["type"] == "urn:threadstate:problem:unresolved-pose"

@@ -6,7 +6,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 from harness.databases import Databases
-from service.undecided.schemas import UndecidedPage
+from service.undecided import UndecidedPage
 from tests.service.conftest import StoredLibrary, client_of, store_library
 from tests.service.made_up_states import made_up_states
 from threadstate.library.grid import Grid

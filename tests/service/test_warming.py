@@ -10,9 +10,9 @@ from fastapi.testclient import TestClient
 
 from harness.databases import Databases
 from service.app import create_app
-from service.network.store import NetworkStore
-from tests.archive.history_library import SMALL_GRID, store_histories
-from threadstate.history.model import History
+from service.network.cache import NetworkCache
+from tests.stored_histories.history_library import SMALL_GRID, store_histories
+from threadstate.history.model import SolvedHistory
 from threadstate.library.read import latest_library
 from threadstate.settings import DATA_DIR, DATABASE, read_settings
 
@@ -21,7 +21,7 @@ LONGEST_S = 120.0
 
 @pytest.mark.sqlite_alone
 def test_a_service_is_prepared_and_then_in_full(
-    databases: Databases, small_histories: list[History], tmp_path: Path
+    databases: Databases, small_histories: list[SolvedHistory], tmp_path: Path
 ) -> None:
     database = databases.migrated()
     store_histories(database, SMALL_GRID, small_histories)
@@ -29,10 +29,10 @@ def test_a_service_is_prepared_and_then_in_full(
     with TestClient(app) as client:
         _wait_for(client, "threadstate_prepared 1.0")
         _wait_for(client, "threadstate_prepared_in_full 1.0")
-        store: NetworkStore = app.state.networks
+        store: NetworkCache = app.state.networks
         with app.state.engine.connect() as connection:
             library = latest_library(connection)
-            network = store.of(connection, library)
+            network = store.get(connection, library)
         assert sorted(network.curves) == list(range(SMALL_GRID.orientation_count))
 
 

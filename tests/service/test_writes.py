@@ -14,7 +14,7 @@ from tests.service.test_hostile_requests import address, described
 from tests.service.test_problems import problem
 from threadstate.access.keys import create_key, revoke_key
 from threadstate.access.scope import Scope
-from threadstate.jobs.ask import ask_for
+from threadstate.jobs.queue import submit_job
 from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -32,7 +32,7 @@ INPUTS = LibraryInputs(quarter_twenty_unc(), Grid(0.0, 1.0, 180.0), SolveOptions
 def engine(databases: Databases) -> Iterator[Engine]:
     """An engine of a database with a job that can be cancelled."""
     with databases.lent() as database, writing(database) as engine:
-        ask_for(engine, INPUTS)
+        submit_job(engine, INPUTS)
         yield engine
 
 

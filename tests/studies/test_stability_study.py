@@ -165,9 +165,9 @@ def test_the_study_finds_the_hard_places_and_judges_every_pose(found: Findings) 
     counted = found.total
     followed = counted.kept + counted.replaced + counted.judged_alone + counted.without_centre
     assert followed + counted.refused == counted.trials
-    assert sum(len(row.poses) for row in found.rows) == EXTENT.grid.state_count
+    assert sum(len(row.poses) for row in found.rows) == EXTENT.grid.pose_count
     outcomes = [one for row in found.descents for one in row.outcomes(0)]
-    assert len(outcomes) == EXTENT.grid.state_count
+    assert len(outcomes) == EXTENT.grid.pose_count
     assert outcomes.count(Outcome.HEIGHT) == len(found.looks) > 0
     (tallies,) = found.rivals.values()
     assert sum(tally.asked for tally in tallies) == 2 * len(found.places)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from harness.databases import Databases
-from tests.archive.history_library import content_of
+from tests.stored_histories.history_library import content_of
 from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE
 from worker.cli import run_command_line

@@ -19,10 +19,9 @@ from sqlalchemy import Engine, select
 
 from harness.databases import Databases
 from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
-from threadstate.jobs.ask import ask_for, cancel
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.queue import cancel, events_after, job_by_id, submit_job
 from threadstate.jobs.workers import beats
 from threadstate.library.engine import writing
 from threadstate.library.identity import LibraryInputs
@@ -35,7 +34,7 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 pytestmark = pytest.mark.slow
 
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
-PATIENCE_S = 120.0
+TIMEOUT_S = 120.0
 
 
 class Jobs:
@@ -72,7 +71,7 @@ def jobs(
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
-    end = time.monotonic() + PATIENCE_S
+    end = time.monotonic() + TIMEOUT_S
     while not condition():
         assert time.monotonic() < end, "in vain"
         time.sleep(0.01)
@@ -81,7 +80,7 @@ def _wait_for(condition: Callable[[], bool]) -> None:
 def _end(*workers: subprocess.Popen[str]) -> None:
     """Wait until workers have ended by themselves, without an error."""
     for worker in workers:
-        _, err = worker.communicate(timeout=PATIENCE_S)
+        _, err = worker.communicate(timeout=TIMEOUT_S)
         assert worker.returncode == 0, err
 
 
@@ -92,8 +91,8 @@ def _check_whole(jobs: Jobs, expected_content: str) -> None:
     assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
     with jobs.engine.connect() as connection:
         assert done.library_id is not None
-        assert library_by_id(connection, done.library_id).state_count == GRID.state_count
-        assert len(connection.execute(select(state.c.ordinal)).all()) == GRID.state_count
+        assert library_by_id(connection, done.library_id).state_count == GRID.pose_count
+        assert len(connection.execute(select(state.c.ordinal)).all()) == GRID.pose_count
         told = events_after(connection, done.id, 0)
     assert [event.number for event in told] == list(range(1, done.event_count + 1))
     progress = [event.done_count for event in told if event.kind is EventKind.PROGRESS]
@@ -103,7 +102,7 @@ def _check_whole(jobs: Jobs, expected_content: str) -> None:
 
 @pytest.mark.postgresql_alone
 def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, expected_content: str) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     with jobs.start() as one, jobs.start() as other:
         _end(one, other)
     _check_whole(jobs, expected_content)
@@ -113,7 +112,7 @@ def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, expected_content: s
 @pytest.mark.postgresql_alone
 def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_content: str) -> None:
     moments = random.Random(20060128)
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     for _ in range(2):
         with jobs.start() as killed:
             before = jobs.committed()
@@ -129,7 +128,7 @@ def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_conten
 
 @pytest.mark.sqlite_alone
 def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs, expected_content: str) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     with jobs.start() as asleep:
         _wait_for(lambda: jobs.job().lease_count > 0)
         os.kill(asleep.pid, signal.SIGSTOP)
@@ -143,11 +142,11 @@ def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs,
 
 @pytest.mark.sqlite_alone
 def test_told_to_stop_a_worker_leaves_at_once(jobs: Jobs) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     with jobs.start() as worker:
         _wait_for(lambda: jobs.committed() > 0)
         worker.terminate()
-        _, err = worker.communicate(timeout=PATIENCE_S)
+        _, err = worker.communicate(timeout=TIMEOUT_S)
     assert worker.returncode == 0, err
     assert err.splitlines()[-1] == "stopped"
     assert beats(jobs.engine) == {}
@@ -172,12 +171,12 @@ def test_a_worker_touches_its_heartbeat_file_while_the_database_takes_its_beats(
             assert file.stat().st_mtime_ns == last
             os.kill(worker.pid, signal.SIGCONT)
             worker.terminate()
-            worker.communicate(timeout=PATIENCE_S)
+            worker.communicate(timeout=TIMEOUT_S)
 
 
 @pytest.mark.sqlite_alone
 def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
-    asked = ask_for(jobs.engine, INPUTS)
+    asked = submit_job(jobs.engine, INPUTS)
     with jobs.start() as worker:
         _wait_for(lambda: jobs.committed() > 0)
         cancel(jobs.engine, asked.id)
@@ -188,7 +187,7 @@ def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
 
 @pytest.mark.sqlite_alone
 def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, expected_content: str) -> None:
-    ask_for(jobs.engine, INPUTS)
+    submit_job(jobs.engine, INPUTS)
     database = ("--database", jobs.command_line.database)
     with jobs.start() as worker:
         rebuilt = json.loads(jobs.command_line.out("rebuild", *SMALL_GRID, *database, "--json"))

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from harness.databases import Databases
-from tests.archive.history_library import SMALL_GRID as GRID
-from tests.archive.history_library import histories_of_grid, store_histories
+from tests.stored_histories.history_library import SMALL_GRID as GRID
+from tests.stored_histories.history_library import histories_of_grid, store_histories
 from tests.worker.conftest import CommandLine
 from threadstate.settings import DATABASE
 

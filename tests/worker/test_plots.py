@@ -11,8 +11,8 @@ from matplotlib.image import imread
 from numpy.typing import NDArray
 
 from tests.worker.conftest import CommandLine
-from threadstate.answer.documents import HeightsDocument, WindowDocument
 from threadstate.errors import InvalidValueError
+from threadstate.responses.documents import HeightsDocument, WindowDocument
 from threadstate.units import LengthUnit
 from worker.plots import plot_heights, plot_map
 

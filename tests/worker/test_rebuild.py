@@ -12,25 +12,25 @@ from pathlib import Path
 import pytest
 from sqlalchemy import select
 
-from tests.archive.history_library import histories_of_grid, rows_of
 from tests.prepared import use_prepared_chunks
+from tests.stored_histories.history_library import histories_of_grid, rows_of
 from tests.worker.conftest import GRID, ONE_ORIENTATION, SMALL_GRID, CommandLine
-from threadstate.archive.read import formations, orientation_history, stored_histories
 from threadstate.errors import NotFoundError
 from threadstate.library.engine import reader_engine
 from threadstate.library.grid import Grid
-from threadstate.library.history_rows import HistoryRows
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import latest_library, states_between
+from threadstate.library.rows import HistoryRows
 from threadstate.library.schema import stored_revision
 from threadstate.library.tables import chunk
 from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.stored_histories.mapping import formations, orientation_history, stored_histories
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.processes import ComputeError, computing_processes
 
 pytestmark = pytest.mark.slow
 
-PATIENCE_S = 60.0
+TIMEOUT_S = 60.0
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +81,7 @@ def _alive_in_group(group: int) -> list[int]:
 
 def _wait_for(condition: Callable[[], bool]) -> bool:
     """Whether the condition came true while there was patience."""
-    end = time.monotonic() + PATIENCE_S
+    end = time.monotonic() + TIMEOUT_S
     while time.monotonic() < end:
         if condition():
             return True
@@ -103,7 +103,7 @@ def test_the_content_does_not_depend_on_the_number_of_workers(
 ) -> None:
     result = json.loads(command_line.out("rebuild", *SMALL_GRID, "--workers", str(workers), "--json"))
     assert result["content_sha256"] == expected_content
-    assert result["computed"] == result["states"] == GRID.state_count
+    assert result["computed"] == result["states"] == GRID.pose_count
     assert not result["was_published"]
 
 
@@ -167,13 +167,13 @@ def test_killed_at_any_commit_it_goes_on_to_the_same_bits(command_line: CommandL
         assert kept >= committed
     result = json.loads(command_line.out("rebuild", *SMALL_GRID, "--json"))
     assert result["content_sha256"] == expected_content
-    assert result["was_published"] or result["computed"] == GRID.state_count - kept * GRID.phase_count
+    assert result["was_published"] or result["computed"] == GRID.pose_count - kept * GRID.phase_count
     engine = reader_engine(database)
     with engine.connect() as connection:
-        states = states_between(connection, result["library"], 0, GRID.state_count - 1)
+        states = states_between(connection, result["library"], 0, GRID.pose_count - 1)
         ordinals = [state.phase_deg for state in states]
     engine.dispose()
-    assert len(ordinals) == GRID.state_count
+    assert len(ordinals) == GRID.pose_count
 
 
 @pytest.mark.sqlite_alone
@@ -195,10 +195,10 @@ def test_two_rebuilds_at_once_make_one_library(command_line: CommandLine, expect
         command_line.start("rebuild", *SMALL_GRID, "--json") as one,
         command_line.start("rebuild", *SMALL_GRID, "--json") as other,
     ):
-        results = [json.loads(process.communicate(timeout=PATIENCE_S)[0]) for process in (one, other)]
+        results = [json.loads(process.communicate(timeout=TIMEOUT_S)[0]) for process in (one, other)]
     assert {result["content_sha256"] for result in results} == {expected_content}
     assert results[0]["library"] == results[1]["library"]
-    assert sum(result["computed"] for result in results) == GRID.state_count
+    assert sum(result["computed"] for result in results) == GRID.pose_count
 
 
 @pytest.mark.sqlite_alone
@@ -206,7 +206,7 @@ def test_interrupted_it_says_so_and_leaves_no_process(command_line: CommandLine)
     with command_line.start("rebuild", *SMALL_GRID, "--phase-step", "0.5", "--workers", "2") as process:
         assert _wait_for(lambda: _committed(command_line.database) >= 1)
         os.killpg(process.pid, signal.SIGINT)
-        _, err = process.communicate(timeout=PATIENCE_S)
+        _, err = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 130
     assert err.splitlines()[-1] == "threadstate: interrupted"
     assert _wait_for(lambda: not _alive_in_group(process.pid))

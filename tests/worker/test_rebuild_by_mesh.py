@@ -5,17 +5,17 @@ import json
 import pytest
 
 from tests.worker.conftest import CommandLine
-from threadstate.archive.answers import exact_answers
 from threadstate.library.engine import reader_engine
-from threadstate.library.method import Method
 from threadstate.library.pose import state_of_pose
 from threadstate.library.read import latest_library, undecided_between
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.solve import solve_poses_by_mesh
 from threadstate.state.model import UndecidedPose
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
+from threadstate.stored_histories.answers import exact_answers
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
@@ -37,7 +37,7 @@ def test_a_library_by_meshes_stands_beside_the_exact_one(command_line: CommandLi
     engine = reader_engine(command_line.database)
     with engine.connect() as connection:
         assert latest_library(connection).id == exact["library"]
-        library = latest_library(connection, method=Method.MESH)
+        library = latest_library(connection, method=SolverMethod.MESH)
         assert library.id == by_mesh["library"]
         level = undecided_between(connection, library.id, 0, 1)
         assert (0.0, 0.0, 0.0) in [(pose.roll_deg, pose.pitch_deg, pose.phase_deg) for _, pose in level]

@@ -12,12 +12,12 @@ import worker.sweep.run
 from tests.worker.conftest import CommandLine
 from threadstate.errors import InvalidValueError
 from threadstate.jobs.names import JobState
-from threadstate.jobs.read import jobs_before
+from threadstate.jobs.queue import jobs_before
 from threadstate.library.engine import reading
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.method import Method
 from threadstate.library.read import LARGEST_ID, library_by_input, published_libraries
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
 from threadstate.mesh.presets import Preset
 from threadstate.state.options import SolveOptions
@@ -89,7 +89,7 @@ def test_pairs_grids_and_methods_are_crossed(tmp_path: Path) -> None:
         (designation, grid, method)
         for designation in ("1/4-20 UNC", "M6 of one's own")
         for grid in (Grid(1.0, 1.0, 1.0), Grid(4.0, 1.0, 0.5))
-        for method in (Method.EXACT, Method.MESH)
+        for method in (SolverMethod.EXACT, SolverMethod.MESH)
     ]
     assert found[0] == LibraryInputs(quarter_twenty_unc(), Grid(1.0, 1.0, 1.0), SolveOptions())
     assert found[1].mesh == MeshOptions(tessellation=Preset.COARSE.tessellation)

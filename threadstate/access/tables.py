@@ -5,9 +5,8 @@ from __future__ import annotations
 from sqlalchemy import Column, PrimaryKeyConstraint, Table
 
 from threadstate.access.scope import Scope
+from threadstate.library.column_types import UtcDateTime, bytewise_string
 from threadstate.library.tables import NAME_LENGTH, SHA256_LENGTH, metadata, one_of
-from threadstate.library.text import bytewise_string
-from threadstate.library.utc import UtcDateTime
 
 KEY_ID_LENGTH = 12
 KEY_NAME_LENGTH = 100

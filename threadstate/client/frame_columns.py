@@ -6,7 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
-from threadstate.answer.documents import (
+from threadstate.client.models.jobs import JobDocument
+from threadstate.client.models.libraries import OrientationDocument
+from threadstate.client.models.states import State, UndecidedDocument
+from threadstate.errors import InvalidValueError
+from threadstate.export.column import Cell, Column, degrees, integer, length, number, truth, words
+from threadstate.export.states import LEAST_CONTACTS, state_columns
+from threadstate.responses.documents import (
     IntervalDocument,
     OrientationWindowsDocument,
     SnapDocument,
@@ -14,12 +20,6 @@ from threadstate.answer.documents import (
     TransitionDocument,
     WindowDocument,
 )
-from threadstate.client.models.jobs import JobDocument
-from threadstate.client.models.libraries import OrientationDocument
-from threadstate.client.models.states import State, UndecidedDocument
-from threadstate.errors import InvalidValueError
-from threadstate.export.column import Cell, Column, degrees, integer, length, number, truth, words
-from threadstate.export.states import LEAST_CONTACTS, state_columns
 from threadstate.state.model import StateClass
 
 Columns = tuple[Column[Any], ...]

@@ -80,7 +80,7 @@ def check_success(call: Call[object], response: httpx2.Response) -> None:
 
 @contextmanager
 def understood_failures(call: Call[object]) -> Iterator[None]:
-    """Turn what goes wrong on the way into errors of the client.
+    """WriterLock what goes wrong on the way into errors of the client.
 
     Raises:
         ConnectionFailedError: the connection failed.

@@ -74,7 +74,7 @@ def _most_contacts(engine: Engine, table: Table, library_id: int) -> int:
 def _state_batches(
     engine: Engine, library: LibraryRecord, columns: tuple[Column[StateDocument], ...], factor: float
 ) -> Iterator[Rows]:
-    for first in range(0, library.grid.state_count, STATES_AT_ONCE):
+    for first in range(0, library.grid.pose_count, STATES_AT_ONCE):
         with engine.connect() as connection:
             states = states_between(connection, library.id, first, first + STATES_AT_ONCE - 1)
         yield [row_of(columns, state_document(state, factor)) for state in states]
@@ -85,7 +85,7 @@ def _undecided_batches(engine: Engine, library: LibraryRecord) -> Iterator[Rows]
     after, found = -1, True
     while found:
         with engine.connect() as connection:
-            poses = undecided_between(connection, library.id, after + 1, library.grid.state_count, STATES_AT_ONCE)
+            poses = undecided_between(connection, library.id, after + 1, library.grid.pose_count, STATES_AT_ONCE)
         found = bool(poses)
         if found:
             after = poses[-1][0]

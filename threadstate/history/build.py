@@ -20,7 +20,7 @@ from threadstate.history.codes import LabelCodes
 from threadstate.history.differences import contact_changes
 from threadstate.history.flicker import widened
 from threadstate.history.labels import labels_of
-from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
+from threadstate.history.model import CIRCLE_DEG, Boundary, Interval, SolvedHistory
 from threadstate.history.records import RecordStore
 from threadstate.state.decode import decoded_answers
 from threadstate.state.model import ContactState
@@ -35,7 +35,7 @@ TOGETHER = 8
 """Orientations that are searched together: so many keep their poses' records in some 20 MB."""
 
 
-def history_of(pair: Pair, roll_deg: float, pitch_deg: float, options: SolveOptions | None = None) -> History:
+def history_of(pair: Pair, roll_deg: float, pitch_deg: float, options: SolveOptions | None = None) -> SolvedHistory:
     """The history of one orientation; as :func:`histories_of` of this orientation alone."""
     return histories_of(pair, [(roll_deg, pitch_deg)], options)[0]
 
@@ -46,7 +46,7 @@ def histories_of(
     options: SolveOptions | None = None,
     resolution: Resolution = RESOLUTION,
     store: RecordStore | None = None,
-) -> list[History]:
+) -> list[SolvedHistory]:
     """The histories of orientations, (roll, pitch) in degrees, in their order; ``resolution`` in degrees.
 
     The same orientation gives the same bits whatever the others are, and whatever poses are in the ``store``.
@@ -56,7 +56,7 @@ def histories_of(
     """
     options = options or SolveOptions()
     orientations = checked_poses([(roll, pitch, 0.0) for roll, pitch in orientations_deg])[:, :2]
-    histories: list[History] = []
+    histories: list[SolvedHistory] = []
     for first in range(0, len(orientations), TOGETHER):
         together = orientations[first : first + TOGETHER]
         histories += _histories(pair, options, together, resolution, store or RecordStore(pair, options))
@@ -65,7 +65,7 @@ def histories_of(
 
 def _histories(
     pair: Pair, options: SolveOptions, orientations_deg: Floats, resolution: Resolution, store: RecordStore
-) -> list[History]:
+) -> list[SolvedHistory]:
     """The histories of orientations of shape (n, 2) whose poses are all kept in one store."""
     codes = LabelCodes(pair, options, store)
     counts = np.zeros(len(orientations_deg), dtype=np.int64)
@@ -84,7 +84,7 @@ def _histories(
     histories = []
     for (roll, pitch), found, count in zip(orientations_deg.tolist(), brackets, counts.tolist(), strict=True):
         boundaries, intervals = _cut(found, [next(states) for _ in _phases(found)])
-        histories.append(History(roll, pitch, tuple(intervals), tuple(boundaries), count))
+        histories.append(SolvedHistory(roll, pitch, tuple(intervals), tuple(boundaries), count))
     return histories
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from threadstate.history.codes import HEIGHT_JUMP
 from threadstate.history.fold import Fold, fold_near
-from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
+from threadstate.history.model import CIRCLE_DEG, Boundary, Interval, SolvedHistory
 from threadstate.state.model import ContactState, FeaturePair
 from threadstate.thread.pair import Pair
 
@@ -24,20 +24,25 @@ class Limit:
     error: float
 
 
-def limit_before(pair: Pair, history: History, number: int) -> Limit | None:
+def limit_before(pair: Pair, history: SolvedHistory, number: int) -> Limit | None:
     """The limit as the phase grows towards the boundary of that number; None where undecided."""
     boundary = history.boundaries[number]
     return _limit(pair, history, boundary, boundary.before, boundary.low_deg, history.intervals[number - 1])
 
 
-def limit_after(pair: Pair, history: History, number: int) -> Limit | None:
+def limit_after(pair: Pair, history: SolvedHistory, number: int) -> Limit | None:
     """The limit as the phase falls towards the boundary of that number; None where undecided."""
     boundary = history.boundaries[number]
     return _limit(pair, history, boundary, boundary.after, boundary.high_deg, history.intervals[number])
 
 
 def _limit(
-    pair: Pair, history: History, boundary: Boundary, side: ContactState | None, phase_deg: float, beside: Interval
+    pair: Pair,
+    history: SolvedHistory,
+    boundary: Boundary,
+    side: ContactState | None,
+    phase_deg: float,
+    beside: Interval,
 ) -> Limit | None:
     if side is None:
         return None
@@ -53,7 +58,7 @@ def _limit(
     return Limit(height, rate * boundary.width_deg)
 
 
-def _fold(pair: Pair, history: History, boundary: Boundary, side: ContactState, phase_deg: float) -> Fold | None:
+def _fold(pair: Pair, history: SolvedHistory, boundary: Boundary, side: ContactState, phase_deg: float) -> Fold | None:
     """The fold at which the first contact of a side ends, None where it does not end at one within the bracket."""
     first = side.contacts[0]
     if first.features is not FeaturePair.EDGE_EDGE:

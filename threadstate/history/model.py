@@ -19,7 +19,7 @@ class ContactChange:
 
     ``stage`` and ``place`` say which: the ``place``-th (from 0) of its stage. ``before`` is None where the contact
     appears, ``after`` where it vanishes. ``moved`` is the distance between the contact's points on both sides, a
-    length in the pair's unit, None where there is none on one side.
+    length in the pair's unit, None if one side has no contact.
     """
 
     stage: int
@@ -110,8 +110,9 @@ class Interval:
 
 
 @dataclass(frozen=True, slots=True)
-class History:
-    """All intervals of an orientation in order of phase; ``boundaries[i]`` is where ``intervals[i]`` begins.
+class SolvedHistory:
+    """The computed history of an orientation: all intervals in order of phase; ``boundaries[i]`` is where
+    ``intervals[i]`` begins.
 
     An orientation without any boundary has one interval, from 0 to 360. ``solve_count`` is how many poses were solved.
     """

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from threadstate.history.codes import HEIGHT_JUMP
 from threadstate.history.limits import limit_after, limit_before
-from threadstate.history.model import CIRCLE_DEG, Boundary, History, Interval
+from threadstate.history.model import CIRCLE_DEG, Boundary, Interval, SolvedHistory
 from threadstate.state.model import ContactState, FeaturePair
 from threadstate.thread.pair import Pair
 
@@ -71,7 +71,7 @@ class Window:
         return self.leave_height - self.lowest_height
 
 
-def windows_of(pair: Pair, history: History) -> tuple[Window, ...]:
+def windows_of(pair: Pair, history: SolvedHistory) -> tuple[Window, ...]:
     """The clearance windows of a history in order of their entries; none where a thread is never touched first.
 
     An undecided stretch between two parts of a window belongs to it.
@@ -106,7 +106,7 @@ def _within_thread(interval: Interval) -> bool:
     return first.features in WITHIN_THREAD
 
 
-def _window(pair: Pair, history: History, cut: list[int]) -> Window:
+def _window(pair: Pair, history: SolvedHistory, cut: list[int]) -> Window:
     """The window between the first and the last of consecutive boundaries, from their numbers."""
     boundaries = [history.boundaries[i] for i in cut]
     intervals = [history.intervals[i] for i in cut[:-1]]

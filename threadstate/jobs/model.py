@@ -1,9 +1,12 @@
-"""What a job is to those who ask for it."""
+"""What a job is: its record, its events, and its inputs as JSON."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import datetime
+from functools import cache
+
+from pydantic import TypeAdapter
 
 from threadstate.errors import ThreadstateError
 from threadstate.jobs.names import EventKind, JobState
@@ -11,27 +14,27 @@ from threadstate.library.identity import LibraryInputs
 
 
 class JobEndedError(ThreadstateError):
-    """A job that is done or failed was to be cancelled."""
+    """A job cannot be cancelled: it is done or has failed."""
 
 
 @dataclass(frozen=True)
 class JobRecord:
-    """A job: the library that is to be there, and how far it is.
+    """A job: a requested library and its progress.
 
     Attributes:
         id: number of the job.
-        state: how far it is.
-        reason: why it failed; None where it did not.
-        inputs: what the library is to be computed from.
-        input_sha256: hash of these, by the code that was asked.
-        code_version: version of that code; workers of another do not take the job.
-        chunk_count: how many orientations there are.
-        done_count: how many of them are committed, as far as this job knows.
-        lease_count: how many of them workers are at.
-        library_id: the published library of these inputs, if there is one.
+        state: state of the job.
+        reason: why it failed; None if it has not failed.
+        inputs: the inputs of the library.
+        input_sha256: hash of the inputs, computed by the code that accepted the job.
+        code_version: version of that code; workers of other versions do not take the job.
+        chunk_count: number of orientations.
+        done_count: number of committed orientations that the job has counted.
+        lease_count: number of orientations leased to workers.
+        library_id: id of the published library of these inputs; None if there is none.
         event_count: number of the latest event.
-        asked_at: when it was asked for, the last time.
-        ended_at: when it ended; None while it has not.
+        asked_at: time of the latest request for it.
+        ended_at: time of its end; None before.
     """
 
     id: int
@@ -51,10 +54,25 @@ class JobRecord:
 
 @dataclass(frozen=True)
 class JobEvent:
-    """Something that happened to a job; ``number`` counts from 1, ``done_count`` chunks were committed then."""
+    """An event of a job; ``number`` counts from 1, ``done_count`` is the number of committed chunks at the time."""
 
     number: int
     kind: EventKind
     at: datetime
     done_count: int
     reason: str | None
+
+
+def inputs_json(inputs: LibraryInputs) -> str:
+    """The inputs as JSON; every double is written so that it reads back the same."""
+    return _adapter().dump_json(inputs).decode()
+
+
+def inputs_from_json(content: str) -> LibraryInputs:
+    """The inputs stored with a job."""
+    return _adapter().validate_json(content)
+
+
+@cache
+def _adapter() -> TypeAdapter[LibraryInputs]:
+    return TypeAdapter(LibraryInputs)

@@ -1,4 +1,4 @@
-"""The names of what a job can be and of what can happen to it."""
+"""The states of a job and the kinds of its events."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import StrEnum
 
 
 class JobState(StrEnum):
-    """How far a job is."""
+    """The state of a job."""
 
     QUEUED = "queued"
     RUNNING = "running"
@@ -16,12 +16,12 @@ class JobState(StrEnum):
 
     @property
     def ended(self) -> bool:
-        """Whether nothing happens any more unless it is asked for again."""
+        """Whether the job has ended; it changes again only if it is requested again."""
         return self not in (JobState.QUEUED, JobState.RUNNING)
 
 
 class EventKind(StrEnum):
-    """What can happen to a job."""
+    """The kind of an event."""
 
     QUEUED = "queued"
     STARTED = "started"

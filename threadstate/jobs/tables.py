@@ -1,4 +1,4 @@
-"""The tables of jobs. No column is a deadline: who is silent is found by those who watch (decision 10)."""
+"""The tables of jobs. No column is a deadline: workers detect the dead ones by their heartbeats (decision 10)."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from sqlalchemy import (
 )
 
 from threadstate.jobs.names import EventKind, JobState
+from threadstate.library.column_types import UtcDateTime, bytewise_string, bytewise_text
 from threadstate.library.tables import NAME_LENGTH, SHA256_LENGTH, metadata, one_of
-from threadstate.library.text import bytewise_string, bytewise_text
-from threadstate.library.utc import UtcDateTime
 
 WORKER_ID_LENGTH = 32
 WORKER_NAME_LENGTH = 200
@@ -25,7 +24,7 @@ job = Table(
     "job",
     metadata,
     Column("id", Integer, nullable=False),
-    # The library that is to be there: its inputs as JSON, and the hash that is theirs by the code that was asked.
+    # The requested library: its inputs as JSON, and their hash by the code that accepted the job.
     Column("input_sha256", bytewise_string(SHA256_LENGTH), nullable=False),
     Column("inputs", bytewise_text(), nullable=False),
     Column("code_version", bytewise_string(NAME_LENGTH), nullable=False),
@@ -33,50 +32,50 @@ job = Table(
     Column("reason", bytewise_text()),
     Column("chunk_count", Integer, nullable=False),
     Column("done_count", Integer, nullable=False),
-    # How often working on it went wrong since it was asked for.
+    # Failures since the job was requested.
     Column("setback_count", Integer, nullable=False),
     Column("event_count", Integer, nullable=False),
     Column("asked_at", UtcDateTime, nullable=False),
     Column("ended_at", UtcDateTime),
     PrimaryKeyConstraint("id"),
-    # Serves: the same job asked for twice.
+    # Serves: the same job requested twice.
     UniqueConstraint("input_sha256"),
     one_of("state", JobState),
-    # Serves: the jobs that there may be work on.
+    # Serves: the jobs that workers may take.
     Index(None, "state", "id"),
 )
-"""A library that was asked for."""
+"""A requested library."""
 
 job_worker = Table(
     "job_worker",
     metadata,
-    # Drawn at random and never twice: it is what fences.
+    # Random and never reused: a fencing token.
     Column("id", bytewise_string(WORKER_ID_LENGTH), nullable=False),
     Column("name", bytewise_string(WORKER_NAME_LENGTH), nullable=False),
-    # Counted up by the worker; one whose count stands still is taken for dead, and its row is removed.
+    # Heartbeat counter, incremented by the worker; a worker whose counter stops is considered dead and its row removed.
     Column("beat", Integer, nullable=False),
     PrimaryKeyConstraint("id"),
     sqlite_with_rowid=False,
 )
-"""A living worker; leases are references to it, so that they end with its row."""
+"""A live worker; leases refer to its row and end with it."""
 
 job_chunk = Table(
     "job_chunk",
     metadata,
     Column("job_id", Integer, nullable=False),
     Column("orientation", Integer, nullable=False),
-    # The worker that is at it; null: it is free.
+    # The worker that has leased it; null: it is free.
     Column("worker_id", bytewise_string(WORKER_ID_LENGTH)),
     # Serves: the first free chunks of a job.
     PrimaryKeyConstraint("job_id", "orientation"),
     ForeignKeyConstraint(["job_id"], ["job.id"], ondelete="CASCADE"),
     ForeignKeyConstraint(["worker_id"], ["job_worker.id"], ondelete="SET NULL"),
     CheckConstraint("orientation >= 0", name="orientation_not_negative"),
-    # Serves: the chunks that a worker leaves behind, and how many workers are at a job.
+    # Serves: the chunks of a dead worker, and the number of workers of a job.
     Index(None, "worker_id"),
     sqlite_with_rowid=False,
 )
-"""An orientation of a running job that is not committed yet; when it is, its row goes."""
+"""An orientation of a running job that is not committed yet; its row is deleted when it is committed."""
 
 job_event = Table(
     "job_event",
@@ -87,10 +86,10 @@ job_event = Table(
     Column("at", UtcDateTime, nullable=False),
     Column("done_count", Integer, nullable=False),
     Column("reason", bytewise_text()),
-    # Serves: what happened to a job after a certain event.
+    # Serves: the events of a job after a given one.
     PrimaryKeyConstraint("job_id", "number"),
     ForeignKeyConstraint(["job_id"], ["job.id"], ondelete="CASCADE"),
     one_of("kind", EventKind),
     sqlite_with_rowid=False,
 )
-"""What happened to a job."""
+"""An event of a job."""

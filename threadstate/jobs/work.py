@@ -1,4 +1,4 @@
-"""Working on jobs: opening them, taking their chunks, handing these in, publishing. Every function is a transaction.
+"""What workers do with jobs: open them, lease and complete chunks, publish. Every function is a transaction.
 
 Rows are locked in one order: a job, a worker, chunks.
 """
@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 from sqlalchemy import ColumnElement, Connection, Engine, Select, delete, exists, func, insert, or_, select, update
 
-from threadstate.jobs.events import change_job, locked_state
-from threadstate.jobs.inputs import inputs_from_json
+from threadstate.jobs.model import inputs_from_json
 from threadstate.jobs.names import EventKind, JobState
+from threadstate.jobs.queue import change_job, locked_state
 from threadstate.jobs.tables import job, job_chunk, job_worker
 from threadstate.jobs.workers import require_alive
 from threadstate.library.grid import Grid
@@ -20,8 +20,8 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.tables import chunk
 from threadstate.library.write import publish_in
 
-MOST_SETBACKS = 5
-"""After so many mishaps (a computing process that died, a library that went away) a job has failed."""
+MAX_FAILURES = 5
+"""After this many failures (a computing process died, the library was removed) the job itself has failed."""
 
 
 _HAS_FREE_CHUNKS = or_(
@@ -29,40 +29,40 @@ _HAS_FREE_CHUNKS = or_(
     (job.c.state == JobState.RUNNING.value)
     & exists().where(job_chunk.c.job_id == job.c.id, job_chunk.c.worker_id.is_(None)),
 )
-"""Whether a job is still to be opened, or has a chunk that no worker is at."""
+"""Whether a job is not opened yet, or has a chunk without a lease."""
 
 
-def _is_at(job_id: ColumnElement[int] | int) -> ColumnElement[bool]:
-    """Whether a worker holds a chunk of a job: by its few chunks, as a job may have very many."""
+def _holds_chunks_of(job_id: ColumnElement[int] | int) -> ColumnElement[bool]:
+    """Whether a worker holds a chunk of a job; looks at the worker's chunks, which are few, and not at the job's."""
     held = exists().where(job_chunk.c.worker_id == job_worker.c.id, job_chunk.c.job_id == job_id)
     return held.correlate(job, job_worker)
 
 
-_WORKER_COUNT = select(func.count()).select_from(job_worker).where(_is_at(job.c.id)).scalar_subquery()
-"""How many workers are at a job."""
+_WORKER_COUNT = select(func.count()).select_from(job_worker).where(_holds_chunks_of(job.c.id)).scalar_subquery()
+"""The number of workers that hold chunks of a job."""
 
 
 @dataclass(frozen=True)
-class Work:
-    """A job that there is something to do on."""
+class NextJob:
+    """A job that a worker can work on."""
 
     job_id: int
     inputs: LibraryInputs
 
 
-def next_work(engine: Engine, code_versions: Collection[str]) -> Work | None:
-    """A job of these versions of the code that is to be opened, has a free chunk, or can be published.
+def next_job(engine: Engine, code_versions: Collection[str]) -> NextJob | None:
+    """A job of these code versions that can be opened, has a free chunk, or can be published; None if there is none.
 
-    Of several the one that the fewest workers are at, and of these the oldest. Two workers that ask at the same moment
-    may be given the same one; :func:`is_needed_elsewhere` parts them.
+    Of several jobs the one with the fewest workers, and of these the oldest. Two workers that ask at the same time may
+    get the same one; :func:`should_switch_job` separates them.
     """
     with engine.connect() as connection:
-        row = connection.execute(next_work_query(code_versions)).first()
-    return None if row is None else Work(row.id, inputs_from_json(row.inputs))
+        row = connection.execute(next_job_query(code_versions)).first()
+    return None if row is None else NextJob(row.id, inputs_from_json(row.inputs))
 
 
-def next_work_query(code_versions: Collection[str]) -> Select[tuple[int, str]]:
-    """The statement of :func:`next_work`."""
+def next_job_query(code_versions: Collection[str]) -> Select[tuple[int, str]]:
+    """The statement of :func:`next_job`."""
     whole = (job.c.state == JobState.RUNNING.value) & ~exists().where(job_chunk.c.job_id == job.c.id)
     return (
         select(job.c.id, job.c.inputs)
@@ -72,18 +72,18 @@ def next_work_query(code_versions: Collection[str]) -> Select[tuple[int, str]]:
     )
 
 
-def is_needed_elsewhere(engine: Engine, worker_id: str, job_id: int, code_versions: Collection[str]) -> bool:
-    """Whether a worker should leave its job: nobody is at another one that has free chunks, and somebody stays here.
+def should_switch_job(engine: Engine, worker_id: str, job_id: int, code_versions: Collection[str]) -> bool:
+    """Whether a worker should leave its job: another one has free chunks and no worker, and this one keeps a worker.
 
     Of the workers of a job the one with the smallest id stays.
     """
     with engine.connect() as connection:
-        return connection.scalar(needed_elsewhere_query(worker_id, job_id, code_versions)) is not None
+        return connection.scalar(switch_job_query(worker_id, job_id, code_versions)) is not None
 
 
-def needed_elsewhere_query(worker_id: str, job_id: int, code_versions: Collection[str]) -> Select[tuple[int]]:
-    """The statement of :func:`is_needed_elsewhere`: a job that a worker should leave its own for."""
-    stays = exists().where(job_worker.c.id < worker_id, _is_at(job_id))
+def switch_job_query(worker_id: str, job_id: int, code_versions: Collection[str]) -> Select[tuple[int]]:
+    """The statement of :func:`should_switch_job`: a job that the worker should switch to."""
+    stays = exists().where(job_worker.c.id < worker_id, _holds_chunks_of(job_id))
     nobody = _WORKER_COUNT == 0  # by NOT EXISTS PostgreSQL would read all chunks of all jobs
     return (
         select(job.c.id)
@@ -92,8 +92,8 @@ def needed_elsewhere_query(worker_id: str, job_id: int, code_versions: Collectio
     )
 
 
-def has_ended(engine: Engine, code_versions: Collection[str]) -> bool:
-    """Whether every job of these versions of the code has ended."""
+def all_jobs_ended(engine: Engine, code_versions: Collection[str]) -> bool:
+    """Whether every job of these code versions has ended."""
     living = [state.value for state in JobState if not state.ended]
     query = select(job.c.id).where(job.c.code_version.in_(code_versions), job.c.state.in_(living)).limit(1)
     with engine.connect() as connection:
@@ -101,7 +101,7 @@ def has_ended(engine: Engine, code_versions: Collection[str]) -> bool:
 
 
 def open_job(engine: Engine, job_id: int, library_id: int) -> None:
-    """Begin a queued job with the chunks that its library has not; any other is left as it is."""
+    """Start a queued job with the chunks that its library lacks; has no effect on other jobs."""
     with engine.begin() as connection:
         if locked_state(connection, job_id) is not JobState.QUEUED:
             return
@@ -114,13 +114,16 @@ def open_job(engine: Engine, job_id: int, library_id: int) -> None:
         change_job(connection, job_id, EventKind.STARTED, state=JobState.RUNNING, done_count=count - len(missing))
 
 
-def take_chunks(engine: Engine, worker_id: str, job_id: int, count: int) -> Sequence[int]:
-    """The numbers of up to ``count`` free orientations of a job, which are this worker's from now on.
+def lease_chunks(engine: Engine, worker_id: str, job_id: int, count: int) -> Sequence[int]:
+    """Lease up to ``count`` free orientations of a job to a worker.
 
-    Workers do not wait for each other here: what another is about to take is passed over.
+    Rows that another worker has locked are skipped, so that workers do not wait for each other.
+
+    Returns:
+        The numbers of the orientations.
 
     Raises:
-        LostLeaseError: the worker was taken for dead.
+        LostLeaseError: the worker was considered dead.
     """
     free = (
         select(job_chunk.c.orientation)
@@ -142,11 +145,11 @@ def take_chunks(engine: Engine, worker_id: str, job_id: int, count: int) -> Sequ
         return taken
 
 
-def let_go(engine: Engine, worker_id: str) -> None:
-    """Free what a worker holds although it is at nothing: what it handed in, and the database has forgotten since.
+def release_chunks(engine: Engine, worker_id: str) -> None:
+    """Release all chunks of an idle worker.
 
-    A server that confirms before it has written (``synchronous_commit = off``), or a copy of it that takes over, may
-    lose the last transactions; the worker lives on and would hold these chunks for ever.
+    It has none, unless the database lost the transactions that completed them: a server with ``synchronous_commit =
+    off`` that crashed, or a replica that took over. Without this an idle worker would hold such chunks for ever.
     """
     held = job_chunk.c.worker_id == worker_id
     with engine.connect() as connection:
@@ -156,11 +159,11 @@ def let_go(engine: Engine, worker_id: str) -> None:
         connection.execute(update(job_chunk).where(held).values(worker_id=None))
 
 
-def hand_in(engine: Engine, worker_id: str, job_id: int, orientation: int) -> bool:
-    """Say that a chunk is committed to the library; nothing is counted where it is another's by now.
+def complete_chunk(engine: Engine, worker_id: str, job_id: int, orientation: int) -> bool:
+    """Mark a chunk as committed to the library; it is not counted if the lease is another worker's by now.
 
     Returns:
-        Whether the job is still to be worked on.
+        Whether the job is still running.
     """
     with engine.begin() as connection:
         if locked_state(connection, job_id) is not JobState.RUNNING:
@@ -178,14 +181,15 @@ def hand_in(engine: Engine, worker_id: str, job_id: int, orientation: int) -> bo
 
 
 def publish_job(engine: Engine, worker_id: str, job_id: int, library_id: int, grid: Grid) -> bool:
-    """Publish a running job's library if no chunk is missing; in one transaction with the proof that one may.
+    """Publish a running job's library if no chunk is missing, in one transaction with the check that the worker is
+    alive.
 
     Returns:
-        Whether the job is done by this.
+        Whether this call finished the job.
 
     Raises:
-        LostLeaseError: the worker was taken for dead.
-        IncompleteLibraryError: the library lacks chunks that the job took for committed.
+        LostLeaseError: the worker was considered dead.
+        IncompleteLibraryError: the library lacks chunks that the job has counted as committed.
     """
     with engine.begin() as connection:
         if locked_state(connection, job_id) is not JobState.RUNNING:
@@ -198,14 +202,14 @@ def publish_job(engine: Engine, worker_id: str, job_id: int, library_id: int, gr
         return True
 
 
-def set_back(engine: Engine, worker_id: str, job_id: int, reason: str) -> JobState | None:
-    """Queue a running job again after a mishap; after too many of them it has failed.
+def requeue_job(engine: Engine, worker_id: str, job_id: int, reason: str) -> JobState | None:
+    """Queue a running job again after a failure; after ``MAX_FAILURES`` of them the job has failed.
 
     Returns:
-        Its state then; None where there is no such job.
+        Its new state; None if the job does not exist.
 
     Raises:
-        LostLeaseError: the worker was taken for dead.
+        LostLeaseError: the worker was considered dead.
     """
     with engine.begin() as connection:
         state = locked_state(connection, job_id)
@@ -214,7 +218,7 @@ def set_back(engine: Engine, worker_id: str, job_id: int, reason: str) -> JobSta
             return state
         count = (connection.scalar(select(job.c.setback_count).where(job.c.id == job_id)) or 0) + 1
         connection.execute(delete(job_chunk).where(job_chunk.c.job_id == job_id))
-        failed = count >= MOST_SETBACKS
+        failed = count >= MAX_FAILURES
         state, kind = (JobState.FAILED, EventKind.FAILED) if failed else (JobState.QUEUED, EventKind.QUEUED)
         change_job(connection, job_id, kind, reason, state=state, setback_count=count)
         return state

@@ -1,4 +1,4 @@
-"""Workers as they are known to each other: by an id that fences and a count that says that they live."""
+"""Registered workers: an id that serves as a fencing token, and a heartbeat counter."""
 
 from __future__ import annotations
 
@@ -11,11 +11,15 @@ from threadstate.jobs.tables import WORKER_ID_LENGTH, WORKER_NAME_LENGTH, job_wo
 
 
 class LostLeaseError(ThreadstateError):
-    """A worker was taken for dead: what it held belongs to others, and it may not publish."""
+    """The worker was considered dead: its chunks belong to others, and it may not publish."""
 
 
 def join(engine: Engine, name: str) -> str:
-    """Be known from now on, by an id that nobody has had before or will have."""
+    """Register a worker.
+
+    Returns:
+        Its id, random and never reused.
+    """
     worker_id = secrets.token_hex(WORKER_ID_LENGTH // 2)
     with engine.begin() as connection:
         connection.execute(insert(job_worker).values(id=worker_id, name=name[:WORKER_NAME_LENGTH], beat=0))
@@ -23,10 +27,10 @@ def join(engine: Engine, name: str) -> str:
 
 
 def beat(engine: Engine, worker_id: str) -> None:
-    """Say that one lives.
+    """Increment the heartbeat counter of a worker.
 
     Raises:
-        LostLeaseError: too late.
+        LostLeaseError: the worker was considered dead.
     """
     with engine.begin() as connection:
         beaten = connection.execute(
@@ -37,13 +41,13 @@ def beat(engine: Engine, worker_id: str) -> None:
 
 
 def beats(engine: Engine) -> dict[str, int]:
-    """The counts of all workers."""
+    """The heartbeat counters of all workers, by id."""
     with engine.connect() as connection:
         return {row.id: row.beat for row in connection.execute(select(job_worker.c.id, job_worker.c.beat))}
 
 
-def remove_silent(engine: Engine, worker_id: str, last_beat: int) -> bool:
-    """Take a worker for dead unless its count has moved on: its chunks become free, and it can publish no more.
+def remove_dead_worker(engine: Engine, worker_id: str, last_beat: int) -> bool:
+    """Remove a worker unless its counter has changed since: its chunks become free, and it can no longer publish.
 
     Returns:
         Whether it was removed.
@@ -56,16 +60,16 @@ def remove_silent(engine: Engine, worker_id: str, last_beat: int) -> bool:
 
 
 def leave(engine: Engine, worker_id: str) -> None:
-    """Be gone, and leave one's chunks to others."""
+    """Remove a worker; its chunks become free."""
     with engine.begin() as connection:
         connection.execute(delete(job_worker).where(job_worker.c.id == worker_id))
 
 
 def require_alive(connection: Connection, worker_id: str) -> None:
-    """Hold on to one's own row until the transaction ends: nobody can take one for dead before.
+    """Lock the worker's row until the transaction ends, so that nobody can remove it before.
 
     Raises:
-        LostLeaseError: somebody has.
+        LostLeaseError: the worker was removed.
     """
     own = select(job_worker.c.id).where(job_worker.c.id == worker_id).with_for_update(read=True, key_share=True)
     if connection.scalar(own) is None:
@@ -73,4 +77,4 @@ def require_alive(connection: Connection, worker_id: str) -> None:
 
 
 def _lost(worker_id: str) -> LostLeaseError:
-    return LostLeaseError(f"worker {worker_id} was silent for too long and was taken for dead")
+    return LostLeaseError(f"worker {worker_id} sent no heartbeat for too long and was considered dead")

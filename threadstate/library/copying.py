@@ -89,7 +89,7 @@ def _published(target: Engine, record: LibraryRecord) -> LibraryCopy | None:
             f"library {there.id} there has the same inputs and the content hash {there.content_sha256}, "
             f"not {record.content_sha256}"
         )
-    return LibraryCopy(there.id, there.content_sha256, there.grid.state_count, was_there=True)
+    return LibraryCopy(there.id, there.content_sha256, there.grid.pose_count, was_there=True)
 
 
 def _chunk(engine: Engine, library_id: int, record: LibraryRecord, index: int) -> StoredChunk:

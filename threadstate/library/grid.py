@@ -12,7 +12,7 @@ from threadstate.numbers import number_text
 from threadstate.state.options import TILT_LIMIT_DEG
 
 SMALLEST_STEP_DEG = 0.01
-LARGEST_STATE_COUNT = 50_000_000
+LARGEST_POSE_COUNT = 50_000_000
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Grid:
 
     Raises:
         InvalidValueError: the tilt is outside 0 to 10 deg, a step is not positive, is finer than 0.01 deg or does not
-            divide its range evenly, or the grid would have more than 50 million states.
+            divide its range evenly, or the grid would have more than 50 million poses.
     """
 
     tilt_max_deg: float = 4.0
@@ -52,8 +52,8 @@ class Grid:
             )
         if _decimal(360.0) % _decimal(self.phase_step_deg):
             raise InvalidValueError("phase_step", self.phase_step_deg, "a step that divides 360 deg evenly")
-        if self.state_count > LARGEST_STATE_COUNT:
-            raise InvalidValueError("state count of the grid", self.state_count, f"at most {LARGEST_STATE_COUNT}")
+        if self.pose_count > LARGEST_POSE_COUNT:
+            raise InvalidValueError("pose count of the grid", self.pose_count, f"at most {LARGEST_POSE_COUNT}")
 
     def __str__(self) -> str:
         """The grid in few words: "+-4 by 1, phase by 1 deg"."""
@@ -87,8 +87,8 @@ class Grid:
         return self.tilt_count**2
 
     @property
-    def state_count(self) -> int:
-        """How many poses there are."""
+    def pose_count(self) -> int:
+        """Number of poses."""
         return self.orientation_count * self.phase_count
 
     def orientation(self, index: int) -> Orientation:

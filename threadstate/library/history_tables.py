@@ -18,8 +18,8 @@ from sqlalchemy import (
     Table,
 )
 
+from threadstate.library.column_types import bytewise_string, bytewise_text
 from threadstate.library.tables import NAME_LENGTH, metadata, one_of
-from threadstate.library.text import bytewise_string, bytewise_text
 from threadstate.state.model import FeaturePair, StateClass
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import threadstate
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
@@ -26,10 +26,9 @@ STATES = (
     "state/*.py",
     "library/fingerprint.py",
     "library/grid.py",
-    "library/history_rows.py",
     "library/rows.py",
-    "archive/answers.py",
-    "archive/compute.py",
+    "stored_histories/answers.py",
+    "stored_histories/compute.py",
 )
 """The sources that decide what is stored of states, whatever the method."""
 PHYSICS = (
@@ -40,12 +39,12 @@ PHYSICS = (
     "network/from_history.py",
     "network/margin.py",
     "network/moves.py",
-    "archive/rows.py",
-    "archive/stored.py",
+    "stored_histories/mapping.py",
+    "stored_histories/model.py",
 )
 """With those of histories, windows and falls: what is stored by the exact method."""
 MESH_PHYSICS = (*STATES, "mesh/*.py")
-NOT_PHYSICS = ("thread/catalogue.py", "state/document.py", "state/rest.py", "history/heights.py")
+NOT_PHYSICS = ("thread/catalogue.py", "state/rest.py", "history/heights.py")
 """Files of these folders that no stored row is computed by: pairs, which are inputs, and what is read out of rows."""
 COMPUTING = ("llvmlite", "numba", "numpy")
 """Libraries whose code ends in the bits, by either method."""
@@ -65,9 +64,9 @@ class LibraryInputs:
     mesh: MeshOptions | None = None
 
     @property
-    def method(self) -> Method:
+    def method(self) -> SolverMethod:
         """How states are found."""
-        return Method.EXACT if self.mesh is None else Method.MESH
+        return SolverMethod.EXACT if self.mesh is None else SolverMethod.MESH
 
     @cached_property
     def pair_json(self) -> str:
@@ -93,7 +92,7 @@ class LibraryInputs:
         return inputs_sha256(self.pair_json, self.grid, self.method, self.options_json, self.code_version)
 
 
-def inputs_sha256(pair_json: str, grid: Grid, method: Method, options_json: str, code_version: str) -> str:
+def inputs_sha256(pair_json: str, grid: Grid, method: SolverMethod, options_json: str, code_version: str) -> str:
     """SHA-256, in hexadecimal, of what a library's content depends on."""
     parts = (pair_json, canonical_json(grid), method, options_json, code_version)
     return hashlib.sha256(json.dumps(parts, separators=(",", ":")).encode()).hexdigest()

@@ -7,8 +7,8 @@ import re
 from sqlalchemy import Connection
 
 from threadstate.errors import NotFoundError
-from threadstate.library.method import Method
 from threadstate.library.read import LibraryRecord, latest_library, library_by_id, published_libraries
+from threadstate.library.solver_method import SolverMethod
 
 LATEST = "latest"
 LATEST_MESH = "latest-mesh"
@@ -36,14 +36,14 @@ def named_library(connection: Connection, name: str) -> LibraryRecord:
     if name == LATEST:
         return latest_library(connection)
     if name == LATEST_MESH:
-        return latest_library(connection, method=Method.MESH)
+        return latest_library(connection, method=SolverMethod.MESH)
     published = published_libraries(connection)
     if _NUMBER.fullmatch(name):
         try:
             return library_by_id(connection, int(name))
         except NotFoundError as error:
             raise NotFoundError(f"{error}; published are: {_listed(published)}") from None
-    by_exact_method = [one for one in published if one.method is Method.EXACT]
+    by_exact_method = [one for one in published if one.method is SolverMethod.EXACT]
     for record in sorted(by_exact_method, key=lambda one: not one.is_pinned):
         if name in (record.designation, slug(record.designation)):
             return record
@@ -54,7 +54,8 @@ def _listed(published: list[LibraryRecord]) -> str:
     """Libraries by number and designation, for people; not all of very many."""
     most = 20
     shown = [
-        f"{one.id} ({slug(one.designation)}{'' if one.method is Method.EXACT else ', by meshes'})" for one in published
+        f"{one.id} ({slug(one.designation)}{'' if one.method is SolverMethod.EXACT else ', by meshes'})"
+        for one in published
     ]
     more = [f"and {len(shown) - most} more"] if len(shown) > most else []
     return ", ".join(shown[:most] + more) or "none yet"

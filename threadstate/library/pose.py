@@ -31,6 +31,7 @@ from threadstate.numbers import number_text
 from threadstate.state.model import ContactState
 
 _TABLES = (state, stage_pose, contact, state_flag)
+_NUMBERS = ("0", "1", "2", "3")
 
 
 def state_of_pose(
@@ -90,8 +91,8 @@ def _statement() -> tuple[CompoundSelect[Any], tuple[Callable[[Sequence[Any]], R
     }
     ordinal = _at_pose(state, state.c.ordinal).scalar_subquery()
     selects, cells_of = [], []
-    for number, (table, of_table) in enumerate(zip(_TABLES, columns, strict=True)):
-        cells: list[ColumnElement[Any]] = [literal_column(str(number), Integer)]
+    for number, table, of_table in zip(_NUMBERS, _TABLES, columns, strict=True):
+        cells: list[ColumnElement[Any]] = [literal_column(number, Integer)]
         for kind, count in most.items():
             of_kind = [column for column in of_table if isinstance(column.type, kind)]
             cells += [*of_kind, *[cast(null(), kind)] * (count - len(of_kind))]

@@ -11,8 +11,8 @@ from sqlalchemy import ColumnElement, Connection, RowMapping, Table, func, selec
 
 from threadstate.errors import NotFoundError
 from threadstate.library.grid import Grid
-from threadstate.library.method import Method
 from threadstate.library.rows import Row, states_from_rows
+from threadstate.library.solver_method import SolverMethod
 from threadstate.library.tables import contact, library, stage_pose, state, state_flag, undecided
 from threadstate.numbers import number_text
 from threadstate.state.model import ContactState, Flag, StateClass, UndecidedPose
@@ -37,7 +37,7 @@ class LibraryRecord:
     input_sha256: str
     content_sha256: str
     pair: str
-    method: Method
+    method: SolverMethod
     options: str
     code_version: str
     grid: Grid
@@ -85,7 +85,7 @@ def library_by_input(connection: Connection, input_sha256: str) -> LibraryRecord
 
 
 def latest_library(
-    connection: Connection, designation: str | None = None, method: Method | None = Method.EXACT
+    connection: Connection, designation: str | None = None, method: SolverMethod | None = SolverMethod.EXACT
 ) -> LibraryRecord:
     """The pinned library, or else the one published last: of all or of one designation, by a method or (None) by any.
 
@@ -98,7 +98,7 @@ def latest_library(
     row = _published(connection, library.c.pinned_at.is_not(None), *which) or _published(connection, *which)
     if row is None:
         of = "" if designation is None else f" of {designation!r}"
-        chosen = f" --method {method.value}" if method is Method.MESH else ""
+        chosen = f" --method {method.value}" if method is SolverMethod.MESH else ""
         raise NotFoundError(f"no library{of} is published yet; run `threadstate rebuild{chosen}`")
     return _record(row)
 
@@ -220,7 +220,7 @@ def _record(row: RowMapping) -> LibraryRecord:
         input_sha256=row["input_sha256"],
         content_sha256=row["content_sha256"],
         pair=row["pair"],
-        method=Method(row["method"]),
+        method=SolverMethod(row["method"]),
         options=row["options"],
         code_version=row["code_version"],
         grid=Grid(row["tilt_max_deg"], row["tilt_step_deg"], row["phase_step_deg"]),

@@ -15,7 +15,7 @@ from threadstate.settings import DATABASE
 SCHEMA_REVISION = "0008"
 """The newest migration, which the tables of ``threadstate.library.tables`` mirror."""
 
-MENDING_COMMAND = "threadstate migrate"
+MIGRATE_COMMAND = "threadstate migrate"
 
 _UNDEFINED_TABLE = "42P01"
 """PostgreSQL's code of a table that is not there."""
@@ -53,9 +53,9 @@ def check_schema(engine: Engine) -> None:
             "(`threadstate settings` shows it), `threadstate rebuild` makes it"
         )
     if revision is None:
-        found, cure = "has no schema yet", f"run `{MENDING_COMMAND}`"
+        found, cure = "has no schema yet", f"run `{MIGRATE_COMMAND}`"
     elif revision < SCHEMA_REVISION:
-        found, cure = f"is at schema revision {revision}", f"run `{MENDING_COMMAND}`"
+        found, cure = f"is at schema revision {revision}", f"run `{MIGRATE_COMMAND}`"
     else:
         found, cure = f"is at schema revision {revision}, of a newer threadstate", "install that one"
     raise SchemaError(f"database {place(engine)} {found}; this code needs revision {SCHEMA_REVISION}: {cure}")

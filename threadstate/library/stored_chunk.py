@@ -9,9 +9,8 @@ from sqlalchemy import Connection, Table, select
 
 from threadstate.library import history_tables as tables
 from threadstate.library.grid import Grid
-from threadstate.library.history_rows import FormationRows, HistoryRows, content_sha256_of
 from threadstate.library.read import states_between, undecided_between
-from threadstate.library.rows import ChunkRows, Row, chunk_rows
+from threadstate.library.rows import ChunkRows, FormationRows, HistoryRows, Row, chunk_rows, content_sha256_of
 from threadstate.state.model import Answer
 
 

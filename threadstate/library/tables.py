@@ -26,8 +26,7 @@ from sqlalchemy import (
     UniqueConstraint,
 )
 
-from threadstate.library.text import bytewise_string, bytewise_text
-from threadstate.library.utc import UtcDateTime
+from threadstate.library.column_types import UtcDateTime, bytewise_string, bytewise_text
 from threadstate.state.model import FeaturePair, Flag, StateClass
 from threadstate.state.quantities import QUANTITIES
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS

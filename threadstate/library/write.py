@@ -10,16 +10,15 @@ from functools import lru_cache
 from sqlalchemy import Connection, Dialect, Engine, Table, delete, func, insert, select, update
 
 from threadstate.errors import ThreadstateError
+from threadstate.library.advisory_locks import WriterLock, take_lock
 from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
-from threadstate.library.history_rows import HistoryRows, content_sha256_of
 from threadstate.library.history_tables import formation, formation_contact
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.method import Method
 from threadstate.library.read import LibraryRecord
-from threadstate.library.rows import ChunkRows, Row
+from threadstate.library.rows import ChunkRows, HistoryRows, Row, content_sha256_of
+from threadstate.library.solver_method import SolverMethod
 from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag, undecided
-from threadstate.library.turns import Turn, take_turn
 from threadstate.units import LengthUnit
 
 
@@ -35,7 +34,7 @@ class _Head:
     length_unit: LengthUnit
     input_sha256: str
     pair: str
-    method: Method
+    method: SolverMethod
     options: str
     code_version: str
     grid: Grid
@@ -81,7 +80,7 @@ def open_copy(engine: Engine, record: LibraryRecord) -> int:
 def _opened(engine: Engine, head: _Head) -> int:
     grid = head.grid
     with engine.begin() as connection:
-        take_turn(connection, Turn.OPEN_LIBRARY)
+        take_lock(connection, WriterLock.OPEN_LIBRARY)
         known = connection.scalar(select(library.c.id).where(library.c.input_sha256 == head.input_sha256))
         if known is not None:
             return int(known)
@@ -100,7 +99,7 @@ def _opened(engine: Engine, head: _Head) -> int:
                 phase_step_deg=grid.phase_step_deg,
                 tilt_count=grid.tilt_count,
                 phase_count=grid.phase_count,
-                state_count=grid.state_count,
+                state_count=grid.pose_count,
                 created_at=head.created_at,
             )
             .returning(library.c.id)
@@ -184,10 +183,10 @@ def publish_in(connection: Connection, library_id: int, grid: Grid) -> str:
     ).all()
     states, left_undecided = (_count(connection, table, library_id) for table in (state, undecided))
     answers = states + left_undecided
-    if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or answers != grid.state_count:
+    if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or answers != grid.pose_count:
         raise IncompleteLibraryError(
             f"library {library_id} has {len(chunks)} of {grid.orientation_count} orientations and "
-            f"{answers} of {grid.state_count} poses"
+            f"{answers} of {grid.pose_count} poses"
         )
     content_sha256 = library_sha256([row.content_sha256 for row in chunks])
     latest = connection.scalar(select(func.max(library.c.published_at)))

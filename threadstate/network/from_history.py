@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from threadstate.history.model import CIRCLE_DEG, History
+from threadstate.history.model import CIRCLE_DEG, SolvedHistory
 from threadstate.network.cells import Cell
 from threadstate.network.formation import formation_of
 from threadstate.network.margin import smallest_margin
 
 
-def cells_of(orientation: int, history: History, windows_deg: Collection[tuple[float, float]]) -> tuple[Cell, ...]:
+def cells_of(
+    orientation: int, history: SolvedHistory, windows_deg: Collection[tuple[float, float]]
+) -> tuple[Cell, ...]:
     """The cells of an orientation's history, one for every interval.
 
     ``orientation`` is its number in the grid. ``windows_deg`` are the phases at which the bolt enters and leaves its

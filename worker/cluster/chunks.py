@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from distributed import Client, Future
 
 CONNECT_TIMEOUT_S = 10
-PATIENCE_S = 60.0
-"""How long a cluster may be without a worker."""
+NO_WORKER_TIMEOUT_S = 60.0
+"""How long a cluster may have no worker."""
 LOOK_EVERY_S = 1.0
 """How often the cluster is asked how many threads it has."""
 SCHEMES = ("tcp://", "tls://")
@@ -110,8 +110,10 @@ class ComputingCluster:
         self._room = ASKED_AHEAD * threads
         if threads:
             self._worker_seen_s = now_s
-        elif now_s - self._worker_seen_s > PATIENCE_S:
-            raise ClusterError(f"the Dask scheduler {self._address} has had no worker for {number_text(PATIENCE_S)} s")
+        elif now_s - self._worker_seen_s > NO_WORKER_TIMEOUT_S:
+            raise ClusterError(
+                f"the Dask scheduler {self._address} has had no worker for {number_text(NO_WORKER_TIMEOUT_S)} s"
+            )
 
     def _result(self, future: Future[Chunk]) -> Chunk:
         from distributed import CancelledError, KilledWorker

@@ -24,7 +24,7 @@ def formation(
       threadstate formation --key 14c84cf806
       threadstate formation --key 14c84cf806 --library 2 --unit mm --json
     """
-    from threadstate.answer.networks import node_document
+    from threadstate.responses.networks import node_document
     from threadstate.units import conversion_factor
     from worker.history_table import print_node
     from worker.stored_network import stored_network

@@ -55,9 +55,9 @@ def heights(
     if plot is not None:
         check_plot_file(plot)
 
-    from threadstate.answer.heights import computed_heights, heights_document, stored_heights
-    from threadstate.answer.histories import computed_history
-    from threadstate.answer.windows import windows_document
+    from threadstate.responses.heights import computed_heights, heights_document, stored_heights
+    from threadstate.responses.histories import computed_history
+    from threadstate.responses.windows import windows_document
     from threadstate.units import conversion_factor
     from worker.history_table import print_heights
     from worker.orientation_source import orientation_source

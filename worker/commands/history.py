@@ -45,7 +45,7 @@ def history(
       threadstate history --roll 2.5 --pitch -1.2 --library 1-4-20-unc --unit mm
       threadstate history --roll 2.5 --pitch -1.2 --pair examples/m6x1.toml
     """
-    from threadstate.answer.histories import computed_history, history_document
+    from threadstate.responses.histories import computed_history, history_document
     from threadstate.units import conversion_factor
     from worker.history_table import print_history
     from worker.orientation_source import orientation_source

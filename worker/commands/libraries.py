@@ -44,9 +44,9 @@ def libraries(
         raise InvalidValueError("--pin", pin, "without --unpin")
 
     from threadstate.library.engine import reading
-    from threadstate.library.method import Method
     from threadstate.library.read import published_libraries
     from threadstate.library.schema import check_schema
+    from threadstate.library.solver_method import SolverMethod
 
     where = database or read_settings().database
     if pin is not None or unpin:
@@ -55,7 +55,7 @@ def libraries(
         check_schema(engine)
         with engine.connect() as connection:
             published = published_libraries(connection)
-    by_exact_method = [one for one in published if one.method is Method.EXACT]
+    by_exact_method = [one for one in published if one.method is SolverMethod.EXACT]
     latest = next((one for one in by_exact_method if one.is_pinned), next(iter(by_exact_method), None))
     if as_json:
         print_json({"libraries": [_document(one, is_latest=one is latest) for one in published]})
@@ -66,7 +66,7 @@ def libraries(
 def _pin(database: str, name: str | None) -> None:
     """Pin the library of a name; with None none is pinned any more."""
     from threadstate.library.engine import writing
-    from threadstate.library.method import Method
+    from threadstate.library.solver_method import SolverMethod
     from threadstate.library.write import pin_library
     from worker.stored_network import checked_database, connected_library
 
@@ -75,7 +75,7 @@ def _pin(database: str, name: str | None) -> None:
         checked_database(database)
     else:
         with connected_library(database, name) as (_, record):
-            if record.method is not Method.EXACT:
+            if record.method is not SolverMethod.EXACT:
                 raise InvalidValueError("--pin", name, "a library by the exact method")
             library_id = record.id
     with writing(database) as engine:

@@ -48,15 +48,15 @@ def locate(
             "observation", None, "at least one of --class, --contacts, --contact, --flag; all phases remain without any"
         )
 
-    from threadstate.answer.networks import location_document
-    from threadstate.answer.observed import contact_observations
     from threadstate.network.locate import Observation
     from threadstate.network.locate import locate as located
+    from threadstate.responses.networks import location_document
+    from threadstate.responses.query import parse_contact_observations
     from worker.history_table import print_location
     from worker.stored_network import stored_network
 
     flags = frozenset() if flag is None else frozenset({flag})
-    observation = Observation(state_class, contacts, flags, contact_observations(contact), ordered)
+    observation = Observation(state_class, contacts, flags, parse_contact_observations(contact), ordered)
     cell_map = stored_network(database, library).cell_map
     document = location_document(located(cell_map, observation), cell_map)
     if as_json:

@@ -42,14 +42,14 @@ def path(
     if (roll is None) != (pitch is None) or (phase is not None and roll is None):
         raise InvalidValueError("--roll, --pitch, --phase", (roll, pitch, phase), "none, roll and pitch, or all three")
 
-    from threadstate.answer.networks import path_document
-    from threadstate.answer.observed import named_moves
     from threadstate.network.paths import best_path
+    from threadstate.responses.networks import path_document
+    from threadstate.responses.query import parse_moves
     from threadstate.units import conversion_factor
     from worker.history_table import print_path
     from worker.stored_network import stored_network
 
-    allowed = named_moves(moves)
+    allowed = parse_moves(moves)
     found = stored_network(database, library)
     shown = unit or found.pair.unit
     orientation = None if roll is None or pitch is None else found.orientation(roll, pitch)

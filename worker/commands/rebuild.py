@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.settings import read_settings
 from worker.mesh_options import (
     DescentName,
@@ -40,7 +40,7 @@ def rebuild(
     tilt_step: TiltStep = 1.0,
     workers: Workers = None,
     scheduler: Scheduler = None,
-    method: MethodName = Method.EXACT,
+    method: MethodName = SolverMethod.EXACT,
     preset: PresetName = None,
     descent: DescentName = None,
     final_step: FinalStepName = None,

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from threadstate.errors import InvalidValueError
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from worker.mesh_options import (
     DescentName,
     FinalStepName,
@@ -39,7 +39,7 @@ def solve(
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,
-    method: MethodName = Method.EXACT,
+    method: MethodName = SolverMethod.EXACT,
     preset: PresetName = None,
     descent: DescentName = None,
     final_step: FinalStepName = None,
@@ -64,7 +64,7 @@ def solve(
     """
     wanted = _wanted(roll, pitch, phase, poses)
     mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
-    batch = BATCH if method is Method.EXACT else 1
+    batch = BATCH if method is SolverMethod.EXACT else 1
 
     from threadstate.state.document import state_document
     from threadstate.state.model import ContactState

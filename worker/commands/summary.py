@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from threadstate.errors import InvalidValueError
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from worker.options import Database, Json, LibraryName
 from worker.output import print_json, print_line
 
@@ -16,7 +16,7 @@ def summary(
     library: LibraryName = None,
     database: Database = None,
     method: Annotated[
-        Method | None,
+        SolverMethod | None,
         typer.Option("--method", help="In place of --library: the latest by this method.", show_default="exact"),
     ] = None,
     as_json: Json = False,
@@ -36,7 +36,7 @@ def summary(
     from threadstate.library.read import counts, undecided_reasons
     from worker.stored_network import connected_library
 
-    name = library or (LATEST_MESH if method is Method.MESH else LATEST)
+    name = library or (LATEST_MESH if method is SolverMethod.MESH else LATEST)
     with connected_library(database, name) as (connection, record):
         counted = counts(connection, record.id)
         reasons = undecided_reasons(connection, record.id)

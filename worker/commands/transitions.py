@@ -39,15 +39,15 @@ def transitions(
       threadstate transitions --roll 0 --pitch -4 --phase-min 357 --phase-max 358 --json
       threadstate transitions --library 2 --unit mm --limit 5
     """
-    from threadstate.answer.select import TransitionFilter, selected
-    from threadstate.answer.transitions import transition_documents
+    from threadstate.responses.query import TransitionFilter, filter_transitions
+    from threadstate.responses.transitions import transition_documents
     from threadstate.units import conversion_factor
     from worker.history_table import print_transitions
     from worker.stored_network import stored_network
 
     which = TransitionFilter(move, roll, pitch, phase_min, phase_max, source, target, change, state_class)
     network = stored_network(database, library)
-    found = selected(network, which)
+    found = filter_transitions(network, which)
     shown = unit or network.pair.unit
     factor = conversion_factor(network.pair.unit, shown)
     documents = transition_documents(found[:limit], network.histories, network.tilts, factor)

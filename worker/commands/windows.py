@@ -53,7 +53,7 @@ def windows(
       threadstate windows --library m6x1 --unit in --json
       threadstate windows --plot falls.svg
     """
-    from threadstate.answer.falls_range import computed_falls, falls_range, tilts_within
+    from threadstate.responses.falls_range import computed_falls, falls_range, tilts_within
     from threadstate.units import conversion_factor
     from worker.falls import falls_and_windows
     from worker.history_table import print_falls, print_falls_range, print_windows

@@ -19,10 +19,10 @@ def worker(
         bool, typer.Option("--until-idle", help="End when every job has ended.", show_default=False)
     ] = False,
 ) -> None:
-    r"""Compute the libraries that are asked for as jobs, until stopped.
+    r"""Compute the libraries that were requested as jobs, until stopped.
 
     Any number may run at once, on several machines where the database is PostgreSQL's. SIGTERM and Ctrl-C end it; its
-    chunks are free for others then. One that is killed is found to be silent.
+    chunks are free for others then. One that is killed is detected by its missing heartbeat.
 
     \b
     Examples:
@@ -32,7 +32,7 @@ def worker(
     """
     from threadstate.library.engine import writing
     from threadstate.library.schema import check_schema
-    from worker.jobs.serve import Serving, serve_jobs
+    from worker.jobs.serve import WorkerOptions, serve_jobs
     from worker.output import tell
 
     settings = read_settings()
@@ -40,13 +40,13 @@ def worker(
     try:
         with writing(database or settings.database) as engine:
             check_schema(engine)
-            serving = Serving(
+            options = WorkerOptions(
                 processes=workers or settings.workers,
                 scheduler=chosen_scheduler(settings, scheduler, workers),
                 lease_s=settings.lease_s,
                 heartbeat_file=settings.heartbeat_file,
             )
-            serve_jobs(engine, serving, until_idle=until_idle)
+            serve_jobs(engine, options, until_idle=until_idle)
     except KeyboardInterrupt:
         tell("stopped")
 

@@ -1,4 +1,4 @@
-"""The worker's loop: joins, works on one job after another, and begins anew after whatever goes wrong."""
+"""The worker's loop: registers, works on one job after another, and starts again after a failure."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import IntegrityError, SQLAlchemyError
 
 from threadstate.jobs.work import (
-    Work,
-    hand_in,
-    has_ended,
-    is_needed_elsewhere,
-    let_go,
-    next_work,
+    NextJob,
+    all_jobs_ended,
+    complete_chunk,
+    lease_chunks,
+    next_job,
     open_job,
     publish_job,
-    set_back,
-    take_chunks,
+    release_chunks,
+    requeue_job,
+    should_switch_job,
 )
 from threadstate.jobs.workers import LostLeaseError, join, leave
 from threadstate.library.identity import code_versions
 from threadstate.library.write import IncompleteLibraryError, open_library, write_chunk
 from worker.cluster.errors import ClusterError
 from worker.computers import computers
-from worker.jobs.heart import Heart, beating
+from worker.jobs.heartbeat import Heartbeat, heartbeat
 from worker.output import tell
 from worker.processes import ComputeError
 
@@ -41,14 +41,14 @@ RETRY_S = 2.0
 
 
 @dataclass(frozen=True)
-class Serving:
-    """How a worker works.
+class WorkerOptions:
+    """Options of a worker.
 
     Attributes:
-        processes: how many processes compute.
-        scheduler: address of the Dask cluster that computes in their place; None: they do.
-        lease_s: after how many seconds of silence another worker is taken for dead.
-        heartbeat_file: file that is touched with every heartbeat; None: none.
+        processes: number of computing processes.
+        scheduler: address of the Dask cluster that computes instead; None: local processes compute.
+        lease_s: seconds without a heartbeat after which another worker is considered dead.
+        heartbeat_file: file that is touched with every heartbeat; None for no file.
     """
 
     processes: int
@@ -59,40 +59,40 @@ class Serving:
 
 @dataclass(frozen=True)
 class _Session:
-    """A worker that has joined."""
+    """A registered worker."""
 
     engine: Engine
     worker_id: str
-    heart: Heart
-    serving: Serving
+    heartbeat: Heartbeat
+    options: WorkerOptions
 
 
-def serve_jobs(engine: Engine, serving: Serving, *, until_idle: bool) -> None:
+def serve_jobs(engine: Engine, options: WorkerOptions, *, until_idle: bool) -> None:
     """Work on jobs until interrupted or (``until_idle``) until all have ended."""
     while True:
         try:
-            with _joined(engine, serving) as session:
+            with _joined(engine, options) as session:
                 _work(session, until_idle=until_idle)
                 return
         except LostLeaseError as error:
-            tell(f"{error}; it begins anew")
+            tell(f"{error}; it registers again")
         except ClusterError as error:
-            tell(f"the cluster fails, it is tried again: {error}")
+            tell(f"the cluster failed, retrying: {error}")
             time.sleep(RETRY_S)
         except SQLAlchemyError as error:
             reason = " ".join(str(getattr(error, "orig", None) or error).split())
-            tell(f"the database fails, it is tried again: {reason}")
+            tell(f"the database failed, retrying: {reason}")
             time.sleep(RETRY_S)
 
 
 @contextmanager
-def _joined(engine: Engine, serving: Serving) -> Iterator[_Session]:
+def _joined(engine: Engine, options: WorkerOptions) -> Iterator[_Session]:
     worker_id = join(engine, f"{socket.gethostname()}:{os.getpid()}")
     try:
-        with beating(engine, worker_id, serving.lease_s, serving.heartbeat_file) as heart:
-            yield _Session(engine, worker_id, heart, serving)
+        with heartbeat(engine, worker_id, options.lease_s, options.heartbeat_file) as beats:
+            yield _Session(engine, worker_id, beats, options)
     finally:
-        # Where this fails the others find out that the worker is silent.
+        # If this fails the other workers detect the missing heartbeat.
         with suppress(SQLAlchemyError):
             leave(engine, worker_id)
 
@@ -100,53 +100,55 @@ def _joined(engine: Engine, serving: Serving) -> Iterator[_Session]:
 def _work(session: _Session, *, until_idle: bool) -> None:
     versions = code_versions()
     while True:
-        session.heart.check()
-        work = next_work(session.engine, versions)
-        if work is not None:
-            _work_on(session, work)
-        elif until_idle and has_ended(session.engine, versions):
+        session.heartbeat.check()
+        job = next_job(session.engine, versions)
+        if job is not None:
+            _work_on(session, job)
+        elif until_idle and all_jobs_ended(session.engine, versions):
             return
         else:
-            let_go(session.engine, session.worker_id)
+            release_chunks(session.engine, session.worker_id)
             time.sleep(POLL_S)
 
 
-def _work_on(session: _Session, work: Work) -> None:
-    engine, job_id, grid = session.engine, work.job_id, work.inputs.grid
-    library_id = open_library(engine, work.inputs)
+def _work_on(session: _Session, job: NextJob) -> None:
+    engine, job_id, grid = session.engine, job.job_id, job.inputs.grid
+    library_id = open_library(engine, job.inputs)
     open_job(engine, job_id, library_id)
     try:
-        _compute(session, work, library_id)
+        _compute(session, job, library_id)
         if publish_job(engine, session.worker_id, job_id, library_id, grid):
             tell(f"job {job_id}: library {library_id} is published")
     except (ComputeError, IncompleteLibraryError, IntegrityError) as error:
         reason = " ".join(str(getattr(error, "orig", None) or error).split())
-        state = set_back(engine, session.worker_id, job_id, reason)
-        tell(f"job {job_id} is {state} after a mishap: {reason}")
+        state = requeue_job(engine, session.worker_id, job_id, reason)
+        tell(f"job {job_id} is {state} after a failure: {reason}")
 
 
-def _compute(session: _Session, work: Work, library_id: int) -> None:
-    """Compute chunks of a job until none is free, it is not to be worked on, or this worker is needed elsewhere."""
-    taken = _taken(session, work)
+def _compute(session: _Session, job: NextJob, library_id: int) -> None:
+    """Compute chunks of a job until none is free, the job is not running, or the worker should switch to another
+    job.
+    """
+    taken = _leased(session, job)
     first = next(taken, None)
     if first is None:
         return
-    tell(f"job {work.job_id}: chunks of library {library_id}")
-    processes = min(session.serving.processes, work.inputs.grid.orientation_count)
-    with computers(work.inputs, processes, session.serving.scheduler) as computing:
+    tell(f"job {job.job_id}: chunks of library {library_id}")
+    processes = min(session.options.processes, job.inputs.grid.orientation_count)
+    with computers(job.inputs, processes, session.options.scheduler) as computing:
         for chunk in computing.chunks(chain([first], taken), lambda: None):
             write_chunk(session.engine, library_id, chunk.rows, chunk.history)
-            if not hand_in(session.engine, session.worker_id, work.job_id, chunk.rows.orientation.index):
+            if not complete_chunk(session.engine, session.worker_id, job.job_id, chunk.rows.orientation.index):
                 return
-            session.heart.check()
+            session.heartbeat.check()
 
 
-def _taken(session: _Session, work: Work) -> Iterator[int]:
-    """Orientations, each taken when it is asked for, until none is free or another job has nobody."""
-    engine, worker_id, job_id = session.engine, session.worker_id, work.job_id
+def _leased(session: _Session, job: NextJob) -> Iterator[int]:
+    """Orientations, each leased when it is requested, until none is free or the worker should switch to another job."""
+    engine, worker_id, job_id = session.engine, session.worker_id, job.job_id
     versions = code_versions()
-    while not is_needed_elsewhere(engine, worker_id, job_id, versions):
-        taken = take_chunks(engine, worker_id, job_id, 1)
+    while not should_switch_job(engine, worker_id, job_id, versions):
+        taken = lease_chunks(engine, worker_id, job_id, 1)
         if not taken:
             return
         yield from taken

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
@@ -48,7 +48,7 @@ class MeshPart(Part):
 class MethodPart(Part):
     """A method."""
 
-    name: Method = Method.EXACT
+    name: SolverMethod = SolverMethod.EXACT
     tolerances: TolerancesPart = TolerancesPart()
     mesh: MeshPart | None = None
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from sqlalchemy import Engine, select
 
-from threadstate.archive.answers import mesh_answers
 from threadstate.library.address import is_sqlite
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, chunk_rows
 from threadstate.library.tables import chunk, library
+from threadstate.stored_histories.answers import mesh_answers
 from threadstate.warm_up import load_kernels_in_turn
 from worker.compute import compute_chunk
 from worker.messages import Chunk

@@ -9,7 +9,7 @@ from pathlib import Path
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
@@ -76,7 +76,7 @@ def _grid(part: GridPart, place: Place) -> Grid:
 def _method(part: MethodPart, place: Place) -> tuple[SolveOptions, MeshOptions | None]:
     with place / "tolerances":
         options = SolveOptions(**dict(part.tolerances))
-    if part.name is Method.MESH:
+    if part.name is SolverMethod.MESH:
         return options, _mesh(part.mesh or MeshPart())
     if part.mesh is not None:
         raise place.invalid("mesh", "given", "of the method `mesh` alone")

@@ -10,7 +10,7 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import IntegrityError
 
 from threadstate.errors import ThreadstateError
-from threadstate.jobs.ask import ask_for
+from threadstate.jobs.queue import submit_job
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import library_by_input
 from worker.cluster.errors import ClusterError
@@ -78,7 +78,7 @@ def queued_sweep(engine: Engine, libraries: Sequence[LibraryInputs]) -> Iterator
     """Ask for the libraries that are not published as jobs."""
     for inputs in libraries:
         there = _published(engine, inputs)
-        yield there or Swept(inputs, Outcome.QUEUED, job_id=ask_for(engine, inputs).id)
+        yield there or Swept(inputs, Outcome.QUEUED, job_id=submit_job(engine, inputs).id)
 
 
 def _published(engine: Engine, inputs: LibraryInputs) -> Swept | None:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-PATIENCE_S = 60.0
+TIMEOUT_S = 60.0
 DASK = ["setpriv", "--pdeathsig", "KILL", sys.executable, "-m", "dask"]
 """It ends with this process, however that ends."""
 
@@ -29,7 +29,7 @@ class Cluster:
             *("--host", "127.0.0.1", "--port", "0", "--dashboard-address", "127.0.0.1:0"),
             *("--scheduler-file", str(self._file)),
         )
-        end = time.monotonic() + PATIENCE_S
+        end = time.monotonic() + TIMEOUT_S
         while not self._file.exists() or not self._file.read_text():
             assert time.monotonic() < end, (folder / "log").read_text()
             time.sleep(0.02)
@@ -60,7 +60,7 @@ class Cluster:
         """End all processes, whatever they are at."""
         for process in (*self.workers, self.scheduler):
             process.send_signal(signal.SIGKILL)
-            process.wait(PATIENCE_S)
+            process.wait(TIMEOUT_S)
 
     def _start(self, *arguments: str, environment: Mapping[str, str] | None = None) -> subprocess.Popen[bytes]:
         with (self._folder / "log").open("ab") as log:

@@ -16,9 +16,8 @@ from harness.databases import Databases
 from tests.prepared import prepared_chunk, use_prepared_chunks
 from tests.worker.cluster.clusters import Cluster, running_cluster
 from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
-from threadstate.jobs.ask import ask_for
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.jobs.read import events_after, job_by_id
+from threadstate.jobs.queue import events_after, job_by_id, submit_job
 from threadstate.library.engine import reading, writing
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
@@ -32,7 +31,7 @@ from worker.processes import ASKED_AHEAD
 pytestmark = pytest.mark.slow
 
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
-PATIENCE_S = 120.0
+TIMEOUT_S = 120.0
 WORKERS = 2
 
 
@@ -63,11 +62,11 @@ def _check_whole(database: str, expected_content: str) -> None:
         orientations = connection.scalars(select(chunk.c.orientation).order_by(chunk.c.orientation)).all()
         counts = [connection.scalar(select(func.count()).select_from(table)) for table in (state, undecided)]
     assert list(orientations) == list(range(GRID.orientation_count))
-    assert sum(count or 0 for count in counts) == GRID.state_count
+    assert sum(count or 0 for count in counts) == GRID.pose_count
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
-    end = time.monotonic() + PATIENCE_S
+    end = time.monotonic() + TIMEOUT_S
     while not condition():
         assert time.monotonic() < end, "in vain"
         time.sleep(0.01)
@@ -81,9 +80,9 @@ def test_chunks_of_a_killed_worker_are_computed_by_others(
     with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json") as process:
         _wait_for(lambda: _committed(command_line.database) > 0)
         cluster.workers[0].kill()
-        out, err = process.communicate(timeout=PATIENCE_S)
+        out, err = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 0, err
-    assert json.loads(out)["computed"] == GRID.state_count
+    assert json.loads(out)["computed"] == GRID.pose_count
     _check_whole(command_line.database, expected_content)
 
 
@@ -99,7 +98,7 @@ def test_a_killed_rebuild_goes_on_where_it_was(
         killed.communicate()
     kept = _committed(command_line.database)
     result = json.loads(command_line.out(*arguments))
-    assert result["was_published"] or result["computed"] == GRID.state_count - kept * GRID.phase_count
+    assert result["was_published"] or result["computed"] == GRID.pose_count - kept * GRID.phase_count
     _check_whole(command_line.database, expected_content)
 
 
@@ -118,7 +117,7 @@ def test_without_its_scheduler_a_rebuild_ends_and_what_is_committed_stays(
     ):
         _wait_for(lambda: _committed(command_line.database) > 0)
         cluster.scheduler.kill()
-        _, err = process.communicate(timeout=PATIENCE_S)
+        _, err = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 1
     assert f"threadstate: the Dask scheduler {cluster.address} is gone" in err
     use_prepared_chunks(monkeypatch)
@@ -142,7 +141,7 @@ def test_a_worker_whose_history_code_differs_is_refused_whenever_it_joins(
             waiting = f"the Dask scheduler {cluster.address} has no worker yet; waiting for one\n"
             assert process.stderr.readline() == waiting
             cluster.add_worker(PYTHONPATH=str(other))
-            _, late = process.communicate(timeout=PATIENCE_S)
+            _, late = process.communicate(timeout=TIMEOUT_S)
         cluster.add_worker()
         _wait_for(lambda: (folder / "log").read_text().count("Starting worker compute stream") == 2)
         code, _, early = command_line.here("rebuild", *SMALL_GRID, "--scheduler", cluster.address)
@@ -179,18 +178,18 @@ def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
     expected_content: str,
 ) -> None:
     with databases.lent() as database, writing(database) as engine:
-        asked = ask_for(engine, INPUTS)
+        asked = submit_job(engine, INPUTS)
         commands = CommandLine(database, {**environment, LEASE_S: "2", SCHEDULER: cluster.address}, capsys)
         with commands.start("worker", "--until-idle") as process:
             _wait_for(lambda: _committed(database) > 0)
             cluster.workers[1].kill()
-            _, err = process.communicate(timeout=PATIENCE_S)
+            _, err = process.communicate(timeout=TIMEOUT_S)
         assert process.returncode == 0, err
         with engine.connect() as connection:
             done = job_by_id(connection, asked.id)
             kinds = [event.kind for event in events_after(connection, asked.id, 0)]
         assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
-        # No mishap of the job: it was queued once.
+        # No failure of the job: it was queued once.
         assert [kinds.count(kind) for kind in (EventKind.QUEUED, EventKind.PUBLISHED)] == [1, 1]
         _check_whole(database, expected_content)
 
@@ -200,14 +199,14 @@ def test_a_worker_of_jobs_waits_for_its_scheduler(
     databases: Databases, environment: Mapping[str, str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     with databases.lent() as database, writing(database) as engine:
-        asked = ask_for(engine, INPUTS)
+        asked = submit_job(engine, INPUTS)
         commands = CommandLine(database, {**environment, SCHEDULER: "tcp://127.0.0.1:1"}, capsys)
         with commands.start("worker") as process:
             assert process.stderr is not None
             told = [process.stderr.readline() for _ in range(2)]
             process.terminate()
-            process.communicate(timeout=PATIENCE_S)
-        assert told[1] == ("the cluster fails, it is tried again: no Dask scheduler answers at tcp://127.0.0.1:1\n")
+            process.communicate(timeout=TIMEOUT_S)
+        assert told[1] == ("the cluster failed, retrying: no Dask scheduler answers at tcp://127.0.0.1:1\n")
         with engine.connect() as connection:
             waiting = job_by_id(connection, asked.id)
         assert (waiting.state, waiting.lease_count) == (JobState.RUNNING, 0)

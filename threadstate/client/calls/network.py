@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from threadstate.answer.documents import TransitionDocument
 from threadstate.client.call import (
     LATEST,
     Call,
@@ -31,6 +30,7 @@ from threadstate.client.models.network import (
     TransitionsPage,
     WindowsAnswer,
 )
+from threadstate.responses.documents import TransitionDocument
 
 LARGEST_PAGE = 100
 GRAPHML = "application/graphml+xml"

@@ -7,7 +7,7 @@ from datetime import datetime
 from threadstate.client.models.answer import Answer
 from threadstate.client.models.libraries import GridDocument
 from threadstate.jobs.names import EventKind, JobState
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 
 
 class JobDocument(Answer):
@@ -20,7 +20,7 @@ class JobDocument(Answer):
     state: JobState
     reason: str | None
     designation: str
-    method: Method
+    method: SolverMethod
     grid: GridDocument
     options: dict[str, float | str | bool]
     input_sha256: str

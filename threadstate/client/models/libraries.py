@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 
 from threadstate.client.models.answer import Answer
-from threadstate.library.method import Method
+from threadstate.library.solver_method import SolverMethod
 from threadstate.state.model import Flag, StateClass
 from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit
@@ -30,7 +30,7 @@ class LibraryDocument(Answer):
     stored_unit: LengthUnit
     pair: Pair
     grid: GridDocument
-    method: Method
+    method: SolverMethod
     options: dict[str, float | str]
     state_count: int
     undecided_count: int
@@ -64,7 +64,7 @@ class BuildingDocument(Answer):
     """A library that is begun and not published: how many of its orientations are done."""
 
     designation: str
-    method: Method
+    method: SolverMethod
     orientations: int
     done: int
     created_at: datetime

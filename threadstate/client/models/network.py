@@ -1,8 +1,9 @@
-"""Histories and the constraint network; what these answers hold is described by ``threadstate.answer.documents``."""
+"""Histories and the constraint network; what these answers hold is described by ``threadstate.responses.documents``."""
 
 from __future__ import annotations
 
-from threadstate.answer.documents import (
+from threadstate.client.models.answer import Answer
+from threadstate.responses.documents import (
     FallsDocument,
     FallsRangeDocument,
     FormationSummaryDocument,
@@ -16,7 +17,6 @@ from threadstate.answer.documents import (
     TransitionDocument,
     WindowDocument,
 )
-from threadstate.client.models.answer import Answer
 from threadstate.units import LengthUnit
 
 

@@ -1,1 +1,0 @@
-"""How far the libraries are that are still being computed."""

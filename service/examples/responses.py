@@ -1,0 +1,74 @@
+"""The examples of the OpenAPI document. Two real states; ``make docs`` computes them again, a test compares."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from service.histories.endpoints import csv_table, history_columns
+from threadstate.state.document import StateDocument
+from threadstate.thread.catalogue import DEFAULT_DESIGNATION
+
+
+def _state(name: str) -> StateDocument:
+    document: StateDocument = json.loads(Path(__file__).with_name(name).read_text())
+    return document
+
+
+STATE = _state("state.json")
+"""The state of a pose of a library's grid, which comes to lie flush; lengths in inches."""
+SOLVED_STATE = _state("solved_state.json")
+"""The state of a pose between those of a grid, three contacts one after another; lengths in inches."""
+
+_JSON = "application/json"
+
+
+@dataclass(frozen=True)
+class Example:
+    """A successful answer: to which operation, of which media type, and what it shows."""
+
+    path: str
+    method: str
+    media_type: str
+    name: str
+    summary: str
+    value: object
+
+
+_STATES = "/v1/libraries/{id}/states"
+_HISTORY = "/v1/libraries/{id}/histories/{roll}/{pitch}"
+_ORIENTATION = {"library": 1, "unit": "in", "roll": STATE["roll"], "pitch": STATE["pitch"]}
+_COLUMNS = history_columns([STATE])
+
+EXAMPLES = (
+    Example(
+        _STATES, "get", _JSON, "page", "The last page", {"library": 1, "unit": "in", "states": [STATE], "next": None}
+    ),
+    Example(_STATES + "/{roll}/{pitch}/{phase}", "get", _JSON, "flush", "The bolt comes to lie flush", STATE),
+    Example(
+        _HISTORY,
+        "get",
+        _JSON,
+        "rows",
+        "Rows, cut off after the first state",
+        {**_ORIENTATION, "states": [STATE], "undecided": []},
+    ),
+    Example(
+        _HISTORY,
+        "get",
+        _JSON,
+        "columns",
+        "Columns, cut off after the first state",
+        {**_ORIENTATION, "columns": {name: list(cells) for name, cells in _COLUMNS.items()}, "undecided": []},
+    ),
+    Example(_HISTORY, "get", "text/csv", "csv", "A table, cut off after the first state", csv_table(_COLUMNS).decode()),
+    Example(
+        "/v1/solve",
+        "post",
+        _JSON,
+        "solved",
+        "Three contacts, one after another",
+        {"designation": DEFAULT_DESIGNATION, "library": None, "unit": "in", "states": [SOLVED_STATE]},
+    ),
+)

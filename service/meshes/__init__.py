@@ -1,1 +1,0 @@
-"""Bolt and nut as meshes, to be looked at."""

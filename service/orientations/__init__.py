@@ -1,1 +1,0 @@
-"""The orientations of a library, summed up over all phases."""

@@ -1,1 +1,0 @@
-"""Poses solved on demand."""

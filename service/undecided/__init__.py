@@ -1,1 +1,0 @@
-"""The poses that a library's method could not decide."""
