@@ -29,16 +29,16 @@ print(state.roll, state.phase)
 
 def _with_dependencies(requirements: list[str]) -> Iterator[Distribution]:
     """The installed distributions that requirements name, without extras, and those that these need in turn."""
-    waiting, seen = [*requirements], set[str]()
-    while waiting:
-        requirement = Requirement(waiting.pop())
+    wait, seen = [*requirements], set[str]()
+    while wait:
+        requirement = Requirement(wait.pop())
         name = canonicalize_name(requirement.name)
         if name in seen or (requirement.marker and not requirement.marker.evaluate({"extra": ""})):
             continue
         seen.add(name)
         found = distribution(name)
         yield found
-        waiting += found.requires or []
+        wait += found.requires or []
 
 
 @pytest.fixture(scope="module")
