@@ -26,7 +26,7 @@ def load_kernels() -> None:
     solve_poses(quarter_twenty_unc(), POSES_DEG)
 
 
-def load_kernels_in_turn() -> None:
+def load_kernels_exclusively() -> None:
     """As :func:`load_kernels`; where they are still to be compiled, one process of a machine does and others wait."""
     with ExitStack() as stack:
         if not kernels_are_compiled():

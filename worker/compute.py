@@ -1,13 +1,18 @@
-"""The computing process: solves one orientation after another, as its parent asks."""
+"""Computing the chunks of a library: the states of an orientation and its history, in a process that its parent
+controls.
+"""
 
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 from multiprocessing.connection import Connection
 
+import numpy as np
+
+from threadstate.errors import UnresolvedPoseError
 from threadstate.history.build import histories_of
 from threadstate.history.descents import falls_of
 from threadstate.history.height_curve import height_curve
@@ -15,9 +20,38 @@ from threadstate.history.records import RecordStore
 from threadstate.history.window import windows_of
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
+from threadstate.mesh.options import MeshOptions
+from threadstate.state.decode import decoded_answers
+from threadstate.state.model import Answer, UndecidedPose
+from threadstate.state.options import SolveOptions
+from threadstate.state.solve import checked_poses
 from threadstate.stored_histories.mapping import history_rows
-from worker.answers import exact_answers, mesh_answers
+from threadstate.thread.pair import Pair
 from worker.messages import Chunk, Failure, Ready
+
+PoseDeg = tuple[float, float, float]
+
+
+def exact_answers(
+    pair: Pair, options: SolveOptions, poses: Sequence[PoseDeg], store: RecordStore | None = None
+) -> list[Answer]:
+    """The answers for poses (degrees) by the exact method; their records are added to ``store``."""
+    checked = checked_poses(np.array(poses))
+    return decoded_answers(pair, options, checked, (store or RecordStore(pair, options)).records(checked))
+
+
+def mesh_answers(pair: Pair, options: SolveOptions, mesh: MeshOptions, poses: Sequence[PoseDeg]) -> list[Answer]:
+    """The answers for poses (degrees) by the mesh method."""
+    # Imported late: the collision library takes a while to load.
+    from threadstate.mesh.solve import solve_poses_by_mesh
+
+    def answer(pose: PoseDeg) -> Answer:
+        try:
+            return solve_poses_by_mesh(pair, [pose], mesh, options)[0]
+        except UnresolvedPoseError as error:
+            return UndecidedPose(*pose, error.reason)
+
+    return [answer(pose) for pose in poses]
 
 
 def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
@@ -36,13 +70,13 @@ def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
-    """Answer every orientation's number that arrives with its rows, until the other end is closed.
+    """Reply to each orientation number received with its chunk, until the other end of the pipe is closed.
 
-    A parent that dies, however it dies, closes its end: the process then ends by itself.
+    A parent that dies closes its end, and the process ends.
     """
-    # Ctrl-C reaches the whole group; the parent alone decides what it means.
+    # SIGINT reaches the whole process group; the parent alone handles it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    with suppress(EOFError, ConnectionError):  # the parent is gone
+    with suppress(EOFError, ConnectionError):  # the parent has ended
         message = _tried(partial(_prepared, inputs))
         connection.send(message)
         while not isinstance(message, Failure):
@@ -58,5 +92,5 @@ def _prepared(inputs: LibraryInputs) -> Ready:
 def _tried(compute: Callable[[], Ready | Chunk]) -> Ready | Chunk | Failure:
     try:
         return compute()
-    except Exception as error:  # whatever it is, the parent has to learn of it
+    except Exception as error:  # reported to the parent, whatever it is
         return Failure(f"{type(error).__name__}: {error}")

@@ -16,8 +16,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.write import open_library, write_chunk
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.answers import exact_answers
-from worker.compute import compute_chunk
+from worker.compute import compute_chunk, exact_answers
 from worker.messages import Chunk
 
 SEED = 20060128

@@ -11,7 +11,7 @@ from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.state.options import SolveOptions
-from worker.rebuild import Rebuild, rebuild
+from worker.rebuild import RebuildResult, rebuild
 
 GRIDS = [Grid(6.0, 6.0, step) for step in (30.0, 45.0, 60.0)]
 EACH = 2
@@ -21,7 +21,7 @@ def test_same_and_different_libraries_at_once(databases: Databases) -> None:
     expected = [content_of(grid) for grid in GRIDS]
     with databases.lent() as database:
 
-        def rebuilt(grid: Grid) -> Rebuild:
+        def rebuilt(grid: Grid) -> RebuildResult:
             with writing(database) as engine:
                 return rebuild(engine, LibraryInputs(PAIR, grid, SolveOptions()), 1, Unwatched())
 

@@ -16,7 +16,7 @@ from threadstate.state.model import UndecidedPose
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.answers import exact_answers
+from worker.compute import exact_answers
 
 pytestmark = pytest.mark.sqlite_alone
 

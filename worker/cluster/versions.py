@@ -1,4 +1,4 @@
-"""What a chunk's bits depend on besides its inputs: the code and the libraries that compute."""
+"""The versions of code and libraries on which a chunk's bits depend besides its inputs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import worker
 from threadstate.library.identity import physics_sha256
 
 EVERY_SOURCE = ("**/*.py",)
-OF_WORKER = ("answers.py", "compute.py")
+OF_WORKER = ("compute.py",)
 SHOWN_DIGITS = 12
 
 
@@ -22,7 +22,7 @@ class Versions:
     """The versions of a process that computes.
 
     ``code`` is the version and a hash of all sources of ``threadstate``, and of what calls them here: more than a
-    library's code version, which leaves out what follows from the states, as histories do.
+    library's code version, which leaves out code that the states do not depend on.
     """
 
     code: str
@@ -33,7 +33,7 @@ class Versions:
     llvmlite: str
 
     def differences(self, other: Versions) -> str:
-        """What differs, as "name: ours, theirs"; empty where nothing does."""
+        """The differences, as "name ours here, theirs there"; empty if there are none."""
         sides = ((field.name, getattr(self, field.name), getattr(other, field.name, "none")) for field in fields(self))
         return "; ".join(f"{name} {ours} here, {theirs} there" for name, ours, theirs in sides if ours != theirs)
 

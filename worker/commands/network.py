@@ -34,7 +34,7 @@ def network(
       threadstate network --library 2 --json
     """
     from worker.history_table import print_summary
-    from worker.stored_network import stored_network
+    from worker.library_source import stored_network
 
     found = stored_network(database, library)
     match export:

@@ -33,7 +33,7 @@ def worker(
     from threadstate.library.engine import writing
     from threadstate.library.schema import check_schema
     from worker.jobs.serve import WorkerOptions, serve_jobs
-    from worker.output import tell
+    from worker.output import print_status
 
     settings = read_settings()
     signal.signal(signal.SIGTERM, _interrupt)
@@ -48,7 +48,7 @@ def worker(
             )
             serve_jobs(engine, options, until_idle=until_idle)
     except KeyboardInterrupt:
-        tell("stopped")
+        print_status("stopped")
 
 
 def _interrupt(_signal: int, _frame: object) -> NoReturn:

@@ -1,4 +1,4 @@
-"""Every setting with its value in force, for people: without passwords and keys."""
+"""Every setting with its effective value, without passwords and keys."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 NOT_SHOWN = "(not shown)"
 DEFAULT_SERVICE = "http://127.0.0.1:8000"
 _NUMBAS_OWN = "NUMBA_CACHE_DIR"
-"""numba's own, which threadstate sets where nobody else has."""
+"""numba's setting, which threadstate sets unless the user has."""
 
 
 class Source(StrEnum):
-    """Where a value comes from."""
+    """The source of a value."""
 
     ENVIRONMENT = "environment"
     DEFAULT = "default"
 
 
 @dataclass(frozen=True)
-class SettingInForce:
-    """A setting, its value and where this comes from; None is none."""
+class EffectiveSetting:
+    """A setting, its value (None: no value) and its source."""
 
     name: str
     value: str | int | None
     source: Source
 
 
-def settings_in_force(environment: Mapping[str, str] = os.environ) -> tuple[SettingInForce, ...]:
+def effective_settings(environment: Mapping[str, str] = os.environ) -> tuple[EffectiveSetting, ...]:
     """All settings in their order.
 
     Raises:
@@ -67,6 +67,6 @@ def settings_in_force(environment: Mapping[str, str] = os.environ) -> tuple[Sett
         NUMBA_CACHE_DIR: environment.get(NUMBA_CACHE_DIR) or environment.get(_NUMBAS_OWN),
     }
     return tuple(
-        SettingInForce(name, values[name], Source.ENVIRONMENT if environment.get(name) else Source.DEFAULT)
+        EffectiveSetting(name, values[name], Source.ENVIRONMENT if environment.get(name) else Source.DEFAULT)
         for name in settings.NAMES
     )
