@@ -1,14 +1,14 @@
-"""Where compiled kernels are kept: chosen before numba is first imported, and never the reason why an import fails.
+"""The cache directory of compiled kernels: chosen before numba is imported; a failure never breaks an import.
 
 The directory is the first of these that can be written to:
 
 1. ``THREADSTATE_NUMBA_CACHE_DIR``, if set;
 2. ``threadstate/numba`` under the user's cache directory (``XDG_CACHE_HOME``, else ``~/.cache``);
 3. a directory of this user's own under the system's directory for temporary files;
-4. a fresh temporary directory (kernels are then compiled anew in every process).
+4. a fresh temporary directory (kernels are then compiled again in every process).
 
 Inside it, the sources of all kernels choose a subdirectory by their hash: numba compares a kernel's own file alone, so
-without that a kernel compiled against an older version of one that it calls would go on being used.
+without that a kernel compiled against an older version of one that it calls would still be used.
 A ``NUMBA_CACHE_DIR`` that the user has set himself is left as it is, unless ``THREADSTATE_NUMBA_CACHE_DIR`` is set.
 """
 

@@ -1,4 +1,4 @@
-"""Compiles the numba kernels once and leaves them in the cache: ``python -m threadstate.warm_up``."""
+"""Compiles the numba kernels into the cache: ``python -m threadstate.warm_up``."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ in phase (a strip of flank), level and out of phase (a patch), tilted (all that 
 
 
 def kernels_are_compiled() -> bool:
-    """Whether the cache has the kernels, so that to load them takes a moment and not a minute."""
+    """Whether the cache contains the kernels, so that loading them is fast."""
     return any(_cache().glob("_solve_kernel.solve_rows-*.nbc"))
 
 
 def load_kernels() -> None:
-    """Load every kernel into this process; those that the cache has not are compiled."""
+    """Load every kernel into this process, compiling those that the cache lacks."""
     solve_poses(quarter_twenty_unc(), POSES_DEG)
 
 
 def load_kernels_exclusively() -> None:
-    """As :func:`load_kernels`; where they are still to be compiled, one process of a machine does and others wait."""
+    """As :func:`load_kernels`; if they must be compiled one process of the machine compiles them while others wait."""
     with ExitStack() as stack:
         if not kernels_are_compiled():
             _cache().mkdir(parents=True, exist_ok=True)
-            turn = stack.enter_context((_cache() / "compiling").open("w"))
-            fcntl.flock(turn, fcntl.LOCK_EX)
+            lock = stack.enter_context((_cache() / "compiling").open("w"))
+            fcntl.flock(lock, fcntl.LOCK_EX)
         load_kernels()
 
 
 def main() -> None:
-    """Load the kernels, and say what takes so long the first time."""
+    """Load the kernels and report the progress."""
     if kernels_are_compiled():
         print(f"Loading the kernels from {_cache()} ...", flush=True)
     else:

@@ -9,7 +9,7 @@ from enum import StrEnum
 
 from threadstate import settings
 from threadstate._numba_cache import SETTING as NUMBA_CACHE_DIR
-from threadstate.library.address import database_url, shown
+from threadstate.library.address import database_url, masked_url
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 
 NOT_SHOWN = "(not shown)"
@@ -44,7 +44,7 @@ def effective_settings(environment: Mapping[str, str] = os.environ) -> tuple[Eff
     service = environment.get(settings.SERVICE) or DEFAULT_SERVICE
     values: dict[str, str | int | None] = {
         settings.DATA_DIR: str(read.data_dir),
-        settings.DATABASE: shown(database_url(read.database)),
+        settings.DATABASE: masked_url(database_url(read.database)),
         settings.DATABASE_PASSWORD_FILE: environment.get(settings.DATABASE_PASSWORD_FILE) or None,
         settings.WORKERS: read.workers,
         settings.SCHEDULER: read.scheduler,

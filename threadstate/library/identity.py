@@ -1,4 +1,4 @@
-"""What makes a library this very library: the SHA-256 of everything that its content depends on."""
+"""The identity of a library: the SHA-256 of everything that its content depends on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The state of one pose, read by one statement whichever tables its rows are in."""
+"""The state of one pose, read from all its tables by one statement."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def state_of_pose(
 
     Raises:
         UndecidedPoseError: the library's method could not decide the pose.
-        NotFoundError: the pose is not one of the grid's.
+        NotFoundError: the grid does not contain the pose.
     """
     pose = {"library": library_id, "roll": roll_deg, "pitch": pitch_deg, "phase": phase_deg}
     found = _state_of(connection.execute(_STATEMENT, pose))
@@ -59,9 +59,9 @@ def state_of_pose(
 
 
 class PoseReader:
-    """Reads states by their poses, one after another, with nothing between the driver and the statement.
+    """Reads the states of poses by a precompiled statement, directly with the driver.
 
-    ``waits`` is whether a read may wait: for PostgreSQL's server; a SQLite file's lock is never waited for.
+    ``waits`` is whether a read may block: on PostgreSQL it does, on SQLite it never waits for a lock.
     """
 
     def __init__(self, engine: Engine) -> None:
@@ -74,7 +74,7 @@ class PoseReader:
         self._cursor: Any = None
 
     def state(self, library_id: int, roll_deg: float, pitch_deg: float, phase_deg: float) -> ContactState | None:
-        """The state of a pose, as :func:`state_of_pose`; None where there is none or it cannot be read now."""
+        """The state of a pose, as :func:`state_of_pose`; None if it does not exist or cannot be read now."""
         if self.waits:
             try:
                 with self._engine.connect() as connection:
@@ -99,7 +99,7 @@ class PoseReader:
 
 
 def _state_of(rows: Iterable[Sequence[Any]]) -> ContactState | None:
-    """The state whose rows these are, each as :func:`_statement` says; None where there are none."""
+    """The state of rows as of :func:`_statement`; None without rows."""
     parts: tuple[list[Row], ...] = ([], [], [], [])
     for row in rows:
         number = row[0]
@@ -122,10 +122,10 @@ def _at_pose(table: Table, column: Column[Any]) -> Select[Any]:
 
 
 def _statement() -> tuple[CompoundSelect[Any], tuple[Callable[[Sequence[Any]], Row], ...]]:
-    """The statement for all rows of the state at a pose, and what picks the cells of each table's columns out of one.
+    """The statement for all rows of the state at a pose, and a getter of each table's cells in such a row.
 
-    A row begins with the place of its table in ``_TABLES``; then there are slots of every type, as many as the table
-    with the most columns of that type needs.
+    A row begins with the index of its table in ``_TABLES``; slots of every type follow, as many as the table with the
+    most columns of that type needs.
     """
     columns = [[column for column in table.c if column.name != "library_id"] for table in _TABLES]
     most = {

@@ -19,12 +19,12 @@ def migrate(database: Database = None, as_json: Json = False) -> None:
       threadstate migrate --database postgresql+psycopg://threads@db.example/threads
     """
     from threadstate.library.engine import writing
-    from threadstate.library.schema import place
+    from threadstate.library.schema import location
     from worker.migrate import migrate as bring_up_to_date
 
     with writing(database or read_settings().database) as engine:
         migration = bring_up_to_date(engine)
-        where = place(engine)
+        where = location(engine)
     if as_json:
         print_json({"before": migration.before, "after": migration.after, "completed": migration.completed})
     elif migration.before == migration.after:
