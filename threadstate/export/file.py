@@ -1,4 +1,4 @@
-"""A table of a library as a file, part by part, and the tag that is its content's."""
+"""A table of a library as a file, part by part, and its ETag."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from pathlib import Path
 from sqlalchemy import Engine
 
 import threadstate
+from threadstate.export.column import csv_parts, ndjson_parts
 from threadstate.export.names import FileFormat, TableName
 from threadstate.export.parquet import parquet_parts, writer_version
 from threadstate.export.read import exported_table
-from threadstate.export.text import csv_parts, ndjson_parts
 from threadstate.library.read import LibraryRecord
 from threadstate.units import LengthUnit, conversion_factor
 
@@ -57,7 +57,7 @@ def file_name(library: LibraryRecord, table: TableName, file_format: FileFormat)
 
 
 def _about(library: LibraryRecord, table: TableName, unit: LengthUnit) -> dict[str, str]:
-    """What a file says of itself."""
+    """The metadata in a file."""
     return {
         "designation": library.designation,
         "table": table.value,

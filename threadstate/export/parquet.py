@@ -7,11 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from threadstate.errors import MissingExtraError
-from threadstate.export.column import Cell, Column, Kind
-from threadstate.export.text import Rows
+from threadstate.export.column import Cell, Column, Kind, Rows
 
 ROWS_IN_A_GROUP = 16_384
-"""A group is compressed and written as a whole: what is in memory at once."""
+"""Rows of a row group, which is compressed and written as a whole: the rows in memory."""
 
 EXTRA = "parquet"
 

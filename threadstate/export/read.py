@@ -17,8 +17,7 @@ from threadstate.errors import NotFoundError
 from threadstate.export.column import Cell, Column, row_of
 from threadstate.export.intervals import LEAST_LABELS, IntervalRow, Labels, interval_columns
 from threadstate.export.names import TableName
-from threadstate.export.states import LEAST_CONTACTS, state_columns
-from threadstate.export.undecided import UNDECIDED_COLUMNS
+from threadstate.export.states import LEAST_CONTACTS, UNDECIDED_COLUMNS, state_columns
 from threadstate.library.history_tables import formation, formation_contact, history_boundary, history_interval
 from threadstate.library.read import LibraryRecord, library_by_id, states_between, undecided_between
 from threadstate.library.tables import contact

@@ -28,7 +28,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """Steps from a cell of the formation that was asked for to the first cell in the window."""
+    """Steps from a cell of the start formation to the first cell in the window."""
 
     objective: Objective
     steps: tuple[Step, ...]

@@ -75,7 +75,7 @@ def falls_range(
     tolerance_deg: float,
     tilts: Iterable[Tilt],
 ) -> FallsRangeDocument:
-    """The range of the falls of ``tilts``, each asked of ``falls``; lengths in the unit of these.
+    """The range of the falls of ``tilts``, each computed by ``falls``; lengths in the unit of these.
 
     Phases that differ by a turn are taken next to each other. Between the tilts falls may be beyond the range: it is
     that of what was looked at.

@@ -1,4 +1,4 @@
-"""Requests for libraries, for what is in them as a whole, and for the service's own state."""
+"""Requests for libraries, their summaries and exports, and for the service's own state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Jobs: libraries that were asked for."""
+"""Jobs: requested libraries."""
 
 from __future__ import annotations
 

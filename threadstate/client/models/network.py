@@ -29,7 +29,7 @@ class IntervalsAnswer(Answer):
 
 
 class ComputedIntervals(Answer):
-    """The same of any orientation, computed when it was asked for."""
+    """The same of any orientation, computed on request."""
 
     designation: str
     library: int | None
@@ -46,7 +46,7 @@ class HeightsAnswer(Answer):
 
 
 class ComputedHeights(Answer):
-    """The same of any orientation, computed when it was asked for."""
+    """The same of any orientation, computed on request."""
 
     designation: str
     library: int | None
@@ -55,7 +55,7 @@ class ComputedHeights(Answer):
 
 
 class ComputedFalls(Answer):
-    """The falls of any orientation, computed when it was asked for; their range where a tolerance was given."""
+    """The falls of any orientation, computed on request; their range where a tolerance was given."""
 
     designation: str
     library: int | None

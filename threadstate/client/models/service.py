@@ -1,4 +1,4 @@
-"""What the service says of a request that it refuses (problem documents, RFC 9457) and of its own state."""
+"""Problem documents (RFC 9457), and the service's own state."""
 
 from __future__ import annotations
 
