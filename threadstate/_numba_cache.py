@@ -55,7 +55,7 @@ def _candidates(version: str) -> Iterator[Path]:
         yield Path(user_cache) / "threadstate" / "numba" / version
     shared = Path(tempfile.gettempdir()) / f"threadstate-numba-{os.getuid()}"
     if _can_write(shared) and shared.stat().st_uid == os.getuid():
-        yield shared / version  # a cache holds code that will be run: not what somebody else has prepared
+        yield shared / version  # a cache contains code: never that of another user
 
 
 def _can_write(directory: Path) -> bool:

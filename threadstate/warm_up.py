@@ -48,7 +48,7 @@ def main() -> None:
 
 
 def _cache() -> Path:
-    """Where this checkout's kernels are kept: a folder of its own below the one that was chosen."""
+    """The cache directory of this checkout's kernels, below the chosen one."""
     return Path(str(solve_rows.stats.cache_path))
 
 

@@ -107,7 +107,7 @@ def main() -> None:
     """Run the command line and end the process with its exit code."""
     collect_rarely()
     code = run_command_line(sys.argv[1:])
-    gc.freeze()  # at exit Python would look through everything for garbage, for a tenth of a second
+    gc.freeze()  # saves the garbage collection at exit, a tenth of a second
     sys.exit(code)
 
 
@@ -130,11 +130,11 @@ def run_command_line(arguments: list[str]) -> int:
     except ThreadstateError as error:
         return _print_error(str(error), exit_code_of(error))
     except BrokenPipeError:
-        # The reader of our output has had enough; at exit Python would flush into the same broken pipe.
+        # The reader has closed the pipe; at exit Python would flush into it again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return ExitCode.FAILURE
-    except Exception as error:  # a traceback helps no user
-        # A database's error comes with its SQL and rows; what the database itself said is its ``orig``.
+    except Exception as error:  # users get no traceback
+        # SQLAlchemy's message has the SQL and its rows; that of the database itself is in ``orig``.
         reason = getattr(error, "orig", None) or error
         return _print_error(f"{type(reason).__name__}: {reason}", ExitCode.FAILURE)
 

@@ -28,7 +28,7 @@ def falls_and_windows(
     off its grid, which is reported on stderr, and steepest falls within another span.
 
     Raises:
-        InvalidValueError: an angle alone that is not on the grid, or a value out of range.
+        InvalidValueError: a single angle that is not on the grid, or a value out of range.
     """
     pair, tilts = network.pair, network.library.grid.tilts_deg
     off_grid = [

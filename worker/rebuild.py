@@ -65,7 +65,7 @@ def rebuild(
 ) -> RebuildResult:
     """Compute the missing chunks of a library and publish it.
 
-    May be killed at any moment: a chunk is committed whole or not at all, and the library is published only when all
+    May be killed at any moment: each chunk is committed in one transaction, and the library is published only when all
     are. The content depends on the inputs alone, not on earlier runs or on who computes: ``workers`` processes, or the
     workers of the Dask cluster at ``scheduler``. This process alone writes, each chunk when it arrives.
 

@@ -110,7 +110,7 @@ class NotFoundError(ProblemError):
 
 
 class UndecidedPoseError(NotFoundError):
-    """A pose of the grid that the library's method could not decide; the detail says why (404)."""
+    """A pose of the grid that the library's solver method could not decide; the detail says why (404)."""
 
 
 class ConflictError(ProblemError):

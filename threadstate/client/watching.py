@@ -125,7 +125,7 @@ class JobWait:
 
 
 def is_done(job: JobDocument) -> bool:
-    """Whether a job has ended with a library; False while it goes on.
+    """Whether a job has ended with a library; False while it runs.
 
     Raises:
         JobFailedError: it failed.

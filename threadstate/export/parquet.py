@@ -16,7 +16,7 @@ EXTRA = "parquet"
 
 
 def writer_version() -> str:
-    """The version of what writes the files, on which their bytes depend.
+    """The version of the Parquet writer, on which the bytes depend.
 
     Raises:
         MissingExtraError: pyarrow is not installed.
@@ -75,7 +75,7 @@ def _groups(schema: Any, batches: Iterable[Rows]) -> Iterator[Any]:
 
 
 class _Sink(io.RawIOBase):
-    """A file that can be written to, and what was written taken away."""
+    """A file-like object whose written bytes are taken out."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -90,7 +90,7 @@ class _Sink(io.RawIOBase):
         return len(part)
 
     def taken(self) -> bytes:
-        """What was written since it was last taken."""
+        """The bytes written since the last call."""
         content = b"".join(self._parts)
         self._parts.clear()
         return content

@@ -1,4 +1,4 @@
-"""A library's rows in order, a batch at a time; each batch is read in a transaction of its own.
+"""A library's rows in order, a batch at a time; each batch is read in its own transaction.
 
 Readers in between see no lock, and the database may go on: a published library does not change. One that is removed
 meanwhile is noticed, as the last batch is followed by a look at the library.

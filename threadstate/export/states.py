@@ -102,5 +102,5 @@ UNDECIDED_COLUMNS: tuple[Column[UndecidedPose], ...] = (
     degrees("roll", "roll of the pose", lambda pose: pose.roll_deg),
     degrees("pitch", "pitch of the pose", lambda pose: pose.pitch_deg),
     degrees("phase", "phase of the pose", lambda pose: pose.phase_deg),
-    words("reason", "why the library's method could not decide the pose", lambda pose: pose.reason),
+    words("reason", "why the library's solver method could not decide the pose", lambda pose: pose.reason),
 )

@@ -43,7 +43,7 @@ def state_of_pose(
     """The state of a pose of the grid, angles in degrees; lengths in the library's unit.
 
     Raises:
-        UndecidedPoseError: the library's method could not decide the pose.
+        UndecidedPoseError: the library's solver method could not decide the pose.
         NotFoundError: the grid does not contain the pose.
     """
     pose = {"library": library_id, "roll": roll_deg, "pitch": pitch_deg, "phase": phase_deg}

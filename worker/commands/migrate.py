@@ -10,7 +10,7 @@ from worker.output import print_json, print_line
 def migrate(database: Database = None, as_json: Json = False) -> None:
     r"""Bring the database up to date; make it if there is none.
 
-    Older libraries are kept, and what their histories lack is computed: a quarter to one second an orientation.
+    Older libraries stay, and data that their histories lack is computed: a quarter to one second an orientation.
 
     \b
     Examples:

@@ -25,7 +25,7 @@ def network(
     database: Database = None,
     as_json: Json = False,
 ) -> None:
-    r"""Print the size of a library's constraint network and what holds it together, or all of it.
+    r"""Print the size of a library's constraint network and its connectivity, or all of it.
 
     \b
     Examples:

@@ -26,17 +26,17 @@ def sweep(
     scheduler: Scheduler = None,
     dry_run: Annotated[
         bool,
-        typer.Option("--dry-run", help="Only say what it would take: rows, bytes, time.", show_default=False),
+        typer.Option("--dry-run", help="Only estimate rows, bytes and time.", show_default=False),
     ] = False,
     jobs: Annotated[
-        bool, typer.Option("--jobs", help="Ask for the libraries as jobs instead.", show_default=False)
+        bool, typer.Option("--jobs", help="Submit the libraries as jobs instead.", show_default=False)
     ] = False,
     as_json: Json = False,
 ) -> None:
     r"""Compute many libraries: those of a file that are not published yet, one after the other.
 
     The file crosses pairs, grids and methods, or lists libraries. It is checked before anything is computed. One that
-    fails does not stop the others; the exit code is 1 then. Run again, it goes on where it was.
+    fails does not stop the others; the exit code is 1 then. Run again, it resumes.
 
     \b
     Examples:

@@ -22,7 +22,7 @@ def worker(
     r"""Compute the libraries that were requested as jobs, until stopped.
 
     Any number may run at once, on several machines where the database is PostgreSQL's. SIGTERM and Ctrl-C end it; its
-    chunks are free for others then. One that is killed is detected by its missing heartbeat.
+    chunks are then free for others. One that is killed is detected by its missing heartbeat.
 
     \b
     Examples:

@@ -93,7 +93,7 @@ class WindowsAnswer(Answer):
 
 
 class NetworkSummary(Answer):
-    """The size of a library's network, and what holds it together."""
+    """The size of a library's network, and its connectivity."""
 
     library: int
     network: NetworkSummaryDocument
@@ -110,7 +110,7 @@ class NodeLinkNetwork(Answer):
 
 
 class FormationsAnswer(Answer):
-    """All formations of a network in few words, ordered by key."""
+    """Summaries of all formations of a network, ordered by key."""
 
     library: int
     formations: tuple[FormationSummaryDocument, ...]
@@ -133,7 +133,7 @@ class PathAnswer(Answer):
 
 
 class LocationAnswer(Answer):
-    """Where a state with all that was observed can be."""
+    """Where a state that matches the observation can be."""
 
     library: int
     location: LocationDocument
