@@ -31,7 +31,7 @@ from worker.migrate import migrate
 
 PROFILED_ORIENTATIONS = 12
 COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
-WRITER_IMPORTS = "import worker.cli, worker.computed_library"
+WRITER_IMPORTS = "import worker.cli, worker.rebuild"
 COMPUTING_IMPORTS = "import threadstate.warm_up, worker.compute"
 LOADING = f"{COMPUTING_IMPORTS}; threadstate.warm_up.load_kernels()"
 

@@ -56,7 +56,7 @@ class Explorer:
         self.address = address
 
     def open(self, path: str = "/") -> None:
-        """Load the page anew at that path or fragment."""
+        """Reload the page at that path or fragment."""
         self.chromium.get("about:blank")
         self.chromium.get(self.address + path)
 

@@ -1,4 +1,4 @@
-"""Computes the answers shown in the documentation anew and puts them in their places: ``make docs``.
+"""Computes the example responses of the documentation and inserts them: ``make docs``.
 
 Those are the JSON after every ``curl`` of a state in ``DOCUMENTS``, and the examples of the HTTP interface.
 """

@@ -10,8 +10,7 @@ from typing import Any
 from threadstate.client.frame_columns import COLUMNS
 from threadstate.export.column import Column, Unit
 from threadstate.export.intervals import LEAST_LABELS, interval_columns
-from threadstate.export.states import LEAST_CONTACTS, state_columns
-from threadstate.export.undecided import UNDECIDED_COLUMNS
+from threadstate.export.states import LEAST_CONTACTS, UNDECIDED_COLUMNS, state_columns
 
 DOCS = Path(__file__).parent.parent / "docs"
 EXPORTS = DOCS / "export.md"

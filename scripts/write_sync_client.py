@@ -17,7 +17,7 @@ SYNC = ASYNC.with_name("_sync")
 
 NAMES = {
     "AsyncClient": "Client",
-    "AsyncCourier": "Courier",
+    "AsyncTransport": "Transport",
     "AsyncItems": "Items",
     "AsyncItems[{}]": "Items[{}]",
     "AsyncJob": "Job",
@@ -33,7 +33,7 @@ NAMES = {
 PHRASES = {
     r"(?:Awaitable|Coroutine)\[(?:Any, Any, )?(\w+)\]": r"\1",
     "The asynchronous client; .* of these files": "The blocking client, made of ``_async`` by ``make client``",
-    "The client for asynchronous programs": "The client that waits for its answers",
+    "The client for asynchronous programs": "The client that waits for its responses",
     "An asynchronous client": "A client",
     r"several tasks of one event loop \(asyncio or trio\)": "several threads",
     "several tasks": "several threads",
@@ -59,7 +59,7 @@ def generated() -> Mapping[str, str]:
 
 
 def _tidied(text: str, path: Path) -> str:
-    """A file as the linter and the formatter want it; imports that serve waiting alone are dropped."""
+    """A file as the linter and the formatter want it; imports that serve wait alone are dropped."""
     for command in (["check", "--select", "F401,I", "--fix", "--quiet"], ["format", "--quiet"]):
         run = [sys.executable, "-m", "ruff", *command, "--stdin-filename", str(path), "-"]
         text = subprocess.run(run, cwd=ROOT, input=text, check=True, capture_output=True, text=True).stdout

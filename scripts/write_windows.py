@@ -17,7 +17,7 @@ from threadstate.responses.library_network import LibraryNetwork
 from threadstate.responses.windows import windows_of_histories
 from threadstate.settings import read_settings
 from threadstate.state.model import ContactState, FeaturePair
-from worker.stored_network import stored_network
+from worker.library_source import stored_network
 
 PAGE = Path(__file__).parent.parent / "docs" / "windows.md"
 WIDTH = 120

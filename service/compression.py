@@ -14,7 +14,7 @@ Headers = list[tuple[bytes, bytes]]
 LEAST_BYTES = 1024
 """Smaller responses are sent as they are."""
 _AT_ONCE_BYTES = 16 * 1024
-"""Larger ones are compressed in a thread, so that the event loop goes on."""
+"""Larger ones are compressed in a thread, so that the event loop is not blocked."""
 _LEVEL = 6
 _MEDIA_TYPES = (
     "application/json",

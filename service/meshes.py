@@ -18,9 +18,9 @@ from threadstate.thread.pair import Pair
 router = APIRouter(prefix="/v1/libraries/{id}/meshes", tags=["meshes"])
 
 GLB = "model/gltf-binary"
-PartPath = Annotated[Part, Path(description="which of the pair")]
+PartPath = Annotated[Part, Path(description="bolt or nut")]
 _PAIR = TypeAdapter(Pair)
-_KEPT = 16
+_CACHE_SIZE = 16
 
 
 @router.get(
@@ -37,10 +37,10 @@ def get_mesh(request: Request, library: IdentifiedLibrary, part: PartPath) -> Re
     return zipped_representation(request, content, zipped, GLB)
 
 
-@lru_cache(maxsize=_KEPT)
+@lru_cache(maxsize=_CACHE_SIZE)
 def _glb(pair: str, part: Part) -> tuple[bytes, bytes]:
-    """The part of a pair (as JSON) as GLB, and the same by gzip; made once, in some 0.1 s."""
-    # Loaded when first asked for: the service starts without mesh libraries, and most of it needs none.
+    """The part of a pair (as JSON) as GLB, and compressed by gzip; cached, as it takes some 0.1 s."""
+    # Imported late: the service starts without the mesh libraries, which the rest does not need.
     from threadstate.mesh.export import glb_by_face
     from threadstate.mesh.part import part_solid
 

@@ -19,7 +19,7 @@ class OrientationDocument(BaseModel):
 
     roll: float
     pitch: float
-    counts: dict[StateClass, int] = Field(description="how many of its states have each class")
+    counts: dict[StateClass, int] = Field(description="number of its states of each class")
     drop_most: float | None = Field(description="greatest drop")
     embedment_most: float | None = Field(description="greatest embedment")
     pivot_offset_least: float | None = Field(description="least pivot offset")
@@ -54,11 +54,11 @@ def orientation_document(summary: OrientationSummary, factor: float) -> Orientat
 router = APIRouter(prefix="/v1/libraries/{id}/orientations", tags=["states"])
 
 
-@router.get("", summary="All orientations, summed up", response_model=OrientationsAnswer, responses=NOT_MODIFIED)
+@router.get("", summary="Summaries of all orientations", response_model=OrientationsAnswer, responses=NOT_MODIFIED)
 def list_orientations(
     request: Request, connection: ReadConnection, library: IdentifiedLibrary, unit: UnitQuery = None
 ) -> Response:
-    """Of each orientation, over all phases: how many states of each class, and the extremes of what is measured."""
+    """For each orientation, over all phases: the number of states of each class, and extremes of the lengths."""
     shown = unit or library.length_unit
     factor = conversion_factor(library.length_unit, shown)
     summaries = orientation_summaries(connection, library.id)

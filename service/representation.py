@@ -1,4 +1,4 @@
-"""Representations: bytes with a strong ETag, and 304 where the client has them already."""
+"""Responses with a strong ETag, and 304 where the client has the content already."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def etag_of(content: bytes) -> str:
 
 
 def json_response(request: Request, document: object, headers: dict[str, str] | None = None) -> Response:
-    """``document`` as compact JSON; every double is written so that it reads back the same.
+    """A response with ``document`` as compact JSON; every double reads back the same.
 
     Raises:
         ValueError: a number is not finite.
@@ -40,7 +40,7 @@ def json_response(request: Request, document: object, headers: dict[str, str] | 
 def representation(
     request: Request, content: bytes, media_type: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """``content`` with the ETag under which it is sent, or an empty 304 where ``If-None-Match`` names that ETag."""
+    """A response with ``content`` and its ETag, or an empty 304 if ``If-None-Match`` has that ETag."""
     headers = headers or {}
     etag = etag_of(content)
     will_be_zipped = "Content-Encoding" not in headers and worth_compressing(media_type, len(content))
@@ -56,7 +56,7 @@ def representation(
 def zipped_representation(
     request: Request, content: bytes, zipped: bytes, media_type: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """``content``, or to a client that takes gzip the same as ``zipped``; each has an ETag of its own."""
+    """A response with ``content``, or with ``zipped`` for clients that accept gzip; each has its own ETag."""
     all_headers = {"Vary": "Accept-Encoding", **(headers or {})}
     if takes_gzip(header_value(request.headers.raw, b"accept-encoding")):
         return representation(request, zipped, media_type, {"Content-Encoding": "gzip", **all_headers})

@@ -23,7 +23,7 @@ class UndecidedPhase(BaseModel):
     """An undecided pose of an orientation."""
 
     phase: float
-    reason: str = Field(description="why the method could not decide the pose")
+    reason: str = Field(description="why the solver method could not decide the pose")
 
 
 class UndecidedDocument(UndecidedPhase):
@@ -61,7 +61,7 @@ def list_undecided(
     limit: LimitQuery = 100,
     after: AfterQuery = -1,
 ) -> Response:
-    """The poses of the grid that the library's method could not decide, and why, page by page."""
+    """The poses of the grid that the library's solver method could not decide, and why, page by page."""
     found = undecided_between(connection, library.id, after + 1, LARGEST_POSE_COUNT, limit + 1)
     shown = found[:limit]
     following = None

@@ -14,7 +14,7 @@ from typing import Protocol
 from threadstate.errors import MeshUndecidedError, UnresolvedPoseError
 from threadstate.mesh.options import Descent, FinalStep, MeshOptions
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.solve import mesh_method, solve_poses_by_mesh
+from threadstate.mesh.solve import mesh_procedure, solve_poses_by_mesh
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
@@ -185,7 +185,7 @@ class MeshStates:
 
     def declared_error(self, pair: Pair) -> float:
         """How far both meshes' edges are off the true ones, and the final step."""
-        return mesh_method(pair, self.options).edge_deviation + self.final_step * pair.thread_pitch
+        return mesh_procedure(pair, self.options).edge_deviation + self.final_step * pair.thread_pitch
 
     def answers(self, cases: Sequence[Case]) -> list[Answer]:
         """The answers in the order of the cases."""

@@ -18,7 +18,7 @@ from worker.messages import Chunk
 
 
 class PreparedChunks:
-    """Computes chunks as :class:`worker.computers.Computers` do, in no time."""
+    """Computes chunks as :class:`worker.rebuild.ChunkSource` do, in no time."""
 
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
@@ -46,5 +46,5 @@ def use_prepared_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
         assert scheduler is None
         yield PreparedChunks(inputs.grid)
 
-    monkeypatch.setattr("worker.rebuild.computers", prepared)
-    monkeypatch.setattr("worker.jobs.serve.computers", prepared)
+    monkeypatch.setattr("worker.rebuild.chunk_source", prepared)
+    monkeypatch.setattr("worker.jobs.serve.chunk_source", prepared)

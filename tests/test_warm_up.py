@@ -59,7 +59,7 @@ def compile_for_a_while():
     print(time.monotonic())
 
 warm_up.load_kernels = compile_for_a_while
-warm_up.load_kernels_in_turn()
+warm_up.load_kernels_exclusively()
 """
 
 

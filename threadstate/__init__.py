@@ -1,10 +1,12 @@
 """Contact states of a bolt that meets a nut askew, computed exactly.
 
-The rooms, in the order in which data flows: ``thread`` (solids), ``contact`` (where they touch),
-``state`` (what a pose comes to), ``mesh`` (the same by the collision of triangle meshes), ``library`` (all states of
-a pair, stored), ``history`` (phase circles cut where a label changes), ``network`` (which formation of contacts leads
-to which), ``archive`` (histories in the tables, and back), ``answer`` (what is told of histories and networks),
-``export`` (all of it as files), ``client`` (asks a service for all of it).
+The packages, in the order in which data flows: ``thread`` (solids), ``contact`` (where they touch), ``state`` (the
+contact state of a pose), ``mesh`` (the same by the collision of triangle meshes), ``library`` (stored states of a
+pair),
+``history`` (phase circles cut where a label changes), ``network`` (transitions between formations of contacts),
+``stored_histories`` (histories as rows of the tables, and back), ``responses`` (response models of histories and
+networks), ``export`` (tables as files), ``jobs`` and ``access`` (requested libraries, API keys), ``client`` (the client
+of a service).
 """
 
 from threadstate._numba_cache import choose_numba_cache

@@ -1,14 +1,14 @@
-"""Where compiled kernels are kept: chosen before numba is first imported, and never the reason why an import fails.
+"""The cache directory of compiled kernels: chosen before numba is imported; a failure never breaks an import.
 
 The directory is the first of these that can be written to:
 
 1. ``THREADSTATE_NUMBA_CACHE_DIR``, if set;
 2. ``threadstate/numba`` under the user's cache directory (``XDG_CACHE_HOME``, else ``~/.cache``);
 3. a directory of this user's own under the system's directory for temporary files;
-4. a fresh temporary directory (kernels are then compiled anew in every process).
+4. a fresh temporary directory (kernels are then compiled again in every process).
 
 Inside it, the sources of all kernels choose a subdirectory by their hash: numba compares a kernel's own file alone, so
-without that a kernel compiled against an older version of one that it calls would go on being used.
+without that a kernel compiled against an older version of one that it calls would still be used.
 A ``NUMBA_CACHE_DIR`` that the user has set himself is left as it is, unless ``THREADSTATE_NUMBA_CACHE_DIR`` is set.
 
 A subdirectory that no process has used for ``UNUSED_DAYS`` is removed. A process holds a shared lock on the file
@@ -121,7 +121,7 @@ def _candidates(version: str) -> Iterator[Path]:
         yield Path(user_cache) / "threadstate" / "numba" / version
     shared = Path(tempfile.gettempdir()) / f"threadstate-numba-{os.getuid()}"
     if _can_write(shared) and shared.stat().st_uid == os.getuid():
-        yield shared / version  # a cache holds code that will be run: not what somebody else has prepared
+        yield shared / version  # a cache contains code: never that of another user
 
 
 def _can_write(directory: Path) -> bool:

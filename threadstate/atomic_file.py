@@ -1,4 +1,4 @@
-"""A file that is there whole or not at all."""
+"""Atomic writing of files."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from typing import BinaryIO
 
 @contextmanager
 def replaced_file(path: Path) -> Iterator[BinaryIO]:
-    """A file to write to, which takes the place of ``path`` once it is whole; on an error ``path`` stays as it was.
+    """A file to write to that replaces ``path`` when it is complete; on an error ``path`` is unchanged.
 
     Raises:
-        OSError: the folder is not there, or cannot be written to.
+        OSError: the folder does not exist or is not writable.
     """
     part = path.with_name(f".{path.name}.{secrets.token_hex(8)}.part")
     file = part.open("xb")

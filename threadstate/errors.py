@@ -7,7 +7,7 @@ from __future__ import annotations
 
 
 class ThreadstateError(Exception):
-    """Base of every error that a user of threadstate may want to catch."""
+    """Base class of all errors of threadstate."""
 
 
 class InvalidValueError(ThreadstateError, ValueError):
@@ -38,19 +38,19 @@ class UnknownNameError(InvalidValueError):
 
 
 class NotFoundError(ThreadstateError, LookupError):
-    """Something that was asked for by name is not stored."""
+    """Something that was requested by name is not stored."""
 
 
 class UndecidedPoseError(NotFoundError):
-    """A library has no state for a pose of its grid, because its method could not decide it; the message says why."""
+    """A library has no state for a pose of its grid, as its solver method could not decide it; the message says why."""
 
 
 class SchemaError(ThreadstateError):
-    """The database's schema is not the one this code expects; the message names the mending command."""
+    """The database's schema is not the one this code expects; the message names the command to run."""
 
 
 class UnreadableDatabaseError(SchemaError):
-    """The database's schema cannot be told, because the database cannot be read now."""
+    """The database's schema is unknown, as the database cannot be read."""
 
 
 SEARCH_ENDED = "the search ended before all its cells were closed"
@@ -78,11 +78,11 @@ class UnresolvedPoseError(ThreadstateError):
 
 
 class MeshUndecidedError(UnresolvedPoseError):
-    """Meshes cannot answer for a pose; ``reason`` says why."""
+    """The mesh method cannot decide a pose; ``reason`` says why."""
 
 
 class MissingExtraError(ThreadstateError):
-    """Something needs a package that is not installed; the message names the extra that brings it."""
+    """Something needs a package that is not installed; the message names the extra that installs it."""
 
     def __init__(self, purpose: str, extra: str) -> None:
         super().__init__(purpose, extra)

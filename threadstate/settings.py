@@ -86,7 +86,7 @@ class LogForm(StrEnum):
 
 
 class LogLevel(StrEnum):
-    """The least that is logged; the first is the default."""
+    """The lowest level that is logged; the first is the default."""
 
     INFO = "info"
     DEBUG = "debug"
@@ -101,22 +101,22 @@ class Settings:
     Attributes:
         data_dir: folder of everything that is stored.
         database: URL of the database.
-        workers: how many processes compute.
-        scheduler: address of the Dask scheduler whose workers compute in their place; None: they do.
-        pair: designation, or path of a file, of the pair that commands are about; None: the catalogue's first.
+        workers: number of computing processes.
+        scheduler: address of the Dask scheduler whose workers compute instead; None: local processes compute.
+        pair: designation, or path of a file, of the default pair of commands; None: the catalogue's first.
         host: address that the service listens on.
         port: port that it listens on.
-        read_keys_required: whether reading, too, needs a key.
+        read_keys_required: whether reads need an API key.
         lease_s: seconds without a heartbeat after which a worker is considered dead.
-        heartbeat_file: file that a worker touches with every heartbeat; None: none.
+        heartbeat_file: file that a worker touches with every heartbeat; None for no file.
         cache_mb: size of the cache of responses, in megabytes (10^6 bytes).
-        concurrency: how many requests compute at once.
-        streams: how many event streams may be open.
-        time_limit_s: how long a request may take until its answer begins.
-        grace_s: how long requests in flight may take when the process is told to end.
+        concurrency: largest number of requests that compute at once.
+        streams: largest number of open event streams.
+        time_limit_s: time limit until a response begins.
+        grace_s: time limit of requests in progress at shutdown.
         log: the form of the log's lines.
-        log_level: the least that is logged.
-        cors_origins: origins whose pages may read the service from elsewhere.
+        log_level: the lowest level that is logged.
+        cors_origins: origins whose pages may read the service (CORS).
     """
 
     data_dir: Path
@@ -140,7 +140,7 @@ class Settings:
 
 
 def read_settings(environment: Mapping[str, str] = os.environ) -> Settings:
-    """The settings in an environment; an empty value is as good as none.
+    """The settings of an environment; an empty value counts as missing.
 
     Raises:
         InvalidValueError: a setting's value is not valid; its name is the environment's.
@@ -218,7 +218,7 @@ def _one_of(environment: Mapping[str, str], name: str, valid: tuple[str, ...]) -
 
 
 def _origins(environment: Mapping[str, str]) -> tuple[str, ...]:
-    """Origins, separated by commas; ``*`` is none, because what writes needs a key."""
+    """Origins, separated by commas; ``*`` is invalid, as writes need a key."""
     origins = tuple(one.strip() for one in (environment.get(CORS_ORIGINS) or "").split(",") if one.strip())
     for origin in origins:
         if not _ORIGIN.fullmatch(origin):

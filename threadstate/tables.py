@@ -1,10 +1,10 @@
-"""Every table of the database, in one collection."""
+"""All tables of the database."""
 
 from __future__ import annotations
 
 import threadstate.access.tables
 import threadstate.jobs.tables
-import threadstate.library.history_tables  # noqa: F401 - each adds its own to those of the library
+import threadstate.library.history_tables  # noqa: F401 - each module adds its tables to the metadata
 from threadstate.library.tables import metadata
 
 __all__ = ["metadata"]

@@ -1,4 +1,4 @@
-"""Compiles the numba kernels once and leaves them in the cache: ``python -m threadstate.warm_up``."""
+"""Compiles the numba kernels into the cache: ``python -m threadstate.warm_up``."""
 
 from __future__ import annotations
 
@@ -24,27 +24,27 @@ COMPILE_SEARCH = "from threadstate.contact._search_kernel import search_address;
 
 
 def kernels_are_compiled() -> bool:
-    """Whether the cache has the kernels, so that to load them takes a moment and not a minute."""
+    """Whether the cache contains the kernels, so that loading them is fast."""
     return all(any(_cache().glob(name)) for name in ("_solve_kernel.solve_with-*.nbc", "_stage_kernel.earliest-*.nbc"))
 
 
 def load_kernels() -> None:
-    """Load every kernel into this process; those that the cache has not are compiled."""
+    """Load every kernel into this process, compiling those that the cache lacks."""
     solve_poses(quarter_twenty_unc(), POSES_DEG)
 
 
-def load_kernels_in_turn() -> None:
-    """As :func:`load_kernels`; where they are still to be compiled, one process of a machine does and others wait."""
+def load_kernels_exclusively() -> None:
+    """As :func:`load_kernels`; if they must be compiled one process of the machine compiles them while others wait."""
     with ExitStack() as stack:
         if not kernels_are_compiled():
             _cache().mkdir(parents=True, exist_ok=True)
-            turn = stack.enter_context((_cache() / "compiling").open("w"))
-            fcntl.flock(turn, fcntl.LOCK_EX)
+            lock = stack.enter_context((_cache() / "compiling").open("w"))
+            fcntl.flock(lock, fcntl.LOCK_EX)
         load_kernels()
 
 
 def main() -> None:
-    """Load the kernels, and say what takes so long the first time; then a second process compiles a half of them."""
+    """Load the kernels and report the progress; where the cache has none, a second process compiles half of them."""
     start = time.perf_counter()
     if kernels_are_compiled():
         print(f"Loading the kernels from {_cache()} ...", flush=True)
@@ -65,7 +65,7 @@ def compile_all_but_search() -> None:
 
 
 def _cache() -> Path:
-    """Where this checkout's kernels are kept: a folder of its own below the one that was chosen."""
+    """The cache directory of this checkout's kernels, below the chosen one."""
     return Path(str(solve_with.stats.cache_path))
 
 

@@ -1,1 +1,1 @@
-"""Jobs: migrating the database, computing libraries, solving on demand; the command line ``threadstate``."""
+"""The command line ``threadstate`` and the workers: migrating databases, computing libraries, solving poses."""

@@ -107,7 +107,7 @@ def main() -> None:
     """Run the command line and end the process with its exit code."""
     collect_rarely()
     code = run_command_line(sys.argv[1:])
-    gc.freeze()  # at exit Python would look through everything for garbage, for a tenth of a second
+    gc.freeze()  # saves the garbage collection at exit, a tenth of a second
     sys.exit(code)
 
 
@@ -121,25 +121,25 @@ def run_command_line(arguments: list[str]) -> int:
         code = app(arguments or ["--help"], prog_name=PROGRAM, standalone_mode=False)
         sys.stdout.flush()
         if code == ExitCode.INTERRUPTED:
-            return _complain("interrupted", ExitCode.INTERRUPTED)
+            return _print_error("interrupted", ExitCode.INTERRUPTED)
         return code if isinstance(code, int) else ExitCode.OK
     except TyperException as error:
         context = getattr(error, "ctx", None)
         where = context.command_path if context else PROGRAM
-        return _complain(f"{error.format_message()} (try `{where} --help`)", error.exit_code)
+        return _print_error(f"{error.format_message()} (try `{where} --help`)", error.exit_code)
     except ThreadstateError as error:
-        return _complain(str(error), exit_code_of(error))
+        return _print_error(str(error), exit_code_of(error))
     except BrokenPipeError:
-        # The reader of our output has had enough; at exit Python would flush into the same broken pipe.
+        # The reader has closed the pipe; at exit Python would flush into it again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return ExitCode.FAILURE
-    except Exception as error:  # a traceback helps no user
-        # A database's error comes with its SQL and rows; what the database itself said is its ``orig``.
+    except Exception as error:  # users get no traceback
+        # SQLAlchemy's message has the SQL and its rows; that of the database itself is in ``orig``.
         reason = getattr(error, "orig", None) or error
-        return _complain(f"{type(reason).__name__}: {reason}", ExitCode.FAILURE)
+        return _print_error(f"{type(reason).__name__}: {reason}", ExitCode.FAILURE)
 
 
-def _complain(message: str, code: int) -> int:
+def _print_error(message: str, code: int) -> int:
     one_line = " ".join(message.split())
     sys.stderr.write(f"{PROGRAM}: {one_line}\n")
     return code

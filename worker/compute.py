@@ -1,4 +1,6 @@
-"""The computing process: solves one orientation after another, as its parent asks."""
+"""Computing the chunks of a library: the states of an orientation and its history, in a process that its parent
+controls.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,7 @@ from functools import partial
 from multiprocessing.connection import Connection
 
 from threadstate.library.identity import LibraryInputs
-from threadstate.stored_histories.answers import exact_answers
-from threadstate.stored_histories.compute import computed_rows
+from threadstate.stored_histories.compute import computed_rows, exact_answers
 from worker.messages import Chunk, Failure, Ready
 
 
@@ -20,13 +21,13 @@ def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
-    """Answer every orientation's number that arrives with its rows, until the other end is closed.
+    """Reply to each orientation number received with its chunk, until the other end of the pipe is closed.
 
-    A parent that dies, however it dies, closes its end: the process then ends by itself.
+    A parent that dies closes its end, and the process ends.
     """
-    # Ctrl-C reaches the whole group; the parent alone decides what it means.
+    # SIGINT reaches the whole process group; the parent alone handles it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    with suppress(EOFError, ConnectionError):  # the parent is gone
+    with suppress(EOFError, ConnectionError):  # the parent has ended
         message = _tried(partial(_prepared, inputs))
         connection.send(message)
         while not isinstance(message, Failure):
@@ -42,5 +43,5 @@ def _prepared(inputs: LibraryInputs) -> Ready:
 def _tried(compute: Callable[[], Ready | Chunk]) -> Ready | Chunk | Failure:
     try:
         return compute()
-    except Exception as error:  # whatever it is, the parent has to learn of it
+    except Exception as error:  # reported to the parent, whatever it is
         return Failure(f"{type(error).__name__}: {error}")

@@ -8,7 +8,7 @@ from threadstate.errors import InvalidValueError, NotFoundError, SchemaError, Un
 
 
 class ExitCode(IntEnum):
-    """What a command's end means."""
+    """The meaning of an exit code."""
 
     OK = 0
     FAILURE = 1

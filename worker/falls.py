@@ -10,8 +10,8 @@ from threadstate.responses.falls_range import computed_falls
 from threadstate.responses.histories import computed_history
 from threadstate.responses.library_network import LibraryNetwork
 from threadstate.responses.windows import windows_document, windows_of_histories
-from worker.output import tell
-from worker.progress import followed
+from worker.output import print_status
+from worker.progress import with_progress
 
 
 def falls_and_windows(
@@ -22,13 +22,13 @@ def falls_and_windows(
     span_deg: float = SPAN_DEG,
     least_pitches: float = SNAP_PITCHES,
 ) -> list[OrientationWindowsDocument]:
-    """Of all orientations of the grid, of one roll or pitch of it, or of any one orientation.
+    """The falls and windows of all orientations of the grid, of one roll or pitch, or of any one orientation.
 
-    Lengths are multiplied by ``factor``. Computed is what the library does not hold, with a word on stderr: an
-    orientation off its grid, and steepest falls within another span than the stored ones are.
+    Lengths are multiplied by ``factor``. Falls that the library does not store are computed: those of an orientation
+    off its grid, which is reported on stderr, and steepest falls within another span.
 
     Raises:
-        InvalidValueError: an angle alone that is not on the grid, or a value out of range.
+        InvalidValueError: a single angle that is not on the grid, or a value out of range.
     """
     pair, tilts = network.pair, network.library.grid.tilts_deg
     off_grid = [
@@ -38,7 +38,7 @@ def falls_and_windows(
     ]
     if off_grid and roll_deg is not None and pitch_deg is not None:
         name, angle = off_grid[0]
-        tell(f"computed: {name} {number_text(angle)} is not on the grid of library {network.library.id}")
+        print_status(f"computed: {name} {number_text(angle)} is not on the grid of library {network.library.id}")
         history = computed_history(pair, roll_deg, pitch_deg, network.options)
         found = [windows_document(history, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)]
     elif off_grid:
@@ -53,5 +53,5 @@ def falls_and_windows(
         one.model_copy(
             update=dict(computed_falls(pair, network.options, one.roll, one.pitch, factor, span_deg, least_pitches))
         )
-        for one in followed(found, "orientations")
+        for one in with_progress(found, "orientations")
     ]

@@ -1,4 +1,4 @@
-"""How often Python looks for garbage."""
+"""The frequency of Python's garbage collections."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ NEW_OBJECTS_BETWEEN_COLLECTIONS = 100_000
 
 
 def collect_rarely() -> None:
-    """Look for cycles of garbage rarely: commands import much and make many values, and next to no cycles.
+    """Run the cyclic garbage collector rarely: commands allocate many objects and hardly any cycles.
 
-    Looking through all of it as often as Python does by itself takes a sixth of the time to start, and nearly half of
-    the time in which records become states.
+    With Python's default it takes a sixth of the start-up time, and nearly half of the time in which records become
+    states.
     """
     gc.set_threshold(NEW_OBJECTS_BETWEEN_COLLECTIONS)

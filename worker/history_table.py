@@ -72,14 +72,14 @@ def print_falls(orientations: Sequence[FallsDocument], unit: LengthUnit, span: f
     )
     for one in orientations:
         snap = one.snap
-        told = ["-"] * 5
+        cells = ["-"] * 5
         if snap is not None:
             ends = phase(snap.start), interval_end(snap.start, snap.end)
-            told = [*ends, length(snap.fall, unit), length(snap.jump, unit), phase(snap.jump_at)]
+            cells = [*ends, length(snap.fall, unit), length(snap.jump, unit), phase(snap.jump_at)]
         rows.add_row(
             number_text(one.roll),
             number_text(one.pitch),
-            *told,
+            *cells,
             length(one.steepest, unit),
             phase(one.steepest_from),
         )

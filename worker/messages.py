@@ -1,4 +1,4 @@
-"""What a computing process tells its parent."""
+"""Messages of a computing process to its parent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bringing a database to the newest revision: its schema, and what older libraries lack."""
+"""Migrating a database to the newest revision: its schema, and the data that older libraries lack."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from threadstate.library.advisory_locks import WriterLock, take_lock
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.library.states_json import fill_states_json, orientations_without_json
 from threadstate.stored_histories.falls import add_falls, orientations_without_falls
-from worker.progress import followed
+from worker.progress import with_progress
 
 
 @dataclass(frozen=True)
 class Migration:
     """The schema's revision before and after; ``before`` is None for an empty database.
 
-    ``completed`` is of how many orientations the falls were added to a stored history.
+    ``completed`` is the number of orientations whose falls were added.
     """
 
     before: str | None
@@ -28,9 +28,9 @@ class Migration:
 
 
 def migrate(engine: Engine) -> Migration:
-    """Run all migrations that the database lacks, in one transaction; then add what stored histories lack, one by one.
+    """Run all missing migrations in one transaction; then add missing data, one orientation after another.
 
-    Stopped on its way, the next call goes on.
+    An interrupted call is resumed by the next one.
 
     Raises:
         SchemaError: the database is at a revision that this code does not know.
@@ -44,7 +44,7 @@ def migrate(engine: Engine) -> Migration:
 
 
 def migrate_empty(engine: Engine) -> None:
-    """Make the schema where there is none, and check the one that there is.
+    """Create the schema of an empty database; check that of any other.
 
     Raises:
         SchemaError: the database is at another revision.
@@ -55,13 +55,17 @@ def migrate_empty(engine: Engine) -> None:
 
 
 def _complete(engine: Engine) -> int:
-    """Add to what is stored what it lacks, with progress bars on stderr; to how many orientations falls were added."""
+    """Add missing data with progress bars on stderr.
+
+    Returns:
+        The number of orientations whose falls were added.
+    """
     incomplete = orientations_without_falls(engine)
     without_json = orientations_without_json(engine)
     if incomplete:
-        _exhaust(followed(add_falls(engine, incomplete), "descents", len(incomplete)))
+        _exhaust(with_progress(add_falls(engine, incomplete), "descents", len(incomplete)))
     if without_json:
-        _exhaust(followed(fill_states_json(engine, without_json), "states as JSON", len(without_json)))
+        _exhaust(with_progress(fill_states_json(engine, without_json), "states as JSON", len(without_json)))
     return len(incomplete)
 
 
@@ -71,7 +75,7 @@ def _exhaust(steps: Iterable[object]) -> None:
 
 
 def _upgrade(engine: Engine) -> None:
-    # Alembic takes half a second to import; a database that needs nothing is not to wait for it.
+    # Imported late: alembic takes half a second, and a migrated database does not need it.
     from alembic import command
     from alembic.config import Config
 

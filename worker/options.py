@@ -1,16 +1,57 @@
-"""Options that several commands share."""
+"""Options that several commands share. Numbers are parsed by :mod:`threadstate.numbers`."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Callable
+from typing import Annotated, Any, NoReturn
 
 import typer
 
 from threadstate import settings
 from threadstate.errors import InvalidValueError
 from threadstate.library.solver_method import SolverMethod
+from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
+from threadstate.mesh.presets import Preset
+from threadstate.mesh.scene_name import Scene
+from threadstate.numbers import integer, number
 from threadstate.units import LengthUnit
-from worker.number_options import integer_option, number_option
+
+
+def number_option(name: str, **described: Any) -> Any:
+    """An option that is a number; ``described`` as for ``typer.Option``."""
+    return typer.Option(name, parser=lambda value: _parsed(number, value), **described)
+
+
+def integer_option(name: str, *, min: int | None = None, max: int | None = None, **described: Any) -> Any:  # noqa: A002
+    """An option that is a whole number from ``min`` to ``max``; ``described`` as for ``typer.Option``."""
+
+    def parse(value: object) -> object:
+        found = _parsed(integer, value)
+        if min is not None and found < min:
+            _refuse(f"{found} is below {min}")
+        if max is not None and found > max:
+            _refuse(f"{found} is above {max}")
+        return found
+
+    return typer.Option(name, parser=parse, min=min, max=max, **described)
+
+
+def _parsed(read: Callable[[str], float], value: Any) -> Any:
+    """Parse a text; defaults, which are not texts, pass."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return read(value)
+    except ValueError as error:
+        _refuse(str(error))
+
+
+def _refuse(reason: str) -> NoReturn:
+    # Loaded when it is needed: `threadstate --help` does without.
+    from pydantic_core import PydanticCustomError
+
+    raise PydanticCustomError("number", "{reason}", {"reason": reason})
+
 
 Database = Annotated[
     str | None,
@@ -107,3 +148,66 @@ def chosen_scheduler(read: settings.Settings, scheduler: str | None, workers: in
     if scheduler is not None and workers is not None:
         raise InvalidValueError("--workers", workers, "without --scheduler alone: a scheduler's workers compute there")
     return read.scheduler if scheduler is None and workers is None else scheduler
+
+
+PresetName = Annotated[
+    Preset | None,
+    typer.Option("--preset", help="Mesh: how finely the parts are tessellated.", show_default=Preset.PAPER.value),
+]
+DescentName = Annotated[
+    Descent | None,
+    typer.Option("--descent", help="Mesh: how motions are stepped; decades tunnel.", show_default=Descent.SAFE.value),
+]
+FinalStepName = Annotated[
+    FinalStep | None,
+    typer.Option(
+        "--final-step",
+        help="Mesh: the smallest step, on a pitch of 0.05 in.",
+        show_default=FinalStep.ONE_MICROINCH.value,
+    ),
+]
+TangentName = Annotated[
+    Tangent | None,
+    typer.Option("--tangent", help="Mesh: the axis of the second turn.", show_default=Tangent.EDGE.value),
+]
+SceneName = Annotated[
+    Scene | None,
+    typer.Option("--scene", help="Mesh: how much of the parts is modelled.", show_default=DEFAULT_SCENE.value),
+]
+Unchecked = Annotated[
+    bool,
+    typer.Option("--unchecked", help="Mesh: without a second tessellation that has to agree.", show_default=False),
+]
+
+
+def mesh_options(
+    method: SolverMethod,
+    preset: Preset | None,
+    descent: Descent | None,
+    final_step: FinalStep | None,
+    tangent: Tangent | None,
+    scene: Scene | None,
+    *,
+    unchecked: bool,
+) -> MeshOptions | None:
+    """The options of the mesh method; None for another solver method.
+
+    Raises:
+        InvalidValueError: options of meshes are given for another solver method.
+    """
+    if method is SolverMethod.MESH:
+        return MeshOptions(
+            tessellation=(preset or Preset.PAPER).tessellation,
+            descent=descent or Descent.SAFE,
+            final_step=(final_step or FinalStep.ONE_MICROINCH).thread_pitches,
+            tangent=tangent or Tangent.EDGE,
+            scene=scene or DEFAULT_SCENE,
+            checked=not unchecked,
+        )
+    chosen = {"preset": preset, "descent": descent, "final-step": final_step, "tangent": tangent, "scene": scene}
+    given = {name: value.value for name, value in chosen.items() if value is not None}
+    if unchecked:
+        given["unchecked"] = "given"
+    for name, value in given.items():
+        raise InvalidValueError(f"--{name}", value, "a setting of --method mesh alone")
+    return None

@@ -1,7 +1,8 @@
-"""Loads the kernels when it is imported, which the forkserver does.
+"""Loads the kernels on import, which the forkserver does.
 
-Where they are still to be compiled nothing is done: that takes a minute, and a computing process can be ended in it.
-What goes wrong here goes wrong again in the computing processes, which can tell.
+Kernels that are not compiled yet are left to the computing processes: it takes a minute, in which those can be
+terminated.
+Errors are ignored here: they occur again in the computing processes, which report them.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import signal
 
 from worker.garbage import collect_rarely
 
-# Ctrl-C reaches the whole group; the parent alone decides what it means.
+# SIGINT reaches the whole process group; the parent alone handles it.
 signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 collect_rarely()
@@ -22,4 +23,4 @@ with contextlib.suppress(Exception):
 
     if kernels_are_compiled():
         load_kernels()
-gc.freeze()  # what is here now stays for good
+gc.freeze()  # all objects so far live as long as the process

@@ -1,24 +1,27 @@
-"""Chunks from several computing processes, as they finish.
+"""Computing processes: chunks from several of them, as they finish.
 
-Each process has a pipe of its own and nobody else holds its ends, so that the death of either side, by SIGKILL too, is
-seen by the other as the end of the pipe: no process is left behind.
+Each process has a pipe of its own whose ends nobody else holds, so that the death of either side, by SIGKILL too, is
+seen by the other as the end of the pipe: no process is left behind. All processes are forked from a forkserver, a clean
+process with the kernels loaded.
 """
 
 from __future__ import annotations
 
+import multiprocessing
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkServerContext
 from multiprocessing.process import BaseProcess
 
 from threadstate.errors import ThreadstateError
 from threadstate.library.identity import LibraryInputs
-from worker.forkserver import running_forkserver
 from worker.messages import Chunk, Failure, Ready
 
-ASKED_AHEAD = 2
-"""How many chunks a process is asked for at a time: it computes on while one waits to be written."""
+QUEUED_PER_PROCESS = 2
+"""Chunks queued per process, so that it computes while a chunk waits to be written."""
 
 _JOIN_TIMEOUT_S = 5.0
 
@@ -38,7 +41,7 @@ class _Computer:
         except (EOFError, ConnectionError):
             raise self._died() from None
 
-    def ask(self, orientation: int) -> None:
+    def submit(self, orientation: int) -> None:
         try:
             self.connection.send(orientation)
         except ConnectionError:
@@ -62,17 +65,17 @@ class ComputingProcesses:
 
         Args:
             orientations: their numbers.
-            on_ready: called once, when the first process has its kernels.
+            on_ready: called once, when the first process has loaded its kernels.
 
         Raises:
             ComputeError: a process failed or died.
         """
         waiting = iter(orientations)
-        asked = dict.fromkeys((computer.connection for computer in self._computers), 0)
+        queued = dict.fromkeys((computer.connection for computer in self._computers), 0)
         by_connection = {computer.connection: computer for computer in self._computers}
         starting = set(by_connection)
         announced = False
-        while starting or any(asked.values()):
+        while starting or any(queued.values()):
             for connection in wait(list(by_connection)):
                 assert isinstance(connection, Connection)
                 message = by_connection[connection].receive()
@@ -84,20 +87,20 @@ class ComputingProcesses:
                         announced = True
                         on_ready()
                 else:
-                    asked[connection] -= 1
-                while asked[connection] < ASKED_AHEAD and (index := next(waiting, None)) is not None:
-                    by_connection[connection].ask(index)
-                    asked[connection] += 1
+                    queued[connection] -= 1
+                while queued[connection] < QUEUED_PER_PROCESS and (index := next(waiting, None)) is not None:
+                    by_connection[connection].submit(index)
+                    queued[connection] += 1
                 if isinstance(message, Chunk):
                     yield message
 
     @property
     def process_ids(self) -> tuple[int, ...]:
-        """The system's numbers of the processes."""
+        """The process ids."""
         return tuple(computer.process.pid for computer in self._computers if computer.process.pid is not None)
 
     def close(self) -> None:
-        """End the processes; what they are computing is lost."""
+        """Terminate the processes; chunks in progress are lost."""
         for computer in self._computers:
             computer.connection.close()
         for computer in self._computers:
@@ -113,7 +116,7 @@ class ComputingProcesses:
 
 
 def _compute(connection: Connection, inputs: LibraryInputs) -> None:
-    # Imported in the computing process alone: the writing one does without numba, which is slow to load and to leave.
+    # Imported in the computing process alone: the writing one does not need numba, which is slow to load.
     from worker.compute import serve_chunks
 
     serve_chunks(connection, inputs)
@@ -127,3 +130,19 @@ def computing_processes(inputs: LibraryInputs, count: int) -> Iterator[Computing
         yield processes
     finally:
         processes.close()
+
+
+PRELOADED = ["worker.preload", "worker.cli", "__main__"]
+"""Modules that it imports. The command line is one of them, as every process imports the program that started it."""
+
+
+def running_forkserver() -> ForkServerContext:
+    """Start the forkserver unless it runs, without waiting until it is ready.
+
+    Returns:
+        The context whose processes it forks.
+    """
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(PRELOADED)
+    forkserver.ensure_running()
+    return context

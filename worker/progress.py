@@ -22,7 +22,7 @@ class PosesPerSecond(ProgressColumn):
 
 
 class ProgressBar:
-    """Shows a rebuild; see :class:`worker.rebuild.Progress`."""
+    """The progress bar of a rebuild; see :class:`worker.rebuild.Progress`."""
 
     def __init__(self, progress: Progress) -> None:
         self._progress = progress
@@ -31,7 +31,7 @@ class ProgressBar:
     def begin(self, committed: int, total: int) -> None:
         """Announce the kernels: the first run on a machine compiles them, which takes a while."""
         if committed:
-            self._progress.console.print(f"going on from {committed} poses of an earlier run", highlight=False)
+            self._progress.console.print(f"resuming after {committed} poses of an earlier run", highlight=False)
         self._task = self._progress.add_task(
             "loading kernels (a first run compiles them)", total=total, completed=committed, start=False
         )
@@ -51,10 +51,10 @@ class ProgressBar:
 Item = TypeVar("Item")
 
 
-def followed(items: Iterable[Item], name: str, count: int | None = None) -> Iterable[Item]:
-    """The same items, with a progress bar on stderr while they are gone through; none where it is no terminal.
+def with_progress(items: Iterable[Item], name: str, count: int | None = None) -> Iterable[Item]:
+    """The same items, with a progress bar on stderr during the iteration if it is a terminal.
 
-    ``count`` is how many there are, where the items do not say.
+    ``count`` is their number, if the items have no length.
     """
     console = Console(stderr=True)
     return track(
@@ -64,7 +64,7 @@ def followed(items: Iterable[Item], name: str, count: int | None = None) -> Iter
 
 @contextmanager
 def progress_bar() -> Iterator[ProgressBar]:
-    """A progress bar on stderr, drawn while the context lasts; only its last line where stderr is no terminal."""
+    """A progress bar on stderr, drawn while the context lasts; only its last line if stderr is not a terminal."""
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),

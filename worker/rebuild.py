@@ -1,30 +1,41 @@
-"""Computing a library: what is committed stays, what is missing is computed, the whole is published."""
+"""Computing a library: committed chunks stay, missing ones are computed, the complete library is published."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Protocol
 
 from sqlalchemy import Engine
 
+from threadstate.library.engine import writing
+from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import LibraryRecord, library_by_input
+from threadstate.library.schema import check_schema, stored_revision
 from threadstate.library.write import committed_orientations, open_library, publish, write_chunk
-from worker.computers import computers
+from threadstate.mesh.options import MeshOptions
+from threadstate.state.options import SolveOptions
+from threadstate.thread.pair import Pair
+from worker.messages import Chunk
+from worker.migrate import migrate
+from worker.processes import computing_processes, running_forkserver
+from worker.progress import progress_bar
 
 
 @dataclass(frozen=True)
-class Rebuild:
-    """What a rebuild came to.
+class RebuildResult:
+    """The result of a rebuild.
 
     Attributes:
         library_id: the library's id.
         input_sha256: hash of its inputs.
         content_sha256: hash of its content.
-        state_count: how many states it has.
-        undecided_count: how many poses its method could not decide.
-        computed: for how many poses this run computed the answer.
-        was_published: whether it was published already, so that nothing was to be done.
+        state_count: number of states.
+        undecided_count: number of poses that its solver method could not decide.
+        computed: number of poses that this run computed.
+        was_published: whether it was published before, so that nothing was computed.
     """
 
     library_id: int
@@ -37,34 +48,34 @@ class Rebuild:
 
 
 class Progress(Protocol):
-    """Somebody who watches a rebuild; counts are of poses."""
+    """An observer of a rebuild; counts are of poses."""
 
     def begin(self, committed: int, total: int) -> None:
-        """The library is open; ``committed`` of ``total`` poses are there from an earlier run."""
+        """The library is open; an earlier run has committed ``committed`` of ``total`` poses."""
 
     def ready(self) -> None:
-        """The kernels are loaded, poses are being computed."""
+        """The kernels are loaded and the computation begins."""
 
     def advance(self, poses: int) -> None:
-        """That many more poses are committed."""
+        """``poses`` more poses are committed."""
 
 
 def rebuild(
     engine: Engine, inputs: LibraryInputs, workers: int, progress: Progress, scheduler: str | None = None
-) -> Rebuild:
-    """Compute and publish the library of these inputs, going on from the chunks that are committed.
+) -> RebuildResult:
+    """Compute the missing chunks of a library and publish it.
 
-    May be killed at any moment: a chunk is committed whole or not at all, and the library is published only when all
+    May be killed at any moment: each chunk is committed in one transaction, and the library is published only when all
     are. The content depends on the inputs alone, not on earlier runs or on who computes: ``workers`` processes, or the
-    workers of the Dask cluster at ``scheduler``. Either way this process alone writes, each chunk when it is there.
+    workers of the Dask cluster at ``scheduler``. This process alone writes, each chunk when it arrives.
 
     Raises:
         ComputeError: a computing process failed.
-        ClusterError: the cluster cannot be used, or not any more.
+        ClusterError: the cluster cannot be used, or becomes unreachable.
     """
     known = _published(engine, inputs)
     if known is not None:
-        return _rebuild(known, 0, was_published=True)
+        return _result(known, 0, was_published=True)
 
     grid = inputs.grid
     library_id = open_library(engine, inputs)
@@ -73,7 +84,7 @@ def rebuild(
     progress.begin(len(committed) * grid.phase_count, grid.pose_count)
     computed = 0
     if missing:
-        with computers(inputs, min(workers, len(missing)), scheduler) as computing:
+        with chunk_source(inputs, min(workers, len(missing)), scheduler) as computing:
             for chunk in computing.chunks(missing, progress.ready):
                 if write_chunk(engine, library_id, chunk.rows, chunk.history):
                     computed += chunk.rows.pose_count
@@ -81,7 +92,7 @@ def rebuild(
     publish(engine, library_id, grid)
     made = _published(engine, inputs)
     assert made is not None
-    return _rebuild(made, computed, was_published=False)
+    return _result(made, computed, was_published=False)
 
 
 def _published(engine: Engine, inputs: LibraryInputs) -> LibraryRecord | None:
@@ -89,8 +100,8 @@ def _published(engine: Engine, inputs: LibraryInputs) -> LibraryRecord | None:
         return library_by_input(connection, inputs.sha256)
 
 
-def _rebuild(library: LibraryRecord, computed: int, *, was_published: bool) -> Rebuild:
-    return Rebuild(
+def _result(library: LibraryRecord, computed: int, *, was_published: bool) -> RebuildResult:
+    return RebuildResult(
         library.id,
         library.input_sha256,
         library.content_sha256,
@@ -99,3 +110,64 @@ def _rebuild(library: LibraryRecord, computed: int, *, was_published: bool) -> R
         computed,
         was_published,
     )
+
+
+def rebuild_library(
+    database: str,
+    *,
+    pair: Pair,
+    phase_step_deg: float,
+    tilt_max_deg: float,
+    tilt_step_deg: float,
+    workers: int,
+    scheduler: str | None = None,
+    mesh: MeshOptions | None = None,
+) -> RebuildResult:
+    """Compute and publish the library of a pair and a grid with a progress bar; an empty database is migrated first.
+
+    By the exact method, or with ``mesh`` by meshes.
+
+    Raises:
+        InvalidValueError: a value is not valid.
+        SchemaError: the database is at another revision.
+        ComputeError: a computing process failed.
+        ClusterError: the cluster cannot be used, or becomes unreachable.
+    """
+    inputs = LibraryInputs(pair, Grid(tilt_max_deg, tilt_step_deg, phase_step_deg), SolveOptions(), mesh)
+    with writing(database) as engine:
+        if stored_revision(engine) is None:
+            if scheduler is None:
+                running_forkserver()  # loads the kernels during the migration
+            migrate(engine)
+        check_schema(engine)
+        with progress_bar() as progress:
+            return rebuild(engine, inputs, workers, progress, scheduler)
+
+
+class ChunkSource(Protocol):
+    """Computes chunks of one library."""
+
+    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
+        """The chunks of these orientations, in the order in which they are finished.
+
+        Orientations are taken when they can be computed; ``on_ready`` is called once, when the computation begins.
+        """
+
+
+@contextmanager
+def chunk_source(inputs: LibraryInputs, processes: int, scheduler: str | None) -> Iterator[ChunkSource]:
+    """The workers of the cluster at ``scheduler``, or without one ``processes`` local processes, terminated on leaving.
+
+    Raises:
+        InvalidValueError: ``scheduler`` is not the address of a scheduler.
+        ClusterError: the cluster cannot be used.
+    """
+    if scheduler is None:
+        with computing_processes(inputs, processes) as local:
+            yield local
+    else:
+        # Dask takes a second to import, and is an extra.
+        from worker.cluster.chunks import computing_cluster
+
+        with computing_cluster(inputs, scheduler) as cluster:
+            yield cluster

@@ -1,4 +1,4 @@
-"""Handing this process over to the service."""
+"""Starting the service in this process."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import NoReturn
 
 from threadstate.errors import MissingExtraError, ThreadstateError
 from threadstate.settings import DATABASE, HOST, PORT
-from worker.output import tell
+from worker.output import print_status
 
 SERVICE = "service"
 """The service by name: the worker does not import it."""
@@ -21,10 +21,8 @@ class UnusableAddressError(ThreadstateError):
     """An address that the service cannot listen on."""
 
 
-def become_service(database: str, host: str, port: int) -> NoReturn:
-    """Replace this process by the service, which so gets every signal itself.
-
-    What ``serve`` and ``run`` end with.
+def exec_service(database: str, host: str, port: int) -> NoReturn:
+    """Replace this process by the service (``exec``), which then receives every signal itself.
 
     Raises:
         MissingExtraError: the service's packages are not installed.
@@ -33,24 +31,24 @@ def become_service(database: str, host: str, port: int) -> NoReturn:
     if find_spec("uvicorn") is None:
         raise MissingExtraError("the service", "service")
     check_address(host, port)
-    tell(f"Open {address(host, port)} in a browser, or ask {address(host, port)}/v1/libraries/latest.")
+    print_status(f"Open {address(host, port)} in a browser, or ask {address(host, port)}/v1/libraries/latest.")
     environment = {**os.environ, DATABASE: database, HOST: host, PORT: str(port)}
-    # This very interpreter, and arguments that no shell reads.
+    # The same interpreter, without a shell.
     os.execve(sys.executable, [sys.executable, "-m", SERVICE], environment)  # nosec B606
 
 
 def check_address(host: str, port: int) -> None:
-    """Check that an address can be listened on; not where systemd passes on a socket that listens already.
+    """Check that an address can be listened on, unless systemd passes a listening socket.
 
     Raises:
-        UnusableAddressError: another process listens on the port, or the address is none of this machine.
+        UnusableAddressError: another process listens on the port, or the machine does not have the address.
     """
     if os.environ.get("LISTEN_PID") == str(os.getpid()):
         return
     try:
         family, kind, protocol, _, found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
         with socket.socket(family, kind, protocol) as listening:
-            # As the service does: a port whose last connections are still being closed is free.
+            # As the service does: the port may have connections that are still being closed.
             listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             listening.bind(found)
             listening.listen()

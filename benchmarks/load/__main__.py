@@ -38,7 +38,7 @@ def main() -> int:
     """Measure, print, and write the document.
 
     Returns:
-        0 if every promise was kept.
+        0 if every promise was met.
     """
     parser = argparse.ArgumentParser(prog="python -m benchmarks.load", description=__doc__)
     parser.add_argument("--seconds", type=float, default=5.0, help="for each number [%(default)s]")
@@ -56,7 +56,7 @@ def main() -> int:
         return 1
     sys.stdout.write(table(cases))
     broken = [line for case in cases for line in case.broken]
-    sys.stdout.writelines(f"not kept: {line}\n" for line in broken)
+    sys.stdout.writelines(f"not met: {line}\n" for line in broken)
     if arguments.write is not None:
         arguments.write.write_text(document(cases, arguments.seconds))
     return 1 if broken else 0

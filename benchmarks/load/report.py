@@ -30,7 +30,7 @@ class Case:
 
     @property
     def broken(self) -> list[str]:
-        """The promises that are not kept."""
+        """The promises that are not met."""
         found = []
         if self.least_rate is not None and self.alone.rate < self.least_rate:
             found.append(f"{self.name}: {self.alone.rate:.0f}/s instead of {self.least_rate:.0f}/s")
@@ -59,7 +59,7 @@ def table(cases: list[Case]) -> str:
 def document(cases: list[Case], seconds: float) -> str:
     """``docs/load.md``."""
     broken = [line for case in cases for line in case.broken]
-    kept = "Every promise was kept in this run." if not broken else "Not kept in this run:\n\n" + _items(broken)
+    outcome = "Every promise was met in this run." if not broken else "Not met in this run:\n\n" + _items(broken)
     return _DOCUMENT.format(
         machine=f"{_processor()}, {len(os.sched_getaffinity(0))} cores, {platform.system()} {platform.release()}, "
         f"Python {platform.python_version()}",
@@ -67,7 +67,7 @@ def document(cases: list[Case], seconds: float) -> str:
         connections=CONNECTIONS,
         seconds=f"{seconds:g}",
         table=table(cases),
-        kept=kept,
+        outcome=outcome,
     )
 
 
@@ -75,7 +75,7 @@ _DOCUMENT = """# The service under load
 
 Written by `make load`, which needs `wrk` (`apt-get install wrk`) and a few minutes. One process of the service, on its
 defaults but for what is said below, over the library of 29,160 states in SQLite; wrk with one thread and {connections}
-connections on the same cores, {seconds} s for each number. An answer that is not 200 (304 where that is asked for)
+connections on the same cores, {seconds} s for each number. A response that is not 200 (304 for a conditional request)
 fails the run.
 
 Machine: {machine}. Load average at the end of the run: {load}; what else ran took its share.
@@ -83,18 +83,19 @@ Machine: {machine}. Load average at the end of the run: {load}; what else ran to
 {table}
 Times are milliseconds to the whole answer as wrk sees it. kB are those of an answer on the wire.
 
-- **pose**: random ones of all 29,160, each read and serialised anew ([decision 20](decisions/0020-one-read.md)): poses
+- **pose**: random ones of all 29,160, each read and serialised every time ([decision 20](decisions/0020-one-read.md)):
+poses
   are not cached.
 - **history**: random ones of all 81 with `THREADSTATE_CACHE_MB=0`, each read from the JSON that is stored with its
-  orientation, and hashed anew. **From the rows**: the same in millimetres, which is assembled from 3,000 rows.
-- **cached**: asked for before, with the default cache. The rate of whole histories is bounded by their bytes.
+  orientation, and hashed every time. **From the rows**: the same in millimetres, which is assembled from 3,000 rows.
+- **cached**: requested before, with the default cache. The rate of whole histories is bounded by their bytes.
 - **304**: the client sends the ETag that it has.
 - **during a rebuild**: `threadstate rebuild` computes a finer library into the same database meanwhile, with as many
   processes as there are cores and at the same priority.
 - **Datasette** serves the very same file, with nothing beside it, and is asked the same by one SQL statement: a state,
   its poses, contacts and flags; or these of all phases of an orientation.
 
-{kept}
+{outcome}
 """
 
 

@@ -15,7 +15,7 @@ from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.write import open_library, write_chunk
 from threadstate.state.options import SolveOptions
-from threadstate.stored_histories.answers import exact_answers
+from threadstate.stored_histories.compute import exact_answers
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.compute import compute_chunk
 from worker.messages import Chunk

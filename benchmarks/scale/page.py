@@ -115,7 +115,7 @@ def _figures(figures: Figures) -> str:
     others = (
         f"Copying with its proof: {copied}.",
         f"All tables as Parquet (zstd): {figures.parquet_bytes_a_state:.0f} bytes a state.",
-        f"A flush to the disk at hand: {figures.flush_ms:.1f} ms.",
+        f"A flush to the disk of this machine: {figures.flush_ms:.1f} ms.",
         f"The network of the library of 81 orientations, from its rows: {figures.network_s:.1f} s.",
     )
     return "\n\n".join((computed, committed, grown, rooms, "\n".join(others)))

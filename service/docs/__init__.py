@@ -1,1 +1,1 @@
-"""The service describes itself, with nothing from elsewhere."""
+"""The documentation of the interface, from files that the service itself has."""

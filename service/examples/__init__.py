@@ -1,1 +1,1 @@
-"""Examples of answers, from real states."""
+"""Examples of responses, from real states."""

@@ -1,1 +1,1 @@
-"""The explorer: a page for people who look before they read."""
+"""The explorer: an interactive page over the interface."""

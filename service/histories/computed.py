@@ -56,7 +56,7 @@ StepsQuery = Annotated[
     Ge(STEPS),
     Le(MOST_STEPS),
     INTEGER_TEXT,
-    Query(description="how many values of each angle are looked at, an odd number"),
+    Query(description="number of values of each angle within the tolerance, an odd number"),
 ]
 SpanQuery = Annotated[
     float,
@@ -65,7 +65,7 @@ SpanQuery = Annotated[
     AllowInfNan(False),
     NUMBER_TEXT,
     Query(
-        description="span of phase, in degrees, within which the steepest fall is looked for",
+        description="span of phase, in degrees, of the steepest fall",
     ),
 ]
 

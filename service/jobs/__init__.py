@@ -1,1 +1,1 @@
-"""Libraries that are asked for, and how far they are."""
+"""Jobs: requested libraries and their progress."""

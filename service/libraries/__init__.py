@@ -1,1 +1,1 @@
-"""The libraries: what is published, and what it was computed from."""
+"""The published libraries and their inputs."""

@@ -45,7 +45,7 @@ class LibraryDocument(BaseModel):
     method: SolverMethod
     options: dict[str, float | str] = Field(description="limits and tolerances of the method; lengths per thread pitch")
     state_count: int
-    undecided_count: int = Field(description="how many more poses of the grid the method could not decide")
+    undecided_count: int = Field(description="number of poses of the grid that the solver method could not decide")
     code_version: str
     input_sha256: str = Field(description="SHA-256 of everything that the content depends on")
     content_sha256: str = Field(description="SHA-256 of the content; the same on every machine")
@@ -54,7 +54,7 @@ class LibraryDocument(BaseModel):
 
 
 class CountsDocument(BaseModel):
-    """How many states have each class and each flag."""
+    """Number of states of each class and with each flag."""
 
     classes: dict[StateClass, int]
     flags: dict[Flag, int]
@@ -73,7 +73,7 @@ class LibraryList(BaseModel):
 
 
 def library_document(record: LibraryRecord, unit: LengthUnit | None) -> LibraryDocument:
-    """The document of a library, with its lengths in ``unit`` (None: its own)."""
+    """The document of a library, with its lengths in ``unit`` (None: the library's own)."""
     shown = unit or record.length_unit
     return LibraryDocument(
         id=record.id,
@@ -128,7 +128,7 @@ router = APIRouter(prefix="/v1/libraries", tags=["libraries"])
 
 @router.get("", summary="All published libraries", response_model=LibraryList, responses=NOT_MODIFIED)
 def list_libraries(request: Request, connection: ReadConnection, unit: UnitQuery = None) -> Response:
-    """The published libraries, the latest first; what is still being computed is not shown."""
+    """The published libraries, the latest first; unpublished ones are not listed."""
     documents = [library_document(record, unit) for record in published_libraries(connection)]
     return json_response(request, LibraryList(libraries=documents).model_dump(mode="json"))
 
@@ -137,7 +137,7 @@ def list_libraries(request: Request, connection: ReadConnection, unit: UnitQuery
 def get_library(
     request: Request, connection: ReadConnection, library: IdentifiedLibrary, unit: UnitQuery = None
 ) -> Response:
-    """What a library was computed from, and how many of its states have each class and each flag."""
+    """What a library was computed from, and number of its states of each class and each flag."""
     document = library_detail(library, counts(connection, library.id), unit)
     headers = {"Content-Location": f"/v1/libraries/{library.id}"}
     return json_response(request, document.model_dump(mode="json"), headers)

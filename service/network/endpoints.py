@@ -186,7 +186,7 @@ def get_network(
     request: Request,
     network: RequestedNetwork,
     format: Annotated[  # noqa: A002 - the parameter's name in the address
-        NetworkFormat, Query(description="`summary` is its size and what holds it together; the others are all of it")
+        NetworkFormat, Query(description="`summary` is its size and its connectivity; the others are all of it")
     ] = NetworkFormat.SUMMARY,
 ) -> Response:
     """Formations and what leads from one to another: its size, or all of it as node-link JSON, GraphML or DOT."""
@@ -204,7 +204,7 @@ def get_network(
 
 @router.get("/network/formations", summary="All formations", response_model=FormationsAnswer, responses=NOT_MODIFIED)
 def list_formations(request: Request, network: RequestedNetwork) -> Response:
-    """Every formation in few words: class, share, where it occurs, how far it is to the window; ordered by key."""
+    """A summary of every formation: class, share, where it occurs, how far it is to the window; ordered by key."""
     answer = FormationsAnswer(library=network.library.id, formations=network.formations)
     return json_response(request, answer.model_dump(mode="json", by_alias=True))
 
@@ -246,7 +246,12 @@ def get_path(
     return _json(request, PathAnswer(library=network.library.id, unit=shown, path=document), shown)
 
 
-@router.get("/network/locate", summary="What remains", response_model=LocationAnswer, responses=NOT_MODIFIED)
+@router.get(
+    "/network/locate",
+    summary="Orientations and phases that match an observation",
+    response_model=LocationAnswer,
+    responses=NOT_MODIFIED,
+)
 def get_location(request: Request, network: RequestedNetwork, observed: ObservationQuery) -> Response:
     """The orientations and phases at which a state can have all that was observed, and their share of all."""
     location = location_document(locate(network.cell_map, observed), network.cell_map)

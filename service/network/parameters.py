@@ -28,7 +28,8 @@ RequiredKey = Annotated[
     Query(alias="from", min_length=KEY_DIGITS, max_length=KEY_DIGITS, description="key of the formation to start from"),
 ]
 ObjectiveQuery = Annotated[
-    Objective, Query(description="what makes a path the best: least turning, fewest transitions, largest worst margin")
+    Objective,
+    Query(description="the objective of the best path: least turning, fewest transitions, largest worst margin"),
 ]
 
 
@@ -39,7 +40,7 @@ LeastQuery = Annotated[
     AllowInfNan(False),
     NUMBER_TEXT,
     Query(
-        description="a steepest fall of more than so many thread pitches is a snap's",
+        description="a steepest fall of more than this many thread pitches is that of a snap",
     ),
 ]
 
@@ -64,7 +65,7 @@ def transition_filter(
     change: Annotated[ChangeKind | None, Query(description="what changes")] = None,
     state_class: Annotated[StateClass | None, Query(alias="class", description="the class it begins with")] = None,
 ) -> TransitionFilter:
-    """The filter that a query asks for.
+    """The filter of the query parameters.
 
     Raises:
         InvalidValueError: ``phase_min`` is above ``phase_max``.
@@ -78,7 +79,7 @@ def path_moves(
         Query(max_length=_LONGEST_MOVES, description=f"moves allowed, separated by commas: {', '.join(Move)}"),
     ] = Move.COUNTER_CLOCKWISE.value,
 ) -> frozenset[Move]:
-    """The moves that a query allows; a plus sign may have come as the space that it stands for in an address.
+    """The moves of the query parameter; a plus sign may arrive as a space, which it encodes in a query.
 
     Raises:
         UnknownNameError: no such move.
@@ -109,7 +110,7 @@ def observation(
         ),
     ] = False,
 ) -> Observation:
-    """What a query observed.
+    """The observation of the query parameters.
 
     Raises:
         InvalidValueError: a contact that cannot be read, or more contacts than there are.

@@ -116,7 +116,7 @@ class PathAnswer(_OfLibrary):
 
 
 class LocationAnswer(BaseModel):
-    """Where a state with all that was observed can be."""
+    """Where a state that matches the observation can be."""
 
     library: int = Field(description="number of the library")
     location: LocationDocument

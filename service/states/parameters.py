@@ -44,7 +44,7 @@ def state_filter(
     ] = None,
     flag: Annotated[Flag | None, Query(description="a flag of the state")] = None,
 ) -> StateFilter:
-    """The filter that a query asks for.
+    """The filter of the query parameters.
 
     Raises:
         InvalidValueError: ``phase_min`` is above ``phase_max``.
@@ -68,7 +68,7 @@ def state_sort(
         ),
     ] = "roll",
 ) -> Sort:
-    """The order that a query asks for.
+    """The order of the query parameter.
 
     Raises:
         UnknownNameError: no such order.
@@ -89,7 +89,7 @@ def state_fields(
         ),
     ] = None,
 ) -> tuple[str, ...]:
-    """The fields that a query asks for, in the order of the document.
+    """The fields of the query parameter, in the order of the document.
 
     Raises:
         UnknownNameError: no such field.

@@ -12,9 +12,9 @@ from studies.chart.contestant import ByMesh, Contestant, Engine, Exactly
 from studies.chart.exact import Pose, proved_state, run_with_boxes
 from threadstate.errors import UnresolvedPoseError
 from threadstate.mesh.collision import Collider
-from threadstate.mesh.curve_method import CurveMethod
-from threadstate.mesh.method import MeshMethod
+from threadstate.mesh.curve_procedure import CurveProcedure
 from threadstate.mesh.part_name import Part
+from threadstate.mesh.procedure import MeshProcedure
 from threadstate.mesh.scene import scene_part
 from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solve import state_by
@@ -57,7 +57,7 @@ def run(contestant: Contestant, pair: Pair, poses: list[Pose]) -> Run:
     began = time.process_time()
     triangles, reach, segment = 0, 0.0, 0.0
     if isinstance(way, ByMesh):
-        method = mesh_method(way, pair)
+        method = mesh_procedure(way, pair)
         parts = [scene_part(pair, part, way.options.tessellation, way.options.scene) for part in Part]
         triangles = sum(len(part.triangles) for part in parts)
         reach = method.edge_deviation + way.options.final_step * pair.thread_pitch
@@ -74,18 +74,18 @@ def run(contestant: Contestant, pair: Pair, poses: list[Pose]) -> Run:
     return Run(contestant, states, seconds, setup, triangles, reach, segment)
 
 
-def mesh_method(way: ByMesh, pair: Pair) -> MeshMethod:
+def mesh_procedure(way: ByMesh, pair: Pair) -> MeshProcedure:
     """The method, its meshes and search trees."""
     if way.options.scene is Scene.CURVES:
-        return CurveMethod(pair, way.options)
+        return CurveProcedure(pair, way.options)
     if way.engine is Engine.COAL:
         from studies.chart.coal_engine import CoalEngine
 
-        return MeshMethod(pair, way.options, CoalEngine)
-    return MeshMethod(pair, way.options, Collider)
+        return MeshProcedure(pair, way.options, CoalEngine)
+    return MeshProcedure(pair, way.options, Collider)
 
 
-def _by_mesh(method: MeshMethod, contestant: Contestant, pose: Pose) -> ContactState:
+def _by_mesh(method: MeshProcedure, contestant: Contestant, pose: Pose) -> ContactState:
     return state_by(method, contestant.options, pose)
 
 

@@ -20,12 +20,12 @@ from benchmarks.sample import sample_poses
 from studies.chart.contestant import LIMITED, ByMesh, Contestant, Exactly, Scale, Series, contestants
 from studies.chart.errors import Score, score
 from studies.chart.exact import Pose, proved_state
-from studies.chart.measure import Run, mesh_method, run
+from studies.chart.measure import Run, mesh_procedure, run
 from threadstate.errors import UnresolvedPoseError
-from threadstate.mesh.method import MeshMethod
 from threadstate.mesh.options import MeshOptions
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset, Tessellation
+from threadstate.mesh.procedure import MeshProcedure
 from threadstate.mesh.scene import scene_part
 from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solid import Floats
@@ -65,9 +65,9 @@ def scene_cost(pair: Pair, scene: Scene, preset: Preset) -> SceneCost:
 
 def _cost(pair: Pair, scene: Scene, preset: Preset) -> SceneCost:
     # What is compiled and imported at first use is no part of the scene.
-    mesh_method(ByMesh(MeshOptions(Preset.COARSE.tessellation, scene=scene)), pair)
+    mesh_procedure(ByMesh(MeshOptions(Preset.COARSE.tessellation, scene=scene)), pair)
     before, began = _peak(), time.process_time()
-    method = mesh_method(ByMesh(MeshOptions(preset.tessellation, scene=scene)), pair)
+    method = mesh_procedure(ByMesh(MeshOptions(preset.tessellation, scene=scene)), pair)
     seconds, memory = time.process_time() - began, _peak() - before
     parts = [scene_part(method.pair, part, preset.tessellation, scene) for part in Part]
     return SceneCost(scene, preset, sum(len(part.triangles) for part in parts), memory, seconds)
@@ -100,7 +100,7 @@ def extrapolated_heights(pair: Pair, poses: list[Pose], chords: Sequence[float])
     heights = np.empty((len(chords), len(poses)))
     for k, chord in enumerate(chords):
         options = MeshOptions(Tessellation(chord, 0.5), final_step=FINAL_STEP, scene=Scene.EDGES)
-        method = MeshMethod(pair, options)
+        method = MeshProcedure(pair, options)
         for i, pose in enumerate(poses):
             found, _ = method.first_pose(pose)
             # The blocked place is up to a final step too low: half of one is left.

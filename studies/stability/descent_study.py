@@ -14,7 +14,7 @@ from threadstate.errors import MeshUndecidedError
 from threadstate.library.grid import Grid
 from threadstate.mesh.options import Descent
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.solve import mesh_method
+from threadstate.mesh.solve import mesh_procedure
 from threadstate.state.model import ContactState
 from threadstate.thread.pair import Pair
 
@@ -87,7 +87,7 @@ def descent_row(exact: Method, descents: Sequence[MeshStates], pair: Pair, grid:
 def first_height(method: MeshStates, case: Case) -> Height:
     """Where the descending meshes first collide."""
     try:
-        pose, _ = mesh_method(case.pair, method.options).first_pose(case.pose_deg)
+        pose, _ = mesh_procedure(case.pair, method.options).first_pose(case.pose_deg)
     except MeshUndecidedError as error:
         return Height(None, error.reason)
     return Height(float(pose[2, 3]))

@@ -15,7 +15,7 @@ from threadstate.mesh.part import part_solid
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.segments import Intersection
 from threadstate.mesh.solid import Floats, Solid
-from threadstate.mesh.solve import mesh_method
+from threadstate.mesh.solve import mesh_procedure
 from threadstate.mesh.touch import cluster_segments
 from threadstate.state.model import ContactState, StagePose
 from threadstate.thread.pair import Pair
@@ -66,7 +66,7 @@ def mesh_traps(method: MeshStates, sample: int, pair: Pair) -> MeshTraps:
     poses = np.random.default_rng(SEED).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], (sample, 3))
     for roll, pitch, phase in poses.tolist():
         try:
-            pose, found = mesh_method(pair, method.options).first_pose((roll, pitch, phase))
+            pose, found = mesh_procedure(pair, method.options).first_pose((roll, pitch, phase))
         except MeshUndecidedError:
             continue
         here = Counter(

@@ -12,8 +12,7 @@ from threadstate.client import AsyncClient, AsyncItems, AsyncJob, Client, Items,
 from threadstate.client.frame_columns import COLUMNS
 from threadstate.export.column import Column
 from threadstate.export.intervals import LEAST_LABELS, interval_columns
-from threadstate.export.states import LEAST_CONTACTS, state_columns
-from threadstate.export.undecided import UNDECIDED_COLUMNS
+from threadstate.export.states import LEAST_CONTACTS, UNDECIDED_COLUMNS, state_columns
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Failures: what is tried again, what is raised, and that a key is in none of it."""
+"""Failures: what is failures again, what is raised, and that a key is in none of it."""
 
 from __future__ import annotations
 
@@ -174,7 +174,7 @@ def test_the_service_says_how_long_to_wait(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_pauses_double_up_to_a_limit() -> None:
-    assert all(0.0 < backoff_s(tried) <= LONGEST_PAUSE_S for tried in range(2000))
+    assert all(0.0 < backoff_s(failures) <= LONGEST_PAUSE_S for failures in range(2000))
     assert backoff_s(2000) > 0.4 * LONGEST_PAUSE_S
 
 

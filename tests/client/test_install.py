@@ -15,7 +15,7 @@ from packaging.utils import canonicalize_name
 
 from threadstate.errors import MissingExtraError
 from threadstate.library.engine import reader_engine
-from worker.serving import become_service
+from worker.serving import exec_service
 
 ASK = """
 import sys
@@ -29,16 +29,16 @@ print(state.roll, state.phase)
 
 def _with_dependencies(requirements: list[str]) -> Iterator[Distribution]:
     """The installed distributions that requirements name, without extras, and those that these need in turn."""
-    waiting, seen = [*requirements], set[str]()
-    while waiting:
-        requirement = Requirement(waiting.pop())
+    wait, seen = [*requirements], set[str]()
+    while wait:
+        requirement = Requirement(wait.pop())
         name = canonicalize_name(requirement.name)
         if name in seen or (requirement.marker and not requirement.marker.evaluate({"extra": ""})):
             continue
         seen.add(name)
         found = distribution(name)
         yield found
-        waiting += found.requires or []
+        wait += found.requires or []
 
 
 @pytest.fixture(scope="module")
@@ -105,4 +105,4 @@ def test_a_driver_that_is_not_installed_is_named_with_its_extra(monkeypatch: pyt
 def test_a_service_that_is_not_installed_is_named_with_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "uvicorn", None)
     with pytest.raises(MissingExtraError, match=r"pip install '\.\[service\]'"):
-        become_service("sqlite:///nothing", "127.0.0.1", 0)
+        exec_service("sqlite:///nothing", "127.0.0.1", 0)

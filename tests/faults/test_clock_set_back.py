@@ -25,7 +25,7 @@ from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.jobs.silence import SilenceDetector
+from worker.jobs.heartbeat import SilenceDetector
 
 TELL_TIME = {
     "threadstate/jobs/queue.py",

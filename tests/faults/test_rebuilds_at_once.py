@@ -13,7 +13,7 @@ from threadstate.library.engine import writing
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.state.options import SolveOptions
-from worker.rebuild import Rebuild, rebuild
+from worker.rebuild import RebuildResult, rebuild
 
 pytestmark = pytest.mark.slow
 
@@ -25,7 +25,7 @@ def test_same_and_different_libraries_at_once(databases: Databases) -> None:
     expected = [content_of(grid) for grid in GRIDS]
     with databases.lent() as database:
 
-        def rebuilt(grid: Grid) -> Rebuild:
+        def rebuilt(grid: Grid) -> RebuildResult:
             with writing(database) as engine:
                 return rebuild(engine, LibraryInputs(PAIR, grid, SolveOptions()), 1, Unwatched())
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from threadstate.errors import InvalidValueError
-from threadstate.library.address import database_url, shown
+from threadstate.library.address import database_url, masked_url
 from threadstate.library.engine import reader_engine, writer_engine
 from threadstate.settings import DATABASE_PASSWORD_FILE
 
@@ -34,7 +34,7 @@ def test_an_address_of_postgresql_names_its_driver_and_keeps_the_rest(scheme: st
     assert url.render_as_string(hide_password=False) == (
         "postgresql+psycopg://somebody:secret@host:5433/threads?sslmode=require"
     )
-    assert "secret" not in shown(url)
+    assert "secret" not in masked_url(url)
 
 
 @pytest.mark.parametrize("database", ["mysql://user:secret@host/name", "postgresql:/user:secret@host/name"])

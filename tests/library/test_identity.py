@@ -219,7 +219,6 @@ def test_the_computing_process_computes_nothing_beside_it(repository_root: Path)
     tree = ast.parse((repository_root / "worker" / "compute.py").read_text())
     modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module}
     assert {name for name in modules if name.startswith("threadstate")} == {
-        "threadstate.stored_histories.answers",
         "threadstate.stored_histories.compute",
         "threadstate.library.identity",
     }

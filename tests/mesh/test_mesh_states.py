@@ -16,7 +16,7 @@ from threadstate.mesh.options import Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.part import part_solid
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.solve import mesh_method, solve_poses_by_mesh
+from threadstate.mesh.solve import mesh_procedure, solve_poses_by_mesh
 from threadstate.state.model import ContactState, FeaturePair, Flag, StateClass
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose
@@ -113,7 +113,7 @@ def test_a_metric_pair_is_solved_in_its_own_unit() -> None:
 
 
 def first_height(options: MeshOptions, pose: Pose, pair: Pair = UNC) -> float:
-    found, _ = mesh_method(pair, options).first_pose(pose)
+    found, _ = mesh_procedure(pair, options).first_pose(pose)
     return float(found[2, 3])
 
 

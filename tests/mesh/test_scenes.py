@@ -21,7 +21,7 @@ from threadstate.mesh.presets import Preset, Tessellation
 from threadstate.mesh.scene import scene_part
 from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solid import Face, Floats, Ints, Solid
-from threadstate.mesh.solve import mesh_method, solve_poses_by_mesh
+from threadstate.mesh.solve import mesh_procedure, solve_poses_by_mesh
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose
 from threadstate.thread.pair import Pair
@@ -142,7 +142,7 @@ def test_curves_come_nearer_to_the_exact_method_with_finer_polygons() -> None:
             (state,) = solve_poses_by_mesh(UNC, [pose], options)
             assert state.state_class is exact.state_class
             errors.append(abs(state.poses[0].translation[2] - exact.poses[0].translation[2]))
-            assert errors[-1] < mesh_method(UNC, options).edge_deviation + 1e-7 * UNC.thread_pitch
+            assert errors[-1] < mesh_procedure(UNC, options).edge_deviation + 1e-7 * UNC.thread_pitch
             assert state.lambda_deg == pytest.approx(exact.lambda_deg, abs=30.0 * chord)
             assert state.mu_deg == pytest.approx(exact.mu_deg, abs=30.0 * chord)
         assert errors[-1] < 1e-7
@@ -163,7 +163,7 @@ def test_curves_march_down_and_their_decades_tunnel() -> None:
     pose = (0.0, -4.0, 350.0)
     exact_inch = solve_pose(UNC, *pose).poses[0].translation[2]
     for descent, least, most in ((Descent.SAFE, -3e-6, 1e-9), (Descent.DECADES, -0.02, -0.01)):
-        found, clusters = mesh_method(UNC, MeshOptions(FINE, descent, scene=Scene.CURVES)).first_pose(pose)
+        found, clusters = mesh_procedure(UNC, MeshOptions(FINE, descent, scene=Scene.CURVES)).first_pose(pose)
         assert clusters == ()
         assert least < found[2, 3] - exact_inch < most
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.library.states import plain_state
-from threadstate.network.margin import class_margin, smallest_margin
+from threadstate.network.from_history import class_margin, smallest_margin
 from threadstate.state.classify import classify
 from threadstate.state.model import Flag, StateClass
 

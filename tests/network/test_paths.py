@@ -187,7 +187,7 @@ def test_what_cannot_be_asked_is_refused() -> None:
         best_path(TURN, A, moves=TILTS)
     with pytest.raises(InvalidValueError, match="moves"):
         best_path(TURN, A, moves=[Move.CLOCKWISE, Move.COUNTER_CLOCKWISE])
-    with pytest.raises(InvalidValueError, match="one that holds"):
+    with pytest.raises(InvalidValueError, match="a formation that occurs"):
         best_path(TURN, A, phase_deg=150.0)
     with pytest.raises(InvalidValueError, match="phase"):
         best_path(TURN, A, phase_deg=math.inf)

@@ -27,7 +27,7 @@ def test_promises_are_held_against_what_was_found() -> None:
         (line,) = case.broken
         assert said in line
     assert "| pose | 2.6 | 3,000 | 0.5 | 1.0 | 3,000/s, p99 15 ms, 8 times | 1,500 | 1.0 | 375.0 | 8 |" in table([kept])
-    assert "Every promise was kept" in document([kept], 5.0)
+    assert "Every promise was met" in document([kept], 5.0)
     assert "- pose: 2999/s" in document([Case("pose", _answered(2999.0), least_rate=3000.0)], 5.0)
 
 

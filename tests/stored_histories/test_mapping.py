@@ -18,7 +18,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.tables import library
 from threadstate.library.write import open_library
 from threadstate.network.formation import formation_of
-from threadstate.network.margin import smallest_margin
+from threadstate.network.from_history import smallest_margin
 from threadstate.state.solve import SolveOptions
 from threadstate.stored_histories.mapping import formations, orientation_history, stored_histories
 from threadstate.stored_histories.model import StoredHistories

@@ -111,7 +111,7 @@ def test_a_key_is_shown_once_listed_without_its_secret_and_revoked(command_line:
         ("designer", "write", None),
         ("reader", "read", None),
     ]
-    assert f"{key_id}  write  counts  designer" in command_line.here("key", "list")[1]
+    assert f"{key_id}  write  valid  designer" in command_line.here("key", "list")[1]
     assert command_line.here("key", "revoke", "--id", key_id)[0] == 0
     assert f"{key_id}  write  revoked" in command_line.here("key", "list")[1]
     assert key.split("_", 2)[2] not in command_line.here("key", "list")[1]

@@ -17,7 +17,7 @@ from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit
-from worker.pairs.chosen import chosen_pair, pair_of_file
+from worker.pairs.selection import chosen_pair, pair_of_file
 
 pytestmark = pytest.mark.sqlite_alone
 

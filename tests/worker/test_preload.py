@@ -35,6 +35,6 @@ def test_kernels_are_not_compiled_where_nothing_can_stop_it(tmp_path: Path) -> N
     assert list(tmp_path.rglob("*.nbc")) == []
 
 
-@pytest.mark.parametrize("needed", ["worker.cli", "worker.computed_library", "worker.progress"])
+@pytest.mark.parametrize("needed", ["worker.cli", "worker.rebuild", "worker.progress"])
 def test_the_writing_process_loads_no_numba(needed: str) -> None:
     assert _out(f"import sys, {needed}; print('{needed}' in sys.modules, 'numba' in sys.modules)") == "True False"

@@ -15,7 +15,7 @@ from threadstate.mesh.solve import solve_poses_by_mesh
 from threadstate.state.model import UndecidedPose
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
-from threadstate.stored_histories.answers import exact_answers
+from threadstate.stored_histories.compute import exact_answers
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]

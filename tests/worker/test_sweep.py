@@ -23,9 +23,8 @@ from threadstate.mesh.presets import Preset
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from worker.processes import ComputeError
-from worker.rebuild import Progress, Rebuild, rebuild
-from worker.sweep.document import TABLES
-from worker.sweep.read import read_sweep
+from worker.rebuild import Progress, RebuildResult, rebuild
+from worker.sweep.document import TABLES, read_sweep
 
 pytestmark = pytest.mark.sqlite_alone
 
@@ -236,7 +235,7 @@ def test_one_that_fails_does_not_stop_the_others(
 ) -> None:
     def fail_once(
         engine: Engine, inputs: LibraryInputs, workers: int, progress: Progress, scheduler: str | None
-    ) -> Rebuild:
+    ) -> RebuildResult:
         if inputs.pair == quarter_twenty_unc():
             raise ComputeError("a computing process died")
         return rebuild(engine, inputs, workers, progress, scheduler)

@@ -1,1 +1,1 @@
-"""Who may use the service: keys, of which the database knows the hashes alone."""
+"""API keys, of which the database stores the hashes alone."""

@@ -1,4 +1,4 @@
-"""Keys: made once and shown once, compared by their hashes in constant time."""
+"""API keys: created and printed once, stored as hashes, compared in constant time."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _KEY = re.compile(rf"ts_([0-9a-f]{{{KEY_ID_LENGTH}}})_[A-Za-z0-9_-]{{43}}", re.A
 
 
 class KeyRefusedError(ThreadstateError):
-    """No key was shown, or none that counts; the message does not repeat it."""
+    """The request has no valid API key; the message does not repeat the one it has."""
 
 
 class ScopeRefusedError(ThreadstateError):
-    """The key counts, and is not good for this."""
+    """The API key is valid, but its scope does not permit the request."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,10 @@ class KeyRecord:
 
 
 def create_key(engine: Engine, name: str, scope: Scope) -> str:
-    """A new key. It is nowhere else: the database has its hash.
+    """Create a key; the database stores its hash alone.
+
+    Returns:
+        The key, which cannot be read again.
 
     Raises:
         InvalidValueError: the name is empty or too long.
@@ -64,10 +67,10 @@ def keys(connection: Connection) -> list[KeyRecord]:
 
 
 def revoke_key(engine: Engine, key_id: str) -> None:
-    """Let a key count no more, from the next request on; one that is revoked already stays so.
+    """Revoke a key from the next request on; has no effect on a revoked key.
 
     Raises:
-        NotFoundError: there is none of that id.
+        NotFoundError: no key has that id.
     """
     with engine.begin() as connection:
         found = connection.execute(select(api_key.c.revoked_at).where(api_key.c.id == key_id)).first()
@@ -78,11 +81,11 @@ def revoke_key(engine: Engine, key_id: str) -> None:
 
 
 def require_key(connection: Connection, key: str | None, scope: Scope) -> None:
-    """Check a key that was shown.
+    """Check the key of a request.
 
     Raises:
-        KeyRefusedError: there is none, it is not known, or it is revoked.
-        ScopeRefusedError: it is a key for reading, and this is writing.
+        KeyRefusedError: the key is missing, unknown or revoked.
+        ScopeRefusedError: the key is for reading alone, and ``scope`` is writing.
     """
     shape = _KEY.fullmatch(key or "")
     row = None
@@ -92,7 +95,7 @@ def require_key(connection: Connection, key: str | None, scope: Scope) -> None:
     expected = "0" * 64 if row is None else row.sha256
     matches = hmac.compare_digest(_sha256(key or ""), expected)
     if row is None or not matches or row.revoked_at is not None:
-        raise KeyRefusedError("a key that counts is needed: `Authorization: Bearer KEY`")
+        raise KeyRefusedError("a valid API key is needed: `Authorization: Bearer KEY`")
     if scope is Scope.WRITE and Scope(row.scope) is not Scope.WRITE:
         raise ScopeRefusedError("this key is for reading alone")
 

@@ -1,4 +1,4 @@
-"""What a key is good for."""
+"""Scopes of API keys."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from enum import StrEnum
 
 
 class Scope(StrEnum):
-    """What a key is good for."""
+    """What an API key permits."""
 
     READ = "read"
-    """Reading, where that is closed."""
+    """Reads, where they need a key."""
     WRITE = "write"
-    """Reading, and asking for jobs."""
+    """Reads, and submitting jobs."""

@@ -1,4 +1,4 @@
-"""The table of keys."""
+"""The table of API keys."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ api_key = Table(
     Column("sha256", bytewise_string(SHA256_LENGTH), nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
     Column("revoked_at", UtcDateTime),
-    # Serves: the key that a request shows.
+    # Serves: the key of a request.
     PrimaryKeyConstraint("id"),
     one_of("scope", Scope),
     sqlite_with_rowid=False,
 )
-"""A key that was created; it counts until it is revoked."""
+"""An API key; it is valid until it is revoked."""

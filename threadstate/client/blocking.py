@@ -1,4 +1,4 @@
-"""What takes time besides the network, for either client: pauses, and writing to a file."""
+"""Pauses and file writes of both clients."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import anyio.to_thread
 
 
 async def async_pause(seconds: float) -> None:
-    """Let other tasks run for so long."""
+    """Wait asynchronously."""
     await anyio.sleep(seconds)
 
 
 def pause(seconds: float) -> None:
-    """Stand still for so long."""
+    """Wait."""
     time.sleep(seconds)
 
 
 async def async_write(file: IO[bytes], part: bytes) -> None:
-    """Append to a file, in a thread of its own."""
+    """Append to a file, in a worker thread."""
     await anyio.to_thread.run_sync(file.write, part)
 
 

@@ -1,4 +1,4 @@
-"""A request and what its answer is read as: the one description that both clients send, and have methods of."""
+"""Descriptions of requests and of how their responses are parsed, from which both clients have their methods."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ LibraryName = int | str
 
 @dataclass(frozen=True)
 class Call(Generic[Result_co]):
-    """A request, and what the bytes of its answer are read as.
+    """A request, and how its response is parsed.
 
     Attributes:
-        method: of HTTP.
+        method: the HTTP method.
         path: percent-encoded, from the service's address; may hold a query.
-        read: makes the result of the answer's content; a ``ValueError`` says that it is another answer than described.
+        read: parses the response's content; raises ``ValueError`` if it is not of the documented form.
         query: further query parameters; None is left out.
-        body: JSON to be sent.
-        accept: media type of the answer.
-        repeatable: whether the request may be sent again where it may have been acted upon.
+        body: the JSON to send.
+        accept: media type of the response.
+        repeatable: whether the request may be repeated although it may have had an effect.
     """
 
     method: str
@@ -49,7 +49,7 @@ class Call(Generic[Result_co]):
 
     @property
     def headers(self) -> dict[str, str]:
-        """The headers that say what is sent and what is wanted."""
+        """The content negotiation headers."""
         return {"Accept": self.accept} | ({} if self.body is None else {"Content-Type": JSON})
 
     @property
@@ -64,7 +64,7 @@ class PagedCall(Generic[Item]):
 
     Attributes:
         first: that request.
-        item: what the pages hold.
+        item: type of the pages' items.
     """
 
     first: Call[Page[Item]]
@@ -76,19 +76,19 @@ class PagedCall(Generic[Item]):
 
 
 def get(path: str, answer: type[Model], **query: QueryValue) -> Call[Model]:
-    """Read ``path`` as a model."""
+    """A GET request whose response is parsed as a model."""
     return Call("GET", path, answer.model_validate_json, query)
 
 
 def get_content(path: str, accept: str, **query: QueryValue) -> Call[bytes]:
-    """Read ``path`` as it comes."""
+    """A GET request whose response is returned as bytes."""
     return Call("GET", path, bytes, query, accept=accept)
 
 
 def post(
     path: str, answer: type[Model], body: Mapping[str, object], *, repeatable: bool, **query: QueryValue
 ) -> Call[Model]:
-    """Send ``body``, without what is None in it, to ``path``."""
+    """A POST request with ``body``, without its values that are None."""
     content = json.dumps({name: value for name, value in body.items() if value is not None}, allow_nan=False)
     return Call("POST", path, answer.model_validate_json, query, content.encode(), repeatable=repeatable)
 
@@ -117,7 +117,7 @@ def _written(value: str | float | bool) -> str:
 def describe_as(method: Callable[..., Any], describe: Callable[..., Any], returned: str = "{}") -> None:
     """Give a method the name and the documentation of ``describe``, and its parameters behind the client.
 
-    ``returned`` is what the method returns, with ``{}`` for what the described request is answered by.
+    ``returned`` is the method's return annotation, with ``{}`` for the result of the described request.
     """
     method.__name__ = describe.__name__
     method.__doc__ = describe.__doc__

@@ -1,4 +1,4 @@
-"""What can go wrong between a client and the service; none of it ever holds the key.
+"""Errors of the client; none of them contains the key.
 
 Every error takes its arguments as they are, so that it can be sent to another process.
 """
@@ -16,11 +16,11 @@ PROBLEM_PREFIX = "urn:threadstate:problem:"
 
 
 class ClientError(ThreadstateError):
-    """Base of all that a client raises, but for arguments that are not valid (``InvalidValueError``)."""
+    """Base of all errors that a client raises, except for invalid arguments (``InvalidValueError``)."""
 
 
 class ConnectionFailedError(ClientError):
-    """The service cannot be reached, or the connection broke before the answer was whole.
+    """The service cannot be reached, or the connection broke before the response was complete.
 
     Attributes:
         message: what failed.
@@ -41,16 +41,16 @@ class TimedOutError(ConnectionFailedError):
 
 
 class UnexpectedAnswerError(ClientError):
-    """An answer that this interface does not have: of another server, a proxy, or a service of another version."""
+    """A response that the interface does not document: of another server, a proxy, or a service of another version."""
 
 
 class ProblemError(ClientError):
-    """The service refused a request, with a problem document (RFC 9457).
+    """The service responded with a problem document (RFC 9457).
 
     Attributes:
-        request: what was asked, without its query.
+        request: method and path of the request.
         problem: the document.
-        retry_after_s: how many seconds the service asks to be left alone; None where it does not say.
+        retry_after_s: seconds of the header ``Retry-After``; None without it.
     """
 
     def __init__(self, request: str, problem: Problem, retry_after_s: float | None = None) -> None:
@@ -64,7 +64,7 @@ class ProblemError(ClientError):
 
     @property
     def name(self) -> str:
-        """The problem's name, as the interface lists them; empty where it is none of the service's own."""
+        """The problem's name, as the interface lists them; empty if the service does not define it."""
         return self.problem.type.removeprefix(PROBLEM_PREFIX) if self.problem.type.startswith(PROBLEM_PREFIX) else ""
 
     @property
@@ -89,16 +89,16 @@ class ProblemError(ClientError):
 
     @property
     def refused(self) -> tuple[ProblemItem, ...]:
-        """The values that were refused, where there are any."""
+        """The invalid values, if any."""
         return self.problem.errors
 
 
 class InvalidRequestError(ProblemError):
-    """A value is outside its range, or something was asked in a way that the service does not know (400, 413)."""
+    """A value is outside its range, or the request is malformed or too large (400, 413)."""
 
 
 class UnauthorizedError(ProblemError):
-    """A key is needed, and none that counts was shown (401)."""
+    """A valid API key is needed (401)."""
 
 
 class ForbiddenError(ProblemError):
@@ -106,35 +106,35 @@ class ForbiddenError(ProblemError):
 
 
 class NotFoundError(ProblemError):
-    """A library that is not published, a pose, orientation, formation or job that is not there (404)."""
+    """The library, pose, orientation, formation or job does not exist (404)."""
 
 
 class UndecidedPoseError(NotFoundError):
-    """A pose of the grid that the library's method could not decide; the detail says why (404)."""
+    """A pose of the grid that the library's solver method could not decide; the detail says why (404)."""
 
 
 class ConflictError(ProblemError):
-    """A job that has ended was to be cancelled (409)."""
+    """The job has ended and cannot be cancelled (409)."""
 
 
 class UnresolvedPoseError(ProblemError):
-    """The exact search could not decide a pose that was to be solved; the detail names it (422)."""
+    """The exact search could not decide a pose; the detail names it (422)."""
 
 
 class TooManyRequestsError(ProblemError):
-    """The service is asked too much (429); ``retry_after_s`` says how long to wait."""
+    """Too many requests at once (429); ``retry_after_s`` says how long to wait."""
 
 
 class ServiceUnavailableError(ProblemError):
-    """The service cannot answer now (503): its database is not ready, or its kernels are being compiled."""
+    """The service is unavailable (503): its database is not ready, or its kernels are being compiled."""
 
 
 class ServerError(ProblemError):
-    """A fault of the service (any other 5xx)."""
+    """The service failed (any other 5xx)."""
 
 
 class JobEndedError(ClientError):
-    """A job that was waited for ended without a library.
+    """A job ended without a library.
 
     Attributes:
         job: the job as it is now.
@@ -150,15 +150,15 @@ class JobEndedError(ClientError):
 
 
 class JobFailedError(JobEndedError):
-    """It failed."""
+    """The job failed."""
 
 
 class JobCancelledError(JobEndedError):
-    """Somebody cancelled it."""
+    """The job was cancelled."""
 
 
 class WaitTimedOutError(ClientError):
-    """A job did not end in the time that was allowed for it; it goes on."""
+    """A job did not end within the time limit; it continues."""
 
 
 _BY_NAME: Mapping[str, type[ProblemError]] = MappingProxyType({"undecided-pose": UndecidedPoseError})
@@ -178,7 +178,7 @@ _BY_STATUS: Mapping[int, type[ProblemError]] = MappingProxyType(
 
 
 def problem_error(request: str, problem: Problem, retry_after_s: float | None) -> ProblemError:
-    """The error for a problem document that answered ``request``."""
+    """The error for a problem document in response to ``request``."""
     default = ServerError if problem.status >= 500 else ProblemError
     kind = _BY_STATUS.get(problem.status, default)
     name = problem.type.removeprefix(PROBLEM_PREFIX)

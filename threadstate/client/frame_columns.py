@@ -1,4 +1,4 @@
-"""Which columns a frame of answers has; the states' are those of an export."""
+"""The columns of data frames; those of states are the columns of an export."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ _UNDECIDED: tuple[Column[UndecidedDocument], ...] = (
     degrees("roll", "roll of the pose", lambda pose: pose.roll),
     degrees("pitch", "pitch of the pose", lambda pose: pose.pitch),
     degrees("phase", "phase of the pose", lambda pose: pose.phase),
-    words("reason", "why the library's method could not decide the pose", lambda pose: pose.reason),
+    words("reason", "why the library's solver method could not decide the pose", lambda pose: pose.reason),
 )
 
 
@@ -163,4 +163,4 @@ COLUMNS: Mapping[type[object], Columns] = MappingProxyType(
         JobDocument: _JOBS,
     }
 )
-"""The columns of all that frames are made of, but for states: these have as many contacts as the one with most."""
+"""The columns of all items except states, whose number of contacts varies."""

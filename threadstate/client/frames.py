@@ -17,7 +17,7 @@ Item = TypeVar("Item")
 
 
 def to_pandas(items: Iterable[Item], item: type[Item] | None = None) -> pandas.DataFrame:
-    """A row for each item; ``item`` says what they are where there may be none.
+    """A row for each item; ``item`` is their type, as the list may be empty.
 
     What is missing is NaN or None; integers may be missing (``Int64``).
 
@@ -36,7 +36,7 @@ def to_pandas(items: Iterable[Item], item: type[Item] | None = None) -> pandas.D
 
 
 def to_polars(items: Iterable[Item], item: type[Item] | None = None) -> polars.DataFrame:
-    """A row for each item; ``item`` says what they are where there may be none. What is missing is null.
+    """A row for each item; ``item`` is their type, as the list may be empty. Missing values are null.
 
     Raises:
         MissingExtraError: polars is not installed.

@@ -1,4 +1,4 @@
-"""What a client of either kind is made with: where the service is, the key, how long and how often it asks."""
+"""Options of a client: address of the service, API key, timeouts and retries."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ DEFAULT_ADDRESS = "http://127.0.0.1:8000"
 
 
 class KeyHeader(httpx2.Auth):
-    """Shows a key in the header ``Authorization``; to this client's service alone, as no redirection is followed."""
+    """Sends the API key in the header ``Authorization``, to this client's service alone: redirections are not
+    followed.
+    """
 
     def __init__(self, key: str) -> None:
         self._header = f"Bearer {key}"
@@ -34,7 +36,7 @@ def service_address(address: str | None, environment: Mapping[str, str] = os.env
     """The service's address, without a slash at its end; None is that of ``THREADSTATE_SERVICE``.
 
     Raises:
-        InvalidValueError: it is no address of HTTP, or there is more in it than a host, a port and a path.
+        InvalidValueError: it is not an HTTP address, or has more than a host, a port and a path.
     """
     text = address or environment.get(SERVICE) or DEFAULT_ADDRESS
     valid = "http://HOST:PORT, perhaps with a path; a key goes into `key`"
@@ -49,11 +51,11 @@ def service_address(address: str | None, environment: Mapping[str, str] = os.env
     return url
 
 
-def shown_key(key: str | None, environment: Mapping[str, str] = os.environ) -> KeyHeader | None:
-    """The header for a key; None is that of ``THREADSTATE_KEY``, and nothing is shown where there is none either.
+def key_header(key: str | None, environment: Mapping[str, str] = os.environ) -> KeyHeader | None:
+    """The header for a key; None is that of ``THREADSTATE_KEY``, without which no key is sent.
 
     Raises:
-        InvalidValueError: it cannot be a key; the message does not hold it.
+        InvalidValueError: it is not of the form of a key; the message does not repeat it.
     """
     text = key or environment.get(KEY)
     if not text:
@@ -67,10 +69,10 @@ def url_of(address: httpx2.URL, path: str) -> httpx2.URL:
     """The URL of a path, which begins at the service's address or, as links in answers may, at its host.
 
     Raises:
-        UnexpectedAnswerError: it leads to another host.
+        UnexpectedAnswerError: it is a URL of another host.
     """
     if not path.startswith("/") or path.startswith("//"):
-        raise UnexpectedAnswerError(f"{path[:100]!r} is no path on {address.host}")
+        raise UnexpectedAnswerError(f"{path[:100]!r} is not a path on {address.host}")
     prefix = address.path.rstrip("/")
     below = path if prefix and path.startswith(f"{prefix}/") else f"{prefix}{path}"
     raw_path = below.encode("ascii", "replace")
@@ -84,7 +86,7 @@ CONNECT_TIMEOUT_S = 5.0
 
 @dataclass(frozen=True)
 class Options:
-    """Where the service is, what is shown to it, how long it is waited for and how often it is asked."""
+    """Options of a client."""
 
     address: httpx2.URL
     key: KeyHeader | None
@@ -96,19 +98,19 @@ class Options:
         """Headers of every request."""
         return {"User-Agent": f"threadstate/{threadstate.__version__}"}
 
-    def timeout_of(self, quiet_s: float | None) -> httpx2.Timeout:
-        """The timeouts of a request of which nothing may be heard for ``quiet_s`` (None: as usual)."""
-        if quiet_s is None:
+    def timeout_with(self, read_timeout_s: float | None) -> httpx2.Timeout:
+        """The timeouts of a request; ``read_timeout_s`` replaces the usual read timeout unless None."""
+        if read_timeout_s is None:
             return self.timeout
-        return httpx2.Timeout(**{**self.timeout.as_dict(), "read": quiet_s})
+        return httpx2.Timeout(**{**self.timeout.as_dict(), "read": read_timeout_s})
 
     def __str__(self) -> str:
         shown = "with a key" if self.key else "without a key"
         return f"{self.address}, {shown}"
 
 
-def options_of(address: str | None, key: str | None, timeout_s: float, retries: int) -> Options:
-    """Options from what a user says; None is what the environment says.
+def make_options(address: str | None, key: str | None, timeout_s: float, retries: int) -> Options:
+    """The options of these arguments; None is the value of the environment.
 
     Raises:
         InvalidValueError: one of them is not valid.
@@ -116,4 +118,4 @@ def options_of(address: str | None, key: str | None, timeout_s: float, retries: 
     if not (math.isfinite(timeout_s) and timeout_s > 0.0):
         raise InvalidValueError("timeout_s", timeout_s, "a finite number > 0")
     timeout = httpx2.Timeout(timeout_s, connect=min(timeout_s, CONNECT_TIMEOUT_S))
-    return Options(service_address(address), shown_key(key), timeout, Retrying(retries))
+    return Options(service_address(address), key_header(key), timeout, Retrying(retries))

@@ -1,4 +1,4 @@
-"""Which requests are sent again, and after what pause."""
+"""Which requests are retried, and after what pause."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from threadstate.client.errors import (
 from threadstate.errors import InvalidValueError
 
 LARGEST_RETRY_COUNT = 100
-COMPILING_TIMES = 20
-"""How often at least a service is asked again that compiles its kernels, unless nothing is to be sent again."""
+COMPILING_RETRIES = 20
+"""Minimum number of retries while the service compiles its kernels, unless retries are disabled."""
 KERNELS_COMPILING = "kernels-compiling"
 FIRST_PAUSE_S = 0.2
 LONGEST_PAUSE_S = 30.0
@@ -29,12 +29,11 @@ _random = SystemRandom()
 
 @dataclass(frozen=True)
 class Retrying:
-    """Send a request again up to ``times``, after pauses that double, unless the service says how long to wait.
+    """Retry a request up to ``times``, with exponential backoff unless the service sends ``Retry-After``.
 
-    A connection that was never made and a 429 have not acted, and are tried again whatever was asked. A connection that
-    broke and a 503 are tried again where the request is repeatable. Nothing else is: what was not answered in time
-    would only be more work for a service that is late already. A service that compiles its kernels says so, and is
-    asked again for ten minutes.
+    A connection that was never made and a 429 had no effect: every request is retried. A broken connection and a 503
+    are retried if the request is repeatable. Nothing else is retried: after a timeout it would only add load. While the
+    service compiles its kernels, requests are retried for ten minutes.
     """
 
     times: int
@@ -43,37 +42,37 @@ class Retrying:
         if not 0 <= self.times <= LARGEST_RETRY_COUNT:
             raise InvalidValueError("retries", self.times, f"0 to {LARGEST_RETRY_COUNT}")
 
-    def pause_s(self, error: ClientError, tried: int, *, repeatable: bool) -> float | None:
-        """How many seconds to wait after the failure number ``tried``, from 0; None where it is final."""
+    def pause_s(self, error: ClientError, failures: int, *, repeatable: bool) -> float | None:
+        """The pause in seconds after failure number ``failures``, from 0; None if it is final."""
         compiling = isinstance(error, ServiceUnavailableError) and error.name == KERNELS_COMPILING
-        if tried >= (max(self.times, COMPILING_TIMES) if compiling and self.times else self.times):
+        if failures >= (max(self.times, COMPILING_RETRIES) if compiling and self.times else self.times):
             return None
         match error:
             case TimedOutError(reached=True):
                 return None
             case ConnectionFailedError():
-                return backoff_s(tried) if repeatable or not error.reached else None
+                return backoff_s(failures) if repeatable or not error.reached else None
             case TooManyRequestsError():
-                return _asked_s(error.retry_after_s, tried)
+                return _requested_pause_s(error.retry_after_s, failures)
             case ServiceUnavailableError() if repeatable:
-                return _asked_s(error.retry_after_s, tried)
+                return _requested_pause_s(error.retry_after_s, failures)
         return None
 
 
-def backoff_s(tried: int) -> float:
-    """A pause that doubles with every failure up to a limit; drawn from its upper half, so that clients spread."""
-    longest = min(FIRST_PAUSE_S * 2.0 ** min(tried, 30), LONGEST_PAUSE_S)
+def backoff_s(failures: int) -> float:
+    """Exponential backoff up to a limit, with random jitter in its upper half."""
+    longest = min(FIRST_PAUSE_S * 2.0 ** min(failures, 30), LONGEST_PAUSE_S)
     return longest * _random.uniform(0.5, 1.0)
 
 
-def _asked_s(retry_after_s: float | None, tried: int) -> float | None:
+def _requested_pause_s(retry_after_s: float | None, failures: int) -> float | None:
     if retry_after_s is None:
-        return backoff_s(tried)
+        return backoff_s(failures)
     return retry_after_s if retry_after_s <= LONGEST_PAUSE_S else None
 
 
 def retry_after_s(header: str | None) -> float | None:
-    """The seconds that a header ``Retry-After`` asks for, as a number or as a date; None where it says neither."""
+    """The seconds of a header ``Retry-After``, a number or a date; None if it is neither."""
     if header is None:
         return None
     if header.isascii() and header.isdigit():

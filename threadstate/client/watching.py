@@ -1,4 +1,4 @@
-"""Following a job's events over as many connections as it takes, and waiting for its end."""
+"""Following a job's events over several connections, and waiting for its end."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from threadstate.client.retrying import Retrying, backoff_s
 from threadstate.jobs.names import JobState
 from threadstate.numbers import integer, number_text
 
-QUIET_S = 10.0
-"""A stream on which nothing came for so many seconds is left and asked for again: the connection may be dead."""
+STREAM_TIMEOUT_S = 10.0
+"""Read timeout of a stream; it is reopened then, as the connection may be dead."""
 
 
-class Place:
-    """Where a follower of a job's events is: what it has received, and how often it has failed since.
+class StreamPosition:
+    """The position in a job's event stream: the last event received, and the failures since.
 
-    ``after`` is the number of the last event that is known already.
+    ``after`` is the number of the last event that is already known.
     """
 
     def __init__(self, after: int, retrying: Retrying) -> None:
@@ -41,30 +41,30 @@ class Place:
 
     @property
     def headers(self) -> dict[str, str]:
-        """What tells the service where to go on."""
+        """The header that resumes the stream."""
         return {"Last-Event-ID": str(self._last)} if self._last else {}
 
     def received(self, event: httpx2.ServerSentEvent) -> EventDocument:
-        """What an event says; the next connection goes on after it.
+        """Parse an event; the next connection resumes after it.
 
         Raises:
-            UnexpectedAnswerError: it is no event of a job.
+            UnexpectedAnswerError: it is not an event of a job.
         """
         try:
             document = EventDocument.model_validate_json(event.data)
             number = integer(event.id)
         except (ValidationError, ValueError):
-            raise UnexpectedAnswerError(f"{event.data[:100]!r} is no event of a job") from None
+            raise UnexpectedAnswerError(f"{event.data[:100]!r} is not an event of a job") from None
         self._last, self._failed = number, 0
         return document
 
     def pause_after_close_s(self) -> float:
-        """How long to wait after the service, or a proxy, closed the stream although the job goes on."""
+        """The pause after the service or a proxy closed the stream before the job ended."""
         self._failed += 1
         return backoff_s(self._failed - 1)
 
     def pause_after_s(self, call: Call[object], error: ClientError) -> float | None:
-        """How long to wait after a failure; None where it is final. A stream that was only quiet is no failure."""
+        """The pause after a failure; None if it is final. A read timeout of the stream is not a failure."""
         if isinstance(error, TimedOutError) and error.reached:
             return 0.0
         self._failed += 1
@@ -72,12 +72,12 @@ class Place:
 
 
 POLL_S = 2.0
-"""Seconds between two looks at a job where its events cannot be followed."""
+"""Seconds between polls of a job whose events cannot be streamed."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a job is: ``committed`` of its ``chunks`` (orientations) are computed."""
+    """Progress of a job: ``committed`` of its ``chunks`` (orientations) are computed."""
 
     job: int
     committed: int
@@ -92,40 +92,40 @@ class Progress:
 Watcher = Callable[[Progress], object]
 
 
-class Waiting:
-    """Somebody who waits for a job, at most ``timeout_s``, and is told through ``watcher`` how far it is."""
+class JobWait:
+    """Waits for a job for at most ``timeout_s`` and reports its progress to ``watcher``."""
 
     def __init__(self, job_id: int, watcher: Watcher | None, timeout_s: float | None) -> None:
         self._job_id = job_id
         self._watcher = watcher
         self._timeout_s = math.inf if timeout_s is None else timeout_s
         self._end = time.monotonic() + self._timeout_s
-        self._told: Progress | None = None
+        self._reported: Progress | None = None
 
     @property
-    def quiet_s(self) -> float:
-        """How long to listen to a stream on which nothing comes."""
-        return max(0.001, min(QUIET_S, self._end - time.monotonic()))
+    def read_timeout_s(self) -> float:
+        """Read timeout of the stream: no later than the end of waiting."""
+        return max(0.001, min(STREAM_TIMEOUT_S, self._end - time.monotonic()))
 
-    def tell(self, seen: EventDocument | JobDocument) -> None:
-        """Tell how far the job is, if it has moved."""
+    def report(self, seen: EventDocument | JobDocument) -> None:
+        """Report the progress of the job if it has changed."""
         progress = Progress(self._job_id, seen.committed, seen.chunks)
-        if progress != self._told and self._watcher is not None:
+        if progress != self._reported and self._watcher is not None:
             self._watcher(progress)
-        self._told = progress
+        self._reported = progress
 
     def check_time(self) -> None:
-        """Go on waiting.
+        """Check the time limit.
 
         Raises:
-            WaitTimedOutError: it has taken too long.
+            WaitTimedOutError: the time limit has passed.
         """
         if time.monotonic() >= self._end:
             raise WaitTimedOutError(f"job {self._job_id} did not end within {number_text(self._timeout_s)} s")
 
 
-def ended_well(job: JobDocument) -> bool:
-    """Whether a job has ended with a library; False while it goes on.
+def is_done(job: JobDocument) -> bool:
+    """Whether a job has ended with a library; False while it runs.
 
     Raises:
         JobFailedError: it failed.

@@ -1,4 +1,4 @@
-"""Requests as they are sent, answers and failures as they are understood; the same for both clients."""
+"""Building requests and parsing responses and failures; shared by both clients."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ Result = TypeVar("Result")
 _LONGEST_ECHO = 200
 
 
-def request_of(
+def build_request(
     http: httpx2.Client | httpx2.AsyncClient,
     options: Options,
     call: Call[object],
     headers: dict[str, str] | None = None,
-    quiet_s: float | None = None,
+    read_timeout_s: float | None = None,
 ) -> httpx2.Request:
-    """The request of a call, with further headers, of which nothing may be heard for ``quiet_s`` (None: as usual).
+    """The request of a call, with further headers; ``read_timeout_s`` replaces the usual read timeout unless None.
 
     Raises:
-        UnexpectedAnswerError: the call goes on from an answer, and leads to another host.
+        UnexpectedAnswerError: the call follows a link of a response to another host.
     """
     url = url_of(options.address, call.path)
     return http.build_request(
@@ -44,16 +44,16 @@ def request_of(
         url.copy_merge_params(call.parameters) if call.parameters else url,
         content=call.body,
         headers=call.headers | (headers or {}),
-        timeout=options.timeout_of(quiet_s),
+        timeout=options.timeout_with(read_timeout_s),
     )
 
 
-def result_of(call: Call[Result], response: httpx2.Response) -> Result:
-    """What a whole answer holds.
+def parse_response(call: Call[Result], response: httpx2.Response) -> Result:
+    """The result of a call, parsed from a complete response.
 
     Raises:
         ProblemError: the service refused the request.
-        UnexpectedAnswerError: it is another answer than the interface describes.
+        UnexpectedAnswerError: the response is not of the documented form.
     """
     check_success(call, response)
     try:
@@ -65,11 +65,11 @@ def result_of(call: Call[Result], response: httpx2.Response) -> Result:
 
 
 def check_success(call: Call[object], response: httpx2.Response) -> None:
-    """Let an answer pass that is a success; its content has to be read otherwise.
+    """Check that a response is successful; the content of others must have been read.
 
     Raises:
         ProblemError: the service refused the request.
-        UnexpectedAnswerError: it is neither a success nor a problem document.
+        UnexpectedAnswerError: the response is neither successful nor a problem document.
     """
     if response.is_success:
         return
@@ -79,7 +79,7 @@ def check_success(call: Call[object], response: httpx2.Response) -> None:
 
 
 @contextmanager
-def understood_failures(call: Call[object]) -> Iterator[None]:
+def client_errors(call: Call[object]) -> Iterator[None]:
     """WriterLock what goes wrong on the way into errors of the client.
 
     Raises:
@@ -95,7 +95,7 @@ def understood_failures(call: Call[object]) -> Iterator[None]:
 def _failure(call: Call[object], error: httpx2.RequestError) -> ClientError:
     reached = not isinstance(error, httpx2.ConnectError | httpx2.ConnectTimeout | httpx2.PoolTimeout)
     kind = TimedOutError if isinstance(error, httpx2.TimeoutException) else ConnectionFailedError
-    said = str(error) or "no more is known"
+    said = str(error) or "no details"
     if isinstance(error, httpx2.ConnectError | httpx2.ConnectTimeout):
         url = error.request.url
         where = f"{url.scheme}://{url.netloc.decode('ascii')}"
@@ -104,7 +104,7 @@ def _failure(call: Call[object], error: httpx2.RequestError) -> ClientError:
 
 
 def _problem(response: httpx2.Response) -> Problem:
-    """The problem document of an answer; of one that has none, as a proxy's, its status and how it begins."""
+    """The problem document of a response; without one, as of a proxy, its status and the beginning of its content."""
     try:
         problem = Problem.model_validate_json(response.content)
     except ValidationError:

@@ -1,1 +1,1 @@
-"""A library's tables as rows and columns, and these as files, in memory that does not grow with the library."""
+"""Exports: a library's tables as files, written in constant memory."""

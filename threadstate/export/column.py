@@ -1,8 +1,11 @@
-"""Columns: what a table says of each of its rows, with the unit and the meaning."""
+"""Columns of exported tables: type, unit and meaning; rows as CSV and NDJSON, whose doubles read back the same."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import csv
+import io
+import json
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Generic, TypeVar
@@ -27,7 +30,7 @@ class Unit(StrEnum):
     NONE = ""
     DEGREES = "deg"
     LENGTH = "length"
-    """The unit of length that was asked for, else the library's own."""
+    """The requested unit of length, or else the library's own."""
 
 
 @dataclass(frozen=True)
@@ -82,3 +85,30 @@ def length(name: str, meaning: str, cell: Callable[[Source], Cell]) -> Column[So
 def row_of(columns: Sequence[Column[Source]], source: Source) -> tuple[Cell, ...]:
     """The cells of a row."""
     return tuple(column.cell(source) for column in columns)
+
+
+Rows = Sequence[Sequence[Cell]]
+
+
+def csv_parts(names: Sequence[str], batches: Iterable[Rows]) -> Iterator[bytes]:
+    """CSV (RFC 4180) in UTF-8 with a header; what is missing is empty, truths are ``true`` and ``false``."""
+    yield _csv([names])
+    for rows in batches:
+        yield _csv([[_truth(cell) for cell in row] for row in rows])
+
+
+def ndjson_parts(names: Sequence[str], batches: Iterable[Rows]) -> Iterator[bytes]:
+    """An object a line, in UTF-8, each with every name; what is missing is null."""
+    encode = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode
+    for rows in batches:
+        yield "".join(f"{encode(dict(zip(names, row, strict=True)))}\n" for row in rows).encode()
+
+
+def _csv(rows: Iterable[Sequence[Cell]]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text).writerows(rows)
+    return text.getvalue().encode()
+
+
+def _truth(cell: Cell) -> Cell:
+    return str(cell).lower() if isinstance(cell, bool) else cell

@@ -1,4 +1,4 @@
-"""A table of a library as a file, part by part, and the tag that is its content's."""
+"""A table of a library as a file, part by part, and its ETag."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from pathlib import Path
 from sqlalchemy import Engine
 
 import threadstate
+from threadstate.export.column import csv_parts, ndjson_parts
 from threadstate.export.names import FileFormat, TableName
 from threadstate.export.parquet import parquet_parts, writer_version
 from threadstate.export.read import exported_table
-from threadstate.export.text import csv_parts, ndjson_parts
 from threadstate.library.read import LibraryRecord
 from threadstate.units import LengthUnit, conversion_factor
 
@@ -23,10 +23,10 @@ _SOURCES = ("export/*.py", "state/document.py", "units.py")
 def file_parts(
     engine: Engine, library: LibraryRecord, table: TableName, file_format: FileFormat, unit: LengthUnit
 ) -> Iterator[bytes]:
-    """The file, to be written as it comes; what is in memory does not grow with the library.
+    """The parts of the file; memory does not grow with the library.
 
     Raises:
-        MissingExtraError: Parquet is asked for, and pyarrow is not installed.
+        MissingExtraError: the format is Parquet, and pyarrow is not installed.
         NotFoundError: the library is removed while it is read; what was given until then is not the file.
     """
     found = exported_table(engine, library, table, conversion_factor(library.length_unit, unit))
@@ -41,10 +41,10 @@ def file_parts(
 
 
 def file_sha256(library: LibraryRecord, table: TableName, file_format: FileFormat, unit: LengthUnit) -> str:
-    """SHA-256, in hexadecimal, of all that a file's bytes depend on: known before the first of them is made.
+    """SHA-256, in hexadecimal, of everything that a file's bytes depend on, known before any of them is written.
 
     Raises:
-        MissingExtraError: Parquet is asked for, and pyarrow is not installed.
+        MissingExtraError: the format is Parquet, and pyarrow is not installed.
     """
     writer = writer_version() if file_format is FileFormat.PARQUET else ""
     parts = (library.input_sha256, library.content_sha256, table, file_format, unit, writer, _code_sha256())
@@ -52,12 +52,12 @@ def file_sha256(library: LibraryRecord, table: TableName, file_format: FileForma
 
 
 def file_name(library: LibraryRecord, table: TableName, file_format: FileFormat) -> str:
-    """The name that a file goes by."""
+    """The suggested name of a file."""
     return f"library-{library.id}-{table}.{file_format}"
 
 
 def _about(library: LibraryRecord, table: TableName, unit: LengthUnit) -> dict[str, str]:
-    """What a file says of itself."""
+    """The metadata in a file."""
     return {
         "designation": library.designation,
         "table": table.value,
@@ -71,7 +71,7 @@ def _about(library: LibraryRecord, table: TableName, unit: LengthUnit) -> dict[s
 
 @cache
 def _code_sha256() -> str:
-    """SHA-256, in hexadecimal, of the code that makes files: one that is changed makes others."""
+    """SHA-256, in hexadecimal, of the code that writes files, as changed code may write other bytes."""
     package = Path(threadstate.__file__).parent
     digest = hashlib.sha256(threadstate.__version__.encode())
     for path in sorted(path for pattern in _SOURCES for path in package.glob(pattern)):

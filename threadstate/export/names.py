@@ -22,7 +22,7 @@ class FileFormat(StrEnum):
 
     @property
     def media_type(self) -> str:
-        """As the header ``Content-Type`` says it."""
+        """The value of the header ``Content-Type``."""
         return _MEDIA_TYPES[self]
 
 

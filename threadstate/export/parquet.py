@@ -7,17 +7,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from threadstate.errors import MissingExtraError
-from threadstate.export.column import Cell, Column, Kind
-from threadstate.export.text import Rows
+from threadstate.export.column import Cell, Column, Kind, Rows
 
 ROWS_IN_A_GROUP = 16_384
-"""A group is compressed and written as a whole: what is in memory at once."""
+"""Rows of a row group, which is compressed and written as a whole: the rows in memory."""
 
 EXTRA = "parquet"
 
 
 def writer_version() -> str:
-    """The version of what writes the files, on which their bytes depend.
+    """The version of the Parquet writer, on which the bytes depend.
 
     Raises:
         MissingExtraError: pyarrow is not installed.
@@ -76,7 +75,7 @@ def _groups(schema: Any, batches: Iterable[Rows]) -> Iterator[Any]:
 
 
 class _Sink(io.RawIOBase):
-    """A file that can be written to, and what was written taken away."""
+    """A file-like object whose written bytes are taken out."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -91,7 +90,7 @@ class _Sink(io.RawIOBase):
         return len(part)
 
     def taken(self) -> bytes:
-        """What was written since it was last taken."""
+        """The bytes written since the last call."""
         content = b"".join(self._parts)
         self._parts.clear()
         return content

@@ -1,4 +1,4 @@
-"""A library's rows in order, a batch at a time; each batch is read in a transaction of its own.
+"""A library's rows in order, a batch at a time; each batch is read in its own transaction.
 
 Readers in between see no lock, and the database may go on: a published library does not change. One that is removed
 meanwhile is noticed, as the last batch is followed by a look at the library.
@@ -17,8 +17,7 @@ from threadstate.errors import NotFoundError
 from threadstate.export.column import Cell, Column, row_of
 from threadstate.export.intervals import LEAST_LABELS, IntervalRow, Labels, interval_columns
 from threadstate.export.names import TableName
-from threadstate.export.states import LEAST_CONTACTS, state_columns
-from threadstate.export.undecided import UNDECIDED_COLUMNS
+from threadstate.export.states import LEAST_CONTACTS, UNDECIDED_COLUMNS, state_columns
 from threadstate.library.history_tables import formation, formation_contact, history_boundary, history_interval
 from threadstate.library.read import LibraryRecord, library_by_id, states_between, undecided_between
 from threadstate.library.tables import contact

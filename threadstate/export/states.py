@@ -1,4 +1,4 @@
-"""Contact states as rows: every value of the state's document, contacts and poses side by side."""
+"""The columns of exported states and of undecided poses."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from threadstate.export.column import Cell, Column, Unit, degrees, integer, length, number, words
 from threadstate.state.document import ContactDocument, StateDocument
+from threadstate.state.model import UndecidedPose
 from threadstate.state.quantities import QUANTITIES
 
 STAGES = (1, 2, 3)
@@ -95,3 +96,11 @@ def _component(name: str, i: int) -> Callable[[ContactDocument], Cell]:
             return lambda contact: contact["point_bolt"][i]
         case _:
             return lambda contact: contact["normal"][i]
+
+
+UNDECIDED_COLUMNS: tuple[Column[UndecidedPose], ...] = (
+    degrees("roll", "roll of the pose", lambda pose: pose.roll_deg),
+    degrees("pitch", "pitch of the pose", lambda pose: pose.pitch_deg),
+    degrees("phase", "phase of the pose", lambda pose: pose.phase_deg),
+    words("reason", "why the library's solver method could not decide the pose", lambda pose: pose.reason),
+)

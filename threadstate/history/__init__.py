@@ -1,1 +1,1 @@
-"""Histories: what an orientation goes through as its phase turns, cut where anything changes."""
+"""Histories: the states of an orientation along the phase, cut where a label changes."""

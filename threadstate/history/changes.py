@@ -37,7 +37,7 @@ NO_ANSWER = -1
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Codes of shape (n,), NO_ANSWER where there is none, and numbers of shape (n, k), NaN where a code has none."""
+    """Codes of shape (n,), NO_ANSWER where undecided, and numbers of shape (n, k), NaN where a code has none."""
 
     codes: Integers
     values: Floats

@@ -1,4 +1,4 @@
-"""The height of the bolt against its phase, as exact as is asked for at every phase (the paper's figures 7 to 10).
+"""The height of the bolt against its phase, to a given tolerance at every phase (the paper's figures 7 to 10).
 
 At first contact, and where the bolt rests: the last pose of a state that does not rest is no place of the bolt and has
 no height here (method, section 8).
@@ -47,7 +47,7 @@ class Heights:
 
 
 Solved = tuple[float, float]
-"""Height at first contact, and where the bolt rests; NaN where there is none."""
+"""Height at first contact, and where the bolt rests; NaN where it does not."""
 
 KnownHeights = dict[float, Solved]
 """Heights by their phases in [0, 360)."""

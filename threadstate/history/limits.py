@@ -70,7 +70,7 @@ def _fold(pair: Pair, history: SolvedHistory, boundary: Boundary, side: ContactS
 def fold_in(
     pair: Pair, roll_deg: float, pitch_deg: float, low_deg: float, high_deg: float, phase_deg: float, azimuth: float
 ) -> Fold | None:
-    """The fold near a phase and an azimuth (rad) on the bolt's edge, None where there is none in the bracket."""
+    """The fold near a phase and an azimuth (rad) on the bolt's edge, None if the bracket contains none."""
     fold = fold_near(pair, roll_deg, pitch_deg, phase_deg, azimuth)
     if fold is None:
         return None

@@ -1,4 +1,4 @@
-"""Records of poses that are asked for more than once, each solved once."""
+"""A cache of the kernels' records: each pose is solved once."""
 
 from __future__ import annotations
 

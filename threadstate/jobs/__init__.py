@@ -1,1 +1,1 @@
-"""Rebuilds as jobs: what is asked for, who is at it, and what has happened. Nothing here computes."""
+"""The queue of jobs: requested libraries, the workers that compute them, and their events. Nothing here computes."""

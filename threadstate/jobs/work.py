@@ -84,10 +84,10 @@ def should_switch_job(engine: Engine, worker_id: str, job_id: int, code_versions
 def switch_job_query(worker_id: str, job_id: int, code_versions: Collection[str]) -> Select[tuple[int]]:
     """The statement of :func:`should_switch_job`: a job that the worker should switch to."""
     stays = exists().where(job_worker.c.id < worker_id, _holds_chunks_of(job_id))
-    nobody = _WORKER_COUNT == 0  # by NOT EXISTS PostgreSQL would read all chunks of all jobs
+    without_worker = _WORKER_COUNT == 0  # by NOT EXISTS PostgreSQL would read all chunks of all jobs
     return (
         select(job.c.id)
-        .where(job.c.code_version.in_(code_versions), job.c.id != job_id, _HAS_FREE_CHUNKS, nobody, stays)
+        .where(job.c.code_version.in_(code_versions), job.c.id != job_id, _HAS_FREE_CHUNKS, without_worker, stays)
         .limit(1)
     )
 

@@ -23,18 +23,18 @@ def database_url(database: str) -> URL:
     """The database's address, checked; PostgreSQL's with the driver's name.
 
     Raises:
-        InvalidValueError: it is the URL neither of a SQLite file nor of a PostgreSQL database.
+        InvalidValueError: it is not the URL of a SQLite file or a PostgreSQL database.
     """
     try:
         url = make_url(database)
     except ArgumentError:
-        # What is no URL may hold a password all the same, behind a colon and before an at sign.
+        # An invalid URL may still contain a password, between a colon and an at sign.
         raise InvalidValueError("database", "***" if "@" in database else database, _VALID) from None
     if url.drivername == SQLITE and url.database and url.database != ":memory:" and not url.query:
         return url
     if url.drivername in (POSTGRESQL, POSTGRESQL_DRIVER) and url.database:
         return url.set(drivername=POSTGRESQL_DRIVER)
-    raise InvalidValueError("database", shown(url), _VALID)
+    raise InvalidValueError("database", masked_url(url), _VALID)
 
 
 def is_sqlite(url: URL) -> bool:
@@ -47,6 +47,6 @@ def sqlite_path(url: URL) -> Path:
     return Path(str(url.database))
 
 
-def shown(url: URL) -> str:
-    """An address for people: without a password."""
+def masked_url(url: URL) -> str:
+    """The address without its password, for messages."""
     return url.render_as_string(hide_password=True)

@@ -1,4 +1,6 @@
-"""Copying a published library to another database: chunk by chunk, and seen there only once it is proved the same."""
+"""Copying a published library to another database, chunk by chunk; published there only if the content hashes are
+equal.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ from threadstate.library.write import committed_orientations, open_copy, publish
 
 
 class CopyError(ThreadstateError):
-    """A copy is not the same as its source."""
+    """A copy differs from its source."""
 
 
 @dataclass(frozen=True)
@@ -25,8 +27,8 @@ class LibraryCopy:
     Attributes:
         library_id: its id there.
         content_sha256: hash of its content.
-        pose_count: how many poses it has, decided or not.
-        was_there: whether it was published there already, so that nothing was to be done.
+        pose_count: number of poses, decided or not.
+        was_there: whether it was published there before, so that nothing was copied.
     """
 
     library_id: int
@@ -38,8 +40,8 @@ class LibraryCopy:
 def copy_library(source: Engine, target: Engine, library_id: int) -> LibraryCopy:
     """Copy the published library of that id to another database, which is migrated.
 
-    One chunk at a time is in memory. May be killed at any moment: the next copy goes on from the chunks that are there.
-    The content hash is computed from what arrived; the library is published only if it is the source's.
+    One chunk at a time is in memory. May be killed at any time: the next copy resumes after the committed chunks.
+    The content hash is computed from the copied rows; the library is published only if it equals the source's.
 
     Raises:
         NotFoundError: the source has no such library.

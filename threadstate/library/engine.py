@@ -20,7 +20,7 @@ from urllib.parse import quote
 from sqlalchemy import URL, Connection, Engine, create_engine, event
 
 from threadstate.errors import InvalidValueError, MissingExtraError
-from threadstate.library.address import database_url, is_sqlite, shown, sqlite_path
+from threadstate.library.address import database_url, is_sqlite, masked_url, sqlite_path
 from threadstate.settings import database_password
 
 BUSY_TIMEOUT_S = 30.0
@@ -88,7 +88,7 @@ def sqlite_writer(url: URL, lock_timeout_s: float | None = None) -> Engine:
     try:
         sqlite_path(url).parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InvalidValueError("database", shown(url), f"a file in a folder that can be made ({error})") from None
+        raise InvalidValueError("database", masked_url(url), f"a file in a folder that can be made ({error})") from None
     engine = create_engine(url, connect_args={"timeout": BUSY_TIMEOUT_S if lock_timeout_s is None else lock_timeout_s})
 
     @event.listens_for(engine, "connect")

@@ -1,4 +1,4 @@
-"""The grid of a library: which poses it holds, in which order."""
+"""The grid of a library: its poses and their order."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Orientation:
 class Grid:
     """Roll and pitch from -``tilt_max_deg`` to +``tilt_max_deg``, phase from 0 up to but without 360, in degrees.
 
-    Each angle is the decimal number that a reader would write (three steps of 0.1 deg are 0.3, not
+    Each angle is the decimal number that a person would write (three steps of 0.1 deg are 0.3, not
     0.30000000000000004), so that a pose written in decimals finds its state.
 
     Raises:
@@ -56,7 +56,7 @@ class Grid:
             raise InvalidValueError("pose count of the grid", self.pose_count, f"at most {LARGEST_POSE_COUNT}")
 
     def __str__(self) -> str:
-        """The grid in few words: "+-4 by 1, phase by 1 deg"."""
+        """The grid as text: "+-4 by 1, phase by 1 deg"."""
         tilt_max, tilt_step, phase_step = map(number_text, (self.tilt_max_deg, self.tilt_step_deg, self.phase_step_deg))
         return f"+-{tilt_max} by {tilt_step}, phase by {phase_step} deg"
 
@@ -73,17 +73,17 @@ class Grid:
 
     @property
     def tilt_count(self) -> int:
-        """How many values roll takes, and pitch."""
+        """Number of values of roll, and of pitch."""
         return 2 * int(_decimal(self.tilt_max_deg) / _decimal(self.tilt_step_deg)) + 1
 
     @property
     def phase_count(self) -> int:
-        """How many values phase takes: the states of one orientation."""
+        """Number of values of phase: the poses of one orientation."""
         return int(_decimal(360.0) / _decimal(self.phase_step_deg))
 
     @property
     def orientation_count(self) -> int:
-        """How many pairs of roll and pitch there are."""
+        """Number of pairs of roll and pitch."""
         return self.tilt_count**2
 
     @property
@@ -92,12 +92,12 @@ class Grid:
         return self.orientation_count * self.phase_count
 
     def orientation(self, index: int) -> Orientation:
-        """The orientation of that number, 0 <= index < ``orientation_count``."""
+        """The orientation with an index, 0 <= index < ``orientation_count``."""
         i_roll, i_pitch = divmod(index, self.tilt_count)
         return Orientation(index, self.tilts_deg[i_roll], self.tilts_deg[i_pitch])
 
     def orientation_index(self, roll_deg: float, pitch_deg: float) -> int | None:
-        """The number of an orientation; None where the grid does not have it."""
+        """The index of an orientation; None if the grid does not contain it."""
         i_roll, i_pitch = self._tilt_indices.get(roll_deg), self._tilt_indices.get(pitch_deg)
         return None if i_roll is None or i_pitch is None else i_roll * self.tilt_count + i_pitch
 

@@ -1,4 +1,4 @@
-"""What makes a library this very library: the SHA-256 of everything that its content depends on."""
+"""The identity of a library: the SHA-256 of everything that its content depends on."""
 
 from __future__ import annotations
 
@@ -27,7 +27,6 @@ STATES = (
     "library/fingerprint.py",
     "library/grid.py",
     "library/rows.py",
-    "stored_histories/answers.py",
     "stored_histories/compute.py",
 )
 """The sources that decide what is stored of states, whatever the method."""

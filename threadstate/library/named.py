@@ -1,4 +1,4 @@
-"""Which published library a name means; one place for the service and the command line."""
+"""The published library of a name, for the service and the command line."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def slug(designation: str) -> str:
 
 
 def named_library(connection: Connection, name: str) -> LibraryRecord:
-    """The published library that a name means.
+    """The published library of a name.
 
     Args:
         connection: to the database.
@@ -31,7 +31,7 @@ def named_library(connection: Connection, name: str) -> LibraryRecord:
             is pinned or else published last by the exact method.
 
     Raises:
-        NotFoundError: there is none; the message names those that there are.
+        NotFoundError: it does not exist; the message lists the published libraries.
     """
     if name == LATEST:
         return latest_library(connection)
@@ -51,7 +51,7 @@ def named_library(connection: Connection, name: str) -> LibraryRecord:
 
 
 def _listed(published: list[LibraryRecord]) -> str:
-    """Libraries by number and designation, for people; not all of very many."""
+    """Ids and designations of libraries, for messages; at most ``most`` of them."""
     most = 20
     shown = [
         f"{one.id} ({slug(one.designation)}{'' if one.method is SolverMethod.EXACT else ', by meshes'})"

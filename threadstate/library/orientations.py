@@ -1,4 +1,4 @@
-"""What the states of an orientation come to, over all phases."""
+"""Summaries of the states of an orientation over all phases."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from threadstate.state.model import StateClass
 class OrientationSummary:
     """An orientation (degrees) over all phases of the grid; lengths in the library's unit, None where no state has one.
 
-    ``of_class`` is how many of its states have each class, every class listed. ``margin_least`` is the least distance
+    ``of_class`` is the number of states of each class, every class included. ``margin_least`` is the least distance
     of any state's drop, embedment or pivot offset from its threshold.
     """
 

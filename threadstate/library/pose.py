@@ -1,4 +1,4 @@
-"""The state of one pose, read by one statement whichever tables its rows are in."""
+"""The state of one pose, read from all its tables by one statement."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def state_of_pose(
     """The state of a pose of the grid, angles in degrees; lengths in the library's unit.
 
     Raises:
-        UndecidedPoseError: the library's method could not decide the pose.
-        NotFoundError: the pose is not one of the grid's.
+        UndecidedPoseError: the library's solver method could not decide the pose.
+        NotFoundError: the grid does not contain the pose.
     """
     pose = {"library": library_id, "roll": roll_deg, "pitch": pitch_deg, "phase": phase_deg}
     found = state_of_rows(connection.execute(STATE_OF_POSE, pose))
@@ -79,10 +79,10 @@ def _at_pose(table: Table, column: Column[Any]) -> Select[Any]:
 
 
 def _statement() -> tuple[CompoundSelect[Any], tuple[Callable[[Sequence[Any]], Row], ...]]:
-    """The statement for all rows of the state at a pose, and what picks the cells of each table's columns out of one.
+    """The statement for all rows of the state at a pose, and a getter of each table's cells in such a row.
 
-    A row begins with the place of its table in ``_TABLES``; then there are slots of every type, as many as the table
-    with the most columns of that type needs.
+    A row begins with the index of its table in ``_TABLES``; slots of every type follow, as many as the table with the
+    most columns of that type needs.
     """
     columns = [[column for column in table.c if column.name != "library_id"] for table in _TABLES]
     most = {

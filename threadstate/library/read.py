@@ -1,4 +1,4 @@
-"""Reading published libraries; what is still being computed is never seen."""
+"""Reading published libraries; unpublished ones are never returned."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from threadstate.state.rest import rests
 from threadstate.units import LengthUnit
 
 LARGEST_ID = 2**31 - 1
-"""What a column of integers holds everywhere."""
+"""The largest value of an integer column on both databases."""
 
 
 @dataclass(frozen=True)
 class LibraryRecord:
-    """A published library: what it was computed from, and what it holds. ``pair`` and ``options`` are JSON.
+    """A published library: its inputs and its counts. ``pair`` and ``options`` are JSON.
 
-    ``state_count`` is how many states it has; its method could not decide ``undecided_count`` more poses of the grid.
-    ``is_pinned``: ``latest`` means this library, whatever is published later.
+    ``state_count`` is the number of states; ``undecided_count`` more poses of the grid could not be decided.
+    ``is_pinned`` is whether ``latest`` means this library although others were published later.
     """
 
     id: int
@@ -50,7 +50,7 @@ class LibraryRecord:
 
 @dataclass(frozen=True)
 class Counts:
-    """How many states of a library have each class, and each flag; every class and flag is listed."""
+    """The number of states of each class and with each flag; every class and flag is included."""
 
     of_class: tuple[tuple[StateClass, int], ...]
     of_flag: tuple[tuple[Flag, int], ...]
@@ -70,7 +70,7 @@ def library_by_id(connection: Connection, library_id: int) -> LibraryRecord:
     """The published library of that id.
 
     Raises:
-        NotFoundError: there is none.
+        NotFoundError: no library of that id is published.
     """
     row = _published(connection, library.c.id == library_id) if library_id <= LARGEST_ID else None
     if row is None:
@@ -79,7 +79,7 @@ def library_by_id(connection: Connection, library_id: int) -> LibraryRecord:
 
 
 def library_by_input(connection: Connection, input_sha256: str) -> LibraryRecord | None:
-    """The published library of these inputs, if there is one."""
+    """The published library of these inputs; None if there is none."""
     row = _published(connection, library.c.input_sha256 == input_sha256)
     return None if row is None else _record(row)
 
@@ -107,7 +107,7 @@ def states_at(connection: Connection, library_id: int, ordinals: Sequence[int]) 
     """The states with these ordinals, in this order; at most some hundreds.
 
     Raises:
-        NotFoundError: one of them is not there.
+        NotFoundError: a state does not exist.
     """
     states = _states(connection, library_id, lambda table: table.c.ordinal.in_(ordinals))
     if missing := [ordinal for ordinal in ordinals if ordinal not in states]:
@@ -148,13 +148,13 @@ def undecided_between(
 
 
 def undecided_reasons(connection: Connection, library_id: int) -> list[tuple[str, int]]:
-    """Why poses of a library are undecided, and how many for each reason, the most frequent first."""
+    """The reasons of undecided poses and their numbers, the most frequent first."""
     rows = _grouped(connection, undecided, "reason", library_id)
     return sorted(((row[0], row[1]) for row in rows), key=lambda row: (-row[1], row[0]))
 
 
 def not_on_the_grid(library: LibraryRecord, roll_deg: float, pitch_deg: float) -> NotFoundError:
-    """The error for an orientation (degrees) that is none of a library's grid."""
+    """The error for an orientation (degrees) that a library's grid does not contain."""
     roll, pitch = number_text(roll_deg), number_text(pitch_deg)
     most, step = number_text(library.grid.tilt_max_deg), number_text(library.grid.tilt_step_deg)
     return NotFoundError(
@@ -165,7 +165,7 @@ def not_on_the_grid(library: LibraryRecord, roll_deg: float, pitch_deg: float) -
 
 
 def counts(connection: Connection, library_id: int) -> Counts:
-    """How many states have each class and each flag."""
+    """The number of states of each class and with each flag."""
     classes = {row[0]: row[1] for row in _grouped(connection, state, "state_class", library_id)}
     flags = {row[0]: row[1] for row in _grouped(connection, state_flag, "flag", library_id)}
     return Counts(

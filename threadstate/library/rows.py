@@ -31,7 +31,7 @@ from threadstate.state.quantities import QUANTITIES
 from threadstate.thread.regions import Region
 
 _LEVEL = 1
-"""The fastest; higher ones save nothing worth their time."""
+"""Compression level of Zstandard, the fastest: higher ones save nothing worth their time."""
 
 # A dictionary is five times as fast as the call of an enumeration.
 _REGIONS = {region.value: region for region in Region}
@@ -58,7 +58,7 @@ class ChunkRows:
 
     @property
     def pose_count(self) -> int:
-        """How many poses the orientation has, decided or not."""
+        """Number of poses of the orientation, decided or not."""
         return len(self.states) + len(self.undecided)
 
 
@@ -198,7 +198,7 @@ class FormationRows:
 
 @dataclass(frozen=True, slots=True)
 class HistoryRows:
-    """A history as rows without ``library_id``; formations are those that occur in it, by their keys."""
+    """A history as rows without ``library_id``, with the formations that occur in it."""
 
     formations: tuple[FormationRows, ...]
     intervals: tuple[Row, ...]
@@ -211,7 +211,7 @@ class HistoryRows:
     steepest_fall: tuple[Row, ...]
 
     def of_orientation(self) -> Iterator[tuple[Table, tuple[Row, ...]]]:
-        """The tables that hold the orientation's own rows, in an order in which they can be written."""
+        """The tables of the orientation's rows and the rows, in the order of their foreign keys."""
         yield tables.history_interval, self.intervals
         yield tables.history_boundary, self.boundaries
         yield tables.history_boundary_contact, self.boundary_contacts

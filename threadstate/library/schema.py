@@ -1,4 +1,4 @@
-"""Whether a database has the schema that this code expects."""
+"""Checks of the database's schema revision."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from sqlalchemy import Engine, text
 from sqlalchemy.exc import DatabaseError
 
 from threadstate.errors import SchemaError, UnreadableDatabaseError
-from threadstate.library.address import is_sqlite, shown
+from threadstate.library.address import is_sqlite, masked_url
 from threadstate.settings import DATABASE
 
 SCHEMA_REVISION = "0008"
-"""The newest migration, which the tables of ``threadstate.library.tables`` mirror."""
+"""The newest migration; the tables of ``threadstate.library.tables`` match it."""
 
 MIGRATE_COMMAND = "threadstate migrate"
 
 _UNDEFINED_TABLE = "42P01"
-"""PostgreSQL's code of a table that is not there."""
+"""PostgreSQL's code of an undefined table."""
 
 
 def stored_revision(engine: Engine) -> str | None:
-    """The revision of the database's schema; None where a SQLite file, or everything in the database, is missing.
+    """The revision of the database's schema; None if the SQLite file does not exist or the database is empty.
 
     Raises:
-        UnreadableDatabaseError: the database cannot be read, as a file that is none or a server that does not answer.
+        UnreadableDatabaseError: the database cannot be read: the file is not a database, or the server does not answer.
     """
     try:
         with engine.connect() as connection:
@@ -35,36 +35,36 @@ def stored_revision(engine: Engine) -> str | None:
         missing = ("no such table", "unable to open database file") if is_sqlite(engine.url) else ()
         if getattr(error.orig, "sqlstate", None) == _UNDEFINED_TABLE or any(words in reason for words in missing):
             return None
-        raise UnreadableDatabaseError(f"database {place(engine)} cannot be read: {reason}") from error
+        raise UnreadableDatabaseError(f"database {location(engine)} cannot be read: {reason}") from error
 
 
 def check_schema(engine: Engine) -> None:
     """Check at start-up that the database is migrated.
 
     Raises:
-        SchemaError: it is not, or its file does not exist; the message names what mends it.
+        SchemaError: it is not, or its file does not exist; the message names the command to run.
     """
     revision = stored_revision(engine)
     if revision == SCHEMA_REVISION:
         return
-    if is_sqlite(engine.url) and not Path(place(engine)).exists():
+    if is_sqlite(engine.url) and not Path(location(engine)).exists():
         raise SchemaError(
-            f"database file {place(engine)} does not exist; --database or {DATABASE} says which file it is "
+            f"database file {location(engine)} does not exist; --database or {DATABASE} says which file it is "
             "(`threadstate settings` shows it), `threadstate rebuild` makes it"
         )
     if revision is None:
-        found, cure = "has no schema yet", f"run `{MIGRATE_COMMAND}`"
+        found, remedy = "has no schema yet", f"run `{MIGRATE_COMMAND}`"
     elif revision < SCHEMA_REVISION:
-        found, cure = f"is at schema revision {revision}", f"run `{MIGRATE_COMMAND}`"
+        found, remedy = f"is at schema revision {revision}", f"run `{MIGRATE_COMMAND}`"
     else:
-        found, cure = f"is at schema revision {revision}, of a newer threadstate", "install that one"
-    raise SchemaError(f"database {place(engine)} {found}; this code needs revision {SCHEMA_REVISION}: {cure}")
+        found, remedy = f"is at schema revision {revision}, of a newer threadstate", "install that one"
+    raise SchemaError(f"database {location(engine)} {found}; this code needs revision {SCHEMA_REVISION}: {remedy}")
 
 
-def place(engine: Engine) -> str:
-    """Where an engine's database is, for people: a file, or an address without password."""
+def location(engine: Engine) -> str:
+    """The location of an engine's database, for messages: a file, or an address without password."""
     if not is_sqlite(engine.url):
-        return shown(engine.url.set(query={}))
-    # A reader's engine has the file as a URI.
+        return masked_url(engine.url.set(query={}))
+    # The engine of a reader has a URI.
     name = str(engine.url.database)
     return unquote(name.removeprefix("file:")) if name.startswith("file:") else name

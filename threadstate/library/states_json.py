@@ -20,7 +20,7 @@ def orientation_states_json(connection: Connection, library_id: int, grid: Grid,
 
 
 def orientations_without_json(engine: Engine) -> list[tuple[int, int]]:
-    """The numbers of libraries and orientations, in order, that an older threadstate stored without their JSON."""
+    """The numbers of libraries and orientations, in order, that an older threadstate stored without JSON."""
     query = (
         select(chunk.c.library_id, chunk.c.orientation)
         .where(chunk.c.states_json.is_(None))
@@ -31,7 +31,7 @@ def orientations_without_json(engine: Engine) -> list[tuple[int, int]]:
 
 
 def fill_states_json(engine: Engine, orientations: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
-    """Store the JSON of orientations that have none, each in a transaction of its own; gives each when it is stored."""
+    """Store the JSON of orientations that have none, each in its own transaction; yields each after it is stored."""
     for library_id, orientation in orientations:
         with engine.begin() as connection:
             head = connection.execute(select(library).where(library.c.id == library_id)).one()

@@ -1,4 +1,4 @@
-"""A chunk as it is stored: its rows, read back, with the hash that these rows have."""
+"""Reading a stored chunk: its rows, with the content hash computed from them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from threadstate.state.model import Answer
 
 @dataclass(frozen=True, slots=True)
 class StoredChunk:
-    """The rows of an orientation and the hash of these very rows; ``history`` is None where none is stored."""
+    """The rows of an orientation and the content hash of these rows; ``history`` is None if none is stored."""
 
     rows: ChunkRows
     history: HistoryRows | None
@@ -24,7 +24,7 @@ class StoredChunk:
 
 
 def stored_chunk(connection: Connection, library_id: int, grid: Grid, index: int) -> StoredChunk:
-    """The chunk of the orientation with that number, of a library that may be unpublished still."""
+    """The chunk of the orientation with that number, of a library that may be unpublished."""
     first = grid.first_ordinal(index)
     last = first + grid.phase_count - 1
     poses = dict(undecided_between(connection, library_id, first, last))

@@ -19,17 +19,17 @@ def library_pair(record: LibraryRecord) -> Pair:
 
 
 def library_options(record: LibraryRecord) -> SolveOptions:
-    """The options of a library's solver; of a library by meshes those that every method has."""
+    """The options of a library's solver; of a library by meshes those that all solver methods share."""
     return options_of(record.options)
 
 
 def pair_of(pair_json: str) -> Pair:
-    """The pair whose canonical JSON is given."""
+    """The pair of its canonical JSON."""
     return _adapter().validate_json(pair_json)
 
 
 def options_of(options_json: str) -> SolveOptions:
-    """The options of every method among those whose canonical JSON is given."""
+    """The options that all solver methods share, of their canonical JSON."""
     stored = json.loads(options_json)
     return SolveOptions(**{field.name: stored[field.name] for field in fields(SolveOptions)})
 

@@ -1,10 +1,10 @@
-"""The tables of the stored library. They know names and numbers, no physics.
+"""The tables of the stored library.
 
 ``ordinal`` numbers the states of a library by their place in its grid,
 ``(i_roll * n_pitch + i_pitch) * n_phase + i_phase`` with every axis ascending, so that it is the same on every
 machine and its order is the order of (roll, pitch, phase). ``orientation`` numbers the chunks,
 ``i_roll * n_pitch + i_pitch``. Lengths are in the unit of the library's row, angles in degrees. All numbers are IEEE
-doubles; neither NaN nor -0.0 is ever stored (SQLite keeps neither). Text is compared byte by byte.
+doubles; neither NaN nor -0.0 is ever stored (SQLite preserves neither). Text is compared byte by byte.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ SHA256_LENGTH = 64
 
 def one_of(column: str, names: Iterable[StrEnum]) -> CheckConstraint:
     """The constraint that a column holds one of these names."""
-    # Not IN (...): SQLite builds that list anew for every row, which made up a third of the time of writing a library.
+    # Not IN (...): SQLite rebuilds that list for every row, which took a third of the time of writing a library.
     either = " OR ".join(f"{column} = '{name.value}'" for name in names)
     return CheckConstraint(either, name=f"{column}_known")
 
@@ -74,15 +74,15 @@ library = Table(
     # The poses of the grid; each has a state or is undecided.
     Column("state_count", Integer, nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
-    # Both null until the library is whole; readers see published libraries only.
+    # Both null until the library is published; readers see published libraries only.
     Column("content_sha256", bytewise_string(SHA256_LENGTH)),
     Column("published_at", UtcDateTime),
-    # How many of the poses are undecided; 0 until the library is whole.
+    # How many of the poses are undecided; 0 until the library is published.
     Column("undecided_count", Integer, nullable=False, server_default="0"),
     # Since when "latest" means this library; null in all libraries but one at most.
     Column("pinned_at", UtcDateTime),
     PrimaryKeyConstraint("id"),
-    # Serves: is this very library here already? (worker, before it computes)
+    # Serves: the library of given inputs.
     UniqueConstraint("input_sha256"),
     one_of("length_unit", LengthUnit),
     CheckConstraint("tilt_count > 0 AND phase_count > 0", name="grid_not_empty"),
@@ -108,14 +108,14 @@ chunk = Table(
     # Its states as one JSON array, compressed by Zstandard: a history is answered from it. It follows from the rows of
     # the states; null where an older threadstate wrote them, until `threadstate migrate` has filled it in.
     Column("states_json", LargeBinary),
-    # Serves: which orientations are committed; the hashes in order when publishing.
+    # Serves: the committed orientations; the hashes in order when publishing.
     PrimaryKeyConstraint("library_id", "orientation"),
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),
     CheckConstraint("orientation >= 0", name="orientation_not_negative"),
     CheckConstraint("state_count > 0", name="not_empty"),
     sqlite_with_rowid=False,
 )
-"""A committed chunk: all phases of one orientation, in the database whole or not at all."""
+"""A committed chunk: all phases of one orientation, written in one transaction."""
 
 state = Table(
     "state",
@@ -230,4 +230,4 @@ undecided = Table(
     CheckConstraint("ordinal >= 0", name="ordinal_not_negative"),
     sqlite_with_rowid=False,
 )
-"""A pose of the grid that the library's method could not decide, in place of its state, and why."""
+"""A pose of the grid that the solver method could not decide, in place of its state, and why."""

@@ -1,4 +1,4 @@
-"""Writing a library: opened once, filled chunk by chunk, published whole."""
+"""Writing a library: create its row, write its chunks, publish it."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from threadstate.units import LengthUnit
 
 
 class IncompleteLibraryError(ThreadstateError):
-    """A library was to be published before all its chunks were there."""
+    """A library cannot be published: chunks are missing."""
 
 
 @dataclass(frozen=True)
 class _Head:
-    """What a library's row says from the beginning."""
+    """The values of a library's row when it is created."""
 
     designation: str
     length_unit: LengthUnit
@@ -42,7 +42,7 @@ class _Head:
 
 
 def open_library(engine: Engine, inputs: LibraryInputs) -> int:
-    """The id of the library of these inputs, whose row is made if there is none."""
+    """The id of the library of these inputs; its row is created if it does not exist."""
     return _opened(
         engine,
         _Head(
@@ -60,7 +60,7 @@ def open_library(engine: Engine, inputs: LibraryInputs) -> int:
 
 
 def open_copy(engine: Engine, record: LibraryRecord) -> int:
-    """The id of the library of the same inputs as a published one of another database; made if there is none."""
+    """The id of the library with the inputs of a published one of another database; created if it does not exist."""
     return _opened(
         engine,
         _Head(
@@ -108,7 +108,7 @@ def _opened(engine: Engine, head: _Head) -> int:
 
 
 def committed_orientations(engine: Engine, library_id: int) -> frozenset[int]:
-    """The numbers of the chunks that are in the database."""
+    """The numbers of the committed chunks."""
     with engine.connect() as connection:
         return frozenset(connection.scalars(select(chunk.c.orientation).where(chunk.c.library_id == library_id)))
 
@@ -119,14 +119,14 @@ def write_chunk(
     rows: ChunkRows,
     history: HistoryRows | None = None,
 ) -> bool:
-    """Write a chunk, with its history if it has one, in one transaction; one that is there is left as it is.
+    """Write a chunk, with its history if it has one, in one transaction; a committed chunk is not changed.
 
     Returns:
         Whether it was written.
     """
     orientation = rows.orientation
     with engine.begin() as connection:
-        # The row's lock makes two writers of one library take turns, on databases that lock rows.
+        # The row's lock serialises the writers of one library, on databases that lock rows.
         connection.execute(select(library.c.id).where(library.c.id == library_id).with_for_update())
         there = select(chunk.c.orientation).where(
             chunk.c.library_id == library_id, chunk.c.orientation == orientation.index
@@ -159,7 +159,7 @@ def write_chunk(
 
 
 def publish(engine: Engine, library_id: int, grid: Grid) -> str:
-    """Make a whole library visible, in one transaction; a published one is left as it is.
+    """Publish a complete library in one transaction; a published one is not changed.
 
     Returns:
         Its content hash.
@@ -196,7 +196,7 @@ def publish_in(connection: Connection, library_id: int, grid: Grid) -> str:
         .where(library.c.id == library_id)
         .values(
             content_sha256=content_sha256,
-            # What is published last is the latest, also where the clock was set back.
+            # The library published last is the latest, even if the clock was set back.
             published_at=now if latest is None or latest < now else latest + timedelta(microseconds=1),
             undecided_count=left_undecided,
         )
@@ -205,9 +205,9 @@ def publish_in(connection: Connection, library_id: int, grid: Grid) -> str:
 
 
 def pin_library(engine: Engine, library_id: int | None) -> None:
-    """Let ``latest`` mean the library of that id, or with None the one published last again.
+    """Pin the library that ``latest`` means; with None unpin it.
 
-    One library is pinned at a time. That it is published, by the exact method, is for the caller to know.
+    At most one library is pinned. The caller checks that it is published and of the exact method.
     """
     with engine.begin() as connection:
         connection.execute(update(library).where(library.c.pinned_at.is_not(None)).values(pinned_at=None))
@@ -236,7 +236,7 @@ def _count(connection: Connection, table: Table, library_id: int) -> int:
 
 
 def _insert(connection: Connection, table: Table, library_id: int, rows: Sequence[Row]) -> None:
-    """Insert positional rows; per row nothing but the driver's own work is done."""
+    """Insert positional rows directly with the driver."""
     if rows:
         statement = _insert_statement(table, connection.dialect)
         connection.exec_driver_sql(statement, [(library_id, *row) for row in rows])

@@ -18,7 +18,7 @@ class TooManyPairsError(ThreadstateError):
 
 
 class Engine(Protocol):
-    """What is asked of two meshes; a pose ``T_nut_bolt`` is a (4, 4) array, lengths in the pair's unit."""
+    """Collision queries of two meshes; a pose ``T_nut_bolt`` is a (4, 4) array, lengths in the pair's unit."""
 
     def collides(self, T_nut_bolt: Floats) -> bool:
         """Whether any triangle of the bolt meets one of the nut: the surfaces, not the solids."""

@@ -21,7 +21,7 @@ ENDINGS = ("stl", "ply", "glb")
 
 
 class UnwritableFileError(ThreadstateError):
-    """A file could not be written; the message names it and says why."""
+    """A file could not be written; the message names it and the reason."""
 
 
 @dataclass(frozen=True, slots=True)

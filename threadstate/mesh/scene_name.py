@@ -6,7 +6,7 @@ from enum import StrEnum
 
 
 class Scene(StrEnum):
-    """What of bolt and nut is there to collide, from the most to the least."""
+    """How much of bolt and nut is modelled, from the most to the least."""
 
     FULL = "full"
     """Both solids, closed."""

@@ -1,4 +1,4 @@
-"""Contact states of poses by the collision of meshes: the paper's method."""
+"""Contact states of poses by the collision of meshes: the paper's procedure."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.agreement import disagreement, other_tessellation
-from threadstate.mesh.curve_method import CurveMethod
-from threadstate.mesh.method import MeshMethod
+from threadstate.mesh.curve_procedure import CurveProcedure
 from threadstate.mesh.options import MeshOptions
+from threadstate.mesh.procedure import MeshProcedure
 from threadstate.mesh.scene_name import Scene
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
@@ -47,9 +47,9 @@ def solve_poses_by_mesh(
 
 
 @lru_cache(maxsize=4)
-def mesh_method(pair: Pair, options: MeshOptions) -> MeshMethod:
-    """The method for a pair, by triangles or by edge curves as the scene says; the last four are cached."""
-    return CurveMethod(pair, options) if options.scene is Scene.CURVES else MeshMethod(pair, options)
+def mesh_procedure(pair: Pair, options: MeshOptions) -> MeshProcedure:
+    """The procedure for a pair, by triangles or by edge curves depending on the scene; the last four are cached."""
+    return CurveProcedure(pair, options) if options.scene is Scene.CURVES else MeshProcedure(pair, options)
 
 
 def _checked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
@@ -59,7 +59,7 @@ def _checked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: Pos
         other = _unchecked(pair, other_mesh, options, pose_deg)
     except MeshUndecidedError as error:
         raise MeshUndecidedError(*pose_deg, f"by another tessellation: {error.reason}") from None
-    near = SEGMENTS * max(mesh_method(pair, one).segment for one in (mesh, other_mesh))
+    near = SEGMENTS * max(mesh_procedure(pair, one).segment for one in (mesh, other_mesh))
     reason = disagreement(state, other, near)
     if reason is not None:
         raise MeshUndecidedError(*pose_deg, reason)
@@ -67,15 +67,16 @@ def _checked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: Pos
 
 
 def _unchecked(pair: Pair, mesh: MeshOptions, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
-    return state_by(mesh_method(pair, mesh), options, pose_deg)
+    return state_by(mesh_procedure(pair, mesh), options, pose_deg)
 
 
-def state_by(method: MeshMethod, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
-    """The state of a valid pose (roll, pitch, phase in degrees) by a method that is there, unchecked.
+def state_by(procedure: MeshProcedure, options: SolveOptions, pose_deg: PoseDeg) -> ContactState:
+    """The state of a valid pose (roll, pitch, phase in degrees) by a given procedure, without the check by a second
+    tessellation.
 
     Raises:
         MeshUndecidedError: the meshes cannot answer.
     """
-    chosen = method.solve_options(options)
-    record = method.solve(pose_deg, chosen)
-    return decoded_states(method.pair, chosen, np.array([pose_deg]), record.reshape(1, RECORD_SIZE))[0]
+    chosen = procedure.solve_options(options)
+    record = procedure.solve(pose_deg, chosen)
+    return decoded_states(procedure.pair, chosen, np.array([pose_deg]), record.reshape(1, RECORD_SIZE))[0]

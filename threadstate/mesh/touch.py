@@ -29,7 +29,7 @@ alone against a plane touches it with its edge, where it is cut off."""
 
 
 class NoContactPointError(Exception):
-    """A cluster that has no place or no features; the message says why."""
+    """A cluster has no contact point or no features; the message says why."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,1 +1,1 @@
-"""The constraint network: formations, the moves that lead from one to another, and what follows from them."""
+"""The constraint network: formations, the moves that lead from one to another, and paths and locations in it."""

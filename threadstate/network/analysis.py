@@ -52,7 +52,7 @@ class WindowReach:
 
 @dataclass(frozen=True, slots=True)
 class Telling:
-    """A formation that occurs at one orientation alone: who observes it knows the tilt."""
+    """A formation that occurs at one orientation alone: observing it determines the tilt."""
 
     formation: Formation
     orientation: int

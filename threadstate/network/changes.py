@@ -15,7 +15,7 @@ from threadstate.state.model import StateClass
 STAGES = (1, 2, 3)
 
 CACHED = 2**15
-"""How many differences are kept: many transitions are between the same two formations."""
+"""Size of the cache of differences: many transitions are between the same two formations."""
 
 
 class ChangeKind(StrEnum):
@@ -31,7 +31,7 @@ class ChangeKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class ContactDifference:
-    """How one contact differs: the ``place``-th (from 0) of its stage, None where there is none."""
+    """How one contact differs: the ``place``-th (from 0) of its stage, None on a side without it."""
 
     stage: int
     place: int
@@ -74,7 +74,7 @@ class FormationDifference:
 
     @cached_property
     def text(self) -> str:
-        """The difference in words, empty where there is none."""
+        """The difference in words; empty if there is none."""
         texts = [contact.text for contact in self.contacts]
         if self.class_before != self.class_after:
             texts.insert(0, f"{class_text(self.class_before)} to {class_text(self.class_after)}")

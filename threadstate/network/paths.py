@@ -28,7 +28,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """Steps from a cell of the formation that was asked for to the first cell in the window."""
+    """Steps from a cell of the start formation to the first cell in the window."""
 
     objective: Objective
     steps: tuple[Step, ...]
@@ -101,7 +101,9 @@ def _starts(
             if ahead < cell.width_deg:
                 starts.append((cell, cell.start_deg + ahead))
     if not starts:
-        raise InvalidValueError("formation", formation.key, "one that holds at the orientation and phase asked for")
+        raise InvalidValueError(
+            "formation", formation.key, "a formation that occurs at the given orientation and phase"
+        )
     outside = [(cell, phase) for cell, phase in starts if not cell.in_window]
     return outside if outside and phase_deg is None else starts
 

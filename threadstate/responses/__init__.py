@@ -1,1 +1,1 @@
-"""What is told of histories and networks: the same objects on the command line and over HTTP."""
+"""Response models of histories and networks, shared by the command line and the service."""

@@ -338,7 +338,7 @@ class LocatedFormationDocument(_Document):
 
 
 class LocationDocument(_Document):
-    """Where a state with all that was observed can be."""
+    """Where a state that matches the observation can be."""
 
     share: float = Field(description="of all phases of all orientations")
     undecided_share: float = Field(description="where the solver decides no state, so that nothing excludes it")
@@ -348,7 +348,7 @@ class LocationDocument(_Document):
 
 
 class NetworkSummaryDocument(_Document):
-    """The size of a network, and what holds it together."""
+    """The size of a network, and its connectivity."""
 
     formations: int
     edges: int

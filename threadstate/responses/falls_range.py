@@ -16,7 +16,7 @@ from threadstate.state.options import TILT_LIMIT_DEG, SolveOptions
 from threadstate.thread.pair import Pair
 
 STEPS = 3
-"""How many values of roll, and of pitch, are looked at: both ends of the tolerance and its middle."""
+"""Number of values of roll, and of pitch: both ends of the tolerance and its middle."""
 MOST_STEPS = 9
 LARGEST_TOLERANCE_DEG = 2.0
 LARGEST_SPAN_DEG = 90.0
@@ -45,7 +45,7 @@ def computed_falls(
 
 
 def tilts_within(roll_deg: float, pitch_deg: float, tolerance_deg: float, steps: int = STEPS) -> list[Tilt]:
-    """The tilts that are looked at, ``steps`` by ``steps`` evenly spaced ones, the corners among them.
+    """The tilts within the tolerance: ``steps`` by ``steps`` evenly spaced ones, including the corners.
 
     Raises:
         InvalidValueError: a tolerance or a number of steps out of range, or a tilt beyond 10 deg.
@@ -75,7 +75,7 @@ def falls_range(
     tolerance_deg: float,
     tilts: Iterable[Tilt],
 ) -> FallsRangeDocument:
-    """The range of the falls of ``tilts``, each asked of ``falls``; lengths in the unit of these.
+    """The range of the falls of ``tilts``, each computed by ``falls``; lengths in the unit of these.
 
     Phases that differ by a turn are taken next to each other. Between the tilts falls may be beyond the range: it is
     that of what was looked at.

@@ -34,7 +34,7 @@ from threadstate.units import scale_length
 
 
 def summary_document(network: ConstraintNetwork, window_count: int) -> NetworkSummaryDocument:
-    """The size of a network, and what holds it together."""
+    """The size of a network, and its connectivity."""
     return NetworkSummaryDocument(
         formations=len(network.nodes),
         edges=len(network.edges),
@@ -49,7 +49,7 @@ def summary_document(network: ConstraintNetwork, window_count: int) -> NetworkSu
 
 
 def formation_summaries(network: ConstraintNetwork) -> list[FormationSummaryDocument]:
-    """Each formation of a network in few words, in the network's order."""
+    """A summary of each formation, in the network's order."""
     return [
         FormationSummaryDocument(
             key=node.formation.key,

@@ -26,7 +26,7 @@ def falls_document(
 ) -> FallsDocument:
     """The document of an orientation's falls, lengths multiplied by ``factor``; ``thread_pitch`` before that.
 
-    A steepest fall of more than ``least_pitches`` thread pitches is a snap's.
+    A steepest fall of more than ``least_pitches`` thread pitches is that of a snap.
     """
     steepest = falls.steepest
     return FallsDocument(

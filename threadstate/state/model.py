@@ -116,4 +116,4 @@ class UndecidedPose:
 
 
 Answer = ContactState | UndecidedPose
-"""What a method says of a pose."""
+"""The answer of a solver method for a pose."""

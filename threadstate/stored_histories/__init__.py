@@ -1,1 +1,1 @@
-"""Histories in the tables, and back."""
+"""Stored histories: histories as rows of the tables, and read back from them."""

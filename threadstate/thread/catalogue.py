@@ -52,7 +52,7 @@ def quarter_twenty_unc(root_form: RootForm = RootForm.CLASSIC) -> Pair:
 
 
 def designations() -> tuple[str, ...]:
-    """Every designation that :func:`pair_by_designation` knows."""
+    """All designations that :func:`pair_by_designation` accepts."""
     return tuple(_DESIGNATION[root_form] for root_form in RootForm)
 
 

@@ -1,1 +1,1 @@
-"""Chunks from the workers of a Dask cluster; what ends in ``remote`` or below it runs there."""
+"""Chunks from the workers of a Dask cluster; the module ``remote`` runs on them."""

@@ -1,8 +1,8 @@
 """Chunks from the workers of a Dask cluster, as they finish.
 
-The scheduler knows nothing that is not known here: which chunks are missing is in the database, and each is written
-there as soon as it arrives. No more are asked for than the workers can have before them, so that neither the
-scheduler's nor the workers' memory grows with the library.
+The scheduler holds no state of its own: the missing chunks are in the database, and each chunk is written there as soon
+as it arrives. Only as many are submitted as the workers can have queued, so that neither the scheduler's nor the
+workers' memory grows with the library.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from threadstate.numbers import number_text
 from worker.cluster.errors import ClusterError, VersionSkewError
 from worker.cluster.versions import own_versions
 from worker.messages import Chunk
-from worker.output import tell
-from worker.processes import ASKED_AHEAD, ComputeError
+from worker.output import print_status
+from worker.processes import QUEUED_PER_PROCESS, ComputeError
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -30,7 +30,7 @@ CONNECT_TIMEOUT_S = 10
 NO_WORKER_TIMEOUT_S = 60.0
 """How long a cluster may have no worker."""
 LOOK_EVERY_S = 1.0
-"""How often the cluster is asked how many threads it has."""
+"""How often the number of threads is read."""
 SCHEMES = ("tcp://", "tls://")
 VALID_ADDRESS = "the address of a Dask scheduler, such as tcp://host:8786 or tls://host:8786"
 
@@ -42,72 +42,73 @@ class ComputingCluster:
         self._inputs = inputs
         self._address = address
         self._client = client
-        self._asked_for: set[Future[Chunk]] = set()
+        self._submitted: set[Future[Chunk]] = set()
         self._done: SimpleQueue[Future[Chunk]] = SimpleQueue()
         self._room = 0
-        self._looked_s = 0.0
+        self._threads_read_s = 0.0
         self._worker_seen_s = time.monotonic()
 
     def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
         """The chunks of these orientations, in the order in which they are finished.
 
-        Those of a worker that dies are computed by others.
+        Chunks of a worker that dies are computed by others.
 
         Args:
             orientations: their numbers, each taken when there is a worker for it.
-            on_ready: called once, when the first chunk is there.
+            on_ready: called once, when the first chunk has arrived.
 
         Raises:
-            ComputeError: a chunk failed, or one worker after another died of it.
-            ClusterError: the scheduler is gone, there is no worker for a minute, or one is of another version.
+            ComputeError: a chunk failed, or killed one worker after another.
+            ClusterError: the scheduler is unreachable, the cluster has no worker for a minute, or one has another
+                version.
         """
         waiting = iter(orientations)
         announced = False
-        while self._ask(waiting) or self._asked_for:
+        while self._submit(waiting) or self._submitted:
             try:
                 future = self._done.get(timeout=LOOK_EVERY_S)
             except Empty:
                 continue
             chunk = self._result(future)
-            self._asked_for.remove(future)
+            self._submitted.remove(future)
             if not announced:
                 announced = True
                 on_ready()
             yield chunk
 
     def close(self) -> None:
-        """Ask for nothing any more; what workers are at is dropped when they are done with it."""
-        self._asked_for.clear()
+        """Submit no more; chunks in progress are discarded."""
+        self._submitted.clear()
 
-    def _ask(self, waiting: Iterator[int]) -> bool:
-        """Ask for as many chunks as there is room for.
+    def _submit(self, waiting: Iterator[int]) -> bool:
+        """Submit as many chunks as the workers can queue.
 
         Returns:
-            Whether there may be more to ask for.
+            Whether orientations may remain.
         """
         from worker.cluster.remote import remote_chunk
 
-        self._look()
-        while len(self._asked_for) < self._room:
+        self._read_threads()
+        while len(self._submitted) < self._room:
             index = next(waiting, None)
             if index is None:
                 return False
             future = self._client.submit(remote_chunk, self._inputs, index, own_versions(), pure=False)
-            self._asked_for.add(future)
+            self._submitted.add(future)
             future.add_done_callback(self._done.put)
         return True
 
-    def _look(self) -> None:
-        """See now and then how many threads there are: workers come and go."""
+    def _read_threads(self) -> None:
+        """Read the number of threads from time to time, as workers join and leave."""
         now_s = time.monotonic()
-        if self._room and now_s - self._looked_s < LOOK_EVERY_S:
+        if self._room and now_s - self._threads_read_s < LOOK_EVERY_S:
             return
         try:
             threads = sum(self._client.nthreads().values())
         except (OSError, TimeoutError) as error:
-            raise self._gone(error) from None
-        self._looked_s = now_s
-        self._room = ASKED_AHEAD * threads
+            raise self._unreachable(error) from None
+        self._threads_read_s = now_s
+        self._room = QUEUED_PER_PROCESS * threads
         if threads:
             self._worker_seen_s = now_s
         elif now_s - self._worker_seen_s > NO_WORKER_TIMEOUT_S:
@@ -125,24 +126,24 @@ class ComputingCluster:
         except KilledWorker as error:
             raise ComputeError(f"one Dask worker after another died of a chunk: {error}") from None
         except Exception as error:
-            # A worker may raise anything, an OSError too; what it did not raise is of the connection.
+            # A worker may raise anything, also an OSError; other errors are those of the connection.
             if future.status != "error" and isinstance(error, (CancelledError, OSError, TimeoutError)):
-                raise self._gone(error) from None
+                raise self._unreachable(error) from None
             raise ComputeError(f"a Dask worker failed: {type(error).__name__}: {error}") from None
         assert isinstance(chunk, Chunk)
         return chunk
 
-    def _gone(self, error: BaseException) -> ClusterError:
+    def _unreachable(self, error: BaseException) -> ClusterError:
         return ClusterError(f"the Dask scheduler {self._address} is gone ({type(error).__name__})")
 
 
 @contextmanager
 def computing_cluster(inputs: LibraryInputs, address: str) -> Iterator[ComputingCluster]:
-    """The cluster of the scheduler at ``address``, whose workers are seen to be of this version first.
+    """The cluster of the scheduler at ``address``, after a check that its workers have this version.
 
     Raises:
-        InvalidValueError: that is no address of a scheduler.
-        ClusterError: Dask is not installed, no scheduler answers there, or a worker is of another version.
+        InvalidValueError: it is not the address of a scheduler.
+        ClusterError: Dask is not installed, no scheduler answers, or a worker has another version.
     """
     with _connected(address) as client:
         _check_versions(client, address)
@@ -154,11 +155,11 @@ def computing_cluster(inputs: LibraryInputs, address: str) -> Iterator[Computing
 
 
 def cluster_threads(address: str) -> int:
-    """How many threads the workers of a cluster have.
+    """The number of threads of a cluster's workers.
 
     Raises:
-        InvalidValueError: that is no address of a scheduler.
-        ClusterError: as for :func:`computing_cluster`, or it has none.
+        InvalidValueError: it is not the address of a scheduler.
+        ClusterError: as for :func:`computing_cluster`, or the cluster has no worker.
     """
     with _connected(address) as client:
         threads: int = sum(client.nthreads().values())
@@ -178,7 +179,7 @@ def _connected(address: str) -> Iterator[Client]:
             "a scheduler needs Dask, which is not installed: pip install '.[dask]' in a checkout"
         ) from None
 
-    # What goes wrong is said by errors of our own; Dask's log would tell the same again, in many lines.
+    # Failures are reported by errors of our own; Dask's log would repeat them in many lines.
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
@@ -198,7 +199,7 @@ def _check_versions(client: Client, address: str) -> None:
 
     answers = client.run(require_versions, own_versions(), on_error="return")
     if not answers:
-        tell(f"the Dask scheduler {address} has no worker yet; waiting for one")
+        print_status(f"the Dask scheduler {address} has no worker yet; waiting for one")
     for place, answer in answers.items():
         if answer is not None:
             raise _skewed(f"{answer} (at {place})")

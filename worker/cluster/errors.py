@@ -1,4 +1,4 @@
-"""What goes wrong with a cluster and not with a chunk."""
+"""Errors of a cluster, as opposed to those of a chunk."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from threadstate.errors import ThreadstateError
 
 
 class ClusterError(ThreadstateError):
-    """The scheduler or its workers are not there, or are of another version; what is committed stays."""
+    """The scheduler or its workers are unreachable or have another version; committed chunks stay."""
 
 
 class VersionSkewError(ClusterError):
-    """A Dask worker is of another version: its chunks may be others."""
+    """A Dask worker has another version: its chunks may differ."""

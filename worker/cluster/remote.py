@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from threadstate.library.identity import LibraryInputs
-from threadstate.warm_up import load_kernels_in_turn
+from threadstate.warm_up import load_kernels_exclusively
 from worker.cluster.errors import VersionSkewError
 from worker.cluster.versions import Versions, own_versions
 from worker.compute import compute_chunk
@@ -14,10 +14,10 @@ from worker.messages import Chunk
 
 
 def remote_chunk(inputs: LibraryInputs, index: int, wanted: Versions) -> Chunk:
-    """The orientation of that number, from a process of the same versions as the one that asks.
+    """Compute the chunk of an orientation in a process that must have the ``wanted`` versions.
 
     Raises:
-        VersionSkewError: this process is of others.
+        VersionSkewError: this process has other versions.
     """
     require_versions(wanted)
     _prepare()
@@ -25,10 +25,10 @@ def remote_chunk(inputs: LibraryInputs, index: int, wanted: Versions) -> Chunk:
 
 
 def require_versions(wanted: Versions) -> None:
-    """See that this process would compute the same bits.
+    """Check that this process computes the same bits.
 
     Raises:
-        VersionSkewError: it is of other versions.
+        VersionSkewError: this process has other versions.
     """
     if differences := wanted.differences(own_versions()):
         raise VersionSkewError(differences)
@@ -36,6 +36,6 @@ def require_versions(wanted: Versions) -> None:
 
 @cache
 def _prepare() -> None:
-    """Make a process ready, once: a Dask worker that joins late too."""
+    """Prepare the process, once; also that of a Dask worker that joins late."""
     collect_rarely()
-    load_kernels_in_turn()
+    load_kernels_exclusively()

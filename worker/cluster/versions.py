@@ -1,4 +1,4 @@
-"""What a chunk's bits depend on besides its inputs: the code and the libraries that compute."""
+"""The versions of code and libraries on which a chunk's bits depend besides its inputs."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Versions:
     llvmlite: str
 
     def differences(self, other: Versions) -> str:
-        """What differs, as "name: ours, theirs"; empty where nothing does."""
+        """The differences, as "name ours here, theirs there"; empty if there are none."""
         sides = ((field.name, getattr(self, field.name), getattr(other, field.name, "none")) for field in fields(self))
         return "; ".join(f"{name} {ours} here, {theirs} there" for name, ours, theirs in sides if ours != theirs)
 

@@ -1,1 +1,1 @@
-"""One file a command. What is slow to import is imported when its command runs: ``--help`` is to be quick."""
+"""One file a command. Slow imports are made when a command runs, so that ``--help`` is fast."""

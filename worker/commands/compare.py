@@ -40,7 +40,7 @@ def compare(
     from threadstate.units import conversion_factor
     from worker.falls import falls_and_windows
     from worker.history_table import Compared, print_compared
-    from worker.stored_network import stored_network
+    from worker.library_source import stored_network
 
     angles = [_angles(text) for text in tilts or ["0,-4"]]
     networks = [stored_network(database, name) for name in libraries or (None,)]

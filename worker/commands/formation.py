@@ -27,7 +27,7 @@ def formation(
     from threadstate.responses.networks import node_document
     from threadstate.units import conversion_factor
     from worker.history_table import print_node
-    from worker.stored_network import stored_network
+    from worker.library_source import stored_network
 
     found = stored_network(database, library)
     shown = unit or found.pair.unit

@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from worker.number_options import number_option
-from worker.options import Database, Dimensions, Json, PairName, UnitName
+from worker.options import Database, Dimensions, Json, PairName, UnitName, number_option
 from worker.output import print_json
 
 
@@ -60,7 +59,7 @@ def heights(
     from threadstate.responses.windows import windows_document
     from threadstate.units import conversion_factor
     from worker.history_table import print_heights
-    from worker.orientation_source import orientation_source
+    from worker.library_source import orientation_source
 
     with orientation_source(database, library, pair, dimension, roll, pitch, stored=stored) as source:
         threads = source.pair

@@ -6,8 +6,7 @@ from typing import Annotated
 
 import typer
 
-from worker.number_options import number_option
-from worker.options import Database, Dimensions, Json, PairName, UnitName
+from worker.options import Database, Dimensions, Json, PairName, UnitName, number_option
 from worker.output import print_json
 
 
@@ -48,7 +47,7 @@ def history(
     from threadstate.responses.histories import computed_history, history_document
     from threadstate.units import conversion_factor
     from worker.history_table import print_history
-    from worker.orientation_source import orientation_source
+    from worker.library_source import orientation_source
 
     with orientation_source(database, library, pair, dimension, roll, pitch, stored=stored) as source:
         threads = source.pair

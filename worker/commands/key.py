@@ -11,7 +11,7 @@ from threadstate.access.scope import Scope
 from threadstate.errors import InvalidValueError
 from threadstate.settings import read_settings
 from worker.options import Database, Json
-from worker.output import print_json, print_line, tell
+from worker.output import print_json, print_line, print_status
 
 
 class Action(StrEnum):
@@ -26,7 +26,7 @@ def key(
     action: Annotated[Action, typer.Argument(help="What to do.", show_default=False)],
     database: Database = None,
     name: Annotated[str | None, typer.Option("--name", metavar="TEXT", help="create: whose it is.")] = None,
-    scope: Annotated[Scope, typer.Option("--scope", help="create: what it is good for.")] = Scope.WRITE,
+    scope: Annotated[Scope, typer.Option("--scope", help="create: what it permits.")] = Scope.WRITE,
     key_id: Annotated[str | None, typer.Option("--id", metavar="ID", help="revoke: which one, by its id.")] = None,
     as_json: Json = False,
 ) -> None:
@@ -50,7 +50,7 @@ def key(
         match action:
             case Action.CREATE:
                 made = create_key(engine, _required("--name", name), scope)
-                tell("This is the key; it is shown this once.")
+                print_status("This is the key; it is shown this once.")
                 if as_json:
                     print_json({"key": made})
                 else:
@@ -70,9 +70,7 @@ def key(
                             described = {"id": one.id, "name": one.name, "scope": one.scope.value}
                             print_json({**described, "created_at": one.created_at.isoformat(), "revoked_at": ended})
                         else:
-                            print_line(
-                                f"{one.id}  {one.scope}  {f'revoked {ended}' if ended else 'counts'}  {one.name}"
-                            )
+                            print_line(f"{one.id}  {one.scope}  {f'revoked {ended}' if ended else 'valid'}  {one.name}")
 
 
 def _required(option: str, value: str | None) -> str:

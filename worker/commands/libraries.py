@@ -9,7 +9,7 @@ import typer
 from threadstate.errors import InvalidValueError
 from threadstate.settings import read_settings
 from worker.options import Database, Json
-from worker.output import print_json, tell
+from worker.output import print_json, print_status
 
 if TYPE_CHECKING:
     from threadstate.library.read import LibraryRecord
@@ -68,7 +68,7 @@ def _pin(database: str, name: str | None) -> None:
     from threadstate.library.engine import writing
     from threadstate.library.solver_method import SolverMethod
     from threadstate.library.write import pin_library
-    from worker.stored_network import checked_database, connected_library
+    from worker.library_source import checked_database, connected_library
 
     library_id = None
     if name is None:
@@ -108,7 +108,7 @@ def _print(published: list[LibraryRecord], latest: LibraryRecord | None) -> None
     from worker.tables import table
 
     if not published:
-        tell("no library is published yet; run `threadstate rebuild`")
+        print_status("no library is published yet; run `threadstate rebuild`")
     rows = table("id", "designation", "method", "grid", "states", "unit", "published (UTC)", "")
     for one in published:
         grid = one.grid

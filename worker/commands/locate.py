@@ -8,8 +8,7 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import Flag, StateClass
-from worker.number_options import integer_option
-from worker.options import Database, Json, LibraryName
+from worker.options import Database, Json, LibraryName, integer_option
 from worker.output import print_json
 
 
@@ -53,7 +52,7 @@ def locate(
     from threadstate.responses.networks import location_document
     from threadstate.responses.query import parse_contact_observations
     from worker.history_table import print_location
-    from worker.stored_network import stored_network
+    from worker.library_source import stored_network
 
     flags = frozenset() if flag is None else frozenset({flag})
     observation = Observation(state_class, contacts, flags, parse_contact_observations(contact), ordered)

@@ -12,8 +12,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset, Tessellation
 from threadstate.mesh.scene_name import Scene
-from worker.number_options import number_option
-from worker.options import Dimensions, Json, PairName, UnitName
+from worker.options import Dimensions, Json, PairName, UnitName, number_option
 from worker.output import print_json, print_line
 
 
@@ -63,7 +62,7 @@ def mesh(
     from threadstate.mesh.export import file_ending, mesh_report, write_mesh
     from threadstate.mesh.scene import scene_part
     from threadstate.units import conversion_factor
-    from worker.pairs.chosen import chosen_pair
+    from worker.pairs.selection import chosen_pair
 
     ending = file_ending(out)
     if scene is Scene.CURVES:

@@ -10,7 +10,7 @@ from worker.output import print_json, print_line
 def migrate(database: Database = None, as_json: Json = False) -> None:
     r"""Bring the database up to date; make it if there is none.
 
-    Older libraries are kept, and what their histories lack is computed: a quarter to one second an orientation.
+    Older libraries stay, and data that their histories lack is computed: a quarter to one second an orientation.
 
     \b
     Examples:
@@ -19,12 +19,12 @@ def migrate(database: Database = None, as_json: Json = False) -> None:
       threadstate migrate --database postgresql+psycopg://threads@db.example/threads
     """
     from threadstate.library.engine import writing
-    from threadstate.library.schema import place
+    from threadstate.library.schema import location
     from worker.migrate import migrate as bring_up_to_date
 
     with writing(database or read_settings().database) as engine:
         migration = bring_up_to_date(engine)
-        where = place(engine)
+        where = location(engine)
     if as_json:
         print_json({"before": migration.before, "after": migration.after, "completed": migration.completed})
     elif migration.before == migration.after:

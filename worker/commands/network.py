@@ -25,7 +25,7 @@ def network(
     database: Database = None,
     as_json: Json = False,
 ) -> None:
-    r"""Print the size of a library's constraint network and what holds it together, or all of it.
+    r"""Print the size of a library's constraint network and its connectivity, or all of it.
 
     \b
     Examples:
@@ -34,7 +34,7 @@ def network(
       threadstate network --library 2 --json
     """
     from worker.history_table import print_summary
-    from worker.stored_network import stored_network
+    from worker.library_source import stored_network
 
     found = stored_network(database, library)
     match export:

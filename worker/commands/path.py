@@ -9,8 +9,7 @@ import typer
 from threadstate.errors import InvalidValueError
 from threadstate.network.moves import Move
 from threadstate.network.search import Objective
-from worker.number_options import number_option
-from worker.options import Database, Json, LibraryName, UnitName
+from worker.options import Database, Json, LibraryName, UnitName, number_option
 from worker.output import print_json
 
 
@@ -47,7 +46,7 @@ def path(
     from threadstate.responses.query import parse_moves
     from threadstate.units import conversion_factor
     from worker.history_table import print_path
-    from worker.stored_network import stored_network
+    from worker.library_source import stored_network
 
     allowed = parse_moves(moves)
     found = stored_network(database, library)

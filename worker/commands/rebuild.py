@@ -6,27 +6,25 @@ import time
 
 from threadstate.library.solver_method import SolverMethod
 from threadstate.settings import read_settings
-from worker.mesh_options import (
-    DescentName,
-    FinalStepName,
-    PresetName,
-    SceneName,
-    TangentName,
-    Unchecked,
-    mesh_options,
-)
 from worker.options import (
     Database,
+    DescentName,
     Dimensions,
+    FinalStepName,
     Json,
     MethodName,
     PairName,
     PhaseStep,
+    PresetName,
+    SceneName,
     Scheduler,
+    TangentName,
     TiltMax,
     TiltStep,
+    Unchecked,
     Workers,
     chosen_scheduler,
+    mesh_options,
 )
 from worker.output import print_json, print_line
 
@@ -66,12 +64,12 @@ def rebuild(
       threadstate rebuild --phase-step 30 --tilt-max 1 --method mesh --preset coarse
     """
     began = time.perf_counter()
-    from worker.computed_library import computed_library
-    from worker.pairs.chosen import chosen_pair
+    from worker.pairs.selection import chosen_pair
+    from worker.rebuild import rebuild_library
 
     settings = read_settings()
     mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
-    result = computed_library(
+    result = rebuild_library(
         database or settings.database,
         pair=chosen_pair(pair, dimension or ()),
         phase_step_deg=phase_step,

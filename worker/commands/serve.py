@@ -16,10 +16,10 @@ def serve(database: Database = None, host: Host = None, port: Port = None) -> No
     """
     from threadstate.library.engine import reading
     from threadstate.library.schema import check_schema
-    from worker.serving import become_service
+    from worker.serving import exec_service
 
     settings = read_settings()
     chosen = database or settings.database
     with reading(chosen) as engine:
         check_schema(engine)
-    become_service(chosen, host or settings.host, port or settings.port)
+    exec_service(chosen, host or settings.host, port or settings.port)

@@ -21,15 +21,15 @@ def settings(pair: PairName = None, dimension: Dimensions = None, as_json: Json 
     """
     from dataclasses import asdict
 
-    from worker.pairs.chosen import chosen_pair
-    from worker.settings_in_force import settings_in_force
+    from worker.effective_settings import effective_settings
+    from worker.pairs.selection import chosen_pair
     from worker.tables import table
 
-    found = settings_in_force()
+    found = effective_settings()
     dimensions = asdict(chosen_pair(pair, dimension or ()))
     if as_json:
-        told = [{"name": one.name, "value": one.value, "source": one.source.value} for one in found]
-        print_json({"settings": told, "pair": dimensions})
+        entries = [{"name": one.name, "value": one.value, "source": one.source.value} for one in found]
+        print_json({"settings": entries, "pair": dimensions})
         return
     rows = table("setting", "from", "value", words_last=True)
     for one in found:

@@ -11,17 +11,21 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.solver_method import SolverMethod
-from worker.mesh_options import (
+from worker.options import (
     DescentName,
+    Dimensions,
     FinalStepName,
+    Json,
+    MethodName,
+    PairName,
     PresetName,
     SceneName,
     TangentName,
     Unchecked,
+    UnitName,
     mesh_options,
+    number_option,
 )
-from worker.number_options import number_option
-from worker.options import Dimensions, Json, MethodName, PairName, UnitName
 from worker.output import print_json
 
 BATCH = 1024
@@ -70,8 +74,8 @@ def solve(
     from threadstate.state.model import ContactState
     from threadstate.state.solve import solve_poses
     from threadstate.units import conversion_factor
-    from worker.pairs.chosen import chosen_pair
-    from worker.state_table import print_contacts, print_states
+    from worker.pairs.selection import chosen_pair
+    from worker.tables import print_contacts, print_states
 
     threads = chosen_pair(pair, dimension or ())
     shown = unit or threads.unit

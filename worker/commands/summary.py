@@ -34,7 +34,7 @@ def summary(
 
     from threadstate.library.named import LATEST, LATEST_MESH
     from threadstate.library.read import counts, undecided_reasons
-    from worker.stored_network import connected_library
+    from worker.library_source import connected_library
 
     name = library or (LATEST_MESH if method is SolverMethod.MESH else LATEST)
     with connected_library(database, name) as (connection, record):

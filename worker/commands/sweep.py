@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from threadstate.library.identity import LibraryInputs
-    from worker.sweep.run import Swept
+    from worker.sweep.run import SweepResult
 
 
 def sweep(
@@ -26,17 +26,17 @@ def sweep(
     scheduler: Scheduler = None,
     dry_run: Annotated[
         bool,
-        typer.Option("--dry-run", help="Only say what it would take: rows, bytes, time.", show_default=False),
+        typer.Option("--dry-run", help="Only estimate rows, bytes and time.", show_default=False),
     ] = False,
     jobs: Annotated[
-        bool, typer.Option("--jobs", help="Ask for the libraries as jobs instead.", show_default=False)
+        bool, typer.Option("--jobs", help="Submit the libraries as jobs instead.", show_default=False)
     ] = False,
     as_json: Json = False,
 ) -> None:
     r"""Compute many libraries: those of a file that are not published yet, one after the other.
 
     The file crosses pairs, grids and methods, or lists libraries. It is checked before anything is computed. One that
-    fails does not stop the others; the exit code is 1 then. Run again, it goes on where it was.
+    fails does not stop the others; the exit code is 1 then. Run again, it resumes.
 
     \b
     Examples:
@@ -45,7 +45,7 @@ def sweep(
       threadstate sweep examples/sweep.toml --scheduler tcp://scheduler.example:8786
       threadstate sweep examples/sweep.toml --jobs
     """
-    from worker.sweep.read import read_sweep
+    from worker.sweep.document import read_sweep
 
     settings = read_settings()
     where = database or settings.database
@@ -72,8 +72,8 @@ def _estimate(
         is_empty = stored_revision(engine) is None
         if not is_empty:
             check_schema(engine)
-        computers = workers if scheduler is None else cluster_threads(scheduler)
-        print_estimates(estimates(engine, libraries, computers, is_empty=is_empty), as_json=as_json)
+        parallelism = workers if scheduler is None else cluster_threads(scheduler)
+        print_estimates(estimates(engine, libraries, parallelism, is_empty=is_empty), as_json=as_json)
 
 
 def _sweep(
@@ -92,16 +92,16 @@ def _sweep(
     """
     from threadstate.library.engine import writing
     from worker.migrate import migrate_empty
-    from worker.sweep.report import print_swept
+    from worker.sweep.report import print_sweep_result
     from worker.sweep.run import Outcome, computed_sweep, queued_sweep
 
     failed = 0
     with writing(database) as engine:
         migrate_empty(engine)
-        swept: Iterable[Swept] = (
+        results: Iterable[SweepResult] = (
             queued_sweep(engine, libraries) if jobs else computed_sweep(engine, libraries, workers, scheduler)
         )
-        for one in swept:
-            print_swept(one, as_json=as_json)
+        for one in results:
+            print_sweep_result(one, as_json=as_json)
             failed += one.outcome is Outcome.FAILED
     return failed

@@ -9,9 +9,8 @@ import typer
 from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.model import StateClass
-from worker.number_options import integer_option, number_option
-from worker.options import Database, Json, LibraryName, UnitName
-from worker.output import print_json, tell
+from worker.options import Database, Json, LibraryName, UnitName, integer_option, number_option
+from worker.output import print_json, print_status
 
 
 def transitions(
@@ -43,7 +42,7 @@ def transitions(
     from threadstate.responses.transitions import transition_documents
     from threadstate.units import conversion_factor
     from worker.history_table import print_transitions
-    from worker.stored_network import stored_network
+    from worker.library_source import stored_network
 
     which = TransitionFilter(move, roll, pitch, phase_min, phase_max, source, target, change, state_class)
     network = stored_network(database, library)
@@ -57,4 +56,4 @@ def transitions(
     else:
         print_transitions(documents, shown)
     if len(found) > limit:
-        tell(f"{limit} of {len(found)} transitions; --limit shows more")
+        print_status(f"{limit} of {len(found)} transitions; --limit shows more")

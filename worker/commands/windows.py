@@ -9,8 +9,7 @@ import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
-from worker.number_options import integer_option, number_option
-from worker.options import Database, Json, LibraryName, UnitName
+from worker.options import Database, Json, LibraryName, UnitName, integer_option, number_option
 from worker.output import print_json, print_line
 
 
@@ -57,9 +56,9 @@ def windows(
     from threadstate.units import conversion_factor
     from worker.falls import falls_and_windows
     from worker.history_table import print_falls, print_falls_range, print_windows
+    from worker.library_source import stored_network
     from worker.plots import check_plot_file, plot_map
-    from worker.progress import followed
-    from worker.stored_network import stored_network
+    from worker.progress import with_progress
 
     if tolerance is not None and (roll is None or pitch is None):
         raise InvalidValueError("--tolerance", tolerance, "with --roll and --pitch")
@@ -79,7 +78,7 @@ def windows(
             roll,
             pitch,
             tolerance,
-            followed(tilts, "tilts"),
+            with_progress(tilts, "tilts"),
         )
     if plot is not None:
         falls = {(one.roll, one.pitch): None if one.snap is None else one.snap.fall for one in found}

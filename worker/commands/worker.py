@@ -22,7 +22,7 @@ def worker(
     r"""Compute the libraries that were requested as jobs, until stopped.
 
     Any number may run at once, on several machines where the database is PostgreSQL's. SIGTERM and Ctrl-C end it; its
-    chunks are free for others then. One that is killed is detected by its missing heartbeat.
+    chunks are then free for others. One that is killed is detected by its missing heartbeat.
 
     \b
     Examples:
@@ -33,7 +33,7 @@ def worker(
     from threadstate.library.engine import writing
     from threadstate.library.schema import check_schema
     from worker.jobs.serve import WorkerOptions, serve_jobs
-    from worker.output import tell
+    from worker.output import print_status
 
     settings = read_settings()
     signal.signal(signal.SIGTERM, _interrupt)
@@ -48,7 +48,7 @@ def worker(
             )
             serve_jobs(engine, options, until_idle=until_idle)
     except KeyboardInterrupt:
-        tell("stopped")
+        print_status("stopped")
 
 
 def _interrupt(_signal: int, _frame: object) -> NoReturn:

@@ -1,1 +1,1 @@
-"""The worker of jobs: takes chunks, computes them, hands them in, and watches the others."""
+"""The worker of jobs: leases chunks, computes and completes them, and detects dead workers."""

@@ -1,9 +1,11 @@
-"""A worker's heartbeat: a thread that increments its counter and removes workers whose counter stopped."""
+"""The heartbeat of a worker: a thread that increments its counter, and removes workers whose counter stopped."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from threading import Event, Thread
 
@@ -11,8 +13,7 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from threadstate.jobs.workers import LostLeaseError, beat, beats, remove_dead_worker
-from worker.jobs.silence import SilenceDetector
-from worker.output import tell
+from worker.output import print_status
 
 BEATS_PER_LEASE = 8
 
@@ -48,7 +49,7 @@ class Heartbeat:
                         self._file.touch()
                 for silent, count in self._detector.silent(beats(self._engine)):
                     if remove_dead_worker(self._engine, silent, count):
-                        tell(f"worker {silent} sends no heartbeat; its chunks are free")
+                        print_status(f"worker {silent} sends no heartbeat; its chunks are free")
             except LostLeaseError as error:
                 self._lost = error
                 return
@@ -74,3 +75,40 @@ def heartbeat(engine: Engine, worker_id: str, lease_s: float, file: Path | None 
         beats_of_worker.stop()
         with suppress(KeyboardInterrupt):
             thread.join()
+
+
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    beat: int
+    since_s: float
+
+
+class SilenceDetector:
+    """Remembers when each counter value was first seen.
+
+    Reads a monotonic clock of this process alone: setting the clock of any machine has no effect.
+    """
+
+    def __init__(self, lease_s: float, clock: Callable[[], float] = time.monotonic) -> None:
+        self._lease_s = lease_s
+        self._clock = clock
+        self._seen: dict[str, _Seen] = {}
+        self._looked_s = clock()
+
+    def silent(self, beats: Mapping[str, int]) -> list[tuple[str, int]]:
+        """The workers whose counter has not changed for longer than the lease, with the counter.
+
+        A detector that was not called for half a lease (the process was stopped, or the database was unreachable)
+        starts
+        again: the other workers may not have been able to send heartbeats either.
+        """
+        now_s = self._clock()
+        if now_s - self._looked_s > 0.5 * self._lease_s:
+            self._seen = {}
+        self._looked_s = now_s
+        before = self._seen
+        self._seen = {
+            one: before[one] if one in before and before[one].beat == beat else _Seen(beat, now_s)
+            for one, beat in beats.items()
+        }
+        return [(one, seen.beat) for one, seen in self._seen.items() if now_s - seen.since_s > self._lease_s]

@@ -30,10 +30,10 @@ from threadstate.jobs.workers import LostLeaseError, join, leave
 from threadstate.library.identity import code_versions
 from threadstate.library.write import IncompleteLibraryError, open_library, write_chunk
 from worker.cluster.errors import ClusterError
-from worker.computers import computers
 from worker.jobs.heartbeat import Heartbeat, heartbeat
-from worker.output import tell
+from worker.output import print_status
 from worker.processes import ComputeError
+from worker.rebuild import chunk_source
 
 POLL_S = 1.0
 RETRY_S = 2.0
@@ -75,13 +75,13 @@ def serve_jobs(engine: Engine, options: WorkerOptions, *, until_idle: bool) -> N
                 _work(session, until_idle=until_idle)
                 return
         except LostLeaseError as error:
-            tell(f"{error}; it registers again")
+            print_status(f"{error}; it registers again")
         except ClusterError as error:
-            tell(f"the cluster failed, retrying: {error}")
+            print_status(f"the cluster failed, retrying: {error}")
             time.sleep(RETRY_S)
         except SQLAlchemyError as error:
             reason = " ".join(str(getattr(error, "orig", None) or error).split())
-            tell(f"the database failed, retrying: {reason}")
+            print_status(f"the database failed, retrying: {reason}")
             time.sleep(RETRY_S)
 
 
@@ -118,11 +118,11 @@ def _work_on(session: _Session, job: NextJob) -> None:
     try:
         _compute(session, job, library_id)
         if publish_job(engine, session.worker_id, job_id, library_id, grid):
-            tell(f"job {job_id}: library {library_id} is published")
+            print_status(f"job {job_id}: library {library_id} is published")
     except (ComputeError, IncompleteLibraryError, IntegrityError) as error:
         reason = " ".join(str(getattr(error, "orig", None) or error).split())
         state = requeue_job(engine, session.worker_id, job_id, reason)
-        tell(f"job {job_id} is {state} after a failure: {reason}")
+        print_status(f"job {job_id} is {state} after a failure: {reason}")
 
 
 def _compute(session: _Session, job: NextJob, library_id: int) -> None:
@@ -133,9 +133,9 @@ def _compute(session: _Session, job: NextJob, library_id: int) -> None:
     first = next(taken, None)
     if first is None:
         return
-    tell(f"job {job.job_id}: chunks of library {library_id}")
+    print_status(f"job {job.job_id}: chunks of library {library_id}")
     processes = min(session.options.processes, job.inputs.grid.orientation_count)
-    with computers(job.inputs, processes, session.options.scheduler) as computing:
+    with chunk_source(job.inputs, processes, session.options.scheduler) as computing:
         for chunk in computing.chunks(chain([first], taken), lambda: None):
             write_chunk(session.engine, library_id, chunk.rows, chunk.history)
             if not complete_chunk(session.engine, session.worker_id, job.job_id, chunk.rows.orientation.index):

@@ -1,1 +1,1 @@
-"""Many libraries by one command: a file says which, those that are not there are computed."""
+"""Sweeps: the libraries that a file describes; missing ones are computed."""

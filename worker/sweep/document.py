@@ -1,18 +1,26 @@
-"""What a file of a sweep may say; which values are possible is for the domain to say."""
+"""The TOML file of a sweep: its schema, and the libraries that it describes."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import product
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
 
+from threadstate.errors import InvalidValueError
+from threadstate.library.grid import Grid
+from threadstate.library.identity import LibraryInputs
 from threadstate.library.solver_method import SolverMethod
-from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, Tangent
+from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene_name import Scene
 from threadstate.state.options import SolveOptions
+from threadstate.thread.pair import Pair
 from worker.pairs.document import TABLES as TABLES_OF_PAIRS
-from worker.pairs.document import Name, Number, PairPart, Part
+from worker.pairs.document import FileLocation, Name, Number, PairPart, Part, checked, read_toml
+from worker.pairs.selection import known, pairs_of
 
 _DEFAULTS = SolveOptions()
 
@@ -79,3 +87,78 @@ TABLES: dict[str, type[Part]] = {
     "library": LibraryPart,
 }
 """The tables by the key that they stand under."""
+
+MAX_LIBRARIES = 100_000
+
+
+def read_sweep(path: Path) -> tuple[LibraryInputs, ...]:
+    """The inputs of the libraries of a file, in its order: each pair, of that each grid, of that each method.
+
+    Raises:
+        InvalidValueError: the file cannot be read, or something in it is not valid; the name says file and key.
+    """
+    location = FileLocation(f"{path}: ")
+    document = checked(SweepDocument, read_toml(path), TABLES, location)
+    pairs = _pairs_by_designation(document, location)
+    libraries = tuple(_listed(document, pairs, location) if document.library else _crossed(document, pairs, location))
+    if not libraries:
+        raise location.invalid("pair", None, "one pair at least, as [[pair]]")
+    if len(libraries) > MAX_LIBRARIES:
+        raise InvalidValueError("libraries of the sweep", len(libraries), f"at most {MAX_LIBRARIES}")
+    return tuple({one.sha256: one for one in libraries}.values())
+
+
+def _pairs_by_designation(document: SweepDocument, location: FileLocation) -> dict[str, Pair]:
+    """The pairs of the file by their designations."""
+    pairs: dict[str, Pair] = {}
+    for number, part in enumerate(document.pair, 1):
+        for pair in pairs_of(part, location / f"pair[{number}]"):
+            if pair.designation in pairs:
+                raise (location / f"pair[{number}]").invalid("designation", pair.designation, "each designation once")
+            pairs[pair.designation] = pair
+    return pairs
+
+
+def _crossed(document: SweepDocument, pairs: dict[str, Pair], location: FileLocation) -> Iterator[LibraryInputs]:
+    grids = [_grid(one, location / f"grid[{i}]") for i, one in enumerate(document.grid or [GridPart()], 1)]
+    methods = [_method(one, location / f"method[{i}]") for i, one in enumerate(document.method or [MethodPart()], 1)]
+    for pair, grid, (options, mesh) in product(pairs.values(), grids, methods):
+        yield LibraryInputs(pair, grid, options, mesh)
+
+
+def _listed(document: SweepDocument, pairs: dict[str, Pair], location: FileLocation) -> Iterator[LibraryInputs]:
+    for key in ("grid", "method"):
+        if key in document.model_fields_set:
+            raise location.invalid(key, "given", "within [[library]], where there is one")
+    for number, part in enumerate(document.library, 1):
+        of_library = location / f"library[{number}]"
+        with of_library:
+            pair = known(pairs, part.pair)
+        options, mesh = _method(part.method, of_library / "method")
+        yield LibraryInputs(pair, _grid(part.grid, of_library / "grid"), options, mesh)
+
+
+def _grid(part: GridPart, location: FileLocation) -> Grid:
+    with location:
+        return Grid(part.tilt_max, part.tilt_step, part.phase_step)
+
+
+def _method(part: MethodPart, location: FileLocation) -> tuple[SolveOptions, MeshOptions | None]:
+    with location / "tolerances":
+        options = SolveOptions(**dict(part.tolerances))
+    if part.name is SolverMethod.MESH:
+        return options, _mesh(part.mesh or MeshPart())
+    if part.mesh is not None:
+        raise location.invalid("mesh", "given", "of the method `mesh` alone")
+    return options, None
+
+
+def _mesh(part: MeshPart) -> MeshOptions:
+    return MeshOptions(
+        tessellation=part.preset.tessellation,
+        descent=part.descent,
+        final_step=part.final_step.thread_pitches,
+        tangent=part.tangent,
+        scene=part.scene,
+        checked=part.checked,
+    )

@@ -1,4 +1,4 @@
-"""What a sweep will take: rows, bytes and time, from chunks that are computed on the spot."""
+"""Estimates of the rows, bytes and time of a sweep, from a few chunks that are computed first."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from threadstate.library.address import is_sqlite
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import ChunkRows, chunk_rows
 from threadstate.library.tables import chunk, library
-from threadstate.stored_histories.answers import mesh_answers
-from threadstate.warm_up import load_kernels_in_turn
+from threadstate.stored_histories.compute import mesh_answers
+from threadstate.warm_up import load_kernels_exclusively
 from worker.compute import compute_chunk
 from worker.messages import Chunk
 
@@ -27,15 +27,15 @@ MESH_POSES = 2
 
 @dataclass(frozen=True)
 class Estimate:
-    """What one library will take.
+    """The estimate of one library.
 
     Attributes:
         inputs: its inputs.
-        published: whether it is there already.
-        committed: how many of its orientations are, from an earlier run.
-        row_count: how many rows it has, of all tables.
-        bytes: their room in the database, with indexes.
-        seconds: time until it is there; 0 where it is.
+        published: whether it is published.
+        committed: number of its committed orientations.
+        row_count: number of rows in all tables.
+        bytes: their size in the database, with indexes.
+        seconds: time until it is published; 0 if it is.
     """
 
     inputs: LibraryInputs
@@ -54,18 +54,20 @@ class _Sample:
     seconds: float
 
 
-def estimates(engine: Engine, libraries: Sequence[LibraryInputs], computers: int, *, is_empty: bool) -> list[Estimate]:
-    """What each library will take where so many processes, or threads of a cluster, compute.
+def estimates(
+    engine: Engine, libraries: Sequence[LibraryInputs], parallelism: int, *, is_empty: bool
+) -> list[Estimate]:
+    """The estimates of libraries for a number of processes, or threads of a cluster.
 
     Orientations of one library of each method and step of phase are computed first, in this process.
 
     Args:
-        engine: the database that they are to be in.
+        engine: the database to write to.
         libraries: their inputs.
-        computers: how many compute at once.
+        parallelism: number of processes or threads that compute.
         is_empty: whether the database has no schema yet.
     """
-    load_kernels_in_turn()
+    load_kernels_exclusively()
     samples: dict[tuple[object, ...], _Sample] = {}
     found = []
     for inputs in libraries:
@@ -74,12 +76,12 @@ def estimates(engine: Engine, libraries: Sequence[LibraryInputs], computers: int
         if key not in samples:
             samples[key] = _sample(inputs)
         there = (False, 0) if is_empty else _committed(engine, inputs)
-        found.append(_estimate(inputs, samples[key], there, engine, computers))
+        found.append(_estimate(inputs, samples[key], there, engine, parallelism))
     return found
 
 
 def _estimate(
-    inputs: LibraryInputs, sample: _Sample, there: tuple[bool, int], engine: Engine, computers: int
+    inputs: LibraryInputs, sample: _Sample, there: tuple[bool, int], engine: Engine, parallelism: int
 ) -> Estimate:
     published, committed = there
     orientations = inputs.grid.orientation_count
@@ -89,7 +91,7 @@ def _estimate(
     else:
         bytes_a_row, a_row_s = POSTGRESQL_BYTES_A_ROW, POSTGRESQL_S_A_ROW
     missing = 0 if published else orientations - committed
-    an_orientation_s = max(sample.seconds / min(computers, max(missing, 1)), sample.rows * a_row_s)
+    an_orientation_s = max(sample.seconds / min(parallelism, max(missing, 1)), sample.rows * a_row_s)
     return Estimate(inputs, published, committed, row_count, row_count * bytes_a_row, missing * an_orientation_s)
 
 

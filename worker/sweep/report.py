@@ -1,4 +1,4 @@
-"""A sweep for people and for programs."""
+"""Output of sweeps, as tables or JSON."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from threadstate.library.identity import LibraryInputs
 from worker.output import print_json, print_line
 from worker.sweep.estimate import Estimate
-from worker.sweep.run import Swept
+from worker.sweep.run import SweepResult
 from worker.tables import table
 
 MINUTE_S, HOUR_S, DAY_S = 60.0, 3600.0, 86400.0
@@ -54,20 +54,20 @@ def print_estimates(estimates: Sequence[Estimate], *, as_json: bool) -> None:
     rows.print()
 
 
-def print_swept(one: Swept, *, as_json: bool) -> None:
+def print_sweep_result(one: SweepResult, *, as_json: bool) -> None:
     """A line for a library."""
     if as_json:
-        said = {"library": one.library_id, "content_sha256": one.content_sha256, "job": one.job_id}
-        print_json({**_named(one.inputs), "outcome": one.outcome.value, **said, "reason": one.reason})
+        numbers = {"library": one.library_id, "content_sha256": one.content_sha256, "job": one.job_id}
+        print_json({**_named(one.inputs), "outcome": one.outcome.value, **numbers, "reason": one.reason})
         return
     details = {
         "library": one.library_id,
         "content": one.content_sha256 and one.content_sha256[:12],
         "job": one.job_id,
     }
-    told = ", ".join(f"{name} {value}" for name, value in details.items() if value is not None) or one.reason
+    values = ", ".join(f"{name} {value}" for name, value in details.items() if value is not None) or one.reason
     print_line(
-        f"{one.outcome.value}: {one.inputs.pair.designation}, {one.inputs.method.value}, {_grid(one.inputs)}: {told}"
+        f"{one.outcome.value}: {one.inputs.pair.designation}, {one.inputs.method.value}, {_grid(one.inputs)}: {values}"
     )
 
 

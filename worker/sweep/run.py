@@ -1,4 +1,4 @@
-"""Computing the libraries of a sweep one after the other, or asking for them as jobs."""
+"""Computing the libraries of a sweep one after the other, or submitting them as jobs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from worker.rebuild import rebuild
 
 
 class Outcome(StrEnum):
-    """What became of a library."""
+    """The outcome for a library."""
 
     PUBLISHED = "published"
     """It was computed."""
@@ -31,16 +31,16 @@ class Outcome(StrEnum):
 
 
 @dataclass(frozen=True)
-class Swept:
-    """What became of one library.
+class SweepResult:
+    """The result for one library of a sweep.
 
     Attributes:
         inputs: its inputs.
-        outcome: whether it is there.
-        library_id: its number, where it is published.
+        outcome: the outcome.
+        library_id: its id, if it is published.
         content_sha256: hash of its content, likewise.
-        job_id: number of its job, where it is one.
-        reason: why it failed, where it did.
+        job_id: id of its job, if it is queued.
+        reason: why it failed, if it did.
     """
 
     inputs: LibraryInputs
@@ -53,7 +53,7 @@ class Swept:
 
 def computed_sweep(
     engine: Engine, libraries: Sequence[LibraryInputs], workers: int, scheduler: str | None
-) -> Iterator[Swept]:
+) -> Iterator[SweepResult]:
     """Compute the libraries that are not published, one after the other; one that fails does not stop the others.
 
     Raises:
@@ -69,19 +69,21 @@ def computed_sweep(
         except ClusterError:
             raise
         except (ThreadstateError, IntegrityError) as error:
-            yield Swept(inputs, Outcome.FAILED, reason=" ".join(str(getattr(error, "orig", None) or error).split()))
+            yield SweepResult(
+                inputs, Outcome.FAILED, reason=" ".join(str(getattr(error, "orig", None) or error).split())
+            )
         else:
-            yield Swept(inputs, Outcome.PUBLISHED, made.library_id, made.content_sha256)
+            yield SweepResult(inputs, Outcome.PUBLISHED, made.library_id, made.content_sha256)
 
 
-def queued_sweep(engine: Engine, libraries: Sequence[LibraryInputs]) -> Iterator[Swept]:
-    """Ask for the libraries that are not published as jobs."""
+def queued_sweep(engine: Engine, libraries: Sequence[LibraryInputs]) -> Iterator[SweepResult]:
+    """Submit the unpublished libraries as jobs."""
     for inputs in libraries:
         there = _published(engine, inputs)
-        yield there or Swept(inputs, Outcome.QUEUED, job_id=submit_job(engine, inputs).id)
+        yield there or SweepResult(inputs, Outcome.QUEUED, job_id=submit_job(engine, inputs).id)
 
 
-def _published(engine: Engine, inputs: LibraryInputs) -> Swept | None:
+def _published(engine: Engine, inputs: LibraryInputs) -> SweepResult | None:
     with engine.connect() as connection:
         record = library_by_input(connection, inputs.sha256)
-    return None if record is None else Swept(inputs, Outcome.THERE, record.id, record.content_sha256)
+    return None if record is None else SweepResult(inputs, Outcome.THERE, record.id, record.content_sha256)

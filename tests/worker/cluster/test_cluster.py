@@ -26,7 +26,7 @@ from threadstate.settings import LEASE_S, SCHEDULER
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.cluster.chunks import computing_cluster
-from worker.processes import ASKED_AHEAD
+from worker.processes import QUEUED_PER_PROCESS
 
 pytestmark = pytest.mark.slow
 
@@ -165,7 +165,7 @@ def test_chunks_are_those_computed_here_and_no_more_are_asked_for_than_there_is_
         received = {}
         for one in computing.chunks(orientations(), lambda: None):
             received[one.rows.orientation.index] = one
-            assert taken - len(received) < ASKED_AHEAD * WORKERS
+            assert taken - len(received) < QUEUED_PER_PROCESS * WORKERS
     assert received == {index: prepared_chunk(GRID, index) for index in range(GRID.orientation_count)}
 
 
@@ -241,7 +241,7 @@ def test_without_the_extra_it_is_said_what_to_install(command_line: CommandLine)
 
 def test_dask_is_loaded_only_when_asked_for() -> None:
     script = (
-        "import worker.cli, worker.computed_library, worker.jobs.serve, sys; "
+        "import worker.cli, worker.rebuild, worker.jobs.serve, sys; "
         "print([name for name in ('dask', 'distributed') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -7,8 +7,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Concatenate, Generic, ParamSpec, Self, TypeVar
 
-from threadstate.client._async.courier import AsyncCourier
 from threadstate.client._async.job import AsyncJob
+from threadstate.client._async.transport import AsyncTransport
 from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, describe_as
 from threadstate.client.calls import jobs as job_calls
 from threadstate.client.calls import libraries as library_calls
@@ -17,7 +17,7 @@ from threadstate.client.calls import states as state_calls
 from threadstate.client.frames import to_pandas, to_polars
 from threadstate.client.models.answer import Page
 from threadstate.client.models.jobs import JobDocument
-from threadstate.client.options import DEFAULT_RETRIES, DEFAULT_TIMEOUT_S, options_of
+from threadstate.client.options import DEFAULT_RETRIES, DEFAULT_TIMEOUT_S, make_options
 
 if TYPE_CHECKING:
     import pandas
@@ -29,10 +29,10 @@ Result = TypeVar("Result")
 
 
 class AsyncItems(Generic[Item]):
-    """A list; every walk asks the service again, one page at a time, and only as far as it goes."""
+    """A list; each iteration requests its pages again, one at a time as needed."""
 
-    def __init__(self, courier: AsyncCourier, call: PagedCall[Item]) -> None:
-        self._courier = courier
+    def __init__(self, transport: AsyncTransport, call: PagedCall[Item]) -> None:
+        self._transport = transport
         self._call = call
 
     async def __aiter__(self) -> AsyncIterator[Item]:
@@ -41,10 +41,10 @@ class AsyncItems(Generic[Item]):
                 yield item
 
     async def pages(self) -> AsyncIterator[Page[Item]]:
-        """The pages, with all that they say beside their items."""
+        """The pages, with their other fields."""
         call: Call[Page[Item]] | None = self._call.first
         while call is not None:
-            page = await self._courier.send(call)
+            page = await self._transport.send(call)
             yield page
             call = self._call.after(page)
 
@@ -60,20 +60,20 @@ class AsyncItems(Generic[Item]):
 def _answered(
     describe: Callable[P, Call[Result]],
 ) -> Callable[Concatenate[AsyncClient, P], Coroutine[Any, Any, Result]]:
-    """The method that sends what ``describe`` describes."""
+    """The method that sends the described call and returns its result."""
 
     async def method(self: AsyncClient, /, *args: P.args, **kwargs: P.kwargs) -> Result:
-        return await self._courier.send(describe(*args, **kwargs))
+        return await self._transport.send(describe(*args, **kwargs))
 
     describe_as(method, describe)
     return method
 
 
 def _listed(describe: Callable[P, PagedCall[Item]]) -> Callable[Concatenate[AsyncClient, P], AsyncItems[Item]]:
-    """The method that lists what ``describe`` describes."""
+    """The method that returns the described list."""
 
     def method(self: AsyncClient, /, *args: P.args, **kwargs: P.kwargs) -> AsyncItems[Item]:
-        return AsyncItems(self._courier, describe(*args, **kwargs))
+        return AsyncItems(self._transport, describe(*args, **kwargs))
 
     describe_as(method, describe, "AsyncItems[{}]")
     return method
@@ -82,10 +82,10 @@ def _listed(describe: Callable[P, PagedCall[Item]]) -> Callable[Concatenate[Asyn
 def _watched(
     describe: Callable[P, Call[JobDocument]],
 ) -> Callable[Concatenate[AsyncClient, P], Coroutine[Any, Any, AsyncJob]]:
-    """The method that sends what ``describe`` describes, and hands out the job to be watched."""
+    """The method that sends the described call and returns its job."""
 
     async def method(self: AsyncClient, /, *args: P.args, **kwargs: P.kwargs) -> AsyncJob:
-        return AsyncJob(self._courier, await self._courier.send(describe(*args, **kwargs)))
+        return AsyncJob(self._transport, await self._transport.send(describe(*args, **kwargs)))
 
     describe_as(method, describe, "AsyncJob")
     return method
@@ -94,9 +94,9 @@ def _watched(
 class AsyncClient:
     """An asynchronous client of the service at ``address`` (None: ``THREADSTATE_SERVICE``); a context manager.
 
-    ``key`` (None: ``THREADSTATE_KEY``) is shown in the header ``Authorization``, to this address alone. ``timeout_s``
-    is how long nothing may be heard of an answer. What may be tried again is tried again ``retries`` times. May be used
-    by several tasks of one event loop (asyncio or trio).
+    ``key`` (None: ``THREADSTATE_KEY``) is sent in the header ``Authorization``, to this address alone. ``timeout_s``
+    is the longest time without data from the service. Requests that may be repeated are retried ``retries`` times. May
+    be used by several tasks of one event loop (asyncio or trio).
 
     Raises:
         InvalidValueError: an argument or a setting is not valid.
@@ -110,10 +110,10 @@ class AsyncClient:
         timeout_s: float = DEFAULT_TIMEOUT_S,
         retries: int = DEFAULT_RETRIES,
     ) -> None:
-        self._courier = AsyncCourier(options_of(address, key, timeout_s, retries))
+        self._transport = AsyncTransport(make_options(address, key, timeout_s, retries))
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self._courier.options})"
+        return f"{type(self).__name__}({self._transport.options})"
 
     async def __aenter__(self) -> Self:
         return self
@@ -125,7 +125,7 @@ class AsyncClient:
 
     async def close(self) -> None:
         """Close the connections."""
-        await self._courier.close()
+        await self._transport.close()
 
     libraries = _answered(library_calls.libraries)
     library = _answered(library_calls.library)
@@ -173,14 +173,14 @@ class AsyncClient:
         library: LibraryName = LATEST,
         unit: str | None = None,
     ) -> Path:
-        """Write a table of a library to a file, which is there whole or not at all.
+        """Write a table of a library to a file, atomically.
 
-        ``file_format`` is ``parquet``, ``csv`` or ``ndjson``; None is as the file's name ends.
+        ``file_format`` is ``parquet``, ``csv`` or ``ndjson``; None is that of the file name's ending.
 
         Returns:
             The file.
         """
         out = Path(path)
         call = library_calls.export(table, file_format or out.suffix[1:], library=library, unit=unit)
-        await self._courier.download(call, out)
+        await self._transport.download(call, out)
         return out

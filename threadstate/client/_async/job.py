@@ -1,4 +1,4 @@
-"""A job as a thing to be watched, waited for and cancelled."""
+"""A job: its state, its events, waiting and cancelling."""
 
 from __future__ import annotations
 
@@ -6,23 +6,23 @@ from collections.abc import AsyncIterator, Callable
 
 import httpx2
 
-from threadstate.client._async.courier import AsyncCourier
+from threadstate.client._async.transport import AsyncTransport
 from threadstate.client.blocking import async_pause
 from threadstate.client.calls import jobs
 from threadstate.client.errors import ClientError, ConnectionFailedError, UnexpectedAnswerError
 from threadstate.client.models.jobs import EventDocument, JobDocument
-from threadstate.client.watching import POLL_S, QUIET_S, Place, Waiting, Watcher, ended_well
+from threadstate.client.watching import POLL_S, STREAM_TIMEOUT_S, JobWait, StreamPosition, Watcher, is_done
 
 
 class AsyncJob:
     """A job.
 
     Attributes:
-        document: the job as it was when it was last looked at.
+        document: the job at the last request for it.
     """
 
-    def __init__(self, courier: AsyncCourier, document: JobDocument) -> None:
-        self._courier = courier
+    def __init__(self, transport: AsyncTransport, document: JobDocument) -> None:
+        self._transport = transport
         self.document = document
 
     @property
@@ -34,8 +34,8 @@ class AsyncJob:
         return f"{type(self).__name__}({self.id}, {self.document.state.value})"
 
     async def refresh(self) -> JobDocument:
-        """Look at the job again."""
-        self.document = await self._courier.send(jobs.job(self.id))
+        """Request the job again."""
+        self.document = await self._transport.send(jobs.job(self.id))
         return self.document
 
     async def cancel(self) -> JobDocument:
@@ -44,57 +44,59 @@ class AsyncJob:
         Raises:
             ConflictError: it has ended otherwise.
         """
-        self.document = await self._courier.send(jobs.cancel(self.id))
+        self.document = await self._transport.send(jobs.cancel(self.id))
         return self.document
 
     async def events(self, after: int = 0) -> AsyncIterator[EventDocument]:
-        """What has happened after the event of that number, and what happens until the job ends.
+        """The events after the one of that number, past ones and those until the job ends.
 
-        A connection that breaks is made again, and nothing is told twice.
+        A broken connection is reopened; no event is repeated.
         """
-        async for event in self._followed(after, lambda: QUIET_S):
+        async for event in self._stream_events(after, lambda: STREAM_TIMEOUT_S):
             if event is not None:
                 yield event
 
     async def wait(self, progress: Watcher | None = None, timeout_s: float | None = None) -> JobDocument:
-        """Wait until the library is published; ``progress`` is told how far it is whenever that changes.
+        """Wait until the library is published; ``progress`` is called whenever the job's progress changes.
 
-        Follows the job's events, and looks every two seconds where these do not come through.
+        Follows the job's events, or polls every two seconds if the events cannot be streamed.
 
         Raises:
             JobFailedError: the job failed.
-            JobCancelledError: somebody cancelled it.
-            WaitTimedOutError: it has not ended after ``timeout_s`` seconds (None: there is no end to waiting).
+            JobCancelledError: it was cancelled.
+            WaitTimedOutError: it has not ended after ``timeout_s`` seconds (None: no limit).
         """
-        waiting = Waiting(self.id, progress, timeout_s)
+        wait = JobWait(self.id, progress, timeout_s)
         try:
-            async for event in self._followed(0, lambda: waiting.quiet_s):
+            async for event in self._stream_events(0, lambda: wait.read_timeout_s):
                 if event is not None:
-                    waiting.tell(event)
-                waiting.check_time()
+                    wait.report(event)
+                wait.check_time()
         except (ConnectionFailedError, UnexpectedAnswerError):
-            pass  # a proxy that holds streams back, perhaps: the job itself says how far it is
-        while not ended_well(await self.refresh()):
-            waiting.tell(self.document)
-            waiting.check_time()
-            await async_pause(min(POLL_S, waiting.quiet_s))
-        waiting.tell(self.document)
+            pass  # perhaps a proxy buffers streams: poll the job instead
+        while not is_done(await self.refresh()):
+            wait.report(self.document)
+            wait.check_time()
+            await async_pause(min(POLL_S, wait.read_timeout_s))
+        wait.report(self.document)
         return self.document
 
-    async def _followed(self, after: int, quiet_s: Callable[[], float]) -> AsyncIterator[EventDocument | None]:
-        """The events, and None whenever nothing came for ``quiet_s``."""
+    async def _stream_events(
+        self, after: int, read_timeout_s: Callable[[], float]
+    ) -> AsyncIterator[EventDocument | None]:
+        """The events, and None whenever nothing was received for ``read_timeout_s``."""
         call = jobs.events(self.id)
-        place = Place(after, self._courier.options.retrying)
+        position = StreamPosition(after, self._transport.options.retrying)
         while True:
             try:
-                async with self._courier.stream(call, place.headers, quiet_s()) as response:
+                async with self._transport.stream(call, position.headers, read_timeout_s()) as response:
                     if response.status_code == httpx2.codes.NO_CONTENT:
                         return
                     async for event in httpx2.EventSource(response):
-                        yield place.received(event)
-                pause_s = place.pause_after_close_s()
+                        yield position.received(event)
+                pause_s = position.pause_after_close_s()
             except ClientError as error:
-                after_error_s = place.pause_after_s(call, error)
+                after_error_s = position.pause_after_s(call, error)
                 if after_error_s is None:
                     raise
                 pause_s = after_error_s

@@ -1,5 +1,5 @@
 # Made of _async/client.py by `make client`: edit that one.
-"""The client that waits for its answers, and its lists, which come page by page."""
+"""The client that waits for its responses, and its lists, which come page by page."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Concatenate, Generic, ParamSpec, Self, TypeVar
 
-from threadstate.client._sync.courier import Courier
 from threadstate.client._sync.job import Job
+from threadstate.client._sync.transport import Transport
 from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, describe_as
 from threadstate.client.calls import jobs as job_calls
 from threadstate.client.calls import libraries as library_calls
@@ -18,7 +18,7 @@ from threadstate.client.calls import states as state_calls
 from threadstate.client.frames import to_pandas, to_polars
 from threadstate.client.models.answer import Page
 from threadstate.client.models.jobs import JobDocument
-from threadstate.client.options import DEFAULT_RETRIES, DEFAULT_TIMEOUT_S, options_of
+from threadstate.client.options import DEFAULT_RETRIES, DEFAULT_TIMEOUT_S, make_options
 
 if TYPE_CHECKING:
     import pandas
@@ -30,10 +30,10 @@ Result = TypeVar("Result")
 
 
 class Items(Generic[Item]):
-    """A list; every walk asks the service again, one page at a time, and only as far as it goes."""
+    """A list; each iteration requests its pages again, one at a time as needed."""
 
-    def __init__(self, courier: Courier, call: PagedCall[Item]) -> None:
-        self._courier = courier
+    def __init__(self, transport: Transport, call: PagedCall[Item]) -> None:
+        self._transport = transport
         self._call = call
 
     def __iter__(self) -> Iterator[Item]:
@@ -42,10 +42,10 @@ class Items(Generic[Item]):
                 yield item
 
     def pages(self) -> Iterator[Page[Item]]:
-        """The pages, with all that they say beside their items."""
+        """The pages, with their other fields."""
         call: Call[Page[Item]] | None = self._call.first
         while call is not None:
-            page = self._courier.send(call)
+            page = self._transport.send(call)
             yield page
             call = self._call.after(page)
 
@@ -61,20 +61,20 @@ class Items(Generic[Item]):
 def _answered(
     describe: Callable[P, Call[Result]],
 ) -> Callable[Concatenate[Client, P], Result]:
-    """The method that sends what ``describe`` describes."""
+    """The method that sends the described call and returns its result."""
 
     def method(self: Client, /, *args: P.args, **kwargs: P.kwargs) -> Result:
-        return self._courier.send(describe(*args, **kwargs))
+        return self._transport.send(describe(*args, **kwargs))
 
     describe_as(method, describe)
     return method
 
 
 def _listed(describe: Callable[P, PagedCall[Item]]) -> Callable[Concatenate[Client, P], Items[Item]]:
-    """The method that lists what ``describe`` describes."""
+    """The method that returns the described list."""
 
     def method(self: Client, /, *args: P.args, **kwargs: P.kwargs) -> Items[Item]:
-        return Items(self._courier, describe(*args, **kwargs))
+        return Items(self._transport, describe(*args, **kwargs))
 
     describe_as(method, describe, "Items[{}]")
     return method
@@ -83,10 +83,10 @@ def _listed(describe: Callable[P, PagedCall[Item]]) -> Callable[Concatenate[Clie
 def _watched(
     describe: Callable[P, Call[JobDocument]],
 ) -> Callable[Concatenate[Client, P], Job]:
-    """The method that sends what ``describe`` describes, and hands out the job to be watched."""
+    """The method that sends the described call and returns its job."""
 
     def method(self: Client, /, *args: P.args, **kwargs: P.kwargs) -> Job:
-        return Job(self._courier, self._courier.send(describe(*args, **kwargs)))
+        return Job(self._transport, self._transport.send(describe(*args, **kwargs)))
 
     describe_as(method, describe, "Job")
     return method
@@ -95,9 +95,9 @@ def _watched(
 class Client:
     """A client of the service at ``address`` (None: ``THREADSTATE_SERVICE``); a context manager.
 
-    ``key`` (None: ``THREADSTATE_KEY``) is shown in the header ``Authorization``, to this address alone. ``timeout_s``
-    is how long nothing may be heard of an answer. What may be tried again is tried again ``retries`` times. May be used
-    by several threads.
+    ``key`` (None: ``THREADSTATE_KEY``) is sent in the header ``Authorization``, to this address alone. ``timeout_s``
+    is the longest time without data from the service. Requests that may be repeated are retried ``retries`` times. May
+    be used by several threads.
 
     Raises:
         InvalidValueError: an argument or a setting is not valid.
@@ -111,10 +111,10 @@ class Client:
         timeout_s: float = DEFAULT_TIMEOUT_S,
         retries: int = DEFAULT_RETRIES,
     ) -> None:
-        self._courier = Courier(options_of(address, key, timeout_s, retries))
+        self._transport = Transport(make_options(address, key, timeout_s, retries))
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self._courier.options})"
+        return f"{type(self).__name__}({self._transport.options})"
 
     def __enter__(self) -> Self:
         return self
@@ -126,7 +126,7 @@ class Client:
 
     def close(self) -> None:
         """Close the connections."""
-        self._courier.close()
+        self._transport.close()
 
     libraries = _answered(library_calls.libraries)
     library = _answered(library_calls.library)
@@ -174,14 +174,14 @@ class Client:
         library: LibraryName = LATEST,
         unit: str | None = None,
     ) -> Path:
-        """Write a table of a library to a file, which is there whole or not at all.
+        """Write a table of a library to a file, atomically.
 
-        ``file_format`` is ``parquet``, ``csv`` or ``ndjson``; None is as the file's name ends.
+        ``file_format`` is ``parquet``, ``csv`` or ``ndjson``; None is that of the file name's ending.
 
         Returns:
             The file.
         """
         out = Path(path)
         call = library_calls.export(table, file_format or out.suffix[1:], library=library, unit=unit)
-        self._courier.download(call, out)
+        self._transport.download(call, out)
         return out

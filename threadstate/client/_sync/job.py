@@ -1,5 +1,5 @@
 # Made of _async/job.py by `make client`: edit that one.
-"""A job as a thing to be watched, waited for and cancelled."""
+"""A job: its state, its events, waiting and cancelling."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ from collections.abc import Callable, Iterator
 
 import httpx2
 
-from threadstate.client._sync.courier import Courier
+from threadstate.client._sync.transport import Transport
 from threadstate.client.blocking import pause
 from threadstate.client.calls import jobs
 from threadstate.client.errors import ClientError, ConnectionFailedError, UnexpectedAnswerError
 from threadstate.client.models.jobs import EventDocument, JobDocument
-from threadstate.client.watching import POLL_S, QUIET_S, Place, Waiting, Watcher, ended_well
+from threadstate.client.watching import POLL_S, STREAM_TIMEOUT_S, JobWait, StreamPosition, Watcher, is_done
 
 
 class Job:
     """A job.
 
     Attributes:
-        document: the job as it was when it was last looked at.
+        document: the job at the last request for it.
     """
 
-    def __init__(self, courier: Courier, document: JobDocument) -> None:
-        self._courier = courier
+    def __init__(self, transport: Transport, document: JobDocument) -> None:
+        self._transport = transport
         self.document = document
 
     @property
@@ -35,8 +35,8 @@ class Job:
         return f"{type(self).__name__}({self.id}, {self.document.state.value})"
 
     def refresh(self) -> JobDocument:
-        """Look at the job again."""
-        self.document = self._courier.send(jobs.job(self.id))
+        """Request the job again."""
+        self.document = self._transport.send(jobs.job(self.id))
         return self.document
 
     def cancel(self) -> JobDocument:
@@ -45,57 +45,57 @@ class Job:
         Raises:
             ConflictError: it has ended otherwise.
         """
-        self.document = self._courier.send(jobs.cancel(self.id))
+        self.document = self._transport.send(jobs.cancel(self.id))
         return self.document
 
     def events(self, after: int = 0) -> Iterator[EventDocument]:
-        """What has happened after the event of that number, and what happens until the job ends.
+        """The events after the one of that number, past ones and those until the job ends.
 
-        A connection that breaks is made again, and nothing is told twice.
+        A broken connection is reopened; no event is repeated.
         """
-        for event in self._followed(after, lambda: QUIET_S):
+        for event in self._stream_events(after, lambda: STREAM_TIMEOUT_S):
             if event is not None:
                 yield event
 
     def wait(self, progress: Watcher | None = None, timeout_s: float | None = None) -> JobDocument:
-        """Wait until the library is published; ``progress`` is told how far it is whenever that changes.
+        """Wait until the library is published; ``progress`` is called whenever the job's progress changes.
 
-        Follows the job's events, and looks every two seconds where these do not come through.
+        Follows the job's events, or polls every two seconds if the events cannot be streamed.
 
         Raises:
             JobFailedError: the job failed.
-            JobCancelledError: somebody cancelled it.
-            WaitTimedOutError: it has not ended after ``timeout_s`` seconds (None: there is no end to waiting).
+            JobCancelledError: it was cancelled.
+            WaitTimedOutError: it has not ended after ``timeout_s`` seconds (None: no limit).
         """
-        waiting = Waiting(self.id, progress, timeout_s)
+        wait = JobWait(self.id, progress, timeout_s)
         try:
-            for event in self._followed(0, lambda: waiting.quiet_s):
+            for event in self._stream_events(0, lambda: wait.read_timeout_s):
                 if event is not None:
-                    waiting.tell(event)
-                waiting.check_time()
+                    wait.report(event)
+                wait.check_time()
         except (ConnectionFailedError, UnexpectedAnswerError):
-            pass  # a proxy that holds streams back, perhaps: the job itself says how far it is
-        while not ended_well(self.refresh()):
-            waiting.tell(self.document)
-            waiting.check_time()
-            pause(min(POLL_S, waiting.quiet_s))
-        waiting.tell(self.document)
+            pass  # perhaps a proxy buffers streams: poll the job instead
+        while not is_done(self.refresh()):
+            wait.report(self.document)
+            wait.check_time()
+            pause(min(POLL_S, wait.read_timeout_s))
+        wait.report(self.document)
         return self.document
 
-    def _followed(self, after: int, quiet_s: Callable[[], float]) -> Iterator[EventDocument | None]:
-        """The events, and None whenever nothing came for ``quiet_s``."""
+    def _stream_events(self, after: int, read_timeout_s: Callable[[], float]) -> Iterator[EventDocument | None]:
+        """The events, and None whenever nothing was received for ``read_timeout_s``."""
         call = jobs.events(self.id)
-        place = Place(after, self._courier.options.retrying)
+        position = StreamPosition(after, self._transport.options.retrying)
         while True:
             try:
-                with self._courier.stream(call, place.headers, quiet_s()) as response:
+                with self._transport.stream(call, position.headers, read_timeout_s()) as response:
                     if response.status_code == httpx2.codes.NO_CONTENT:
                         return
                     for event in httpx2.EventSource(response):
-                        yield place.received(event)
-                pause_s = place.pause_after_close_s()
+                        yield position.received(event)
+                pause_s = position.pause_after_close_s()
             except ClientError as error:
-                after_error_s = place.pause_after_s(call, error)
+                after_error_s = position.pause_after_s(call, error)
                 if after_error_s is None:
                     raise
                 pause_s = after_error_s

@@ -19,12 +19,12 @@ def ask(
     tolerances: Mapping[str, float] | None = None,
     mesh: Mapping[str, str | bool] | None = None,
 ) -> Call[JobDocument]:
-    """Have a library computed; what is left out is as for ``threadstate rebuild``. Needs a key for writing.
+    """Request a library; omitted values are the defaults of ``threadstate rebuild``. Needs a key for writing.
 
     ``grid`` has ``tilt_max``, ``tilt_step`` and ``phase_step`` in degrees.
     """
     body = {"designation": designation, "grid": grid, "method": method, "tolerances": tolerances, "mesh": mesh}
-    # The same inputs are the same job, so that it may be asked for again.
+    # The same inputs are the same job: repeatable.
     return post(path_of("v1", "jobs"), JobDocument, body, repeatable=True)
 
 
@@ -34,16 +34,16 @@ def jobs(*, limit: int = LARGEST_PAGE) -> PagedCall[JobDocument]:
 
 
 def job(job_id: int) -> Call[JobDocument]:
-    """How far a job is."""
+    """The state and progress of a job."""
     return get(path_of("v1", "jobs", job_id), JobDocument)
 
 
 def cancel(job_id: int) -> Call[JobDocument]:
     """Cancel a job that has not ended; needs a key for writing."""
-    # One that is cancelled stays so, so that it may be cancelled again.
+    # A cancelled job stays cancelled: repeatable.
     return Call("DELETE", path_of("v1", "jobs", job_id), JobDocument.model_validate_json)
 
 
 def events(job_id: int) -> Call[bytes]:
-    """What has happened to a job and what happens until it ends, as a stream."""
+    """The events of a job until it ends, as a stream."""
     return Call("GET", path_of("v1", "jobs", job_id, "events"), bytes, accept=EVENT_STREAM)

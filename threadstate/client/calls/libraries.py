@@ -1,4 +1,4 @@
-"""Requests for libraries, for what is in them as a whole, and for the service's own state."""
+"""Requests for libraries, their summaries and exports, and for the service's own state."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ def libraries(*, unit: str | None = None) -> Call[LibraryList]:
 
 
 def library(library: LibraryName = LATEST, *, unit: str | None = None) -> Call[LibraryDetail]:
-    """What a library was computed from, and how many of its states have each class and each flag."""
+    """What a library was computed from, and number of its states of each class and each flag."""
     return get(library_path(library), LibraryDetail, unit=unit)
 
 
 def building() -> Call[BuildingList]:
-    """The libraries that are begun and not published, and how far each is."""
+    """The libraries that are not published yet, and their progress."""
     return get(path_of("v1", "building"), BuildingList)
 
 
 def orientations(*, library: LibraryName = LATEST, unit: str | None = None) -> Call[OrientationsAnswer]:
-    """Each orientation over all phases: how many states of each class, and the extremes of what is measured."""
+    """Each orientation over all phases: the number of states of each class, and extremes of the lengths."""
     return get(library_path(library, "orientations"), OrientationsAnswer, unit=unit)
 
 
@@ -35,15 +35,15 @@ def mesh(part: str, *, library: LibraryName = LATEST) -> Call[bytes]:
 
 
 def export(table: str, file_format: str, *, library: LibraryName = LATEST, unit: str | None = None) -> Call[bytes]:
-    """A table of a library in a format, to be read as it comes."""
+    """A table of a library in a format, as a stream."""
     return get_content(library_path(library, "export", f"{table}.{file_format}"), "*/*", unit=unit)
 
 
 def health() -> Call[Health]:
-    """Whether the process lives."""
+    """Whether the process is alive."""
     return get(path_of("healthz"), Health)
 
 
 def readiness() -> Call[Readiness]:
-    """Whether the service can answer; one that cannot is a ``ServiceUnavailableError`` at once."""
+    """Whether the service is ready; if not, a ``ServiceUnavailableError`` without retries."""
     return Call("GET", path_of("readyz"), Readiness.model_validate_json, repeatable=False)

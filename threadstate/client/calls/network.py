@@ -59,7 +59,9 @@ def computed_intervals(
     library: LibraryName | None = None,
     unit: str | None = None,
 ) -> Call[ComputedIntervals]:
-    """As ``intervals``, of any orientation, computed now (about a second), of a known thread or of a library's pair."""
+    """As ``intervals``, of any orientation, computed on request (about a second), of a known thread or of a
+    library's pair.
+    """
     path = path_of("v1", "histories", roll, pitch, "intervals")
     return get(path, ComputedIntervals, designation=designation, library=library, unit=unit)
 
@@ -72,7 +74,9 @@ def computed_heights(
     library: LibraryName | None = None,
     unit: str | None = None,
 ) -> Call[ComputedHeights]:
-    """As ``heights``, of any orientation, computed now (about a second), of a known thread or of a library's pair."""
+    """As ``heights``, of any orientation, computed on request (about a second), of a known thread or of a library's
+    pair.
+    """
     path = path_of("v1", "histories", roll, pitch, "heights")
     return get(path, ComputedHeights, designation=designation, library=library, unit=unit)
 
@@ -104,7 +108,8 @@ def computed_falls(
     least: float | None = None,
     unit: str | None = None,
 ) -> Call[ComputedFalls]:
-    """Falls and snap of any orientation, computed now; with a ``tolerance`` of roll and pitch their range within it.
+    """Falls and snap of any orientation, computed on request; with a ``tolerance`` of roll and pitch their range within
+    it.
 
     The steepest fall is that within ``span`` degrees of phase; more than ``least`` thread pitches make a snap.
     """
@@ -153,7 +158,7 @@ def transitions(
 
 
 def network(*, library: LibraryName = LATEST) -> Call[NetworkSummary]:
-    """The size of the constraint network, and what holds it together."""
+    """The size of the constraint network, and its connectivity."""
     return get(library_path(library, "network"), NetworkSummary, format="summary")
 
 
@@ -173,7 +178,7 @@ def network_dot(*, library: LibraryName = LATEST) -> Call[bytes]:
 
 
 def formations(*, library: LibraryName = LATEST) -> Call[FormationsAnswer]:
-    """Every formation in few words: class, share, where it occurs, how far it is to the window."""
+    """A summary of every formation: class, share, where it occurs, how far it is to the window."""
     return get(library_path(library, "network", "formations"), FormationsAnswer)
 
 
@@ -212,7 +217,7 @@ def locate(
     contact: Iterable[str] | None = None,
     ordered: bool = False,
 ) -> Call[LocationAnswer]:
-    """What remains of all orientations and phases after labels of a state were observed.
+    """The orientations and phases that are consistent with the observed labels of a state.
 
     Each ``contact`` is written ``stage:bolt_region:nut_region:features``, with ``*`` for what was not observed; with
     ``ordered`` these are the first contacts in their order. ``contacts`` is how many there are.

@@ -59,7 +59,7 @@ def states(
 
 
 def undecided(*, library: LibraryName = LATEST, limit: int = LARGEST_PAGE) -> PagedCall[UndecidedDocument]:
-    """The poses of the grid that the library's method could not decide, and why."""
+    """The poses of the grid that the library's solver method could not decide, and why."""
     return PagedCall(get(library_path(library, "undecided"), UndecidedPage, limit=limit), UndecidedDocument)
 
 
@@ -96,5 +96,5 @@ def solve(
         "library": library,
         "poses": [{"roll": float(roll), "pitch": float(pitch), "phase": float(phase)} for roll, pitch, phase in poses],
     }
-    # Nothing is kept of it, so that it may be asked again.
+    # Nothing is stored: repeatable.
     return post(path_of("v1", "solve"), SolveAnswer, body, repeatable=True, unit=unit)

@@ -1,5 +1,5 @@
-"""What the service answers, as frozen models; one file per resource.
+"""The service's responses as frozen models; one file per resource.
 
 Angles are in degrees, lengths in the ``unit`` of the answer. Fields that a newer service adds are left out, so that an
-older client goes on working; a test holds the models to the service's own description.
+older client still works; a test holds the models to the service's own description.
 """

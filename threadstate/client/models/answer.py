@@ -1,4 +1,4 @@
-"""What all answers of the service have in common."""
+"""Base classes of the response models."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Item_co = TypeVar("Item_co", covariant=True)
 
 
 class Answer(BaseModel):
-    """An answer, or a part of one: it does not change, and it is made by the names of its fields."""
+    """A response or a part of one: frozen, and populated by field names."""
 
     model_config = ConfigDict(frozen=True, populate_by_name=True, extra="ignore")
 

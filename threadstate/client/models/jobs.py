@@ -1,4 +1,4 @@
-"""Jobs: libraries that were asked for."""
+"""Jobs: requested libraries."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from threadstate.library.solver_method import SolverMethod
 
 
 class JobDocument(Answer):
-    """A job: ``committed`` of its ``chunks`` (orientations) are computed, workers are ``at_work`` on others.
+    """A job: ``committed`` of its ``chunks`` (orientations) are computed, workers are computing ``at_work`` others.
 
     ``reason`` says why it failed, ``library`` is the number of the library once that is published.
     """
@@ -46,7 +46,7 @@ class JobPage(Answer):
 
 
 class EventDocument(Answer):
-    """Something that happened to a job, when ``committed`` of its ``chunks`` were computed."""
+    """An event of a job, at which ``committed`` of its ``chunks`` were computed."""
 
     job: int
     kind: EventKind

@@ -21,7 +21,7 @@ class GridDocument(Answer):
 
 
 class LibraryDocument(Answer):
-    """A published library: what it was computed from and what it holds; lengths of the ``pair`` in ``unit``."""
+    """A published library: its inputs and its counts; lengths of the ``pair`` in ``unit``."""
 
     id: int
     designation: str
@@ -42,7 +42,7 @@ class LibraryDocument(Answer):
 
 
 class CountsDocument(Answer):
-    """How many states of a library have each class, and each flag."""
+    """Number of states of each class and with each flag."""
 
     classes: dict[StateClass, int]
     flags: dict[Flag, int]
@@ -61,7 +61,7 @@ class LibraryList(Answer):
 
 
 class BuildingDocument(Answer):
-    """A library that is begun and not published: how many of its orientations are done."""
+    """A library that is not published yet, and the number of its computed orientations."""
 
     designation: str
     method: SolverMethod

@@ -29,7 +29,7 @@ class IntervalsAnswer(Answer):
 
 
 class ComputedIntervals(Answer):
-    """The same of any orientation, computed when it was asked for."""
+    """The same of any orientation, computed on request."""
 
     designation: str
     library: int | None
@@ -46,7 +46,7 @@ class HeightsAnswer(Answer):
 
 
 class ComputedHeights(Answer):
-    """The same of any orientation, computed when it was asked for."""
+    """The same of any orientation, computed on request."""
 
     designation: str
     library: int | None
@@ -55,7 +55,7 @@ class ComputedHeights(Answer):
 
 
 class ComputedFalls(Answer):
-    """The falls of any orientation, computed when it was asked for; their range where a tolerance was given."""
+    """The falls of any orientation, computed on request; their range where a tolerance was given."""
 
     designation: str
     library: int | None
@@ -93,7 +93,7 @@ class WindowsAnswer(Answer):
 
 
 class NetworkSummary(Answer):
-    """The size of a library's network, and what holds it together."""
+    """The size of a library's network, and its connectivity."""
 
     library: int
     network: NetworkSummaryDocument
@@ -110,7 +110,7 @@ class NodeLinkNetwork(Answer):
 
 
 class FormationsAnswer(Answer):
-    """All formations of a network in few words, ordered by key."""
+    """Summaries of all formations of a network, ordered by key."""
 
     library: int
     formations: tuple[FormationSummaryDocument, ...]
@@ -133,7 +133,7 @@ class PathAnswer(Answer):
 
 
 class LocationAnswer(Answer):
-    """Where a state with all that was observed can be."""
+    """Where a state that matches the observation can be."""
 
     library: int
     location: LocationDocument

@@ -1,4 +1,4 @@
-"""What the service says of a request that it refuses (problem documents, RFC 9457) and of its own state."""
+"""Problem documents (RFC 9457), and the service's own state."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from threadstate.client.models.answer import Answer
 
 
 class ProblemItem(Answer):
-    """A value that was refused: where it was, the value as the service received it, and what would be valid."""
+    """An invalid value: its location, the value as received, and the valid ones."""
 
     location: str
     value: str
@@ -16,7 +16,7 @@ class ProblemItem(Answer):
 
 
 class Problem(Answer):
-    """A problem document: which problem, in words that do not change and of this occurrence, and the values refused."""
+    """A problem document: type, title, the detail of this occurrence, and the invalid values."""
 
     type: str = "about:blank"
     title: str = ""
@@ -27,13 +27,13 @@ class Problem(Answer):
 
 
 class Health(Answer):
-    """The process lives."""
+    """The process is alive."""
 
     status: str
 
 
 class Readiness(Answer):
-    """The service can answer; ``library`` is the number of the latest one.
+    """The service is ready; ``library`` is the number of the latest one.
 
     ``kernels`` is ``ready``, or ``compiling`` for a minute or two, when nothing is solved.
     """

@@ -88,14 +88,14 @@ class SolveAnswer(Answer):
 
 
 class UndecidedPhase(Answer):
-    """A phase of an orientation at which the library's method could not decide the state, and why."""
+    """A phase of an orientation at which the library's solver method could not decide the state, and why."""
 
     phase: float
     reason: str
 
 
 class UndecidedDocument(UndecidedPhase):
-    """A pose that the library's method could not decide, and why."""
+    """A pose that the library's solver method could not decide, and why."""
 
     roll: float
     pitch: float

@@ -16,7 +16,7 @@ export class ProblemError extends Error {
 /** The service did not answer. */
 export class LostError extends Error {}
 
-/** Asks one service; what a library's number stands in never changes, so its answers are kept. */
+/** Asks one service; what a library's number stands in never changes, so its responses are cached. */
 export class Api {
   #answers = new Map();
   #key;

@@ -89,7 +89,7 @@ const PAGES = {
   fault: ({ detail }) => [
     html("h2", {}, "Something went wrong"),
     html("p", {}, `${detail}.`),
-    html("p", {}, [html("a", { href: "/" }, "Begin anew"), ", or see ", html("a", { href: "/docs" }, "the HTTP interface"), "."]),
+    html("p", {}, [html("a", { href: "/" }, "Start again"), ", or see ", html("a", { href: "/docs" }, "the HTTP interface"), "."]),
   ],
 };
 

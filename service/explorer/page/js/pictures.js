@@ -1,4 +1,4 @@
-// All pictures of the page: which is drawn anew when what has come or changed.
+// All pictures of the page: which of them are redrawn when data has arrived or the view has changed.
 
 import { CLASS_COLOURS } from "./colours.js";
 import { besideText, placeText, showComparison, showSnaps, wireComparison } from "./compare_view.js";
@@ -73,7 +73,7 @@ export class Pictures {
     this.#wireScene();
   }
 
-  /** Draws what is as large as its frame anew whenever that changes. */
+  /** Redraws what is as large as its frame whenever that changes. */
   followSizes() {
     followSize([byId("map"), byId("depth")], (frame) => (frame === byId("map") ? this.#drawMap() : this.#drawCurves()));
   }

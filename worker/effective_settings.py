@@ -1,4 +1,4 @@
-"""Every setting with its value in force, for people: without passwords and keys."""
+"""Every setting with its effective value, without passwords and keys."""
 
 from __future__ import annotations
 
@@ -9,32 +9,32 @@ from enum import StrEnum
 
 from threadstate import settings
 from threadstate._numba_cache import SETTING as NUMBA_CACHE_DIR
-from threadstate.library.address import database_url, shown
+from threadstate.library.address import database_url, masked_url
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 
 NOT_SHOWN = "(not shown)"
 DEFAULT_SERVICE = "http://127.0.0.1:8000"
 _NUMBAS_OWN = "NUMBA_CACHE_DIR"
-"""numba's own, which threadstate sets where nobody else has."""
+"""numba's setting, which threadstate sets unless the user has."""
 
 
 class Source(StrEnum):
-    """Where a value comes from."""
+    """The source of a value."""
 
     ENVIRONMENT = "environment"
     DEFAULT = "default"
 
 
 @dataclass(frozen=True)
-class SettingInForce:
-    """A setting, its value and where this comes from; None is none."""
+class EffectiveSetting:
+    """A setting, its value (None: no value) and its source."""
 
     name: str
     value: str | int | None
     source: Source
 
 
-def settings_in_force(environment: Mapping[str, str] = os.environ) -> tuple[SettingInForce, ...]:
+def effective_settings(environment: Mapping[str, str] = os.environ) -> tuple[EffectiveSetting, ...]:
     """All settings in their order.
 
     Raises:
@@ -44,7 +44,7 @@ def settings_in_force(environment: Mapping[str, str] = os.environ) -> tuple[Sett
     service = environment.get(settings.SERVICE) or DEFAULT_SERVICE
     values: dict[str, str | int | None] = {
         settings.DATA_DIR: str(read.data_dir),
-        settings.DATABASE: shown(database_url(read.database)),
+        settings.DATABASE: masked_url(database_url(read.database)),
         settings.DATABASE_PASSWORD_FILE: environment.get(settings.DATABASE_PASSWORD_FILE) or None,
         settings.WORKERS: read.workers,
         settings.SCHEDULER: read.scheduler,
@@ -67,6 +67,6 @@ def settings_in_force(environment: Mapping[str, str] = os.environ) -> tuple[Sett
         NUMBA_CACHE_DIR: environment.get(NUMBA_CACHE_DIR) or environment.get(_NUMBAS_OWN),
     }
     return tuple(
-        SettingInForce(name, values[name], Source.ENVIRONMENT if environment.get(name) else Source.DEFAULT)
+        EffectiveSetting(name, values[name], Source.ENVIRONMENT if environment.get(name) else Source.DEFAULT)
         for name in settings.NAMES
     )

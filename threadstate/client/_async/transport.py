@@ -1,4 +1,4 @@
-"""Sends the requests of a client, and tries again what may be tried again."""
+"""Sends the requests of a client and retries those that may be repeated."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from threadstate.client.blocking import async_pause, async_write
 from threadstate.client.call import Call
 from threadstate.client.errors import ClientError
 from threadstate.client.options import Options
-from threadstate.client.wire import check_success, request_of, result_of, understood_failures
+from threadstate.client.wire import build_request, check_success, client_errors, parse_response
 
 Result = TypeVar("Result")
 
 
-class AsyncCourier:
+class AsyncTransport:
     """A pool of connections to the service; may be used by several tasks."""
 
     def __init__(self, options: Options) -> None:
@@ -30,30 +30,30 @@ class AsyncCourier:
         """The result of a call.
 
         Raises:
-            ClientError: there is none, also when it was asked for again.
+            ClientError: the request failed, also when it was retried.
         """
-        return await self._repeated(call, lambda: self._answer(call))
+        return await self._with_retries(call, lambda: self._answer(call))
 
     async def download(self, call: Call[object], out: Path) -> None:
-        """Write what a call is answered by to a file, which is there whole or not at all.
+        """Write the response of a call to a file, atomically.
 
         Raises:
-            ClientError: it cannot be had, also when it was asked for again from its beginning.
+            ClientError: the request failed, also when it was retried from the beginning.
             OSError: the file cannot be written.
         """
-        await self._repeated(call, lambda: self._written(call, out))
+        await self._with_retries(call, lambda: self._written(call, out))
 
     @asynccontextmanager
     async def stream(
-        self, call: Call[object], headers: dict[str, str] | None = None, quiet_s: float | None = None
+        self, call: Call[object], headers: dict[str, str] | None = None, read_timeout_s: float | None = None
     ) -> AsyncIterator[httpx2.Response]:
-        """An answer whose content is still to come; asked for once.
+        """A response whose content is read as a stream; not retried.
 
         Raises:
-            ClientError: there is none, or it breaks off.
+            ClientError: the request failed, or the response broke off.
         """
-        with understood_failures(call):
-            request = request_of(self._http, self.options, call, headers, quiet_s)
+        with client_errors(call):
+            request = build_request(self._http, self.options, call, headers, read_timeout_s)
             response = await self._http.send(request, stream=True)
             try:
                 if not response.is_success:
@@ -68,9 +68,9 @@ class AsyncCourier:
         await self._http.aclose()
 
     async def _answer(self, call: Call[Result]) -> Result:
-        with understood_failures(call):
-            response = await self._http.send(request_of(self._http, self.options, call))
-        return result_of(call, response)
+        with client_errors(call):
+            response = await self._http.send(build_request(self._http, self.options, call))
+        return parse_response(call, response)
 
     async def _written(self, call: Call[object], out: Path) -> None:
         async with self.stream(call) as response:
@@ -78,14 +78,14 @@ class AsyncCourier:
                 async for part in response.aiter_bytes():
                     await async_write(file, part)
 
-    async def _repeated(self, call: Call[object], attempt: Callable[[], Awaitable[Result]]) -> Result:
-        tried = 0
+    async def _with_retries(self, call: Call[object], attempt: Callable[[], Awaitable[Result]]) -> Result:
+        failures = 0
         while True:
             try:
                 return await attempt()
             except ClientError as error:
-                pause_s = self.options.retrying.pause_s(error, tried, repeatable=call.repeatable)
+                pause_s = self.options.retrying.pause_s(error, failures, repeatable=call.repeatable)
                 if pause_s is None:
                     raise
-            tried += 1
+            failures += 1
             await async_pause(pause_s)

@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from worker.jobs.silence import SilenceDetector
+from worker.jobs.heartbeat import SilenceDetector
 
 
 class Clock:

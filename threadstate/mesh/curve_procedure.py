@@ -13,8 +13,8 @@ from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.clusters import Cluster
 from threadstate.mesh.edge_curve import EdgeCurve, distance
 from threadstate.mesh.frames import apply, fixed_from_bolt, inverse, trans
-from threadstate.mesh.method import FIRST_STEP, LEAP, MARCH, MOMENT, MeshMethod, Touches, Undecided
 from threadstate.mesh.options import Descent, MeshOptions
+from threadstate.mesh.procedure import FIRST_STEP, LEAP, MARCH, MOMENT, MeshProcedure, Touches, Undecided
 from threadstate.mesh.solid import Floats
 from threadstate.mesh.steps import Reached, decades, march_and_halve, regress
 from threadstate.mesh.touch import Touch
@@ -24,9 +24,9 @@ NO_PAIRS = Cluster(np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.int64)
 AT_THE_EDGE = 4.0
 """An edge that enters within this many chord deviations of the other part's edge enters at that edge."""
 NEAR = 1.0
-"""Runs that are at most this many sides apart are not told apart."""
+"""Runs that are at most this many sides apart are one run."""
 TOO_NEAR = 2.0
-"""A contact that appears within this many sides of an earlier one cannot be told from its growth."""
+"""A contact that appears within this many sides of an earlier one is part of its growth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,8 +42,8 @@ class Runs:
         return float(sum((runs[:, 1] - runs[:, 0]).sum() for runs in (self.bolt, self.nut)))
 
 
-class CurveMethod(MeshMethod):
-    """The mesh method of a scene that has no meshes.
+class CurveProcedure(MeshProcedure):
+    """The paper's procedure for the scene without meshes, edge curves.
 
     Overlaps are known by the runs of the two edge curves inside the other part. Where thread meets thread no edge is
     inside: such contacts are not seen.

@@ -48,12 +48,12 @@ Clusters = tuple[Cluster, ...]
 Touches = tuple[Touch, ...]
 
 
-class Undecided(Exception):  # noqa: N818 - it never leaves the method
+class Undecided(Exception):  # noqa: N818 - it never leaves this class
     """Why a pose cannot be answered."""
 
 
-class MeshMethod:
-    """Bolt and nut of a pair as meshes in their search trees, and what is asked of them."""
+class MeshProcedure:
+    """The paper's procedure for the meshes of a pair."""
 
     def __init__(self, pair: Pair, options: MeshOptions, engine: Callable[[Solid, Solid], Engine] = Collider) -> None:
         self._engine = engine
@@ -201,7 +201,7 @@ class MeshMethod:
         self._after_second(second, cp0, touches, options, row)
 
     def _after_second(self, second: Floats, cp0: Touch, touches: Touches, options: SolveOptions, row: Floats) -> None:
-        """What follows once CP1, the first of the touches, is there; any more of them make the third stage at once."""
+        """Continue after CP1, the first of the touches; further touches are the third stage."""
         cp1, more = touches[0], touches[1:]
         self._put_pose(second, row)
         self._put(2, (cp1,), second, row)

@@ -1,5 +1,5 @@
-# Made of _async/courier.py by `make client`: edit that one.
-"""Sends the requests of a client, and tries again what may be tried again."""
+# Made of _async/transport.py by `make client`: edit that one.
+"""Sends the requests of a client and retries those that may be repeated."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from threadstate.client.blocking import pause, write
 from threadstate.client.call import Call
 from threadstate.client.errors import ClientError
 from threadstate.client.options import Options
-from threadstate.client.wire import check_success, request_of, result_of, understood_failures
+from threadstate.client.wire import build_request, check_success, client_errors, parse_response
 
 Result = TypeVar("Result")
 
 
-class Courier:
+class Transport:
     """A pool of connections to the service; may be used by several threads."""
 
     def __init__(self, options: Options) -> None:
@@ -31,30 +31,30 @@ class Courier:
         """The result of a call.
 
         Raises:
-            ClientError: there is none, also when it was asked for again.
+            ClientError: the request failed, also when it was retried.
         """
-        return self._repeated(call, lambda: self._answer(call))
+        return self._with_retries(call, lambda: self._answer(call))
 
     def download(self, call: Call[object], out: Path) -> None:
-        """Write what a call is answered by to a file, which is there whole or not at all.
+        """Write the response of a call to a file, atomically.
 
         Raises:
-            ClientError: it cannot be had, also when it was asked for again from its beginning.
+            ClientError: the request failed, also when it was retried from the beginning.
             OSError: the file cannot be written.
         """
-        self._repeated(call, lambda: self._written(call, out))
+        self._with_retries(call, lambda: self._written(call, out))
 
     @contextmanager
     def stream(
-        self, call: Call[object], headers: dict[str, str] | None = None, quiet_s: float | None = None
+        self, call: Call[object], headers: dict[str, str] | None = None, read_timeout_s: float | None = None
     ) -> Iterator[httpx2.Response]:
-        """An answer whose content is still to come; asked for once.
+        """A response whose content is read as a stream; not retried.
 
         Raises:
-            ClientError: there is none, or it breaks off.
+            ClientError: the request failed, or the response broke off.
         """
-        with understood_failures(call):
-            request = request_of(self._http, self.options, call, headers, quiet_s)
+        with client_errors(call):
+            request = build_request(self._http, self.options, call, headers, read_timeout_s)
             response = self._http.send(request, stream=True)
             try:
                 if not response.is_success:
@@ -69,9 +69,9 @@ class Courier:
         self._http.close()
 
     def _answer(self, call: Call[Result]) -> Result:
-        with understood_failures(call):
-            response = self._http.send(request_of(self._http, self.options, call))
-        return result_of(call, response)
+        with client_errors(call):
+            response = self._http.send(build_request(self._http, self.options, call))
+        return parse_response(call, response)
 
     def _written(self, call: Call[object], out: Path) -> None:
         with self.stream(call) as response:
@@ -79,14 +79,14 @@ class Courier:
                 for part in response.iter_bytes():
                     write(file, part)
 
-    def _repeated(self, call: Call[object], attempt: Callable[[], Result]) -> Result:
-        tried = 0
+    def _with_retries(self, call: Call[object], attempt: Callable[[], Result]) -> Result:
+        failures = 0
         while True:
             try:
                 return attempt()
             except ClientError as error:
-                pause_s = self.options.retrying.pause_s(error, tried, repeatable=call.repeatable)
+                pause_s = self.options.retrying.pause_s(error, failures, repeatable=call.repeatable)
                 if pause_s is None:
                     raise
-            tried += 1
+            failures += 1
             pause(pause_s)
