@@ -36,7 +36,6 @@ PHYSICS = (
     "network/cells.py",
     "network/formation.py",
     "network/from_history.py",
-    "network/margin.py",
     "network/moves.py",
     "stored_histories/mapping.py",
     "stored_histories/model.py",
