@@ -199,7 +199,7 @@ def test_without_a_service_a_line_says_what_to_do(run_here: RunHere, name: str) 
     ("name", "arguments", "code", "said"),
     [
         ("feel_before_the_window", ["four", "0"], 2, "argument roll: invalid float value: 'four'"),
-        ("feel_before_the_window", ["12", "0"], 1, "path roll is '12.0'"),
+        ("feel_before_the_window", ["12", "0"], 1, "path roll is '12'"),
         ("feel_before_the_window", ["1", "nan"], 1, "path pitch is 'nan'"),
         ("feel_before_the_window", ["1", "1", "--library", "7"], 1, "library 7 is not published"),
         ("windows_table", ["cm"], 2, "argument unit: invalid choice: 'cm'"),

@@ -133,14 +133,20 @@ def _disagreements(study: Study) -> str:
     return "\n".join(lines)
 
 
+def _share(part: int, whole: int) -> str:
+    """A part of a whole; where the process had room for small meshes anyway, they add no memory to be measured."""
+    return f"{part / whole:.0%}" if whole else "as much"
+
+
 def _scenes(study: Study) -> str:
     preset = study.scale.presets[len(study.scale.presets) // 2]
     costs = {cost.scene: cost for cost in study.costs if cost.preset is preset}
     full, chosen = costs[Scene.FULL], costs[DEFAULT_SCENE]
     whole, used = (_at(study, scene, preset.value) for scene in (Scene.FULL, DEFAULT_SCENE))
+    memory = _share(chosen.memory, full.memory)
     return (
         f"The mesh method uses `{DEFAULT_SCENE.value}` by default. At `{preset.value}` that is "
-        f"{chosen.triangles / full.triangles:.0%} of the full solids' triangles and {chosen.memory / full.memory:.0%} "
+        f"{chosen.triangles / full.triangles:.0%} of the full solids' triangles and {memory} "
         f"of their memory; a pose takes {used.score.seconds.median / whole.score.seconds.median:.0%} of the time, its "
         f"height is off by {used.score.height.p95:.1e} in against {whole.score.height.p95:.1e}, its turns by "
         f"{used.score.turn.p95:.1e} deg against {whole.score.turn.p95:.1e}. `curves` is faster still and nearer, but "

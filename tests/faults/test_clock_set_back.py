@@ -34,8 +34,12 @@ TELL_TIME = {
     "threadstate/client/retrying.py",
     "service/logs.py",
     "service/metrics.py",
+    "threadstate/_numba_cache.py",
 }
-"""Files that write down when something happened, or show its age; some servers tell a client until when to wait."""
+"""Files that write down when something happened, or show its age; some servers tell a client until when to wait.
+
+Compiled kernels that nobody has used for a month are removed: too early at worst, and they are compiled again.
+"""
 WALL_CLOCKS = {"now", "utcnow", "today", "time", "time_ns", "localtime", "gmtime", "current_timestamp", "fromtimestamp"}
 INSTANTS = {"at", "asked_at", "ended_at", "created_at", "revoked_at"}
 

