@@ -67,7 +67,7 @@ def test_any_step_in_hundredths_divides_its_own_multiples(hundredths: int, count
         ((4.0, 1.0, 7.0), "phase_step"),
         ((4.0, 1.0, 0.001), "phase_step"),
         ((4.0, 1.0, -1.0), "phase_step"),
-        ((10.0, 0.01, 0.01), "state count"),
+        ((10.0, 0.01, 0.01), "pose count"),
     ],
 )
 def test_an_impossible_grid_names_the_value(values: tuple[float, float, float], name: str) -> None:

@@ -210,7 +210,7 @@ def test_a_job_that_is_not_there_is_not_found(desk: Desk) -> None:
         ({"grid": {"tilt_max": 11}}, "tilt_max"),
         ({"grid": {"tilt_max": "4"}}, "tilt_max"),
         ({"grid": {"phase_step": 7}}, "phase_step"),
-        ({"grid": {"phase_step": 0.01, "tilt_step": 0.01}}, "state count"),
+        ({"grid": {"phase_step": 0.01, "tilt_step": 0.01}}, "pose count"),
         ({"grid": {"yaw": 1}}, "yaw"),
         ({"tolerances": {"tie_tolerance": 1.0}}, "tie_tolerance"),
         ({"method": "guess"}, "method"),
