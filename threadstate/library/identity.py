@@ -25,7 +25,9 @@ NOT_PHYSICS = ("state/document.py", "state/rest.py")
 
 @dataclass(frozen=True)
 class LibraryInputs:
-    """All that a library's content depends on; with ``mesh`` its method is that of meshes, else the exact one."""
+    """All that a library's content depends on; with ``mesh`` the solver method is that of meshes, else the exact
+    one.
+    """
 
     pair: Pair
     grid: Grid
@@ -44,7 +46,7 @@ class LibraryInputs:
 
     @cached_property
     def options_json(self) -> str:
-        """The options as canonical JSON, those of meshes beside those of every method."""
+        """The options as canonical JSON, those of meshes and those that all solver methods share."""
         options = _flat(_plain(self.options, "options"))
         if self.mesh is not None:
             options |= _flat(_plain(self.mesh, "mesh")) | {COLLISION_LIBRARY: version(COLLISION_LIBRARY)}
@@ -107,7 +109,7 @@ def _plain(value: object, name: str) -> object:
 
 
 def code_versions() -> frozenset[str]:
-    """The code versions of the libraries that this code computes, one for each method."""
+    """The code versions of the libraries that this code computes, one for each solver method."""
     return frozenset(_code_version(patterns) for patterns in (PHYSICS, MESH_PHYSICS))
 
 
