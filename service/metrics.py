@@ -21,6 +21,11 @@ from threadstate.jobs.names import JobState
 from threadstate.jobs.queue import job_counts
 from threadstate.library.read import published_libraries
 
+router = APIRouter(include_in_schema=False)
+
+PATH = "/metrics"
+_BUCKETS_S = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0)
+
 
 class StateMetrics(Collector):
     """Metrics computed when Prometheus reads them."""
@@ -56,11 +61,11 @@ class StateMetrics(Collector):
         cache = self._cache
         yield _gauge("cache_bytes", "Bytes of the responses in the cache.", cache.bytes)
         yield _gauge("cache_answers", "Responses in the cache.", len(cache))
-        for name, said, value in (
+        for name, description, value in (
             ("cache_hits", "Requests for a response that was in the cache.", cache.hits),
             ("cache_misses", "Requests for a response that was not in the cache.", cache.misses),
         ):
-            yield CounterMetricFamily(f"threadstate_{name}", said, value)
+            yield CounterMetricFamily(f"threadstate_{name}", description, value)
 
     def _of_limits(self) -> Iterator[Metric]:
         admission = self._admission
@@ -87,11 +92,8 @@ def _of_libraries(connection: Connection) -> Iterator[Metric]:
         yield _gauge("library_age_seconds", "Seconds since the latest library was published.", age)
 
 
-def _gauge(name: str, said: str, value: float) -> Metric:
-    return GaugeMetricFamily(f"threadstate_{name}", said, value)
-
-
-_BUCKETS_S = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0)
+def _gauge(name: str, description: str, value: float) -> Metric:
+    return GaugeMetricFamily(f"threadstate_{name}", description, value)
 
 
 class RequestMetrics:
@@ -122,11 +124,6 @@ class RequestMetrics:
         """Count a completed request."""
         self._series(method, route, f"{status // 100}xx").inc()
         self._durations(route).observe(seconds)
-
-
-router = APIRouter(include_in_schema=False)
-
-PATH = "/metrics"
 
 
 @router.get(PATH)

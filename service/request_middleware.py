@@ -1,6 +1,4 @@
-"""Middleware: ids, logs, metrics and security headers of every request; HEAD as GET; encoded slashes; the size of
-bodies.
-"""
+"""Middleware of every request: id, log, metrics and security headers; HEAD as GET; encoded slashes; body limit."""
 
 from __future__ import annotations
 
@@ -30,9 +28,7 @@ _ABORTED = 499
 
 
 class RequestMiddleware:
-    """Gives each request an id, logs and counts it, and adds the security headers to every response; the outermost
-    middleware.
-    """
+    """The outermost middleware: gives each request an id, logs and counts it, and adds the security headers."""
 
     def __init__(self, app: ASGIApp, metrics: RequestMetrics, shutdown: Shutdown, *, logging: bool) -> None:
         self._app = app

@@ -1,4 +1,4 @@
-"""Histories, transitions, windows and networks as tables for people."""
+"""Histories, transitions, windows and networks as text tables."""
 
 from __future__ import annotations
 
@@ -201,7 +201,7 @@ def print_summary(summary: NetworkSummaryDocument) -> None:
 
 
 def print_node(node: NodeDocument) -> None:
-    """A formation: what it is, where it occurs, what follows."""
+    """A formation, its occurrences and its successors."""
     reach = node.to_window
     print_line(f"{node.formation.key}  {node.formation.text}")
     print_line(f"{100.0 * node.share:.3f} % of all phases, at {node.orientations} orientations")
@@ -238,7 +238,7 @@ def print_path(path: PathDocument | None, unit: LengthUnit) -> None:
 
 
 def print_location(location: LocationDocument) -> None:
-    """What remains: one row a formation, then one row a stretch."""
+    """The location: one row per formation, then one row per stretch."""
     print_line(f"{100.0 * location.share:.3f} % of all phases remain, at {location.orientations} orientations")
     formations = table("formation", "share", "contacts", words_last=True)
     for formation in location.formations:

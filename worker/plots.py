@@ -72,10 +72,10 @@ def plot_heights(document: HeightsDocument, windows: Sequence[WindowDocument], u
 def plot_map(
     values: Mapping[tuple[float, float], float | None], title: str, unit: LengthUnit | str, path: Path
 ) -> None:
-    """Draw a value of every orientation of a grid as a coloured square, grey where there is none.
+    """Draw a value of every orientation of a grid as a coloured square, grey without a value.
 
     Args:
-        values: by roll and pitch in degrees; None: there is none.
+        values: by roll and pitch in degrees; None: no value.
         title: what the value is.
         unit: unit of the values.
         path: the file; its ending says the format.
@@ -118,7 +118,7 @@ def plot_map(
 def _figure(path: Path, size_in: tuple[float, float]) -> Iterator[Figure]:
     """A figure, which is written to the file on leaving."""
     check_plot_file(path)
-    # It takes a while to import, and most commands draw nothing.
+    # Imported late: it takes a while, and most commands draw nothing.
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as NewFigure

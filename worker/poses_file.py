@@ -21,7 +21,7 @@ def read_poses(path: Path) -> PosesDeg:
 
     Raises:
         InvalidValueError: the file cannot be read, its header is another one, or a line has something that is not
-            three numbers, a tilt beyond 10 deg or an infinite phase; the line is named. Nothing is solved then.
+            three numbers, a tilt beyond 10 deg or an infinite phase; the line is named. No pose is solved then.
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:

@@ -1,4 +1,4 @@
-"""Tables on a terminal or in a file: the format of their numbers, and those of states and contacts."""
+"""Text tables: number formats, and the tables of states and contacts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from worker.output import print_line
 _GAP = "  "
 _INDENT = "      "
 LEAST_WIDTH = 20
-"""Words are not folded to less, however narrow the terminal."""
+"""Minimum width to which words are wrapped."""
 
 LENGTH_DECIMALS = {LengthUnit.INCH: 6, LengthUnit.MILLIMETRE: 5}
 """Decimals of a length in a table: finer than any measurement, coarser than round-off."""
@@ -61,7 +61,7 @@ def table(*columns: str, words_last: bool = False) -> Table:
 
 
 def terminal_width() -> int | None:
-    """How many characters a line of the terminal has; None where stdout is none."""
+    """The width of the terminal in characters; None if stdout is not a terminal."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 

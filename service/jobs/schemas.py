@@ -104,7 +104,7 @@ class JobDocument(BaseModel):
     designation: str
     method: SolverMethod
     grid: GridDocument
-    options: dict[str, float | str | bool] = Field(description="limits and tolerances of the method")
+    options: dict[str, float | str | bool] = Field(description="limits and tolerances of the solver")
     input_sha256: str = Field(description="hash of all of these; equal hashes are the same job")
     code_version: str = Field(description="workers of another version do not take it")
     chunks: int = Field(description="number of orientations")

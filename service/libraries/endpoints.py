@@ -43,7 +43,7 @@ class LibraryDocument(BaseModel):
     pair: Pair = Field(description="the bolt and the nut; lengths in this answer's unit, fillets per thread pitch")
     grid: GridDocument
     method: SolverMethod
-    options: dict[str, float | str] = Field(description="limits and tolerances of the method; lengths per thread pitch")
+    options: dict[str, float | str] = Field(description="limits and tolerances of the solver; lengths per thread pitch")
     state_count: int
     undecided_count: int = Field(description="number of poses of the grid that the solver method could not decide")
     code_version: str

@@ -54,7 +54,9 @@ MESH_CODE = (MESH_PHYSICS, MESH_COMPUTING)
 
 @dataclass(frozen=True)
 class LibraryInputs:
-    """All that a library's content depends on; with ``mesh`` its method is that of meshes, else the exact one."""
+    """All that a library's content depends on; with ``mesh`` the solver method is that of meshes, else the exact
+    one.
+    """
 
     pair: Pair
     grid: Grid
@@ -73,7 +75,7 @@ class LibraryInputs:
 
     @cached_property
     def options_json(self) -> str:
-        """The options as canonical JSON, those of meshes beside those of every method."""
+        """The options as canonical JSON, those of meshes and those that all solver methods share."""
         options = _flat(_plain(self.options, "options"))
         if self.mesh is not None:
             options |= _flat(_plain(self.mesh, "mesh")) | {COLLISION_LIBRARY: version(COLLISION_LIBRARY)}
@@ -136,7 +138,7 @@ def _plain(value: object, name: str) -> object:
 
 
 def code_versions() -> frozenset[str]:
-    """The code versions of the libraries that this code computes, one for each method."""
+    """The code versions of the libraries that this code computes, one for each solver method."""
     return frozenset(_code_version(*code) for code in (EXACT_CODE, MESH_CODE))
 
 

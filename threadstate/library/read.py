@@ -87,7 +87,8 @@ def library_by_input(connection: Connection, input_sha256: str) -> LibraryRecord
 def latest_library(
     connection: Connection, designation: str | None = None, method: SolverMethod | None = SolverMethod.EXACT
 ) -> LibraryRecord:
-    """The pinned library, or else the one published last: of all or of one designation, by a method or (None) by any.
+    """The pinned library, or else the one published last: of all or of one designation, by a solver method or (None) by
+    any.
 
     Raises:
         NotFoundError: none is published.

@@ -94,7 +94,7 @@ library = Table(
     # Serves: the pinned library.
     Index(None, "pinned_at"),
 )
-"""A library: one pair over one grid by one method. Rows without ``published_at`` are still being computed."""
+"""A library: one pair over one grid by one solver method. Rows without ``published_at`` are still being computed."""
 
 chunk = Table(
     "chunk",

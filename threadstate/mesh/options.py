@@ -43,7 +43,9 @@ class Tangent(StrEnum):
 
 
 DEFAULT_SCENE = Scene.BAND
-"""It leaves out what is nothing to the method; ``EDGES`` saves more, and costs contacts of some pairs (decision 6)."""
+"""It leaves out what the procedure does not need; ``EDGES`` saves more, and costs contacts of some pairs (decision
+6).
+"""
 SMALLEST_STEP, LARGEST_STEP = 1e-7, 1e-2
 """Bounds of the final step, in thread pitches."""
 

@@ -89,5 +89,5 @@ def _features(cluster: Cluster, bolt: Solid, nut: Solid) -> int:
     features = _FEATURES.get((on_bolt, on_nut))
     if features is None:
         names = [" and ".join(sorted(face.name.lower() for face in faces)) for faces in (on_bolt, on_nut)]
-        raise NoContactPointError(f"the bolt's {names[0]} against the nut's {names[1]} is no contact of the method")
+        raise NoContactPointError(f"the bolt's {names[0]} against the nut's {names[1]} is not a contact of the method")
     return features

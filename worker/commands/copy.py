@@ -34,10 +34,10 @@ def copy(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    r"""Copy published libraries to another database, and prove that they are the same there.
+    r"""Copy published libraries to another database, and verify the copies.
 
-    The content hash is computed from what arrived, and nothing is seen there before it is the same. Goes on where an
-    earlier copy was stopped. An empty database is migrated first.
+    A copy is published only if the content hash of its rows is that of the source. Resumes an interrupted copy. An
+    empty database is migrated first.
 
     \b
     Examples:

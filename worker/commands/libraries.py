@@ -19,11 +19,16 @@ def libraries(
     pin: Annotated[
         str | None,
         typer.Option(
-            "--pin", metavar="NAME", help="First let latest mean this library: its number, designation or slug."
+            "--pin",
+            metavar="NAME",
+            help="First pin this library, so that latest means it: its number, designation or slug.",
         ),
     ] = None,
     unpin: Annotated[
-        bool, typer.Option("--unpin", help="First let latest mean the one published last again.", show_default=False)
+        bool,
+        typer.Option(
+            "--unpin", help="First unpin, so that latest means the library published last.", show_default=False
+        ),
     ] = False,
     database: Database = None,
     as_json: Json = False,

@@ -49,9 +49,9 @@ def rebuild(
 ) -> None:
     r"""Compute the library of a pair and publish it.
 
-    Goes on where an earlier run was stopped. A library of the same inputs that is published already is left as it is;
+    Resumes an interrupted run. A library of the same inputs that is published already is left as it is;
     other inputs make a new library beside the old one. An empty database is migrated first. Poses that the method
-    cannot decide are stored as such, with the reason; by meshes a pose takes a tenth of a second and more. With a
+    cannot decide are stored as undecided, with the reason; by meshes a pose takes a tenth of a second and more. With a
     scheduler the workers of its Dask cluster compute, and this process writes.
 
     \b

@@ -34,7 +34,7 @@ class GridPart(Part):
 
 
 class TolerancesPart(Part):
-    """Limits and tolerances of every method."""
+    """Limits and tolerances that all solver methods share."""
 
     turn_limit_deg: Number = _DEFAULTS.turn_limit_deg
     quasi_stable_fraction: Number = _DEFAULTS.quasi_stable_fraction
@@ -43,7 +43,7 @@ class TolerancesPart(Part):
 
 
 class MeshPart(Part):
-    """Settings of the method by meshes."""
+    """Settings of the solver method by meshes."""
 
     preset: Preset = Preset.PAPER
     descent: Descent = Descent.SAFE
@@ -54,7 +54,7 @@ class MeshPart(Part):
 
 
 class MethodPart(Part):
-    """A method."""
+    """A solver method and its settings."""
 
     name: SolverMethod = SolverMethod.EXACT
     tolerances: TolerancesPart = TolerancesPart()
