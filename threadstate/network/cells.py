@@ -126,7 +126,7 @@ class CellMap:
         """The number of an orientation.
 
         Raises:
-            InvalidValueError: roll or pitch is none of the tilts.
+            InvalidValueError: roll or pitch is not one of the tilts.
         """
         for name, value in (("roll", roll_deg), ("pitch", pitch_deg)):
             if value not in self.tilts_deg:
@@ -137,7 +137,7 @@ class CellMap:
         """The cell of a pose; any phase, in degrees.
 
         Raises:
-            InvalidValueError: roll or pitch is none of the tilts.
+            InvalidValueError: roll or pitch is not one of the tilts.
         """
         return self.at_phase(self.orientation(roll_deg, pitch_deg), phase_deg)
 

@@ -15,7 +15,7 @@ from threadstate.state.model import StateClass
 STAGES = (1, 2, 3)
 
 CACHED = 2**15
-"""How many differences are kept: many transitions are between the same two formations."""
+"""How many differences are cached: many transitions are between the same two formations."""
 
 
 class ChangeKind(StrEnum):
@@ -85,8 +85,8 @@ class FormationDifference:
 def difference(before: Formation, after: Formation) -> FormationDifference:
     """How ``after`` differs from ``before``.
 
-    Contacts are compared place by place within their stage. Of an undecided formation the contacts are not known: none
-    is compared with them.
+    Contacts are compared place by place within their stage. The contacts of an undecided formation are unknown
+    and not compared.
     """
     undecided = before.state_class is None or after.state_class is None
     contacts = () if undecided else tuple(_contacts(before.contacts, after.contacts))

@@ -107,7 +107,7 @@ class ContactState:
 
 @dataclass(frozen=True, slots=True)
 class UndecidedPose:
-    """A pose (degrees) whose state a method could not decide, and why."""
+    """A pose (degrees) whose state could not be decided, and why."""
 
     roll_deg: float
     pitch_deg: float
@@ -116,4 +116,4 @@ class UndecidedPose:
 
 
 Answer = ContactState | UndecidedPose
-"""What a method says of a pose."""
+"""The result of the exact solver or of the meshes for a pose."""
