@@ -1,4 +1,4 @@
-"""The turns of a state, computed again from its contacts by the method's section 4."""
+"""The turns of a state, computed independently from its contacts by the method's section 4."""
 
 from __future__ import annotations
 

@@ -39,9 +39,9 @@ def edge_motions(
     pose: Floats, is_turn: bool, coplanar: bool, point: Floats, axis: Floats
 ) -> list[tuple[Floats, Floats, Floats]]:
     """The motion of either edge curve, with the curve's profile and the solid's."""
-    bolt, nut = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
-    set_motions(pose, is_turn, coplanar, point, axis, bolt, nut)
-    return [(bolt, BOLT, NUT), (nut, NUT, BOLT)]
+    bolt_motion, nut_motion = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
+    set_motions(pose, is_turn, coplanar, point, axis, bolt_motion, nut_motion)
+    return [(bolt_motion, BOLT, NUT), (nut_motion, NUT, BOLT)]
 
 
 def random_motion(rng: np.random.Generator, kind: str) -> tuple[Floats, Floats, Floats]:
@@ -140,11 +140,11 @@ def onsets(states: list[ContactState]) -> list[tuple[float, float, Floats, Float
         motions[0] = (first, motions[0][2][0][0][11] + motions[0][1], motions[0][2])
         if state.mu_deg and len(later) == 2:
             motions.append((later[1], math.radians(state.mu_deg), third_turn(state, first, later[0])))
-        for contact, time, (bolt, nut) in motions:
+        for contact, time, (bolt_edge, nut_edge) in motions:
             if contact.features in ON_BOLT:
-                found.append((math.atan2(contact.point_bolt[1], contact.point_bolt[0]), time, *bolt))
+                found.append((math.atan2(contact.point_bolt[1], contact.point_bolt[0]), time, *bolt_edge))
             if contact.features in ON_NUT:
-                found.append((math.atan2(contact.point[1], contact.point[0]), time, *nut))
+                found.append((math.atan2(contact.point[1], contact.point[0]), time, *nut_edge))
     return found
 
 

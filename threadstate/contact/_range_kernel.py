@@ -146,8 +146,8 @@ def ranges(
     wr, _, ws = cylindrical_components(w_, rx, ry, k_r)
     ar, _, a_s = cylindrical_components(a_, rx, ry, k_r)
     phi, phi_t, phi_v = radius - f, tr - f1 * ts, vr - f1 * vs
-    bent_s = -r * ps + 2.0 * dr * qs + 2.0 * k_rr * tr * tt
-    flat_tt = -r * pr + 2.0 * dr * qr + tt * tt * inverse - f1 * bent_s
+    flat_s_tt = -r * ps + 2.0 * dr * qs + 2.0 * k_rr * tr * tt
+    flat_tt = -r * pr + 2.0 * dr * qr + tt * tt * inverse - f1 * flat_s_tt
     flat_tv = wr - f1 * ws + tt * vt * inverse - f1 * k_rr * (tr * vt + tt * vr)
     flat_vv = ar - f1 * a_s + vt * vt * inverse - 2.0 * f1 * k_rr * vr * vt
     # Bounds on the speed of the curve in the box, and on the change of its directions and of the solid's.
@@ -170,20 +170,20 @@ def ranges(
         misaligned, sine, r2_bound, c1, r_bound, r1_bound, inverse_r, k_r_bound
     )
     # The helical coordinate, and with it f' and f'', over the box.
-    bend_s = (1.0 + k_r_bound) * (
+    s_tt = (1.0 + k_r_bound) * (
         (r_bound + 2.0 * r1_bound + r2_bound) * direction_change + r1_bound * a + 2.0 * r2_bound * a
     ) + (4.0 * k_r_bound * inverse_r * c1 * (c1 * direction_change + r2_bound * a + c1 * azimuth_change))
-    near_s = (
+    near_s_tt = (
         helical_3 * a
         + (1.0 + k_r_bound) * (r_bound + 2.0 * r1_bound + r2_bound) * change_by_time
         + 4.0 * k_r_bound * inverse_r * c1 * c1 * change_by_time
     )
-    bend_s = abs(bent_s) + r2_bound * abs(ps) + (smaller(near_s, bend_s) if aligned else bend_s)
+    s_tt = abs(flat_s_tt) + r2_bound * abs(ps) + (smaller(near_s_tt, s_tt) if aligned else s_tt)
     s_tv = turning * c1 * (1.0 + k_r_bound) + 2.0 * k_r_bound * c1 * speed_bound * inverse_r
     s_vv = turning * speed_bound * (1.0 + k_r_bound) + 2.0 * k_r_bound * speed_bound * speed_bound * inverse_r
-    s_theta_high = abs(ts) + bend_s * a + s_tv * b
+    s_theta_high = abs(ts) + s_tt * a + s_tv * b
     s_tau_high = abs(vs) + s_tv * a + s_vv * b
-    s_theta_low = larger(abs(ts) - bend_s * a - s_tv * b, 0.0)
+    s_theta_low = larger(abs(ts) - s_tt * a - s_tv * b, 0.0)
     reach = s_theta_high * a + s_tau_high * b
     f2_low, f2_high = second_derivative_range(u, reach, solid)
     f2 = larger(f2_high, -f2_low)
@@ -201,7 +201,7 @@ def ranges(
     near_tt = (radial_3 + cot * helical_3) * a + (
         gradient_bound * (r_bound + 2.0 * r1_bound) + inverse_r * c1 * c1 * (3.0 + 4.0 * cot * k_r_bound)
     ) * change_by_time
-    var_tt = (smaller(near_tt, var_tt) if aligned else var_tt) + d_f1 * abs(bent_s)
+    var_tt = (smaller(near_tt, var_tt) if aligned else var_tt) + d_f1 * abs(flat_s_tt)
     var_tv = (
         gradient_bound * turning * (c1 * direction_change + c2 * a)
         + curvature_factor * (c1 * d_v + speed_bound * d_t + c1 * speed_bound * radius_change)

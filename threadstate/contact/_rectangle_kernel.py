@@ -133,14 +133,14 @@ def classify_rectangle(
             low, high = pk.second_derivative_range(s_mid, s_h * h + s_z * hs + s_t * span, nut)
             f2 = larger(high, -low)
             side = t * (1.0 + cot) * bolt_f2 + 4.0 * axis_distance_ratio
-            bend_hh = f2 * s_h * s_h + cot * s_hh + axis_distance_ratio * largest_radius * 3.0
-            bend_hz = f2 * s_h * s_z + cot * s_hz + 2.0 * axis_distance_ratio * (1.0 + bolt[pk.COT])
-            up_zz = bolt_f2_high - low * s_z * s_z + side
-            down_zz = high * s_z * s_z - bolt_f2_low + side
+            phi_hh = f2 * s_h * s_h + cot * s_hh + axis_distance_ratio * largest_radius * 3.0
+            phi_hz = f2 * s_h * s_z + cot * s_hz + 2.0 * axis_distance_ratio * (1.0 + bolt[pk.COT])
+            phi_zz_high = bolt_f2_high - low * s_z * s_z + side
+            minus_phi_zz_high = high * s_z * s_z - bolt_f2_low + side
             if attempt == 0:
-                spread = abs(a) * h + abs(b) * hs + 0.5 * bend_hh * h * h + bend_hz * h * hs
-                above = spread + 0.5 * larger(up_zz, 0.0) * hs * hs
-                below = spread + 0.5 * larger(down_zz, 0.0) * hs * hs
+                spread = abs(a) * h + abs(b) * hs + 0.5 * phi_hh * h * h + phi_hz * h * hs
+                above = spread + 0.5 * larger(phi_zz_high, 0.0) * hs * hs
+                below = spread + 0.5 * larger(minus_phi_zz_high, 0.0) * hs * hs
                 clearance = -value - above
                 if clearance <= 0.0:
                     clearance = value - below
@@ -149,14 +149,14 @@ def classify_rectangle(
                     outcome = EXCLUDED
                 continue
             turning = bounds[B_LIPSCHITZ] if is_turn else 0.0
-            bend_ht = f2 * s_t * s_h + curvature_factor * transverse_speed * c1 + turning * c1
-            bend_zt = f2 * s_t * s_z + (curvature_factor * transverse_speed + turning) * (1.0 + bolt[pk.COT])
+            phi_ht = f2 * s_t * s_h + curvature_factor * transverse_speed * c1 + turning * c1
+            phi_zt = f2 * s_t * s_z + (curvature_factor * transverse_speed + turning) * (1.0 + bolt[pk.COT])
             if outcome == EXCLUDED:
-                bend_tt = f2 * s_t * s_t + curvature_factor * transverse_speed * v + turning * v
-                if (rate + bend_ht * h + bend_zt * hs + 0.5 * bend_tt * span) * span <= clearance:
+                phi_tt = f2 * s_t * s_t + curvature_factor * transverse_speed * v + turning * v
+                if (rate + phi_ht * h + phi_zt * hs + 0.5 * phi_tt * span) * span <= clearance:
                     break
-            elif abs(a) > bend_hh * h + bend_hz * hs + bend_ht * span or abs(b) > (
-                bend_hz * h + larger(up_zz, down_zz) * hs + bend_zt * span
+            elif abs(a) > phi_hh * h + phi_hz * hs + phi_ht * span or abs(b) > (
+                phi_hz * h + larger(phi_zz_high, minus_phi_zz_high) * hs + phi_zt * span
             ):
                 break
             if attempt == 3:

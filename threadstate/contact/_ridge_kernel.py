@@ -89,7 +89,7 @@ def nearby_maximum(
     """
     k = bolt[pk.P] / TWO_PI
     p = bolt[pk.P]
-    up = 0
+    ascent_steps = 0
     set_jet(theta, z, placement, bolt, nut, jet)
     for _ in range(20):
         a, b = jet[J_A], jet[J_B]
@@ -99,8 +99,8 @@ def nearby_maximum(
             du = min(max((uz * b - zz * a) / det, -0.1), 0.1)
             dz = (uz * a - uu * b) / det
         else:
-            up += 1
-            if up > MAX_ASCENT_STEPS or abs(jet[J_PHI]) >= time_range * jet[J_RATE]:
+            ascent_steps += 1
+            if ascent_steps > MAX_ASCENT_STEPS or abs(jet[J_PHI]) >= time_range * jet[J_RATE]:
                 return theta, z, False
             if zz < 0.0:
                 du = ASCENT_STEP if a * zz < uz * b else -ASCENT_STEP

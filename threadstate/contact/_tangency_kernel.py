@@ -125,7 +125,7 @@ def rotated(x: float, y: float, z: float, placement: Array) -> tuple[float, floa
 def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array) -> None:
     """Phi and its derivatives at (theta, z) of the bolt's thread, for a placement."""
     k = bolt[pk.P] / TWO_PI
-    r_b, slope, bend = pk.jet(z - k * theta, bolt)
+    r_b, slope, second_derivative = pk.jet(z - k * theta, bolt)
     cos = math.cos(theta)
     sin = math.sin(theta)
     x, y, zz = rotated(r_b * cos, r_b * sin, z, placement)
@@ -167,7 +167,7 @@ def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, j
     along_across = gx * acrossx + gy * acrossy - f1 * acrossz
     jet[J_UU] = ua * ua / r - f2 * us * us - 2.0 * twist * ur * ua - r_b * along_out
     jet[J_UZ] = ua * za / r - f2 * us * zs - twist * (ur * za + ua * zr) + slope * along_across
-    jet[J_ZZ] = za * za / r - f2 * zs * zs - 2.0 * twist * zr * za + bend * along_out
+    jet[J_ZZ] = za * za / r - f2 * zs * zs - 2.0 * twist * zr * za + second_derivative * along_out
     jet[J_UT] = (
         ua * ta / r
         - f2 * us * ts

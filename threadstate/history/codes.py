@@ -29,7 +29,7 @@ HEIGHT_JUMP = 2e-4
 PLACE_JUMP = 0.1
 """The least distance along an axis, in thread pitches, by which a contact jumps elsewhere.
 
-Where edges graze, a contact runs along them so fast that shorter jumps cannot be distinguished from that.
+Where edges graze, a contact runs along them so fast that shorter jumps cannot be distinguished from it.
 """
 
 

@@ -16,7 +16,7 @@ from threadstate.history.height_curve import Gap, HeightCurve, Segment
 from threadstate.history.model import CIRCLE_DEG
 
 LEAST_FALL = 2e-8
-"""The least fall of a descent, in thread pitches: 1e-9 in of 1/4-20."""
+"""A descent by no more than this many thread pitches is ignored: 1e-9 in of 1/4-20."""
 
 NARROW_DEG = 0.25
 """Stretches on which the steepest fall may lie are bisected to this width, and then searched by slope."""

@@ -34,7 +34,7 @@ from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
 
 ROUND_OFF = 1e-12
-"""Changes of the height up to this many thread pitches are round-off."""
+"""A change of the height by no more than this many thread pitches is ignored."""
 
 SAMPLES_DEG = 1.0
 """Slopes are sampled where the phase is a multiple of this, as the poses of a library are."""

@@ -13,7 +13,7 @@ from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.clusters import Cluster
 from threadstate.mesh.edge_curve import EdgeCurve, distance
 from threadstate.mesh.frames import apply, fixed_from_bolt, inverse, trans
-from threadstate.mesh.method import APPROACH_TURN, FIRST_STEP, JUMP_PAIRS, MARCH_STEP, MeshMethod, Touches, Undecided
+from threadstate.mesh.method import APPROACH_TURN, FIRST_STEP, JUMP_GROWTH, MARCH_STEP, MeshMethod, Touches, Undecided
 from threadstate.mesh.options import Descent, MeshOptions
 from threadstate.mesh.solid import Floats
 from threadstate.mesh.steps import Reached, decades, march_and_halve, regress
@@ -24,9 +24,9 @@ NO_PAIRS = Cluster(np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.int64)
 AT_THE_EDGE = 4.0
 """An edge that enters within this many chord deviations of the other part's edge enters at that edge."""
 NEAR = 1.0
-"""Runs that are at most this many sides apart are not distinguished."""
+"""Runs that are at most this many sides apart are one run."""
 TOO_NEAR = 2.0
-"""A contact that appears within this many sides of an earlier one cannot be distinguished from its growth."""
+"""A contact that appears within this many sides of an earlier one is part of its growth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +109,7 @@ class CurveMethod(MeshMethod):
             overlaps = self._overlaps(T_nut_bolt)
             onsets = self._onsets(overlaps, before, T_nut_bolt, pose(turn + APPROACH_TURN))
             if not onsets:
-                if turn - since > final and overlaps.sides > 1.1 * before.sides + JUMP_PAIRS:
+                if turn - since > final and overlaps.sides > 1.1 * before.sides + JUMP_GROWTH:
                     return found(0.5 * (since + turn)) or found(turn)
                 before, since = overlaps, turn
                 return None

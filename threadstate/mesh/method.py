@@ -37,8 +37,8 @@ MAX_STEPS = 20_000
 """Steps after which a safe descent gives up: the bolt slides down beside the nut, nearer than the final step."""
 BEFORE_FLUSH = 4.0
 """A turn that ends flush is searched up to this many final steps of arc before: there everything meets at once."""
-JUMP_PAIRS = 6
-"""Beyond a growth of overlaps by a tenth and this many pairs of triangles the middle of the step is tested, too."""
+JUMP_GROWTH = 6
+"""Beyond a growth of overlaps by a tenth and so many pairs of triangles, or sides, the step is halved, too."""
 APPROACH_TURN = 1e-4
 """The further turn (rad) by which it is decided whether the parts approach each other at a contact."""
 NOISE = 4.0
@@ -358,7 +358,7 @@ class MeshMethod:
 
 def _has_jumped(before: Clusters, after: Clusters) -> bool:
     """Whether the overlaps have grown so much between two places that a new one may have joined them already."""
-    return _pair_count(after) > 1.1 * _pair_count(before) + JUMP_PAIRS
+    return _pair_count(after) > 1.1 * _pair_count(before) + JUMP_GROWTH
 
 
 def _pair_count(clusters: Clusters) -> int:

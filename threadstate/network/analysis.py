@@ -52,7 +52,7 @@ class WindowReach:
 
 @dataclass(frozen=True, slots=True)
 class IdentifyingFormation:
-    """A formation that occurs at one orientation only, so that it identifies the tilt."""
+    """A formation that occurs at one orientation alone: observing it determines the tilt."""
 
     formation: Formation
     orientation: int

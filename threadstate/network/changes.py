@@ -15,7 +15,7 @@ from threadstate.state.model import StateClass
 STAGES = (1, 2, 3)
 
 CACHED = 2**15
-"""How many differences are cached: many transitions are between the same two formations."""
+"""Size of the cache of differences: many transitions are between the same two formations."""
 
 
 class ChangeKind(StrEnum):

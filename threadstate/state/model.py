@@ -116,4 +116,4 @@ class UndecidedPose:
 
 
 Answer = ContactState | UndecidedPose
-"""The result of the exact solver or of the meshes for a pose."""
+"""The answer of a solver method for a pose."""
