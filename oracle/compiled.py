@@ -1,6 +1,6 @@
-"""Compilation of the oracle's loops, kept on disk beside the kernels under the hash of all the oracle's sources.
+"""Compilation of the oracle's loops, cached on disk beside the kernels under the hash of all the oracle's sources.
 
-numba compares a function's own file alone; with the hash an edit of one file leaves no other one stale.
+numba checks a function's own file alone; with the hash an edit of one file leaves no stale cache of another.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What must hold of one contact in the pose of its stage, said without the solver."""
+"""What must hold of one contact in the pose of its stage, independent of the solver."""
 
 from __future__ import annotations
 

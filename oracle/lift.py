@@ -7,7 +7,7 @@ surface, each polished; once no interval holds it the solids are apart. The firs
 one would make them meet again.
 
 Resolution: overlaps that end within ``NEAR`` thread pitches below the lift at some sample are polished; a sample that
-lies in a hole narrower than that is taken to be still inside.
+lies in a hole narrower than that counts as inside.
 """
 
 from __future__ import annotations

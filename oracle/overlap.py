@@ -188,7 +188,7 @@ def _open_path(
     bolt: Floats,
     nut: Floats,
 ) -> bool:
-    """Whether the straight path in (theta, z) stays in the set; the ends are not looked at."""
+    """Whether the straight path in (theta, z) stays in the set; the ends are not tested."""
     d = to_theta - theta
     d -= _TWO_PI * math.floor(d / _TWO_PI + 0.5)
     for k in range(1, samples):
@@ -506,12 +506,12 @@ def _flood_finer(
 def _deepest(value: Floats, parent: Ints, first_point: int) -> int:
     """The deepest sample of the deepest component that holds no excluded point; -1 if none."""
     n = value.shape[0]
-    taken = np.zeros(n, np.bool_)
+    is_excluded = np.zeros(n, np.bool_)
     for k in range(first_point, n):
-        taken[_root(parent, k)] = True
+        is_excluded[_root(parent, k)] = True
     best, at = DEPTH, -1
     for k in range(first_point):
-        if value[k] >= best and not taken[_root(parent, k)]:
+        if value[k] >= best and not is_excluded[_root(parent, k)]:
             best, at = value[k], k
     return at
 

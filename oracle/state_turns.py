@@ -137,7 +137,7 @@ def deepest_near(pair: Pair, turn: Turn, turn_deg: float, point: Floats, reach: 
 class Appearance:
     """A component without any known contact: the turn at which it appears, and its depth as soon as it is seen.
 
-    A component that is born is shallow then; a piece that parts from a grown overlap is deep at once.
+    A component at its onset is shallow; a piece that parts from a grown overlap is deep at once.
     """
 
     turn_deg: float

@@ -36,7 +36,7 @@ print("fmul contract" in code, "fmul double" in code)
 """
 
 
-def said(code: str, folder: Path) -> list[str]:
+def printed(code: str, folder: Path) -> list[str]:
     """What a process prints that compiles all it calls."""
     (folder / "kernels.py").write_text(code)
     environment = {**os.environ, "PYTHONPATH": str(Path.cwd()), "THREADSTATE_NUMBA_CACHE_DIR": str(folder)}
@@ -47,7 +47,7 @@ def said(code: str, folder: Path) -> list[str]:
 
 
 def test_calls_with_constants_share_one_specialisation(tmp_path: Path) -> None:
-    compiled, interpreted, specialisations = said(CONSTANTS, tmp_path)
+    compiled, interpreted, specialisations = printed(CONSTANTS, tmp_path)
     assert compiled == interpreted
     assert specialisations == "1"
 
@@ -56,4 +56,4 @@ def test_a_kernel_does_not_take_over_how_its_first_caller_rounds(tmp_path: Path)
     """Else the bits of one would depend on which of its callers a process compiles first."""
     for callee in (False, True):
         code = ROUNDING.replace("CALLEE", str(callee)).replace("CALLER", str(not callee))
-        assert said(code, tmp_path) == [str(callee), str(not callee)]
+        assert printed(code, tmp_path) == [str(callee), str(not callee)]

@@ -30,7 +30,7 @@ def read_only_tree(tmp_path: Path, repository_root: Path) -> Path:
 
 
 def cache_used(tree: Path, code: str = EVALUATE, **environment: str) -> Path:
-    """Where a process that imports ``tree`` and compiles a kernel keeps it; its environment is as given and no more."""
+    """Where a process that imports ``tree`` and compiles a kernel caches it; its environment is only what is given."""
     run = subprocess.run(
         [sys.executable, "-B", "-c", code],
         cwd=tree,
@@ -105,7 +105,7 @@ OTHERS = ("f" * 15, "somebody-elses", "a" * 16)
 
 @pytest.fixture
 def caches(tmp_path: Path) -> Path:
-    """Caches of other versions: unused for long, used lately, in use for long, without a marker; and what is none."""
+    """Caches of other versions: unused for long, used lately, in use for long, without a marker; and no cache."""
     parent = tmp_path / "caches"
     long_ago = time.time() - (UNUSED_DAYS + 1.0) * 86400.0
     for name in (OLD, YOUNG, LOCKED, MADE_BEFORE, *OTHERS[:2]):

@@ -61,7 +61,7 @@ def compile_all_but_search() -> None:
     """Compile what solves poses, but for the search that it is given the address of: for no pose there is no search."""
     pair = quarter_twenty_unc()
     none = np.empty((0, 3))
-    solve_with(none, np.zeros(OPTIONS_SIZE), pair.bolt.row, pair.nut.row, 0, np.empty((0, RECORD_SIZE)))
+    solve_with(none, np.zeros(OPTIONS_SIZE), pair.bolt.packed, pair.nut.packed, 0, np.empty((0, RECORD_SIZE)))
 
 
 def _cache() -> Path:

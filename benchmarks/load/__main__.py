@@ -77,7 +77,7 @@ def _measured(folder: Path, arguments: argparse.Namespace) -> list[Case]:
         return Case(name, alone[of], disturbed[of], by_datasette.get(of), least_rate, most_p99_ms, times)
 
     return [
-        case("pose", "pose", 3000.0, 15.0, 8.0),
+        case("pose", "pose", 3000.0, 15.0, 5.0),
         case("history", "history", 300.0, 150.0, 5.0),
         case("history, from the rows", "rows", None),
         case("intervals", "intervals", None),

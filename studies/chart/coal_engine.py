@@ -5,7 +5,7 @@ from __future__ import annotations
 import coal
 import numpy as np
 
-from threadstate.mesh.collision import MOST_PAIRS, TooManyPairsError
+from threadstate.mesh.collision import MAX_PAIRS, TooManyPairsError
 from threadstate.mesh.solid import Floats, Ints, Solid
 
 
@@ -15,7 +15,7 @@ class CoalEngine:
     def __init__(self, bolt: Solid, nut: Solid) -> None:
         self._bolt, self._nut = _tree(bolt), _tree(nut)
         self._at_rest = coal.Transform3s.Identity()
-        self._any, self._all = (coal.CollisionRequest(coal.CONTACT, count) for count in (1, MOST_PAIRS))
+        self._any, self._all = (coal.CollisionRequest(coal.CONTACT, count) for count in (1, MAX_PAIRS))
         for request in (self._any, self._all):
             request.enable_contact = False
         self._distance = coal.DistanceRequest()
@@ -27,8 +27,8 @@ class CoalEngine:
     def pairs(self, T_nut_bolt: Floats) -> Ints:
         """The triangles that meet, (k, 2), ascending."""
         result = coal.CollisionResult()
-        if coal.collide(*self._placed(T_nut_bolt), self._all, result) >= MOST_PAIRS:
-            raise TooManyPairsError(f"more than {MOST_PAIRS} pairs of triangles collide")
+        if coal.collide(*self._placed(T_nut_bolt), self._all, result) >= MAX_PAIRS:
+            raise TooManyPairsError(f"more than {MAX_PAIRS} pairs of triangles collide")
         pairs = [(contact.b1, contact.b2) for contact in result.getContacts()]
         return np.unique(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=0)
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
+from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
-from threadstate.contact import _sweep_kernel as sweep
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
@@ -23,10 +23,10 @@ Pose = tuple[float, float, float]
 
 
 def proved_state(pair: Pair, pose: Pose, options: SolveOptions) -> ContactState:
-    """The state of a tilted pose, thread on thread searched by closing rectangles in every stage: as tight as it gets.
+    """The state of a tilted pose, thread on thread searched by branch and bound in every stage: as tight as it gets.
 
     Raises:
-        UnresolvedPoseError: cells stay open.
+        UnresolvedPoseError: boxes stay undecided.
     """
     packed = np.zeros(4)
     packed[sk.S_TURN_LIMIT] = math.radians(options.turn_limit_deg)
@@ -35,7 +35,7 @@ def proved_state(pair: Pair, pose: Pose, options: SolveOptions) -> ContactState:
     packed[sk.S_PROVE] = 1.0
     poses = np.array([pose])
     row = np.empty((1, rk.RECORD_SIZE))
-    sk.solve_rows(np.radians(poses), packed, pair.bolt.row, pair.nut.row, row)
+    sk.solve_rows(np.radians(poses), packed, pair.bolt.packed, pair.nut.packed, row)
     return decoded_states(pair, options, poses, row)[0]
 
 
@@ -53,4 +53,4 @@ def run_with_boxes(boxes: int, job: bytes) -> bytes:
 
 def use_boxes(boxes: int) -> None:
     """Make kernels that are not compiled yet begin with that many boxes."""
-    sweep.AZIMUTHS = boxes
+    edge_search.INITIAL_BOXES = boxes

@@ -1,4 +1,4 @@
-"""Boxes of azimuth and time: their ranges hold what they should, and none that holds a birth is closed."""
+"""Boxes of azimuth and time: their ranges hold every value, and no box that holds an onset is excluded."""
 
 from __future__ import annotations
 
@@ -8,38 +8,44 @@ import numpy as np
 import pytest
 
 from tests.contact.samples import Floats, random_poses
-from threadstate.contact import _birth_kernel as birth
 from threadstate.contact import _box_kernel as box
+from threadstate.contact import _onset_kernel as onset
+from threadstate.contact._branchless_kernel import (
+    azimuth,
+    profile_numbers,
+    radius_and_slope,
+    second_derivative_range,
+    sine_cosine,
+)
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import M_COPLANAR, MOTION_SIZE, PATH_SIZE, TWO_PI
-from threadstate.contact._lane_kernel import azimuth, bends, profile_numbers, radius_and_slope, sine_cosine
 from threadstate.contact._range_kernel import ranges
-from threadstate.contact._rest_kernel import start_height
 from threadstate.contact._stage_kernel import rotation, set_motions
+from threadstate.contact._surface_kernel import start_height
 from threadstate.state.model import Contact, ContactState, FeaturePair
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.profile import Profile
 
 PAIR = quarter_twenty_unc()
-BOLT, NUT = PAIR.bolt.row, PAIR.nut.row
+BOLT, NUT = PAIR.bolt.packed, PAIR.nut.packed
 ROUND_OFF = 1e-14
 
 ON_BOLT = {FeaturePair.EDGE_EDGE, FeaturePair.EDGE_SURFACE, FeaturePair.EDGE_THREAD}
 ON_NUT = {FeaturePair.EDGE_EDGE, FeaturePair.BASE_EDGE, FeaturePair.THREAD_EDGE}
 
 
-def walks(
+def edge_motions(
     pose: Floats, is_turn: bool, coplanar: bool, point: Floats, axis: Floats
 ) -> list[tuple[Floats, Floats, Floats]]:
     """The motion of either edge curve, with the curve's profile and the solid's."""
-    bolt, nut = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
-    set_motions(pose, is_turn, coplanar, point, axis, bolt, nut)
-    return [(bolt, BOLT, NUT), (nut, NUT, BOLT)]
+    bolt_motion, nut_motion = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
+    set_motions(pose, is_turn, coplanar, point, axis, bolt_motion, nut_motion)
+    return [(bolt_motion, BOLT, NUT), (nut_motion, NUT, BOLT)]
 
 
-def a_motion(rng: np.random.Generator, kind: str) -> tuple[Floats, Floats, Floats]:
-    """A motion of that kind from a random pose, and the profiles of the walker and of the solid."""
+def random_motion(rng: np.random.Generator, kind: str) -> tuple[Floats, Floats, Floats]:
+    """A motion of that kind from a random pose, and the profiles of the curve and of the solid."""
     tilt = math.radians(10.0 ** rng.uniform(-8.0, 1.0))
     near = rng.random() < 0.5
     pose = np.zeros(12)
@@ -52,15 +58,15 @@ def a_motion(rng: np.random.Generator, kind: str) -> tuple[Floats, Floats, Float
         axis = np.array([math.cos(along), math.sin(along), rng.normal(0, 0.05)])
         axis /= np.linalg.norm(axis)
     pose[11] = rng.uniform(-0.005, 0.01)
-    return walks(pose, kind == "turn", False, point, axis)[rng.integers(2)]
+    return edge_motions(pose, kind == "turn", False, point, axis)[rng.integers(2)]
 
 
 def jets(theta: Floats, tau: Floats, motion: Floats, curve: Floats, solid: Floats) -> Floats:
-    path, jet = np.empty(PATH_SIZE), np.empty(birth.JET_SIZE)
+    path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
     found = []
     for t in theta:
         for when in tau:
-            birth.set_jet(t, when, motion, curve, solid, path, jet)
+            onset.set_jet(t, when, motion, curve, solid, path, jet)
             found.append(jet.copy())
     return np.array(found)
 
@@ -69,7 +75,7 @@ def jets(theta: Floats, tau: Floats, motion: Floats, curve: Floats, solid: Float
 def test_ranges_hold_every_point_of_the_box(kind: str) -> None:
     rng = np.random.default_rng(61)
     for _ in range(600):
-        motion, curve, solid = a_motion(rng, kind)
+        motion, curve, solid = random_motion(rng, kind)
         theta, a = rng.uniform(0, TWO_PI), 10.0 ** rng.uniform(-7, -1)
         start = rng.uniform(0, 0.3) if kind == "turn" else rng.uniform(0, 0.012)
         b = 10.0 ** rng.uniform(-10, -1.6) * (1.0 if kind == "turn" else 0.1)
@@ -79,23 +85,25 @@ def test_ranges_hold_every_point_of_the_box(kind: str) -> None:
         sizes = (k, curve[8], k * curve[5], solid[5], 0.5 * solid[1])
         phi, g, depth = ranges(theta, a, start + b, b, x_axis, y_axis, origin, rest, *numbers, sizes)
         seen = jets(np.linspace(theta - a, theta + a, 5), np.linspace(start, start + 2 * b, 5), motion, curve, solid)
-        for (value, by_theta, by_tau, low, high, mixed, blur, late), columns in (
-            (phi, (birth.J_PHI, birth.J_PHI_THETA, birth.J_PHI_TAU, birth.J_PHI_2, birth.J_PHI_MIXED)),
-            (g, (birth.J_G, birth.J_G_THETA, birth.J_G_TAU, birth.J_G_2, birth.J_G_MIXED)),
+        for (value, by_theta, by_tau, low, high, mixed, mixed_var, by_tau_twice), columns in (
+            (phi, (onset.J_PHI, onset.J_PHI_THETA, onset.J_PHI_TAU, onset.J_PHI_THETA_THETA, onset.J_PHI_THETA_TAU)),
+            (g, (onset.J_G, onset.J_G_THETA, onset.J_G_TAU, onset.J_G_THETA_THETA, onset.J_G_THETA_TAU)),
         ):
-            size, cross = max(high, -low), abs(mixed) + blur
-            lean = abs(by_theta) * a + abs(by_tau) * b + 0.5 * size * a * a + cross * a * b + 0.5 * late * b * b
+            size, cross = max(high, -low), abs(mixed) + mixed_var
+            change = (
+                abs(by_theta) * a + abs(by_tau) * b + 0.5 * size * a * a + cross * a * b + 0.5 * by_tau_twice * b * b
+            )
             allowed = [
-                (value - lean, value + lean),
+                (value - change, value + change),
                 (by_theta - size * a - cross * b, by_theta + size * a + cross * b),
-                (by_tau - cross * a - late * b, by_tau + cross * a + late * b),
+                (by_tau - cross * a - by_tau_twice * b, by_tau + cross * a + by_tau_twice * b),
                 (low, high),
-                (mixed - blur, mixed + blur),
+                (mixed - mixed_var, mixed + mixed_var),
             ]
             for column, (least, most) in zip(columns, allowed, strict=True):
                 assert least - ROUND_OFF <= seen[:, column].min()
                 assert seen[:, column].max() <= most + ROUND_OFF
-        assert (-motion[19] * seen[:, birth.J_Z]).min() >= depth - ROUND_OFF
+        assert (-motion[19] * seen[:, onset.J_Z]).min() >= depth - ROUND_OFF
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +117,7 @@ def descent(state: ContactState) -> list[tuple[Floats, Floats, Floats]]:
     roll, pitch, phase = (math.radians(a) for a in (state.roll_deg, state.pitch_deg, state.phase_deg))
     rotation(roll, pitch, phase, pose)
     pose[11] = start_height(pose, BOLT)
-    return walks(pose, False, False, np.zeros(3), np.array([0.0, 0.0, -1.0]))
+    return edge_motions(pose, False, False, np.zeros(3), np.array([0.0, 0.0, -1.0]))
 
 
 def third_turn(state: ContactState, first: Contact, second: Contact) -> list[tuple[Floats, Floats, Floats]]:
@@ -120,11 +128,11 @@ def third_turn(state: ContactState, first: Contact, second: Contact) -> list[tup
     if np.cross(axis, pose[9:] - point)[2] > 0.0:
         axis = -axis
     flat = {FeaturePair.EDGE_EDGE, FeaturePair.EDGE_SURFACE, FeaturePair.BASE_EDGE}
-    return walks(pose, True, {first.features, second.features} <= flat, point, axis)
+    return edge_motions(pose, True, {first.features, second.features} <= flat, point, axis)
 
 
-def births(states: list[ContactState]) -> list[tuple[float, float, Floats, Floats, Floats]]:
-    """Azimuth and time of contacts on an edge curve, with the motion in which they are born."""
+def onsets(states: list[ContactState]) -> list[tuple[float, float, Floats, Floats, Floats]]:
+    """Azimuth and time of contacts on an edge curve, with the motion of their onset."""
     found = []
     for state in states:
         first, *later = state.contacts
@@ -132,40 +140,40 @@ def births(states: list[ContactState]) -> list[tuple[float, float, Floats, Float
         motions[0] = (first, motions[0][2][0][0][11] + motions[0][1], motions[0][2])
         if state.mu_deg and len(later) == 2:
             motions.append((later[1], math.radians(state.mu_deg), third_turn(state, first, later[0])))
-        for contact, time, (bolt, nut) in motions:
+        for contact, time, (bolt_edge, nut_edge) in motions:
             if contact.features in ON_BOLT:
-                found.append((math.atan2(contact.point_bolt[1], contact.point_bolt[0]), time, *bolt))
+                found.append((math.atan2(contact.point_bolt[1], contact.point_bolt[0]), time, *bolt_edge))
             if contact.features in ON_NUT:
-                found.append((math.atan2(contact.point[1], contact.point[0]), time, *nut))
+                found.append((math.atan2(contact.point[1], contact.point[0]), time, *nut_edge))
     return found
 
 
-def test_no_box_that_holds_a_birth_is_closed(states: list[ContactState]) -> None:
+def test_no_box_that_holds_an_onset_is_excluded(states: list[ContactState]) -> None:
     rng = np.random.default_rng(64)
-    held = births(states)
-    assert len(held) > 150
+    found_onsets = onsets(states)
+    assert len(found_onsets) > 150
     boxes = np.zeros(box.BOXES_SIZE)
-    for theta, time, motion, curve, solid in held:
+    for theta, time, motion, curve, solid in found_onsets:
         for i in range(200):
             half, span = 10.0 ** rng.uniform(-8, -1), 10.0 ** rng.uniform(-9, -1.5)
             boxes[box.X_THETA + i] = theta + rng.uniform(-0.99, 0.99) * half
             boxes[box.X_HALF + i] = half
             boxes[box.X_START + i] = time - rng.uniform(0.01, 0.99) * span
             boxes[box.X_END + i] = boxes[box.X_START + i] + span
-        box.judge_boxes(200, motion, curve, solid, boxes)
-        verdicts = boxes[box.X_VERDICT : box.X_VERDICT + 200]
-        assert not np.isin(verdicts, (box.EMPTY, box.CLOSED)).any()
+        box.classify_boxes(200, motion, curve, solid, boxes)
+        classes = boxes[box.X_CLASS : box.X_CLASS + 200]
+        assert not np.isin(classes, (box.ALL_OUTSIDE, box.EXCLUDED)).any()
 
 
-def test_small_boxes_around_a_birth_hold_no_other(states: list[ContactState]) -> None:
-    """There the bounds are sharp enough to say so: with them the search ends."""
+def test_small_boxes_around_an_onset_hold_no_other(states: list[ContactState]) -> None:
+    """The bounds are sharp enough there for the search to end."""
     boxes = np.zeros(box.BOXES_SIZE)
-    for theta, time, motion, curve, solid in births(states):
+    for theta, time, motion, curve, solid in onsets(states):
         if motion[M_COPLANAR] == 0.0:
             boxes[box.X_THETA], boxes[box.X_HALF] = theta, 1e-7
             boxes[box.X_START], boxes[box.X_END] = time - 1e-9, time + 1e-9
-            box.judge_boxes(1, motion, curve, solid, boxes)
-            assert boxes[box.X_VERDICT] in (box.ONE_EDGE, box.ONE_THREAD, box.ONE_PLANE)
+            box.classify_boxes(1, motion, curve, solid, boxes)
+            assert boxes[box.X_CLASS] in (box.ONE_EDGE, box.ONE_THREAD, box.ONE_PLANE)
 
 
 def test_elementary_functions_without_branches() -> None:
@@ -178,13 +186,13 @@ def test_elementary_functions_without_branches() -> None:
 @pytest.mark.parametrize("profile", [PAIR.bolt, PAIR.nut])
 def test_profile_without_branches(profile: Profile) -> None:
     rng = np.random.default_rng(65)
-    numbers = profile_numbers(profile.row)
+    numbers = profile_numbers(profile.packed)
     for s in rng.uniform(-0.2, 0.2, 2000):
         expected = profile.derivatives(s)
         r, slope, u = radius_and_slope(s, numbers)
         assert (r, slope) == pytest.approx(expected[:2], rel=1e-10, abs=1e-15)
         reach = 10.0 ** rng.uniform(-8, -1.5)
-        low, high = bends(u, reach, numbers)
+        low, high = second_derivative_range(u, reach, numbers)
         seen = [profile.derivatives(q)[2] for q in np.linspace(s - reach, s + reach, 15)]
         assert low - 1e-7 * abs(low) <= min(seen)
         assert max(seen) <= high + 1e-7 * abs(high)

@@ -1,4 +1,4 @@
-"""Lists of limited length keep what is earliest, and say so where something may not have fitted."""
+"""Lists of limited length hold what is earliest, and report where something may have been dropped."""
 
 from __future__ import annotations
 
@@ -8,76 +8,76 @@ import numpy as np
 import pytest
 
 from tests.contact.samples import Floats
+from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _record_kernel as record
 from threadstate.contact import _stage_kernel as stage
-from threadstate.contact import _sweep_kernel as sweep
-from threadstate.contact._birth_kernel import CANDIDATE_SIZE, JET_SIZE, add_candidate
 from threadstate.contact._box_kernel import ONE_EDGE
 from threadstate.contact._geometry_kernel import M_SIGMA, MOTION_SIZE
+from threadstate.contact._onset_kernel import CANDIDATE_SIZE, JET_SIZE, insert_candidate
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()
-BOLT, NUT = PAIR.bolt.row, PAIR.nut.row
+BOLT, NUT = PAIR.bolt.packed, PAIR.nut.packed
 
 
 def around(i: int) -> tuple[float, float]:
     return 0.12 * math.cos(0.3 * i), 0.12 * math.sin(0.3 * i)
 
 
-def test_a_full_list_of_contacts_keeps_the_earliest() -> None:
+def test_a_full_list_of_contacts_drops_the_latest() -> None:
     listed = np.full((stage.MAX_CONTACTS, stage.CONTACT_SIZE), math.nan)
     times = np.random.default_rng(81).permutation(stage.MAX_CONTACTS + 5).astype(float).tolist()
     count = 0
     for i, time in enumerate(times):
-        count = stage.keep(time, stage.EDGE_EDGE, 0.0, 0.0, *around(i), 0.0, count, listed)
+        count = stage.insert_contact(time, stage.EDGE_EDGE, 0.0, 0.0, *around(i), 0.0, count, listed)
     assert count == stage.MAX_CONTACTS
     assert listed[:, stage.K_TIME].tolist() == sorted(times)[: stage.MAX_CONTACTS]
 
 
-def test_a_full_list_of_entries_keeps_the_earliest() -> None:
-    entries = np.zeros((1 + sweep.MAX_ENTRIES, sweep.ENTRY_SIZE))
+def test_a_full_list_of_entries_drops_the_latest() -> None:
+    entries = np.zeros((1 + edge_search.MAX_ENTRIES, edge_search.ENTRY_SIZE))
     motion = np.zeros(MOTION_SIZE)
     motion[M_SIGMA] = 1.0
-    times = np.random.default_rng(82).permutation(sweep.MAX_ENTRIES + 5).astype(float).tolist()
+    times = np.random.default_rng(82).permutation(edge_search.MAX_ENTRIES + 5).astype(float).tolist()
     for time in times:
-        sweep.add_entry(time, 0.5, motion, np.zeros(JET_SIZE), entries)
-    assert entries[0, 0] == sweep.MAX_ENTRIES
-    assert sorted(entries[1:, sweep.E_TIME]) == sorted(times)[: sweep.MAX_ENTRIES]
+        edge_search.insert_entry(time, 0.5, motion, np.zeros(JET_SIZE), entries)
+    assert entries[0, 0] == edge_search.MAX_ENTRIES
+    assert sorted(entries[1:, edge_search.E_TIME]) == sorted(times)[: edge_search.MAX_ENTRIES]
 
 
 @pytest.mark.parametrize(("apart", "status"), [(1e-3, stage.RESOLVED), (1e-15, stage.UNRESOLVED)])
 def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
     monkeypatch: pytest.MonkeyPatch, apart: float, status: int
 ) -> None:
-    """``earliest`` interpreted, on a sweep that finds as many candidates as it can list, so far apart in time."""
+    """``earliest`` interpreted, with an edge search that fills its list of candidates, so far apart in time."""
 
-    def crowded(*arguments: Floats) -> tuple[int, int, float]:
+    def crowded_search(*arguments: Floats) -> tuple[int, int, float]:
         count, found = int(arguments[12]), arguments[13]
         assert found.shape[1] == CANDIDATE_SIZE
         for i in range(len(found)):
-            count = add_candidate(1e-4 + apart * i, int(ONE_EDGE), 0.3 * i, 0.3 * i, *around(i), 0.0, count, found)
+            count = insert_candidate(1e-4 + apart * i, int(ONE_EDGE), 0.3 * i, 0.3 * i, *around(i), 0.0, count, found)
         return count, 1, 1e-4
 
-    monkeypatch.setattr(stage, "sweep", crowded)
+    monkeypatch.setattr(stage, "search_edge", crowded_search)
     pose, out = np.zeros(12), np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE))
     stage.rotation(0.05, 0.02, 1.0, pose)
     pose[11] = 0.01
     down, none = np.array([0.0, 0.0, -1.0]), np.empty((0, stage.CONTACT_SIZE))
-    count, said, _ = stage.earliest(
+    count, found_status, _ = stage.earliest(
         pose, False, down, down, none, 0, 0.02, 1e-12, BOLT, NUT, stage.RIDGES_ONLY, stage.new_work(), out
     )
-    assert (count, said) == (stage.MAX_CONTACTS, status)
+    assert (count, found_status) == (stage.MAX_CONTACTS, status)
 
 
 def test_a_record_without_room_for_a_contact_is_unresolved() -> None:
     pose, row = np.zeros(12), np.zeros(record.RECORD_SIZE)
     stage.rotation(0.05, 0.02, 1.0, pose)
-    for i in range(record.MOST_CONTACTS):
+    for i in range(record.MAX_RECORD_CONTACTS):
         contact = np.array([0.0, stage.EDGE_EDGE, 0.3 * i, 0.3 * i, *around(i), 0.0])
-        record.put_contact(3, contact, pose, BOLT, NUT, row)
-    assert (row[record.O_CONTACTS], row[record.O_STATUS]) == (record.MOST_CONTACTS, stage.RESOLVED)
-    record.put_contact(3, contact, pose, BOLT, NUT, row)
+        record.append_contact(3, contact, pose, BOLT, NUT, row)
+    assert (row[record.O_CONTACTS], row[record.O_STATUS]) == (record.MAX_RECORD_CONTACTS, stage.RESOLVED)
+    record.append_contact(3, contact, pose, BOLT, NUT, row)
     assert row[record.O_STATUS] == stage.UNRESOLVED
     row[record.O_STATUS] = stage.RESOLVED
-    record.put_flush(3, 0.5, False, *around(1), BOLT, NUT, row)
+    record.append_flush_point(3, 0.5, False, *around(1), BOLT, NUT, row)
     assert row[record.O_STATUS] == stage.UNRESOLVED

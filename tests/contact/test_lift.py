@@ -91,7 +91,7 @@ def test_lengths_are_absent_where_their_stage_was_not_reached(states: list[Conta
 
 
 def test_a_third_pose_along_which_the_edge_nearly_lies_has_an_embedment() -> None:
-    """So many boxes along the edge stay open that they are more than are kept: the lift itself has to say."""
+    """More boxes along the edge stay undecided than the list holds: the lift itself decides."""
     (state,) = solve_poses(PAIR, [(-1.0, 4.0, 3.297539792023599)])
     assert state.embedment == pytest.approx(oracle_lift(state), abs=LIFT_TOLERANCE_INCH)
 
@@ -109,7 +109,7 @@ def test_a_bolt_that_would_meet_the_thread_again_higher_up_is_free_before() -> N
     assert third[0].embedment == pytest.approx(1.5e-8, abs=1e-9), "not the 1.74e-4 in of the last touch"
 
 
-def test_an_overlap_too_thin_to_be_climbed_is_followed_by_its_touches() -> None:
+def test_an_overlap_too_thin_for_witnesses_is_followed_by_its_touches() -> None:
     """Two edges cross and pass along each other, 5e-9 in deep, for 1.4e-4 in of lift."""
     (state,) = solve_poses(PAIR, [(0.17933066017060556, -0.024903597967867203, -2.2863369352595844)])
     assert state.embedment == pytest.approx(2.02e-4, abs=1e-6)

@@ -1,4 +1,4 @@
-"""A bound that is not a number closes no box: whatever it stands for, nothing may be excluded by it."""
+"""A bound that is NaN excludes nothing."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 
 from tests.contact.samples import Floats
-from threadstate.contact import _birth_kernel as birth
 from threadstate.contact import _box_kernel as box
-from threadstate.contact import _lane_kernel as lane
+from threadstate.contact import _branchless_kernel as branchless
+from threadstate.contact import _onset_kernel as onset
 from threadstate.contact import _rectangle_kernel as rectangle
 from threadstate.contact._bound_kernel import BOUNDS_SIZE, set_bounds
+from threadstate.contact._edge_search_kernel import joined_to_contact
 from threadstate.contact._entry_kernel import half_space
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
 from threadstate.contact._lift_kernel import inside_until
-from threadstate.contact._rest_kernel import rests_on_surface
 from threadstate.contact._stage_kernel import CONTACT_SIZE, rotation, set_motions
-from threadstate.contact._sweep_kernel import joined
+from threadstate.contact._surface_kernel import meets_surface_first
 from threadstate.thread import _profile_kernel as pk
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -34,32 +34,32 @@ def descent(pose_deg: tuple[float, float, float], height: float) -> tuple[Floats
     rotation(roll, pitch, phase, pose)
     pose[11] = height
     down = np.array([0.0, 0.0, -1.0])
-    of_bolt, of_nut = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
-    set_motions(pose, False, False, down, down, of_bolt, of_nut)
-    return of_bolt, of_nut
+    bolt_motion, nut_motion = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
+    set_motions(pose, False, False, down, down, bolt_motion, nut_motion)
+    return bolt_motion, nut_motion
 
 
-@pytest.mark.parametrize("choose", [lane.larger, lane.smaller])
+@pytest.mark.parametrize("choose", [branchless.larger, branchless.smaller])
 @pytest.mark.parametrize("known", [-1.0, 0.0, 2.0, math.inf])
-def test_the_larger_or_smaller_of_a_number_and_none_is_none(
+def test_the_larger_or_smaller_of_a_number_and_nan_is_nan(
     choose: Callable[[float, float], float], known: float
 ) -> None:
     assert math.isnan(choose(math.nan, known))
     assert math.isnan(choose(known, math.nan))
 
 
-def test_a_place_that_is_not_a_number_has_no_known_curvature() -> None:
-    numbers = lane.profile_numbers(PAIR.bolt.row)
+def test_nan_has_no_known_second_derivative() -> None:
+    numbers = branchless.profile_numbers(PAIR.bolt.packed)
     for u, reach in ((math.nan, 1e-4), (0.0, math.nan)):
-        assert all(map(math.isnan, lane.bends(u, reach, numbers)))
-        assert pk.bend_range(u, reach, PAIR.bolt.row) == (-math.inf, math.inf)
-    assert all(map(math.isnan, lane.radius_and_slope(math.nan, numbers)))
+        assert all(map(math.isnan, branchless.second_derivative_range(u, reach, numbers)))
+        assert pk.second_derivative_range(u, reach, PAIR.bolt.packed) == (-math.inf, math.inf)
+    assert all(map(math.isnan, branchless.radius_and_slope(math.nan, numbers)))
 
 
-def test_no_box_is_closed_by_what_is_not_a_number() -> None:
-    """One number of a box is taken away: it stays closed only if it is closed whatever that number is."""
+def test_no_box_is_excluded_by_nan() -> None:
+    """One number of a box becomes NaN: it stays excluded only if it is excluded for every value of that number."""
     rng = np.random.default_rng(71)
-    taken = 0
+    excluded = 0
     for _ in range(4000):
         scale = 10.0 ** rng.uniform(-4, 0)
         numbers = rng.normal(0.0, 1.0, 16) * np.repeat([scale, 1.0], 8)
@@ -68,20 +68,20 @@ def test_no_box_is_closed_by_what_is_not_a_number() -> None:
             numbers[first + 6 : first + 8] = np.abs(numbers[first + 6 : first + 8])
         a, b = 10.0 ** rng.uniform(-6, -0.5, 2)
 
-        def said(values: Floats, a: float = a, b: float = b) -> float:
+        def box_class(values: Floats, a: float = a, b: float = b) -> float:
             phi, g = tuple(values[:8].tolist()), tuple(values[8:].tolist())
-            return float(box.verdict(a, b, phi, g, -1.0, P))
+            return float(box.classify_box(a, b, phi, g, -1.0, P))
 
         for i in range(16):
             unknown = numbers.copy()
             unknown[i] = math.nan
-            if said(unknown) <= box.CLOSED:
-                taken += 1
+            if box_class(unknown) <= box.EXCLUDED:
+                excluded += 1
                 for size in (0.0, 1e-3, 1.0, 1e3, 1e6):
                     for sign in (-1.0, 1.0):
                         unknown[i] = sign * size
-                        assert said(unknown) <= box.CLOSED, (i, numbers.tolist(), a, b)
-    assert taken > 1000
+                        assert box_class(unknown) <= box.EXCLUDED, (i, numbers.tolist(), a, b)
+    assert excluded > 1000
 
 
 @pytest.mark.parametrize("is_turn", [False, True])
@@ -93,36 +93,36 @@ def test_a_half_space_of_unknown_place_excludes_nothing(is_turn: bool) -> None:
         assert half_space(a, b, c, is_turn) == (0.0, math.inf)
 
 
-def test_a_rectangle_of_unknown_place_stays_open() -> None:
+def test_a_rectangle_of_unknown_place_stays_undecided() -> None:
     motion, _ = descent((2.0, -3.0, 100.0), -0.02)
     bounds, path = np.empty(BOUNDS_SIZE), np.empty(PATH_SIZE)
-    bolt, nut = PAIR.bolt.row, PAIR.nut.row
+    bolt, nut = PAIR.bolt.packed, PAIR.nut.packed
     small = np.array([1.0, 0.01, 0.01, 1e-4])
     for unknown in (2, 9, 11):
-        moved = motion.copy()
-        moved[unknown] = math.nan
-        set_bounds(moved, bolt, nut, bounds)
-        assert rectangle.judge(small, 0.01, moved, bolt, nut, bounds, path) == rectangle.OPEN
+        unknown_motion = motion.copy()
+        unknown_motion[unknown] = math.nan
+        set_bounds(unknown_motion, bolt, nut, bounds)
+        assert rectangle.classify_rectangle(small, 0.01, unknown_motion, bolt, nut, bounds, path) == rectangle.UNDECIDED
 
 
-def test_a_birth_is_not_one_with_a_contact_across_what_is_not_known() -> None:
+def test_an_onset_is_not_joined_to_a_contact_across_nan() -> None:
     motion, _ = descent((2.0, -3.0, 100.0), -0.02)
     motion[9] = math.nan
-    path, jet = np.empty(PATH_SIZE), np.empty(birth.JET_SIZE)
-    marks = np.array([1.0])
-    assert not joined(1.005, 0.0, motion, PAIR.bolt.row, PAIR.nut.row, marks, 1, path, jet)
+    path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
+    azimuths = np.array([1.0])
+    assert not joined_to_contact(1.005, 0.0, motion, PAIR.bolt.packed, PAIR.nut.packed, azimuths, 1, path, jet)
 
 
-def test_a_bolt_whose_lowest_point_is_unknown_is_not_said_to_rest() -> None:
+def test_a_bolt_whose_lowest_point_is_unknown_does_not_meet_the_surface_first() -> None:
     pose = np.zeros(12)
     rotation(0.03, -0.02, 1.0, pose)
     pose[0] = math.nan
-    assert not rests_on_surface(pose, PAIR.bolt.row, PAIR.nut.row, np.empty(CONTACT_SIZE))
+    assert not meets_surface_first(pose, PAIR.bolt.packed, PAIR.nut.packed, np.empty(CONTACT_SIZE))
 
 
 def test_a_witness_is_followed_no_farther_than_it_is_known_to_be_inside() -> None:
     path = np.zeros(PATH_SIZE)
     path[0], path[2], path[8], path[9] = math.nan, -0.01, 1.0, 1.0
     bounds = np.empty(BOUNDS_SIZE)
-    set_bounds(descent((2.0, -3.0, 100.0), 0.0)[0], PAIR.bolt.row, PAIR.nut.row, bounds)
-    assert inside_until(path, 0.0, 0.005, 1.0, PAIR.nut.row, 1.0, bounds) == 0.0
+    set_bounds(descent((2.0, -3.0, 100.0), 0.0)[0], PAIR.bolt.packed, PAIR.nut.packed, bounds)
+    assert inside_until(path, 0.0, 0.005, 1.0, PAIR.nut.packed, 1.0, bounds) == 0.0

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from oracle.compiled import compiled
-from threadstate.contact import _lane_kernel as lk
+from threadstate.contact import _branchless_kernel as bk
 from threadstate.contact import _slope_kernel as sk
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI
@@ -39,7 +39,7 @@ def sharp(profile: Profile) -> Profile:
 PROFILES = [(PAIR.bolt, PAIR.nut), (sharp(PAIR.bolt), sharp(PAIR.nut))]
 
 
-def a_turn() -> Floats:
+def tilted_turn() -> Floats:
     """A motion: tilted, off the nut's axis, turning about an axis in space."""
     motion = np.zeros(MOTION_SIZE)
     c, s = math.cos(0.05), math.sin(0.05)
@@ -52,19 +52,19 @@ def a_turn() -> Floats:
 
 
 def jet(theta: float, z: float, tau: float, bolt: Profile, nut: Profile) -> Floats:
-    standing, out = np.empty(tk.STANDING_SIZE), np.empty(tk.JET_SIZE)
-    tk.set_standing(a_turn(), tau, standing)
-    tk.set_jet(theta, z, standing, bolt.row, nut.row, out)
+    placement, out = np.empty(tk.PLACEMENT_SIZE), np.empty(tk.JET_SIZE)
+    tk.set_placement(tilted_turn(), tau, placement)
+    tk.set_jet(theta, z, placement, bolt.packed, nut.packed, out)
     return out
 
 
 @compiled
-def slopes_at(theta: float, z: float, standing: Floats, bolt: Floats, nut: Floats) -> tuple[float, float, float]:
+def slopes_at(theta: float, z: float, placement: Floats, bolt: Floats, nut: Floats) -> tuple[float, float, float]:
     k = bolt[0] / TWO_PI
-    r, slope, _ = lk.radius_and_slope(z - k * theta, lk.profile_numbers(bolt))
+    r, slope, _ = bk.radius_and_slope(z - k * theta, bk.profile_numbers(bolt))
     c, s = math.cos(theta), math.sin(theta)
-    place = sk.standing_numbers(standing)
-    return sk.slopes(r * c, r * s, z, slope * c, slope * s, k, place, lk.profile_numbers(nut))
+    placement_values = sk.placement_numbers(placement)
+    return sk.slopes(r * c, r * s, z, slope * c, slope * s, k, placement_values, bk.profile_numbers(nut))
 
 
 def places() -> list[tuple[float, float]]:
@@ -86,8 +86,8 @@ def test_derivatives_of_phi_are_those_of_its_differences() -> None:
         assert [by_u[tk.J_PHI], by_z[tk.J_PHI], by_tau[tk.J_PHI]] == pytest.approx(
             here[[tk.J_A, tk.J_B, tk.J_RATE]], abs=3e-5
         )
-        bends = [jet(theta + a, z + b, TAU, bolt, nut)[tk.J_ZZ] for a in (-1e-4, 1e-4) for b in (-1e-5, 1e-5)]
-        if max(bends) - min(bends) > 0.02 * (1.0 + max(map(abs, bends))):
+        curvatures = [jet(theta + a, z + b, TAU, bolt, nut)[tk.J_ZZ] for a in (-1e-4, 1e-4) for b in (-1e-5, 1e-5)]
+        if max(curvatures) - min(curvatures) > 0.02 * (1.0 + max(map(abs, curvatures))):
             continue
         smooth += 1
         scale = 1e-5 * (1.0 + abs(here[tk.J_ZZ]))
@@ -100,10 +100,10 @@ def test_derivatives_of_phi_are_those_of_its_differences() -> None:
 
 @pytest.mark.parametrize(("bolt", "nut"), PROFILES, ids=["fillets", "corners"])
 def test_slopes_without_branches_are_the_same(bolt: Profile, nut: Profile) -> None:
-    standing = np.empty(tk.STANDING_SIZE)
-    tk.set_standing(a_turn(), TAU, standing)
+    placement = np.empty(tk.PLACEMENT_SIZE)
+    tk.set_placement(tilted_turn(), TAU, placement)
     for theta, z in places():
         exact = jet(theta, z, TAU, bolt, nut)
-        assert slopes_at(theta, z, standing, bolt.row, nut.row) == pytest.approx(
+        assert slopes_at(theta, z, placement, bolt.packed, nut.packed) == pytest.approx(
             (exact[tk.J_PHI], exact[tk.J_A], exact[tk.J_B]), abs=1e-8
         )

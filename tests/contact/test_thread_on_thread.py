@@ -1,4 +1,4 @@
-"""Thread on thread along its ridges, against closing rectangles of the whole thread."""
+"""Thread on thread along its ridges, against branch and bound over rectangles of the whole thread."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def rows(poses: Floats, *, rectangles: bool, turn_limit_deg: float = 4.0) -> Flo
     options[S_CONVEX] = 1.0
     options[S_PROVE] = float(rectangles)
     found = np.empty((len(poses), record.RECORD_SIZE))
-    solve_rows(np.radians(poses), options, PAIR.bolt.row, PAIR.nut.row, found)
+    solve_rows(np.radians(poses), options, PAIR.bolt.packed, PAIR.nut.packed, found)
     return found
 
 
@@ -40,14 +40,14 @@ def rows(poses: Floats, *, rectangles: bool, turn_limit_deg: float = 4.0) -> Flo
         pytest.param(random_poses(72, 30, tilt_deg=4.0, phase_deg=25.0), id="near phase 0"),
     ],
 )
-def test_closing_rectangles_finds_no_other_contact(poses: Floats) -> None:
+def test_branch_and_bound_finds_no_other_contact(poses: Floats) -> None:
     """Heights of first contact and both turns, up to 4 deg of turn."""
     by_ridges, by_rectangles = rows(poses, rectangles=False), rows(poses, rectangles=True)
     assert (by_rectangles[:, record.O_STATUS] == 0.0).all()
     assert by_ridges[:, LENGTHS] == pytest.approx(by_rectangles[:, LENGTHS], abs=1e-10, nan_ok=True)
 
 
-def test_where_threads_meet_first_rectangles_say_so_too() -> None:
+def test_where_threads_meet_first_rectangles_agree() -> None:
     grid = np.array([(r, p, f) for r in (2, 3, 4) for p in (1, 2, 3) for f in range(337, 360)], dtype=np.float64)
     by_ridges = rows(grid, rectangles=False)
     threads = grid[by_ridges[:, FIRST_PAIR] == THREAD_THREAD]
@@ -117,7 +117,7 @@ def test_a_contact_that_leaves_the_edge_of_the_nut_goes_on_below_it(roll: float,
     )
 
 
-def test_a_maximum_is_found_from_a_place_where_phi_bends_upwards() -> None:
+def test_a_maximum_is_found_from_where_the_hessian_of_phi_is_indefinite() -> None:
     """Between two columns the ridge is curved: half way between its crossings is beside it, in the next flank."""
     beside = np.array(
         [

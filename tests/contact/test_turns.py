@@ -23,7 +23,7 @@ BEFORE_DEG = 1e-4
 AFTER_DEG = 1e-4
 NEAR_INCH = 5e-5
 PARTED_INCH = 1e-6
-"""A component deeper than this when it is first seen, to 1e-5 deg, was not born there: it has parted from another."""
+"""A component deeper than this when it is first seen, to 1e-5 deg, had no onset there: it has parted from another."""
 
 PAIR = quarter_twenty_unc()
 
@@ -90,19 +90,19 @@ def test_turns_lower_the_origin(name: str, turns: dict[str, list[tuple[ContactSt
 
 @pytest.mark.parametrize("name", SETS)
 def test_no_earlier_component(name: str, turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
-    born = []
+    onsets = []
     for state, turn in turns[name]:
         earlier = earlier_appearance(PAIR, turn, SolveOptions().turn_limit_deg, steps=14)
         if earlier is None:
             continue
         # A piece that parts from an overlap was in contact before: it is no new contact.
         if earlier.depth < PARTED_INCH:
-            born.append((pose_of(state), turn.stage, turn.turn_deg, earlier))
-    assert born == []
+            onsets.append((pose_of(state), turn.stage, turn.turn_deg, earlier))
+    assert onsets == []
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_a_component_is_born_where_the_turn_ends(name: str, turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
+def test_a_turn_ends_at_the_onset_of_a_component(name: str, turns: dict[str, list[tuple[ContactState, Turn]]]) -> None:
     for state, turn in turns[name]:
         if turn.turn_deg is None or turn.turn_deg < BEFORE_DEG or not within_brute_force(turn):
             continue
@@ -112,7 +112,7 @@ def test_a_component_is_born_where_the_turn_ends(name: str, turns: dict[str, lis
             point = np.array(contact.point)
             before = deepest_near(PAIR, turn, turn.turn_deg - BEFORE_DEG, point, NEAR_INCH)
             after = deepest_near(PAIR, turn, turn.turn_deg + AFTER_DEG, point, NEAR_INCH)
-            # Nothing there before, something after: it is joined to no other when it is born.
+            # Nothing there before, something after: it is joined to no other at its onset.
             assert before < 0.0 < after, (pose_of(state), turn.stage)
 
 

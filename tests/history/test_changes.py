@@ -5,10 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from threadstate.history.changes import NO_ANSWER, Changes, Floats, Integers, Resolution, Samples, changes_on_circles
+from threadstate.history.changes import (
+    UNDECIDED_CODE,
+    Changes,
+    Floats,
+    Integers,
+    Resolution,
+    Samples,
+    changes_on_circles,
+)
 
 PERIOD = 10.0
-RESOLUTION = Resolution(step=1.0, width=1e-9, jump_width=1e-9, no_answer_width=1e-3)
+RESOLUTION = Resolution(step=1.0, width=1e-9, jump_width=1e-9, undecided_width=1e-3)
 
 
 def found_in(edges: list[list[float]], codes: list[list[int]], resolution: Resolution = RESOLUTION) -> Changes:
@@ -57,7 +65,7 @@ def test_a_code_at_a_single_place_that_is_sampled_has_two_changes() -> None:
 
 
 def test_where_there_is_no_answer_is_narrowed_less() -> None:
-    changes = found_in([[0.0, 2.3, 4.8]], [[5, NO_ANSWER, 5]])
+    changes = found_in([[0.0, 2.3, 4.8]], [[5, UNDECIDED_CODE, 5]])
     widths = changes.high - changes.low
     assert len(widths) == 2
     assert (widths <= 1e-3).all()

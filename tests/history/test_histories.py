@@ -114,7 +114,7 @@ def test_ten_times_the_density_finds_nothing_new(histories: list[SolvedHistory])
         assert apart <= BESIDE_DEG
 
 
-def test_known_records_are_taken_and_change_nothing(
+def test_stored_records_are_used_and_change_nothing(
     histories: list[SolvedHistory], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     roll, pitch = ORIENTATIONS[1]

@@ -6,7 +6,7 @@ import pytest
 
 from tests.mesh.pairs import UNC
 from threadstate.errors import MeshUndecidedError
-from threadstate.mesh.agreement import APART, disagreement, other_tessellation
+from threadstate.mesh.agreement import COARSENING, disagreement, other_tessellation
 from threadstate.mesh.options import MeshOptions
 from threadstate.mesh.presets import LARGEST_CHORD, Preset, Tessellation
 from threadstate.mesh.solve import solve_poses_by_mesh
@@ -65,7 +65,7 @@ def test_the_other_tessellation_is_four_times_apart_and_in_range(chord: float) -
     options = MeshOptions(Tessellation(chord, 0.5))
     other = other_tessellation(options)
     ratio = other.tessellation.chord_height / chord
-    assert ratio == pytest.approx(APART) or ratio == pytest.approx(1.0 / APART)
+    assert ratio == pytest.approx(COARSENING) or ratio == pytest.approx(1.0 / COARSENING)
     assert replace(other, tessellation=options.tessellation) == options
 
 

@@ -107,8 +107,8 @@ def test_beside_the_edge_triangles_are_as_fine_as_the_solids_and_beyond_coarser(
     near = solid.faces == Face.THREAD
     near &= heights.max(axis=1) <= ZONE * p * (1.0 + 1e-9)
     for chosen, least, most in ((near, 0.2 * chord, chord), (~near, 2.0 * chord, 15.0 * chord)):
-        kept = Solid(solid.vertices, solid.triangles[chosen], solid.faces[chosen].copy(), solid.edge)
-        assert least < deviation(kept, profile).surface < most
+        chosen_solid = Solid(solid.vertices, solid.triangles[chosen], solid.faces[chosen].copy(), solid.edge)
+        assert least < deviation(chosen_solid, profile).surface < most
     assert len(solid.triangles) < 0.5 * len(scene_part(UNC, part, PAPER, Scene.FULL).triangles)
 
 

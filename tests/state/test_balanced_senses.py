@@ -23,7 +23,7 @@ SHORT, LONG, NONE, UNKNOWN = 0.1, 0.2, math.nan, math.nan
 
 
 @pytest.mark.parametrize(
-    ("senses", "kept"),
+    ("senses", "expected"),
     [
         (((SHORT, RESOLVED), (LONG, RESOLVED)), (SHORT, RESOLVED)),
         (((LONG, RESOLVED), (SHORT, RESOLVED)), (SHORT, RESOLVED)),
@@ -39,7 +39,7 @@ SHORT, LONG, NONE, UNKNOWN = 0.1, 0.2, math.nan, math.nan
     ],
 )
 def test_a_sense_that_is_unresolved_is_not_dropped(
-    monkeypatch: pytest.MonkeyPatch, senses: tuple[Sense, Sense], kept: tuple[float | None, int]
+    monkeypatch: pytest.MonkeyPatch, senses: tuple[Sense, Sense], expected: tuple[float | None, int]
 ) -> None:
     """``solve_pose`` interpreted, with a third stage that finds the turns and the statuses of ``senses``.
 
@@ -57,9 +57,9 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
     options[[sk.S_TURN_LIMIT, sk.S_TIE]] = math.radians(45.0), 1e-6 * PAIR.thread_pitch
     options[sk.S_CONVEX] = outline_is_convex(PAIR.bolt) and outline_is_convex(PAIR.nut)
     row = np.empty(rk.RECORD_SIZE)
-    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.row, PAIR.nut.row, earliest, new_work(), row)
+    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.packed, PAIR.nut.packed, earliest, new_work(), row)
     assert int(row[rk.O_FLAGS]) & rk.FLAG_BALANCED
     np.testing.assert_array_equal(followed[0], -followed[1])
-    assert row[rk.O_STATUS] == kept[1]
-    if kept[0] is not None:
-        assert row[rk.O_MU] == kept[0]
+    assert row[rk.O_STATUS] == expected[1]
+    if expected[0] is not None:
+        assert row[rk.O_MU] == expected[0]

@@ -69,8 +69,8 @@ def test_flush_is_stable_whatever_the_numbers() -> None:
 
 
 def test_margins_are_positive_on_the_stable_side() -> None:
-    verdict = classified(drop=3e-3, embedment=1e-3, pivot=0.05)
-    assert verdict.drop_margin == pytest.approx(2e-3)
-    assert verdict.embedment_margin == pytest.approx(TOLERANCE - 1e-3)
-    assert verdict.pivot_margin == pytest.approx(0.05 - THRESHOLD)
+    classification = classified(drop=3e-3, embedment=1e-3, pivot=0.05)
+    assert classification.drop_margin == pytest.approx(2e-3)
+    assert classification.embedment_margin == pytest.approx(TOLERANCE - 1e-3)
+    assert classification.pivot_margin == pytest.approx(0.05 - THRESHOLD)
     assert classified(drop=None, embedment=None, pivot=None, third=False) == Classification(UNSTABLE, None, None, None)

@@ -174,9 +174,9 @@ def test_simultaneous_first_contacts_are_both_kept_and_flagged(pose: tuple[float
     assert Flag.TIE in state.flags
     assert state.lambda_deg == 0.0
     assert state.poses[1] == state.poses[0]
-    kept = np.array([c.point for c in state.contacts if c.stage in (1, 2)])
+    earlier_points = np.array([c.point for c in state.contacts if c.stage in (1, 2)])
     for place in (before, after):
-        assert np.linalg.norm(kept - place, axis=1).min() < 1e-5
+        assert np.linalg.norm(earlier_points - place, axis=1).min() < 1e-5
     assert np.linalg.norm(before - after) > FAR_APART_INCH
     # Both lie on both surfaces in the one pose: neither comes before the other.
     for contact in state.contacts[:2]:

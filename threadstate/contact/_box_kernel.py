@@ -1,9 +1,9 @@
-"""What bounds say of boxes of azimuth and time: whether a contact can be born in them.
+"""Branch and bound: the classification of boxes of azimuth and time by whether an onset can lie in them.
 
-The curve is in the solid where min(g, phi) >= 0, and a new piece of it enters where that minimum has a local maximum
-over theta that rises through zero: at an edge on edge (g = phi = 0, opposite slopes), at a tangency with the thread
-(phi = phi_theta = 0, phi_thetatheta < 0) or with the plane (g = g_theta = 0). Where the ranges of these functions over
-a box exclude every kind of birth the box is closed.
+The curve is in the solid where min(g, phi) >= 0. A new arc of it enters at an *onset*, where that minimum has a local
+maximum over theta that rises through zero: at an edge on edge (g = phi = 0, opposite slopes), at a tangency with the
+thread (phi = phi_theta = 0, phi_thetatheta < 0) or with the plane (g = g_theta = 0). Where the ranges of these
+functions over a box admit no onset of any kind the box is excluded.
 """
 
 from __future__ import annotations
@@ -12,30 +12,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._branchless_kernel import Numbers, larger, profile_numbers, smaller
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._lane_kernel import Numbers, larger, profile_numbers, smaller
 from threadstate.contact._range_kernel import ranges
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-# Boxes are kept column by column in one flat buffer of that capacity: middle and half-width of theta, start and end of
-# tau, verdict, min(g, phi) in the middle, largest phi_thetatheta.
+# Boxes are stored column by column in a flat buffer of that capacity: middle and half-width of theta, start and end of
+# tau, class, min(g, phi) in the middle, upper bound on phi_thetatheta.
 CAPACITY = 4096
 X_THETA = 0
 X_HALF = CAPACITY
 X_START = 2 * CAPACITY
 X_END = 3 * CAPACITY
-X_VERDICT = 4 * CAPACITY
+X_CLASS = 4 * CAPACITY
 X_DEPTH = 5 * CAPACITY
-X_BEND = 6 * CAPACITY
+X_PHI_THETA_THETA = 6 * CAPACITY
 BOXES_SIZE = 7 * CAPACITY
 
-# Verdicts. A birth is excluded, and no point of the box is inside; excluded; at most one birth on the edge, the thread,
-# the plane; the same but for the time (a point of the curve that stays in contact is such a one); open, to be split by
-# azimuth or by time.
-EMPTY, CLOSED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, PEAK_PLANE, BY_THETA, BY_TIME = (
+# Classes, in this order: no onset and no point inside; no onset (excluded); at most one onset, on the edge, the thread
+# or the plane; at most one peak of min(g, phi) at each time, of that kind, but whether and when it rises through zero
+# is undecided (a point of the curve that stays in contact is such a peak); undecided, to be split by azimuth or by
+# time.
+ALL_OUTSIDE, EXCLUDED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, PEAK_PLANE, SPLIT_THETA, SPLIT_TIME = (
     0.0,
     1.0,
     2.0,
@@ -48,110 +49,149 @@ EMPTY, CLOSED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, PEAK_PLA
     9.0,
 )
 
-PAD = 4e-15
-"""Round-off of the middle's values, in thread pitches."""
+ROUND_OFF = 4e-15
+"""Bound on the round-off of the values in the middle of a box, in thread pitches."""
 
 
 @kernel(contract=True, forceinline=True)
-def verdict(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float) -> float:
-    """What the :func:`ranges` of a box with half-widths ``a`` and ``b`` say of it."""
-    phi, phi_t, phi_v, tt_low, tt_high, tv_mid, tv_var, vv = of_phi
-    g, g_t, g_v, gg_low, gg_high, g_tv_mid, g_tv_var, g_vv = of_g
-    pad = PAD * p
-    tv = abs(tv_mid) + tv_var
-    g_tv = abs(g_tv_mid) + g_tv_var
-    tt_big = larger(tt_high, -tt_low)
-    gg_big = larger(gg_high, -gg_low)
-    wind = abs(phi_t) + tv * b
-    crown = smaller(wind / -tt_high if tt_high < 0.0 else a, a)
-    wave = abs(phi_v) * b + 0.5 * vv * b * b
-    phi_high = phi + wave + wind * crown + 0.5 * tt_high * crown * crown + pad
-    phi_low = phi - wave - wind * a + 0.5 * smaller(tt_low, 0.0) * a * a - pad
-    g_lean = abs(g_t) * a + abs(g_v) * b + g_tv * a * b + 0.5 * g_vv * b * b
-    g_high = g + g_lean + 0.5 * larger(gg_high, 0.0) * a * a + pad
-    g_low = g - g_lean + 0.5 * smaller(gg_low, 0.0) * a * a - pad
-    phi_t_var = tt_big * a + tv * b + pad
-    phi_v_var = tv * a + vv * b + pad
-    g_t_var = gg_big * a + g_tv * b + pad
-    g_v_var = g_tv * a + g_vv * b + pad
-    phi_runs = abs(phi_t) > phi_t_var
-    g_runs = abs(g_t) > g_t_var
-    outside = phi_high < 0.0 or g_high < 0.0 or depth > p
-    # The slopes' determinant at an edge on edge; where no zero of the expansions can lie in the box.
-    jac = g_v * phi_t - phi_v * g_t
-    jac_var = (
-        g_v_var * (abs(phi_t) + phi_t_var)
-        + abs(g_v) * phi_t_var
-        + phi_v_var * (abs(g_t) + g_t_var)
-        + abs(phi_v) * g_t_var
+def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float) -> float:
+    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`.
+
+    In names, ``tt``, ``tv`` and ``vv`` are second derivatives by theta twice, theta and tau, tau twice; ``bound`` is a
+    bound on the size, ``var`` on the variation from the value in the middle, ``low`` and ``high`` are the range.
+    """
+    phi, phi_theta, phi_tau, phi_tt_low, phi_tt_high, phi_tv_mid, phi_tv_var, phi_vv_bound = of_phi
+    g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound = of_g
+    round_off = ROUND_OFF * p
+    phi_tv_bound = abs(phi_tv_mid) + phi_tv_var
+    g_tv_bound = abs(g_tv_mid) + g_tv_var
+    phi_tt_bound = larger(phi_tt_high, -phi_tt_low)
+    g_tt_bound = larger(g_tt_high, -g_tt_low)
+    phi_theta_bound = abs(phi_theta) + phi_tv_bound * b
+    peak_offset = smaller(phi_theta_bound / -phi_tt_high if phi_tt_high < 0.0 else a, a)
+    phi_time_change = abs(phi_tau) * b + 0.5 * phi_vv_bound * b * b
+    phi_high = (
+        phi
+        + phi_time_change
+        + phi_theta_bound * peak_offset
+        + 0.5 * phi_tt_high * peak_offset * peak_offset
+        + round_off
     )
-    rest_g = 0.5 * gg_big * a * a + g_tv * a * b + 0.5 * g_vv * b * b + pad
-    rest_phi = 0.5 * tt_big * a * a + tv * a * b + 0.5 * vv * b * b + pad
-    elsewhere = abs(g * phi_v - phi * g_v) > a * abs(jac) + rest_g * abs(phi_v) + rest_phi * abs(g_v) or abs(
-        g * phi_t - phi * g_t
-    ) > b * abs(jac) + rest_g * abs(phi_t) + rest_phi * abs(g_t)
-    tt_mid = 0.5 * (tt_low + tt_high)
-    rest_slope = 0.5 * (tt_high - tt_low) * a + tv_var * b + pad
-    det = phi_t * tv_mid - phi_v * tt_mid
-    untouched = abs(phi_v * phi_t - phi * tv_mid) > a * abs(det) + rest_phi * abs(tv_mid) + rest_slope * abs(
-        phi_v
-    ) or abs(tt_mid * phi - phi_t * phi_t) > b * abs(det) + rest_phi * abs(tt_mid) + rest_slope * abs(phi_t)
-    gg_mid = 0.5 * (gg_low + gg_high)
-    rest_slope = 0.5 * (gg_high - gg_low) * a + g_tv_var * b + pad
-    det = g_t * g_tv_mid - g_v * gg_mid
-    aloof = abs(g_v * g_t - g * g_tv_mid) > a * abs(det) + rest_g * abs(g_tv_mid) + rest_slope * abs(g_v) or abs(
-        gg_mid * g - g_t * g_t
-    ) > b * abs(det) + rest_g * abs(gg_mid) + rest_slope * abs(g_t)
-    # At most one birth: the peak is unique, and rises or falls throughout.
-    peak_edge = phi_runs and g_runs
-    peak_thread = g_low > 0.0 and tt_high < 0.0
-    peak_plane = phi_low > 0.0 and gg_high < 0.0
+    phi_low = phi - phi_time_change - phi_theta_bound * a + 0.5 * smaller(phi_tt_low, 0.0) * a * a - round_off
+    g_linear_change = abs(g_theta) * a + abs(g_tau) * b + g_tv_bound * a * b + 0.5 * g_vv_bound * b * b
+    g_high = g + g_linear_change + 0.5 * larger(g_tt_high, 0.0) * a * a + round_off
+    g_low = g - g_linear_change + 0.5 * smaller(g_tt_low, 0.0) * a * a - round_off
+    phi_theta_var = phi_tt_bound * a + phi_tv_bound * b + round_off
+    phi_tau_var = phi_tv_bound * a + phi_vv_bound * b + round_off
+    g_theta_var = g_tt_bound * a + g_tv_bound * b + round_off
+    g_tau_var = g_tv_bound * a + g_vv_bound * b + round_off
+    phi_monotonic = abs(phi_theta) > phi_theta_var
+    g_monotonic = abs(g_theta) > g_theta_var
+    all_outside = phi_high < 0.0 or g_high < 0.0 or depth > p
+    # The Jacobian determinant of (g, phi); a root of either pair of equations is excluded where the linear expansion
+    # with its remainder has none in the box.
+    jac = g_tau * phi_theta - phi_tau * g_theta
+    jac_var = (
+        g_tau_var * (abs(phi_theta) + phi_theta_var)
+        + abs(g_tau) * phi_theta_var
+        + phi_tau_var * (abs(g_theta) + g_theta_var)
+        + abs(phi_tau) * g_theta_var
+    )
+    remainder_g = 0.5 * g_tt_bound * a * a + g_tv_bound * a * b + 0.5 * g_vv_bound * b * b + round_off
+    remainder_phi = 0.5 * phi_tt_bound * a * a + phi_tv_bound * a * b + 0.5 * phi_vv_bound * b * b + round_off
+    edge_root_excluded = abs(g * phi_tau - phi * g_tau) > a * abs(jac) + remainder_g * abs(
+        phi_tau
+    ) + remainder_phi * abs(g_tau) or abs(g * phi_theta - phi * g_theta) > b * abs(jac) + remainder_g * abs(
+        phi_theta
+    ) + remainder_phi * abs(g_theta)
+    phi_tt_mid = 0.5 * (phi_tt_low + phi_tt_high)
+    remainder_slope = 0.5 * (phi_tt_high - phi_tt_low) * a + phi_tv_var * b + round_off
+    det = phi_theta * phi_tv_mid - phi_tau * phi_tt_mid
+    thread_root_excluded = abs(phi_tau * phi_theta - phi * phi_tv_mid) > a * abs(det) + remainder_phi * abs(
+        phi_tv_mid
+    ) + remainder_slope * abs(phi_tau) or abs(phi_tt_mid * phi - phi_theta * phi_theta) > b * abs(
+        det
+    ) + remainder_phi * abs(phi_tt_mid) + remainder_slope * abs(phi_theta)
+    g_tt_mid = 0.5 * (g_tt_low + g_tt_high)
+    remainder_slope = 0.5 * (g_tt_high - g_tt_low) * a + g_tv_var * b + round_off
+    det = g_theta * g_tv_mid - g_tau * g_tt_mid
+    plane_root_excluded = abs(g_tau * g_theta - g * g_tv_mid) > a * abs(det) + remainder_g * abs(
+        g_tv_mid
+    ) + remainder_slope * abs(g_tau) or abs(g_tt_mid * g - g_theta * g_theta) > b * abs(det) + remainder_g * abs(
+        g_tt_mid
+    ) + remainder_slope * abs(g_theta)
+    # At most one onset: the peak is unique, and rises or falls at all times.
+    peak_edge = phi_monotonic and g_monotonic
+    peak_thread = g_low > 0.0 and phi_tt_high < 0.0
+    peak_plane = phi_low > 0.0 and g_tt_high < 0.0
     one_edge = peak_edge and abs(jac) > jac_var
-    one_thread = peak_thread and abs(phi_v) > phi_v_var
-    one_plane = peak_plane and abs(g_v) > g_v_var
-    sinks_edge = one_edge and jac * (phi_t - g_t) < 0.0
-    open_thread = one_thread and (phi_v < 0.0 or phi - phi_v * b - 0.5 * vv * b * b > pad)
-    open_plane = one_plane and (g_v < 0.0 or g - g_v * b - 0.5 * g_vv * b * b > pad)
-    no_edge = g_low > 0.0 or phi_low > 0.0 or (peak_edge and phi_t * g_t > 0.0) or elsewhere or sinks_edge
-    no_thread = phi_runs or tt_low > 0.0 or phi_low > 0.0 or open_thread or untouched
-    no_plane = g_runs or gg_low > 0.0 or g_low > 0.0 or open_plane or aloof
-    closed = no_edge and no_thread and no_plane
-    # Where to split: by the direction that blurs the undecided functions more.
-    ask_phi = 0.0 if phi_runs and not g_runs else 1.0
-    ask_g = 0.0 if g_low > 0.0 or (g_runs and not phi_runs) else 1.0
-    size_phi, size_phi_t = abs(phi) + 1e-30, abs(phi_t) + 1e-30
-    size_g, size_g_t = abs(g) + 1e-30, abs(g_t) + 1e-30
-    far_phi = ask_phi * size_phi_t * size_g * size_g_t
-    flat_phi = ask_phi * size_phi * size_g * size_g_t
-    far_g = ask_g * size_phi * size_phi_t * size_g_t
-    flat_g = ask_g * size_phi * size_phi_t * size_g
-    from_theta = (wind * far_phi + tt_big * flat_phi + abs(g_t) * far_g + gg_big * flat_g) * a
-    from_time = wave * far_phi + tv * b * flat_phi + abs(g_v) * b * far_g + g_tv * b * flat_g
-    word = BY_THETA if from_theta >= from_time else BY_TIME
-    word = PEAK_PLANE if peak_plane else word
-    word = PEAK_THREAD if peak_thread else word
-    word = PEAK_EDGE if peak_edge else word
-    word = ONE_PLANE if one_plane else word
-    word = ONE_THREAD if one_thread else word
-    word = ONE_EDGE if one_edge else word
-    word = CLOSED if closed else word
-    return EMPTY if outside else word
+    one_thread = peak_thread and abs(phi_tau) > phi_tau_var
+    one_plane = peak_plane and abs(g_tau) > g_tau_var
+    edge_peak_sinks = one_edge and jac * (phi_theta - g_theta) < 0.0
+    thread_peak_no_onset = one_thread and (phi_tau < 0.0 or phi - phi_tau * b - 0.5 * phi_vv_bound * b * b > round_off)
+    plane_peak_no_onset = one_plane and (g_tau < 0.0 or g - g_tau * b - 0.5 * g_vv_bound * b * b > round_off)
+    no_edge = (
+        g_low > 0.0
+        or phi_low > 0.0
+        or (peak_edge and phi_theta * g_theta > 0.0)
+        or edge_root_excluded
+        or edge_peak_sinks
+    )
+    no_thread = phi_monotonic or phi_tt_low > 0.0 or phi_low > 0.0 or thread_peak_no_onset or thread_root_excluded
+    no_plane = g_monotonic or g_tt_low > 0.0 or g_low > 0.0 or plane_peak_no_onset or plane_root_excluded
+    excluded = no_edge and no_thread and no_plane
+    # Where to split: by the variable that contributes more to the relative uncertainty of the undecided functions.
+    phi_weight = 0.0 if phi_monotonic and not g_monotonic else 1.0
+    g_weight = 0.0 if g_low > 0.0 or (g_monotonic and not phi_monotonic) else 1.0
+    size_phi, size_phi_theta = abs(phi) + 1e-30, abs(phi_theta) + 1e-30
+    size_g, size_g_theta = abs(g) + 1e-30, abs(g_theta) + 1e-30
+    phi_value_weight = phi_weight * size_phi_theta * size_g * size_g_theta
+    phi_slope_weight = phi_weight * size_phi * size_g * size_g_theta
+    g_value_weight = g_weight * size_phi * size_phi_theta * size_g_theta
+    g_slope_weight = g_weight * size_phi * size_phi_theta * size_g
+    uncertainty_by_theta = (
+        phi_theta_bound * phi_value_weight
+        + phi_tt_bound * phi_slope_weight
+        + abs(g_theta) * g_value_weight
+        + g_tt_bound * g_slope_weight
+    ) * a
+    uncertainty_by_time = (
+        phi_time_change * phi_value_weight
+        + phi_tv_bound * b * phi_slope_weight
+        + abs(g_tau) * b * g_value_weight
+        + g_tv_bound * b * g_slope_weight
+    )
+    box_class = SPLIT_THETA if uncertainty_by_theta >= uncertainty_by_time else SPLIT_TIME
+    box_class = PEAK_PLANE if peak_plane else box_class
+    box_class = PEAK_THREAD if peak_thread else box_class
+    box_class = PEAK_EDGE if peak_edge else box_class
+    box_class = ONE_PLANE if one_plane else box_class
+    box_class = ONE_THREAD if one_thread else box_class
+    box_class = ONE_EDGE if one_edge else box_class
+    box_class = EXCLUDED if excluded else box_class
+    return ALL_OUTSIDE if all_outside else box_class
 
 
 @kernel(contract=True)
-def judge_boxes(count: int, motion: Array, row_c: Array, row_s: Array, boxes: Array) -> None:
-    """Sets the verdicts of the first ``count`` boxes."""
+def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profile: Array, boxes: Array) -> None:
+    """Evaluates the bounds of the first ``count`` boxes and sets their classes."""
     x_axis, y_axis, origin, rest = motion_numbers(motion)
-    curve = profile_numbers(row_c)
-    solid = profile_numbers(row_s)
-    p = row_c[pk.P]
+    curve = profile_numbers(curve_profile)
+    solid = profile_numbers(solid_profile)
+    p = curve_profile[pk.P]
     k = p / TWO_PI
-    sizes = (k, row_c[pk.R_MAJOR], k * row_c[pk.COT], row_s[pk.COT], 0.5 * row_s[pk.R_MINOR])
+    sizes = (
+        k,
+        curve_profile[pk.R_MAJOR],
+        k * curve_profile[pk.COT],
+        solid_profile[pk.COT],
+        0.5 * solid_profile[pk.R_MINOR],
+    )
     for i in range(count):
         a = boxes[X_HALF + i]
         start, end = boxes[X_START + i], boxes[X_END + i]
         tau, b = 0.5 * (start + end), 0.5 * (end - start)
         of_phi, of_g, depth = ranges(boxes[X_THETA + i], a, tau, b, x_axis, y_axis, origin, rest, curve, solid, sizes)
-        boxes[X_VERDICT + i] = verdict(a, b, of_phi, of_g, depth, p)
+        boxes[X_CLASS + i] = classify_box(a, b, of_phi, of_g, depth, p)
         boxes[X_DEPTH + i] = smaller(of_phi[0], of_g[0])
-        boxes[X_BEND + i] = of_phi[4]
+        boxes[X_PHI_THETA_THETA + i] = of_phi[4]

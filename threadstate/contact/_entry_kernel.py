@@ -1,4 +1,4 @@
-"""When one walker first enters a solid: closed form for the plane, safe steps and Newton for the thread.
+"""The time at which one point first enters a solid: closed form for the plane, safe steps and Newton for the thread.
 
 Every step towards the thread is one of two kinds. A *safe* step is no longer than the clearance divided by the
 largest speed at which ``phi`` can grow (its Lipschitz constant), so that it cannot jump over material. A *Newton*
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import TWO_PI, field, position, velocity
-from threadstate.contact._lane_kernel import larger
+from threadstate.contact._branchless_kernel import larger
+from threadstate.contact._geometry_kernel import TWO_PI, phi_and_gradient, position, velocity
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ INSIDE = 3
 def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, float]:
     """First interval of ``tau >= 0`` on which g = g0 + gc cos(tau) + gs sin(tau) (or g0 + gs tau) is >= 0.
 
-    For a turn only ``tau < pi`` is meant. Empty: (NEVER, NEVER). Where a number is none, nothing is excluded.
+    For a turn only ``tau < pi`` is meant. Empty: (NEVER, NEVER). Where a coefficient is NaN, nothing is excluded.
     """
     if math.isnan(g0 + gc + gs):
         return 0.0, NEVER
@@ -61,64 +61,75 @@ def half_space(g0: float, gc: float, gs: float, is_turn: bool) -> tuple[float, f
     lo = min(t1, t2)
     hi = max(t1, t2)
     first = 2.0 * math.atan(lo)
-    second = 2.0 * math.atan(hi) if hi < NEVER else NEVER
+    time_second_derivative = 2.0 * math.atan(hi) if hi < NEVER else NEVER
     if c >= 0.0:
         return 0.0, (first if lo < NEVER else NEVER)
-    return (first, second) if lo < NEVER else (NEVER, NEVER)
+    return (first, time_second_derivative) if lo < NEVER else (NEVER, NEVER)
 
 
 @kernel()
-def time_bend(
-    span: float, s: float, speed: float, level: float, is_turn: bool, row: Array, lipschitz: float, r_low: float
+def second_time_derivative(
+    span: float,
+    s: float,
+    speed: float,
+    transverse_speed: float,
+    is_turn: bool,
+    profile: Array,
+    lipschitz: float,
+    r_low: float,
 ) -> float:
-    """Bound on the second derivative of phi by tau along one walker during ``span``.
+    """Bound on the second derivative of phi by tau along a path during ``span``.
 
-    ``s`` is its helical coordinate and ``level`` its speed across the axis at the start: motion along the axis changes
-    the gradient by f'' alone.
+    At the start ``s`` is the helical coordinate and ``transverse_speed`` the speed across the axis: motion along the
+    axis changes the gradient by f'' alone.
     """
-    k_r = row[pk.P] / (TWO_PI * r_low)
-    along = (1.0 + k_r) * speed
-    low, high = pk.bend_range(s, along * span, row)
+    k_r = profile[pk.P] / (TWO_PI * r_low)
+    s_rate = (1.0 + k_r) * speed
+    low, high = pk.second_derivative_range(s, s_rate * span, profile)
     f2 = larger(high, -low)
-    swing = lipschitz if is_turn else 0.0
-    level += speed * span if is_turn else 0.0
-    return f2 * along * along + (row[pk.COT] * k_r * 2.0 + 1.0) / r_low * level * speed + swing * speed
+    turning_term = lipschitz if is_turn else 0.0
+    transverse_speed += speed * span if is_turn else 0.0
+    return (
+        f2 * s_rate * s_rate
+        + (profile[pk.COT] * k_r * 2.0 + 1.0) / r_low * transverse_speed * speed
+        + turning_term * speed
+    )
 
 
 @kernel()
-def entry(
+def entry_time(
     path: Array,
     is_turn: bool,
-    row: Array,
+    profile: Array,
     sigma: float,
     since: float,
     limit: float,
     lipschitz: float,
-    bend: float,
+    second_derivative: float,
     r_low: float,
 ) -> tuple[float, int]:
-    """First ``tau`` in [0, limit] at which the walker is in the solid, and how it entered.
+    """First ``tau`` in [0, limit] at which the point is in the solid, and how it entered.
 
-    Until ``since`` it is known not to be. ``lipschitz`` bounds |grad phi|, ``bend`` the norm of its second derivative,
-    ``r_low`` the radius from below.
+    Until ``since`` it is known to be outside. ``lipschitz`` bounds |grad phi|, ``second_derivative`` the norm of the
+    Hessian of phi, ``r_low`` the radius from below.
     """
     start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
     if start > limit:
         return NEVER, NONE
     end = min(stop, limit)
     speed = path[9]
-    second = bend * speed * speed + (lipschitz * speed if is_turn else 0.0)
-    k = row[pk.P] / TWO_PI
+    time_second_derivative = second_derivative * speed * speed + (lipschitz * speed if is_turn else 0.0)
+    k = profile[pk.P] / TWO_PI
     tau = max(start, since)
     certain = False
     for step in range(400):
         x, y, z = position(path, tau, is_turn)
-        value, gx, gy, gz = field(x, y, z, row, sigma)
+        value, gx, gy, gz = phi_and_gradient(x, y, z, profile, sigma)
         if value >= 0.0 and step == 0:
             return (tau, PLANE) if start > 0.0 else (0.0, INSIDE)
         vx, vy, vz = velocity(path, tau, is_turn)
         rate = gx * vx + gy * vy + gz * vz
-        if certain or (rate > 0.0 and -2.0 * value * second < rate * rate):
+        if certain or (rate > 0.0 and -2.0 * value * time_second_derivative < rate * rate):
             certain = True
             move = -value / rate
             if abs(move) <= 3e-16 * (1.0 + tau):
@@ -126,11 +137,15 @@ def entry(
         elif speed > 0.0:
             move = -value / (lipschitz * speed)
             if step > 3:
-                level = math.sqrt(vx * vx + vy * vy)
+                transverse_speed = math.sqrt(vx * vx + vy * vy)
                 span = min(12.0 * move, end - tau)
                 s = z - k * math.atan2(y, x)
-                grown = 0.5 * time_bend(span, s, speed, level, is_turn, row, lipschitz, r_low) * span
-                if (rate + grown) * span <= -0.9 * value:
+                rate_growth = (
+                    0.5
+                    * second_time_derivative(span, s, speed, transverse_speed, is_turn, profile, lipschitz, r_low)
+                    * span
+                )
+                if (rate + rate_growth) * span <= -0.9 * value:
                     move = max(move, span)
         else:
             return NEVER, NONE

@@ -21,8 +21,8 @@ EXTREME_SIZE = 4
 
 
 @kernel()
-def outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float, float]:
-    """Point of the bolt's edge at ``theta`` in the nut's plane, and its derivative; the bolt is flush."""
+def base_outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float, float]:
+    """The edge point of the bolt at ``theta`` in the nut's plane, and its derivative; the bolt is flush."""
     x, y, dx, dy = edge_point(theta, bolt)
     return (
         pose[0] * x + pose[1] * y + pose[9],
@@ -33,14 +33,14 @@ def outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float
 
 
 @kernel()
-def outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
+def distance_outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
     """How far the bolt's edge at ``theta`` lies outside the nut's outline, radially."""
-    x, y, _, _ = outline(theta, pose, bolt)
+    x, y, _, _ = base_outline(theta, pose, bolt)
     return math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
 
 
 @kernel()
-def root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
+def outline_root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
     """Azimuth in [a, b] where the outlines cross (``corner``) or the edge runs across (nx, ny) (Illinois)."""
     fa = outline_value(a, corner, nx, ny, pose, bolt, nut)
     fb = outline_value(b, corner, nx, ny, pose, bolt, nut)
@@ -68,10 +68,10 @@ def root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bo
 
 @kernel()
 def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
-    """The function whose root is sought."""
+    """The function whose root :func:`outline_root` finds."""
     if corner:
-        return outside(theta, pose, bolt, nut)
-    _, _, dx, dy = outline(theta, pose, bolt)
+        return distance_outside(theta, pose, bolt, nut)
+    _, _, dx, dy = base_outline(theta, pose, bolt)
     return nx * dx + ny * dy
 
 
@@ -89,14 +89,14 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
     corner_count = 0
     for i in range(SAMPLES + 1):
         theta[i] = TWO_PI * i / SAMPLES
-        x, y, dx, dy = outline(theta[i], pose, bolt)
+        x, y, dx, dy = base_outline(theta[i], pose, bolt)
         place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
         over[i] = math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
     for i in range(SAMPLES):
         if (over[i] > 0.0) != (over[i + 1] > 0.0):
-            t = root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
+            t = outline_root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
             corners[corner_count, 0] = t
-            corners[corner_count, 1], corners[corner_count, 2], _, _ = outline(t, pose, bolt)
+            corners[corner_count, 1], corners[corner_count, 2], _, _ = base_outline(t, pose, bolt)
             corner_count += 1
     count = 0
     for turn in range(4):
@@ -112,9 +112,9 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
                 best_theta = theta[i]
                 is_corner = False
             if nx * place[i, 2] + ny * place[i, 3] > 0.0 and nx * place[i + 1, 2] + ny * place[i + 1, 3] <= 0.0:
-                t = root(theta[i], theta[i + 1], False, nx, ny, pose, bolt, nut)
-                x, y, _, _ = outline(t, pose, bolt)
-                if nx * x + ny * y >= best and outside(t, pose, bolt, nut) >= 0.0:
+                t = outline_root(theta[i], theta[i + 1], False, nx, ny, pose, bolt, nut)
+                x, y, _, _ = base_outline(t, pose, bolt)
+                if nx * x + ny * y >= best and distance_outside(t, pose, bolt, nut) >= 0.0:
                     best = nx * x + ny * y
                     best_theta = t
                     is_corner = False
@@ -126,7 +126,7 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
                 is_corner = True
         if best == -math.inf:
             return 0
-        x, y, _, _ = outline(best_theta, pose, bolt)
+        x, y, _, _ = base_outline(best_theta, pose, bolt)
         new = True
         for i in range(count):
             if abs(out[i, F_X] - x) + abs(out[i, F_Y] - y) < 1e-6 * bolt[pk.R_MAJOR]:

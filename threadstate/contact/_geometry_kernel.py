@@ -2,7 +2,7 @@
 
 Each part is one edge curve (``z = 0`` in its own frame, ``r = f(-k theta)``, ``k = p / 2 pi``) and one solid
 ``sigma (r - f(s)) >= 0, -sigma z >= 0`` with ``s = z - k theta``; ``sigma`` is +1 for the nut, -1 for the bolt.
-A *walker* is a point of one part's edge curve that moves through the other part's solid.
+An *edge point* is a point of one part's edge curve; it moves relative to the other part's solid.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ Array = NDArray[np.float64]
 
 TWO_PI = 2.0 * math.pi
 
-# A motion, in the frame of the solid that the walker meets: start placement (3x3 by rows, then the offset),
+# A motion, in the frame of the solid that the edge curve meets: start placement (3x3 by rows, then the offset),
 # kind (0 translation, 1 turn), a point of the axis, the unit axis (or the direction of translation), sigma, and 1 where
-# the axis of a turn lies both in the walker's plane and in the solid's (then the two planes meet along it, and a walker
-# stays on its side of the solid's plane until the turn has brought the planes together).
+# the axis of a turn lies both in the curve's plane and in the solid's (then the two planes meet along it, and an edge
+# point stays on its side of the solid's plane until the turn has brought the planes together).
 M_ROT = 0
 M_OFF = 9
 M_KIND = 12
@@ -35,8 +35,8 @@ MOTION_SIZE = 21
 # A path: x(tau) = base + d cos(tau) + e sin(tau) for a turn, base + e tau for a translation; then |dx/dtau|.
 PATH_SIZE = 10
 
-STRIDE_PITCHES = 20.0
-"""What is walked in steps of a radian in a turn is walked in steps of so many thread pitches in a translation."""
+SCALE_PITCHES = 20.0
+"""Thread pitches of a translation that correspond to a radian of a turn."""
 
 
 @kernel()
@@ -47,16 +47,16 @@ def copy_numbers(source: Array, target: Array) -> None:
 
 
 @kernel()
-def stride(motion: Array, bolt: Array) -> float:
-    """The measure of a motion's steps and tolerances: a radian for a turn, ``STRIDE_PITCHES`` for a translation."""
-    return STRIDE_PITCHES * bolt[pk.P] if motion[M_KIND] == 0.0 else 1.0
+def motion_scale(motion: Array, profile: Array) -> float:
+    """The unit of a motion's steps and tolerances: a radian, or ``SCALE_PITCHES`` thread pitches of a translation."""
+    return SCALE_PITCHES * profile[pk.P] if motion[M_KIND] == 0.0 else 1.0
 
 
 @kernel()
-def edge_point(theta: float, row: Array) -> tuple[float, float, float, float]:
-    """Point (x, y) of the edge curve at azimuth ``theta`` (rad) and its derivative by ``theta``."""
-    k = row[pk.P] / TWO_PI
-    r, d1, _ = pk.jet(-k * theta, row)
+def edge_point(theta: float, profile: Array) -> tuple[float, float, float, float]:
+    """The edge point (x, y) at azimuth ``theta`` (rad) and its derivative by ``theta``."""
+    k = profile[pk.P] / TWO_PI
+    r, d1, _ = pk.jet(-k * theta, profile)
     c = math.cos(theta)
     s = math.sin(theta)
     dr = -k * d1
@@ -64,11 +64,11 @@ def edge_point(theta: float, row: Array) -> tuple[float, float, float, float]:
 
 
 @kernel()
-def field(x: float, y: float, z: float, row: Array, sigma: float) -> tuple[float, float, float, float]:
+def phi_and_gradient(x: float, y: float, z: float, profile: Array, sigma: float) -> tuple[float, float, float, float]:
     """``phi = sigma (r - f(s))``, positive inside the thread, and its gradient; undefined on the axis."""
-    k = row[pk.P] / TWO_PI
+    k = profile[pk.P] / TWO_PI
     r = math.sqrt(x * x + y * y)
-    f, d1, _ = pk.jet(z - k * math.atan2(y, x), row)
+    f, d1, _ = pk.jet(z - k * math.atan2(y, x), profile)
     turn = d1 * k / (r * r)
     return (
         sigma * (r - f),
@@ -80,13 +80,13 @@ def field(x: float, y: float, z: float, row: Array, sigma: float) -> tuple[float
 
 @kernel()
 def set_path(x: float, y: float, motion: Array, path: Array) -> None:
-    """The path of the walker that starts at (x, y, 0) of its own frame."""
+    """The path of the edge point that starts at (x, y, 0) of its part's frame."""
     set_path_from(x, y, 0.0, motion, path)
 
 
 @kernel()
 def set_path_from(x: float, y: float, z: float, motion: Array, path: Array) -> None:
-    """The path of the point that starts at (x, y, z) of the walker's own frame."""
+    """The path of the point that starts at (x, y, z) of the moving part's frame."""
     qx = motion[0] * x + motion[1] * y + motion[2] * z + motion[9]
     qy = motion[3] * x + motion[4] * y + motion[5] * z + motion[10]
     qz = motion[6] * x + motion[7] * y + motion[8] * z + motion[11]
@@ -126,7 +126,7 @@ def set_path_from(x: float, y: float, z: float, motion: Array, path: Array) -> N
 
 @kernel()
 def turn_vector(x: float, y: float, z: float, motion: Array, tau: float) -> tuple[float, float, float]:
-    """A vector of the walker's own frame, in the solid's frame after ``tau``."""
+    """A vector of the moving part's frame, in the solid's frame after ``tau``."""
     vx = motion[0] * x + motion[1] * y + motion[2] * z
     vy = motion[3] * x + motion[4] * y + motion[5] * z
     vz = motion[6] * x + motion[7] * y + motion[8] * z
@@ -150,7 +150,7 @@ def turn_vector(x: float, y: float, z: float, motion: Array, tau: float) -> tupl
 
 @kernel()
 def position(path: Array, tau: float, is_turn: bool) -> tuple[float, float, float]:
-    """Where the walker is after ``tau``."""
+    """The position on a path after ``tau``."""
     if is_turn:
         c = math.cos(tau)
         s = math.sin(tau)
@@ -164,7 +164,7 @@ def position(path: Array, tau: float, is_turn: bool) -> tuple[float, float, floa
 
 @kernel()
 def velocity(path: Array, tau: float, is_turn: bool) -> tuple[float, float, float]:
-    """The walker's velocity by ``tau``."""
+    """The derivative of a path by ``tau``."""
     if is_turn:
         c = math.cos(tau)
         s = math.sin(tau)

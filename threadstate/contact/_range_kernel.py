@@ -1,15 +1,15 @@
-"""Ranges of a walker's functions over a box of azimuth and time.
+"""Ranges of g and phi at edge points over a box of azimuth and time.
 
-A walker at azimuth theta of its edge curve is at time tau at g = -sigma z below the solid's plane and inside the thread
-by phi. With X its place, T = X_theta, V = X_tau, (r, t, z) the solid's cylindrical directions at X, and P and Q the
-walker's own radial and azimuthal directions,
+The edge point at azimuth theta is at time tau at depth g = -sigma z below the solid's plane and at depth phi inside its
+thread. With X its position, T = X_theta, V = X_tau, (r, t, z) the solid's cylindrical directions at X, and P and Q the
+radial and azimuthal directions of the curve's own frame,
 
     s_U = U_z - (k / r) U_t,    grad phi . U = U_r - f' s_U,
     phi_UV = grad phi . X_UV + U_t V_t / r - f'' s_U s_V - f' (k / r^2) (U_r V_t + U_t V_r)      (sigma = +1).
 
-All is exact in the middle of the box; the two profiles' own bends (r'' and f'') are taken over what they can reach in
-it, and the rest may vary by bounds on the next derivatives. Those vanish with the misalignment of the two parts, so
-that nearly coaxial parts, whose functions all but vanish too, keep sharp ranges.
+Values and derivatives are exact in the middle of the box. The second derivatives of the two profiles (r'' and f'') are
+bounded by their ranges over it, all others by bounds on the next derivatives. Those vanish with the misalignment of the
+two parts, so that the ranges stay sharp for nearly coaxial parts, whose g and phi nearly vanish too.
 """
 
 from __future__ import annotations
@@ -17,39 +17,60 @@ from __future__ import annotations
 import math
 
 from threadstate._compile import kernel
-from threadstate.contact._frame_kernel import around_axis, moved, moving_by, polar, shares
-from threadstate.contact._lane_kernel import Numbers, azimuth, bends, larger, radius_and_slope, sine_cosine, smaller
+from threadstate.contact._branchless_kernel import (
+    Numbers,
+    azimuth,
+    larger,
+    radius_and_slope,
+    second_derivative_range,
+    sine_cosine,
+    smaller,
+)
+from threadstate.contact._frame_kernel import (
+    cylindrical_components,
+    linear_combination,
+    motion_coefficients,
+    moved_vector,
+    vector_rate,
+)
 
 
 @kernel(contract=True, forceinline=True)
-def third_derivatives(
-    misaligned: float, sine: float, own: float, c1: float, big: float, slope: float, place: float, k_low: float
+def third_derivative_bounds(
+    misaligned: float,
+    sine: float,
+    r2_bound: float,
+    c1: float,
+    r_bound: float,
+    slope: float,
+    inverse_r: float,
+    k_r_bound: float,
 ) -> tuple[float, float, float, float]:
-    """Bounds, in proportion to the misalignment, on how fast by azimuth these vary over a box.
+    """Bounds, proportional to the misalignment, on the derivatives by azimuth of four quantities over a box.
 
-    The radial part of phi_thetatheta and its helical part (that f' multiplies), r'' and f'' apart; the two parts of the
-    factor of r''.
+    They are the radial part of phi_thetatheta and its helical part (which f' multiplies), both without the terms of r''
+    and f'', and the two parts of the factor of r''.
     ``misaligned`` bounds P_t, Q_r and 1 - T_t / r, ``sine`` the axial parts of P and Q.
     """
-    around = 1.0 + misaligned
+    azimuthal_bound = 1.0 + misaligned
     mix = misaligned * (4.0 + 3.0 * misaligned)
-    jerk = place * (own * misaligned + 2.0 * slope * mix + 3.0 * big * around * misaligned)
+    s3_term = inverse_r * (r2_bound * misaligned + 2.0 * slope * mix + 3.0 * r_bound * azimuthal_bound * misaligned)
     radial = (
         slope * misaligned * (18.0 + 10.0 * misaligned)
-        + big * misaligned * (1.0 + around) * (1.0 + around)
-        + own * misaligned * (2.0 + around)
-        + c1 * jerk
+        + r_bound * misaligned * (1.0 + azimuthal_bound) * (1.0 + azimuthal_bound)
+        + r2_bound * misaligned * (2.0 + azimuthal_bound)
+        + c1 * s3_term
     )
-    pull = slope + big * misaligned
-    helical = sine * (3.0 * slope + big + 2.0 * own) + k_low * (
-        place * pull * (3.0 * big * around * misaligned + 2.0 * slope * mix)
-        + (slope * misaligned + big * mix) * (1.0 + 2.0 * around)
-        + 2.0 * big * jerk * misaligned
-        + 2.0 * own * mix
-        + 2.0 * slope * (jerk + misaligned * (1.0 + around) * (1.0 + around))
+    slope_bound = slope + r_bound * misaligned
+    helical = sine * (3.0 * slope + r_bound + 2.0 * r2_bound) + k_r_bound * (
+        inverse_r * slope_bound * (3.0 * r_bound * azimuthal_bound * misaligned + 2.0 * slope * mix)
+        + (slope * misaligned + r_bound * mix) * (1.0 + 2.0 * azimuthal_bound)
+        + 2.0 * r_bound * s3_term * misaligned
+        + 2.0 * r2_bound * mix
+        + 2.0 * slope * (s3_term + misaligned * (1.0 + azimuthal_bound) * (1.0 + azimuthal_bound))
     )
-    factor_r = misaligned * (1.0 + around)
-    factor_s = sine + k_low * (mix + place * pull * misaligned)
+    factor_r = misaligned * (1.0 + azimuthal_bound)
+    factor_s = sine + k_r_bound * (mix + inverse_r * slope_bound * misaligned)
     return radial, helical, factor_r, factor_s
 
 
@@ -67,41 +88,41 @@ def ranges(
     solid: Numbers,
     sizes: Numbers,
 ) -> tuple[Numbers, Numbers, float]:
-    """What phi and g can be over theta +- a, tau +- b, and the least depth below the solid's plane.
+    """The ranges of phi and g over theta +- a, tau +- b, and the least depth below the solid's plane.
 
     ``x_axis`` to ``rest`` are the :func:`motion_numbers`, ``curve`` and ``solid`` the :func:`profile_numbers`.
-    ``sizes``: k, the curve's largest radius and largest dr / dtheta, the solid's cot of the flank, and a radius that is
-    never reached. Of either function: its value in the middle, its derivatives there by theta and tau, the least and
-    the largest second derivative by theta, the mixed one (middle, and how far it varies), the largest size of the
-    second by tau.
+    ``sizes``: k, the curve's largest radius and largest dr / dtheta, the solid's cot of the flank, and a lower bound on
+    the radius. Of either function: its value in the middle, its derivatives there by theta and tau, bounds from below
+    and above on the second derivative by theta, the mixed one (in the middle, and a bound on its variation), a bound on
+    the size of the second by tau.
     """
     turning, sigma, moving, ax, ay, az = rest
-    k, big, slope_c, cot, r_floor = sizes
-    c1 = math.sqrt(big * big + slope_c * slope_c)
+    k, r_bound, r1_bound, cot, r_floor = sizes
+    c1 = math.sqrt(r_bound * r_bound + r1_bound * r1_bound)
     # The edge curve: r, r', the range of r''.
     sin_theta, cos_theta = sine_cosine(theta)
     r, slope, u = radius_and_slope(-k * theta, curve)
     dr = -k * slope
-    own_low, own_high = bends(u, k * a, curve)
-    own_low *= k * k
-    own_high *= k * k
-    own = larger(own_high, -own_low)
+    r2_low, r2_high = second_derivative_range(u, k * a, curve)
+    r2_low *= k * k
+    r2_high *= k * k
+    r2_bound = larger(r2_high, -r2_low)
     # Where it is at tau, and its derivatives.
-    by_sine, by_versine, d_sine, d_versine = shares(tau, turning)
+    by_sine, by_versine, d_sine, d_versine = motion_coefficients(tau, turning)
     m1, m2, place_o = (
-        moved(x_axis, by_sine, by_versine),
-        moved(y_axis, by_sine, by_versine),
-        moved(origin, by_sine, by_versine),
+        moved_vector(x_axis, by_sine, by_versine),
+        moved_vector(y_axis, by_sine, by_versine),
+        moved_vector(origin, by_sine, by_versine),
     )
     n1, n2, speed_o = (
-        moving_by(x_axis, d_sine, d_versine),
-        moving_by(y_axis, d_sine, d_versine),
-        moving_by(origin, d_sine, d_versine),
+        vector_rate(x_axis, d_sine, d_versine),
+        vector_rate(y_axis, d_sine, d_versine),
+        vector_rate(origin, d_sine, d_versine),
     )
-    p_ = around_axis(m1, m2, cos_theta, sin_theta)
-    q_ = around_axis(m2, m1, cos_theta, -sin_theta)
-    p_tau = around_axis(n1, n2, cos_theta, sin_theta)
-    q_tau = around_axis(n2, n1, cos_theta, -sin_theta)
+    p_ = linear_combination(m1, m2, cos_theta, sin_theta)
+    q_ = linear_combination(m2, m1, cos_theta, -sin_theta)
+    p_tau = linear_combination(n1, n2, cos_theta, sin_theta)
+    q_tau = linear_combination(n2, n1, cos_theta, -sin_theta)
     x, y, z = r * p_[0] + place_o[0], r * p_[1] + place_o[1], r * p_[2] + place_o[2]
     t_ = (dr * p_[0] + r * q_[0], dr * p_[1] + r * q_[1], dr * p_[2] + r * q_[2])
     v_ = (r * p_tau[0] + speed_o[0], r * p_tau[1] + speed_o[1], r * p_tau[2] + speed_o[2])
@@ -111,91 +132,99 @@ def ranges(
         (az * v_[0] - ax * v_[2]) * turning,
         (ax * v_[1] - ay * v_[0]) * turning,
     )
-    # phi in the middle; its second derivatives without the profiles' own bends.
+    # phi in the middle; its second derivatives without the terms of r'' and f''.
     radius = math.sqrt(x * x + y * y)
     inverse = 1.0 / radius
     rx, ry = x * inverse, y * inverse
     k_r = k * inverse
     k_rr = k_r * inverse
     f, f1, u = radius_and_slope(z - k * azimuth(x, y, radius), solid)
-    tr, tt, ts = polar(t_, rx, ry, k_r)
-    vr, vt, vs = polar(v_, rx, ry, k_r)
-    pr, pt, ps = polar(p_, rx, ry, k_r)
-    qr, _, qs = polar(q_, rx, ry, k_r)
-    wr, _, ws = polar(w_, rx, ry, k_r)
-    ar, _, a_s = polar(a_, rx, ry, k_r)
+    tr, tt, ts = cylindrical_components(t_, rx, ry, k_r)
+    vr, vt, vs = cylindrical_components(v_, rx, ry, k_r)
+    pr, pt, ps = cylindrical_components(p_, rx, ry, k_r)
+    qr, _, qs = cylindrical_components(q_, rx, ry, k_r)
+    wr, _, ws = cylindrical_components(w_, rx, ry, k_r)
+    ar, _, a_s = cylindrical_components(a_, rx, ry, k_r)
     phi, phi_t, phi_v = radius - f, tr - f1 * ts, vr - f1 * vs
-    bent_s = -r * ps + 2.0 * dr * qs + 2.0 * k_rr * tr * tt
-    flat_tt = -r * pr + 2.0 * dr * qr + tt * tt * inverse - f1 * bent_s
+    flat_s_tt = -r * ps + 2.0 * dr * qs + 2.0 * k_rr * tr * tt
+    flat_tt = -r * pr + 2.0 * dr * qr + tt * tt * inverse - f1 * flat_s_tt
     flat_tv = wr - f1 * ws + tt * vt * inverse - f1 * k_rr * (tr * vt + tt * vr)
     flat_vv = ar - f1 * a_s + vt * vt * inverse - 2.0 * f1 * k_rr * vr * vt
-    # How fast and how far the curve can move in the box; by how much its directions and the solid's can turn.
+    # Bounds on the speed of the curve in the box, and on the change of its directions and of the solid's.
     speed = math.sqrt(v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2])
-    fast = speed + turning * c1 * a + turning * b * (speed + c1 * a)
-    c2 = own + big + 2.0 * slope_c
-    r_low = larger(radius - c1 * a - fast * b, r_floor)
-    place = 1.0 / r_low
-    k_low = k * place
-    twist = (c1 * a + fast * b) * place
-    spin = a + turning * b + twist
-    late = b * (turning + fast * place)
+    speed_bound = speed + turning * c1 * a + turning * b * (speed + c1 * a)
+    c2 = r2_bound + r_bound + 2.0 * r1_bound
+    r_low = larger(radius - c1 * a - speed_bound * b, r_floor)
+    inverse_r = 1.0 / r_low
+    k_r_bound = k * inverse_r
+    azimuth_change = (c1 * a + speed_bound * b) * inverse_r
+    direction_change = a + turning * b + azimuth_change
+    change_by_time = b * (turning + speed_bound * inverse_r)
     sine = smaller(math.sqrt(m1[2] * m1[2] + m2[2] * m2[2]) + turning * b, 1.0)
     # P_t, Q_r, 1 - T_t / r grow by azimuth at a rate in proportion to themselves (Gronwall).
-    rate = own * place + 6.5
+    rate = r2_bound * inverse_r + 6.5
     misaligned = larger(abs(pt), abs(qr)) + abs(1.0 - tt * inverse)
-    misaligned = (misaligned + sine * sine + late * (1.0 + 2.0 * c1 * place)) * (1.0 + 1.8 * rate * a)
+    misaligned = (misaligned + sine * sine + change_by_time * (1.0 + 2.0 * c1 * inverse_r)) * (1.0 + 1.8 * rate * a)
     aligned = rate * a < 1.0 and misaligned < 0.25
-    radial_3, helical_3, factor_r, factor_s = third_derivatives(misaligned, sine, own, c1, big, slope_c, place, k_low)
-    # The helical coordinate, and with it f' and f'', over the box.
-    bend_s = (1.0 + k_low) * ((big + 2.0 * slope_c + own) * spin + slope_c * a + 2.0 * own * a) + (
-        4.0 * k_low * place * c1 * (c1 * spin + own * a + c1 * twist)
+    radial_3, helical_3, factor_r, factor_s = third_derivative_bounds(
+        misaligned, sine, r2_bound, c1, r_bound, r1_bound, inverse_r, k_r_bound
     )
-    near_s = helical_3 * a + (1.0 + k_low) * (big + 2.0 * slope_c + own) * late + 4.0 * k_low * place * c1 * c1 * late
-    bend_s = abs(bent_s) + own * abs(ps) + (smaller(near_s, bend_s) if aligned else bend_s)
-    s_tv = turning * c1 * (1.0 + k_low) + 2.0 * k_low * c1 * fast * place
-    s_vv = turning * fast * (1.0 + k_low) + 2.0 * k_low * fast * fast * place
-    most_t = abs(ts) + bend_s * a + s_tv * b
-    most_v = abs(vs) + s_tv * a + s_vv * b
-    least_t = larger(abs(ts) - bend_s * a - s_tv * b, 0.0)
-    reach = most_t * a + most_v * b
-    f2_low, f2_high = bends(u, reach, solid)
+    # The helical coordinate, and with it f' and f'', over the box.
+    s_tt = (1.0 + k_r_bound) * (
+        (r_bound + 2.0 * r1_bound + r2_bound) * direction_change + r1_bound * a + 2.0 * r2_bound * a
+    ) + (4.0 * k_r_bound * inverse_r * c1 * (c1 * direction_change + r2_bound * a + c1 * azimuth_change))
+    near_s_tt = (
+        helical_3 * a
+        + (1.0 + k_r_bound) * (r_bound + 2.0 * r1_bound + r2_bound) * change_by_time
+        + 4.0 * k_r_bound * inverse_r * c1 * c1 * change_by_time
+    )
+    s_tt = abs(flat_s_tt) + r2_bound * abs(ps) + (smaller(near_s_tt, s_tt) if aligned else s_tt)
+    s_tv = turning * c1 * (1.0 + k_r_bound) + 2.0 * k_r_bound * c1 * speed_bound * inverse_r
+    s_vv = turning * speed_bound * (1.0 + k_r_bound) + 2.0 * k_r_bound * speed_bound * speed_bound * inverse_r
+    s_theta_high = abs(ts) + s_tt * a + s_tv * b
+    s_tau_high = abs(vs) + s_tv * a + s_vv * b
+    s_theta_low = larger(abs(ts) - s_tt * a - s_tv * b, 0.0)
+    reach = s_theta_high * a + s_tau_high * b
+    f2_low, f2_high = second_derivative_range(u, reach, solid)
     f2 = larger(f2_high, -f2_low)
     d_f1 = smaller(f2 * reach, 2.0 * cot)
-    steep = 1.0 + smaller(abs(f1) + d_f1, cot) * (1.0 + k_low)
-    # How much the second derivatives vary, r'' and f'' apart.
-    d_t, d_v = c1 * spin + own * a, fast * spin + fast - speed
-    thin = ((abs(tr) + c1 * spin) * a + (abs(vr) + fast * spin) * b) * place
-    whirl = place * (1.0 + 2.0 * cot * k_low)
+    gradient_bound = 1.0 + smaller(abs(f1) + d_f1, cot) * (1.0 + k_r_bound)
+    # Variation of the second derivatives without the terms of r'' and f''.
+    d_t, d_v = c1 * direction_change + r2_bound * a, speed_bound * direction_change + speed_bound - speed
+    radius_change = ((abs(tr) + c1 * direction_change) * a + (abs(vr) + speed_bound * direction_change) * b) * inverse_r
+    curvature_factor = inverse_r * (1.0 + 2.0 * cot * k_r_bound)
     var_tt = (
-        steep * ((big + 2.0 * slope_c) * spin + slope_c * a + 2.0 * own * a)
-        + place * (2.0 * c1 * d_t + c1 * c1 * thin)
-        + 2.0 * cot * k_low * place * (c1 * d_t + c1 * c1 * thin)
+        gradient_bound * ((r_bound + 2.0 * r1_bound) * direction_change + r1_bound * a + 2.0 * r2_bound * a)
+        + inverse_r * (2.0 * c1 * d_t + c1 * c1 * radius_change)
+        + 2.0 * cot * k_r_bound * inverse_r * (c1 * d_t + c1 * c1 * radius_change)
     )
     near_tt = (radial_3 + cot * helical_3) * a + (
-        steep * (big + 2.0 * slope_c) + place * c1 * c1 * (3.0 + 4.0 * cot * k_low)
-    ) * late
-    var_tt = (smaller(near_tt, var_tt) if aligned else var_tt) + d_f1 * abs(bent_s)
+        gradient_bound * (r_bound + 2.0 * r1_bound) + inverse_r * c1 * c1 * (3.0 + 4.0 * cot * k_r_bound)
+    ) * change_by_time
+    var_tt = (smaller(near_tt, var_tt) if aligned else var_tt) + d_f1 * abs(flat_s_tt)
     var_tv = (
-        steep * turning * (c1 * spin + c2 * a)
-        + whirl * (c1 * d_v + fast * d_t + c1 * fast * thin)
+        gradient_bound * turning * (c1 * direction_change + c2 * a)
+        + curvature_factor * (c1 * d_v + speed_bound * d_t + c1 * speed_bound * radius_change)
         + d_f1 * (abs(ws) + k_rr * abs(tr * vt + tt * vr))
     )
     var_vv = (
-        steep * turning * d_v
-        + whirl * (2.0 * fast * d_v + fast * fast * thin)
+        gradient_bound * turning * d_v
+        + curvature_factor * (2.0 * speed_bound * d_v + speed_bound * speed_bound * radius_change)
         + d_f1 * (abs(a_s) + 2.0 * k_rr * abs(vr * vt))
     )
-    # With them: r'' times grad phi . P, less f'' s_U s_V.
+    # The terms of r'' and f'': r'' times grad phi . P, less f'' s_U s_V.
     along = pr - f1 * ps
-    near_along = (factor_r + cot * factor_s) * a + steep * late
-    var_along = (smaller(near_along, steep * spin) if aligned else steep * spin) + d_f1 * abs(ps)
-    tt_high = flat_tt + var_tt + own_high * (along + var_along if own_high > 0.0 else along - var_along)
-    tt_low = flat_tt - var_tt + own_low * (along + var_along if own_low < 0.0 else along - var_along)
-    tt_high -= f2_low * (most_t * most_t if f2_low < 0.0 else least_t * least_t)
-    tt_low -= f2_high * (most_t * most_t if f2_high > 0.0 else least_t * least_t)
+    near_along = (factor_r + cot * factor_s) * a + gradient_bound * change_by_time
+    var_along = (
+        smaller(near_along, gradient_bound * direction_change) if aligned else gradient_bound * direction_change
+    ) + d_f1 * abs(ps)
+    tt_high = flat_tt + var_tt + r2_high * (along + var_along if r2_high > 0.0 else along - var_along)
+    tt_low = flat_tt - var_tt + r2_low * (along + var_along if r2_low < 0.0 else along - var_along)
+    tt_high -= f2_low * (s_theta_high * s_theta_high if f2_low < 0.0 else s_theta_low * s_theta_low)
+    tt_low -= f2_high * (s_theta_high * s_theta_high if f2_high > 0.0 else s_theta_low * s_theta_low)
     tv_mid = flat_tv - 0.5 * (f2_low + f2_high) * ts * vs
-    tv_var = var_tv + 0.5 * (f2_high - f2_low) * abs(ts * vs) + f2 * (most_t * most_v - abs(ts * vs))
-    vv = abs(flat_vv) + var_vv + f2 * most_v * most_v
+    tv_var = var_tv + 0.5 * (f2_high - f2_low) * abs(ts * vs) + f2 * (s_theta_high * s_tau_high - abs(ts * vs))
+    vv = abs(flat_vv) + var_vv + f2 * s_tau_high * s_tau_high
     outward = sigma > 0.0
     of_phi = (
         sigma * phi,
@@ -207,25 +236,27 @@ def ranges(
         tv_var,
         vv,
     )
-    # g; where the axis lies in both planes its sign stays that of the start, which stands for it.
+    # g; where the axis lies in both planes its sign stays that of the start, whose value is used instead.
     m1z = m1[2] if moving > 0.0 else x_axis[2]
     m2z = m2[2] if moving > 0.0 else y_axis[2]
     height = place_o[2] if moving > 0.0 else origin[2]
-    swings = turning * moving
+    turning_moving = turning * moving
     p_g = -sigma * (m1z * cos_theta + m2z * sin_theta)
     q_g = -sigma * (m2z * cos_theta - m1z * sin_theta)
-    var_g = sine * (a * (big + 3.0 * slope_c) + 2.0 * own * a) + swings * b * (big + 2.0 * slope_c)
-    var_g += own * (sine * a + swings * b)
+    var_g = sine * (a * (r_bound + 3.0 * r1_bound) + 2.0 * r2_bound * a) + turning_moving * b * (
+        r_bound + 2.0 * r1_bound
+    )
+    var_g += r2_bound * (sine * a + turning_moving * b)
     flat_g = 2.0 * dr * q_g - r * p_g
     of_g = (
         r * p_g - sigma * height,
         dr * p_g + r * q_g,
         -sigma * v_[2] * moving,
-        flat_g - var_g + (own_low if p_g > 0.0 else own_high) * p_g,
-        flat_g + var_g + (own_high if p_g > 0.0 else own_low) * p_g,
-        -sigma * w_[2] * swings,
-        swings * (c2 * a + c1 * b),
-        swings * (abs(a_[2]) + c1 * a + fast * b),
+        flat_g - var_g + (r2_low if p_g > 0.0 else r2_high) * p_g,
+        flat_g + var_g + (r2_high if p_g > 0.0 else r2_low) * p_g,
+        -sigma * w_[2] * turning_moving,
+        turning_moving * (c2 * a + c1 * b),
+        turning_moving * (abs(a_[2]) + c1 * a + speed_bound * b),
     )
-    sag = c2 * a * a + turning * (c1 * a + fast * b) * b
+    sag = c2 * a * a + turning * (c1 * a + speed_bound * b) * b
     return of_phi, of_g, -sigma * z - abs(t_[2]) * a - abs(v_[2]) * b - sag

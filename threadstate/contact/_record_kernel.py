@@ -1,4 +1,4 @@
-"""One pose as one row of numbers: the format in which kernels hand over their results."""
+"""A record: the result of a pose as one row of numbers, in which kernels return it."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import TWO_PI, edge_point, field
+from threadstate.contact._geometry_kernel import TWO_PI, edge_point, phi_and_gradient
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
     EDGE_SURFACE,
     EDGE_THREAD,
     FLUSH,
-    K_BOLT,
-    K_NUT,
+    K_BOLT_AZIMUTH,
+    K_NUT_AZIMUTH,
     K_PAIR,
     K_X,
     K_Y,
@@ -29,7 +29,7 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-# The row: status, flags, number of poses, lambda, mu (rad, NaN where absent), drop, embedment, pivot offset
+# A record: status, flags, number of poses, lambda, mu (rad, NaN where absent), drop, embedment, pivot offset
 # (NaN where absent), number of contacts; three poses of twelve numbers; the contacts.
 (
     O_STATUS,
@@ -46,7 +46,7 @@ O_POSE = 9
 O_CONTACT = O_POSE + 36
 
 # A contact: stage, pair, point in the nut's frame, in the bolt's, normal, region indices, margins.
-P_STAGE, P_PAIR, P_POINT, P_BOLT, P_NORMAL, P_BOLT_REGION, P_NUT_REGION, P_BOLT_MARGIN, P_NUT_MARGIN = (
+P_STAGE, P_PAIR, P_POINT, P_BOLT_POINT, P_NORMAL, P_BOLT_REGION, P_NUT_REGION, P_BOLT_MARGIN, P_NUT_MARGIN = (
     0,
     1,
     2,
@@ -58,8 +58,8 @@ P_STAGE, P_PAIR, P_POINT, P_BOLT, P_NORMAL, P_BOLT_REGION, P_NUT_REGION, P_BOLT_
     14,
 )
 POINT_SIZE = 15
-MOST_CONTACTS = 12
-RECORD_SIZE = O_CONTACT + MOST_CONTACTS * POINT_SIZE
+MAX_RECORD_CONTACTS = 12
+RECORD_SIZE = O_CONTACT + MAX_RECORD_CONTACTS * POINT_SIZE
 
 POSITIVE_FLANK = 2
 """Index of the flank on which the radius grows with z, of both parts."""
@@ -73,7 +73,7 @@ GRAZING_SINE = 1e-3
 
 
 @kernel()
-def to_bolt(pose: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
+def in_bolt_frame(pose: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
     """A point of the nut's frame in the bolt's."""
     x -= pose[9]
     y -= pose[10]
@@ -86,25 +86,25 @@ def to_bolt(pose: Array, x: float, y: float, z: float) -> tuple[float, float, fl
 
 
 @kernel()
-def put_pose(pose: Array, row: Array) -> None:
-    """Appends a pose."""
-    n = int(row[O_POSES])
+def append_pose(pose: Array, record: Array) -> None:
+    """Appends the pose of a stage."""
+    n = int(record[O_POSES])
     for i in range(12):
-        row[O_POSE + 12 * n + i] = pose[i]
-    row[O_POSES] = n + 1
+        record[O_POSE + 12 * n + i] = pose[i]
+    record[O_POSES] = n + 1
 
 
 @kernel()
-def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
-    """Appends a contact with its points, normal, regions and margins; one for which there is no room is unresolved."""
-    n = int(row[O_CONTACTS])
-    if n == MOST_CONTACTS:
-        row[O_STATUS] = UNRESOLVED
+def append_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, record: Array) -> None:
+    """Appends a contact with its points, normal, regions and margins; a full record becomes unresolved instead."""
+    n = int(record[O_CONTACTS])
+    if n == MAX_RECORD_CONTACTS:
+        record[O_STATUS] = UNRESOLVED
         return
-    c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
+    c = record[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
     pair = int(contact[K_PAIR])
     x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
-    bx, by, bz = to_bolt(pose, x, y, z)
+    bx, by, bz = in_bolt_frame(pose, x, y, z)
     on_bolt_edge = pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD
     on_nut_edge = pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE
     if on_bolt_edge:
@@ -112,8 +112,8 @@ def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array
     c[P_STAGE] = stage
     c[P_PAIR] = pair
     c[P_POINT], c[P_POINT + 1], c[P_POINT + 2] = x, y, z
-    c[P_BOLT], c[P_BOLT + 1], c[P_BOLT + 2] = bx, by, bz
-    put_normal(pair, contact, pose, bolt, nut, c)
+    c[P_BOLT_POINT], c[P_BOLT_POINT + 1], c[P_BOLT_POINT + 2] = bx, by, bz
+    set_normal(pair, contact, pose, bolt, nut, c)
     k = bolt[pk.P] / TWO_PI
     if pair == BASE_EDGE:
         c[P_BOLT_REGION] = FLAT_FACE
@@ -129,19 +129,19 @@ def put_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array
         index, margin = pk.region_index((0.0 if on_nut_edge else z) - k * math.atan2(y, x), nut)
         c[P_NUT_REGION] = index
         c[P_NUT_MARGIN] = margin
-    row[O_CONTACTS] = n + 1
+    record[O_CONTACTS] = n + 1
 
 
 @kernel()
-def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, c: Array) -> None:
-    """The unit normal, from the nut into the bolt."""
+def set_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, c: Array) -> None:
+    """Sets the unit normal, from the nut into the bolt."""
     x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
     if pair == EDGE_EDGE:
-        _, _, dx, dy = edge_point(contact[K_BOLT], bolt)
+        _, _, dx, dy = edge_point(contact[K_BOLT_AZIMUTH], bolt)
         ex = pose[0] * dx + pose[1] * dy
         ey = pose[3] * dx + pose[4] * dy
         ez = pose[6] * dx + pose[7] * dy
-        _, _, sx, sy = edge_point(contact[K_NUT], nut)
+        _, _, sx, sy = edge_point(contact[K_NUT_AZIMUTH], nut)
         nx, ny, nz = -ez * sy, ez * sx, ex * sy - ey * sx
         # The bolt's material lies on the side of its axis above the base.
         bx = pose[9] + 0.5 * bolt[pk.P] * pose[2] - x
@@ -155,14 +155,14 @@ def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, 
         nx, ny, nz = pose[2], pose[5], pose[8]
         flip = False
     elif pair == THREAD_EDGE:
-        bx, by, bz = to_bolt(pose, x, y, z)
-        _, gx, gy, gz = field(bx, by, bz, bolt, -1.0)
+        bx, by, bz = in_bolt_frame(pose, x, y, z)
+        _, gx, gy, gz = phi_and_gradient(bx, by, bz, bolt, -1.0)
         nx = pose[0] * gx + pose[1] * gy + pose[2] * gz
         ny = pose[3] * gx + pose[4] * gy + pose[5] * gz
         nz = pose[6] * gx + pose[7] * gy + pose[8] * gz
         flip = False
     else:
-        _, gx, gy, gz = field(x, y, z, nut, 1.0)
+        _, gx, gy, gz = phi_and_gradient(x, y, z, nut, 1.0)
         nx, ny, nz = -gx, -gy, -gz
         flip = False
     n = math.sqrt(nx * nx + ny * ny + nz * nz)
@@ -172,22 +172,24 @@ def put_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, 
 
 
 @kernel()
-def put_flush(stage: int, theta: float, corner: bool, x: float, y: float, bolt: Array, nut: Array, row: Array) -> None:
-    """Appends an extreme point of a flush patch; the bolt's edge at ``theta``, on the nut's edge if ``corner``.
+def append_flush_point(
+    stage: int, theta: float, corner: bool, x: float, y: float, bolt: Array, nut: Array, record: Array
+) -> None:
+    """Appends an extreme point of a flush patch: the bolt's edge at ``theta``, on the nut's edge if ``corner``.
 
-    One for which there is no room leaves the record unresolved.
+    A full record becomes unresolved instead.
     """
-    n = int(row[O_CONTACTS])
-    if n == MOST_CONTACTS:
-        row[O_STATUS] = UNRESOLVED
+    n = int(record[O_CONTACTS])
+    if n == MAX_RECORD_CONTACTS:
+        record[O_STATUS] = UNRESOLVED
         return
-    c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
+    c = record[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
     k = bolt[pk.P] / TWO_PI
     c[P_STAGE] = stage
     c[P_PAIR] = FLUSH
     c[P_POINT], c[P_POINT + 1], c[P_POINT + 2] = x, y, 0.0
     bx, by, _, _ = edge_point(theta, bolt)
-    c[P_BOLT], c[P_BOLT + 1], c[P_BOLT + 2] = bx, by, 0.0
+    c[P_BOLT_POINT], c[P_BOLT_POINT + 1], c[P_BOLT_POINT + 2] = bx, by, 0.0
     c[P_NORMAL], c[P_NORMAL + 1], c[P_NORMAL + 2] = 0.0, 0.0, 1.0
     index, margin = pk.region_index(-k * theta, bolt)
     c[P_BOLT_REGION] = index
@@ -200,20 +202,20 @@ def put_flush(stage: int, theta: float, corner: bool, x: float, y: float, bolt: 
     else:
         c[P_NUT_REGION] = FLAT_FACE
         c[P_NUT_MARGIN] = math.hypot(x, y) - pk.radius(-k * azimuth, nut)
-    row[O_CONTACTS] = n + 1
+    record[O_CONTACTS] = n + 1
 
 
 @kernel()
-def put_strip(contact: Array, pose: Array, bolt: Array, nut: Array, row: Array) -> None:
+def append_strip_corner(contact: Array, pose: Array, bolt: Array, nut: Array, record: Array) -> None:
     """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage.
 
-    It is where the flank of one part ends, so that round-off would choose its region.
+    The flank of one part ends there, so that round-off would decide its region: both regions are set to the flank.
     """
-    n = int(row[O_CONTACTS])
+    n = int(record[O_CONTACTS])
     strip = contact.copy()
     strip[K_PAIR] = THREAD_THREAD
-    put_contact(1, strip, pose, bolt, nut, row)
-    c = row[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
+    append_contact(1, strip, pose, bolt, nut, record)
+    c = record[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
     c[P_PAIR] = FLUSH
     c[P_BOLT_REGION] = POSITIVE_FLANK
     c[P_NUT_REGION] = POSITIVE_FLANK
@@ -224,11 +226,11 @@ def grazes(contact: Array, pose: Array, bolt: Array, nut: Array) -> bool:
     """Whether a contact's features are nearly parallel: edges that cross at a very small angle."""
     if int(contact[K_PAIR]) != EDGE_EDGE:
         return False
-    _, _, dx, dy = edge_point(contact[K_BOLT], bolt)
+    _, _, dx, dy = edge_point(contact[K_BOLT_AZIMUTH], bolt)
     ex = pose[0] * dx + pose[1] * dy
     ey = pose[3] * dx + pose[4] * dy
     ez = pose[6] * dx + pose[7] * dy
-    _, _, sx, sy = edge_point(contact[K_NUT], nut)
+    _, _, sx, sy = edge_point(contact[K_NUT_AZIMUTH], nut)
     nx, ny, nz = -ez * sy, ez * sx, ex * sy - ey * sx
     size = math.sqrt(nx * nx + ny * ny + nz * nz)
     return size < GRAZING_SINE * math.hypot(dx, dy) * math.hypot(sx, sy)

@@ -1,6 +1,6 @@
-"""Thread on thread by closing rectangles: every tangency of the two helical surfaces along a motion, as a proof.
+"""Thread on thread by branch and bound: every tangency of the two helical surfaces along a motion, as a proof.
 
-A rectangle of the bolt's thread (theta, z) is closed when at every time up to the limit it is wholly outside the nut,
+A rectangle of the bolt's thread (theta, z) is excluded when at every time up to the limit it is wholly outside the nut,
 or wholly inside (an overlap that is open already), or A or B cannot vanish in it (``_tangency_kernel`` defines them):
 each by its first-order expansion plus a bound on the second derivatives. Otherwise it is split; small rectangles are
 handed to Newton's method.
@@ -15,36 +15,36 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._bound_kernel import (
-    B_BEND,
-    B_C1,
-    B_DRIFT,
+    B_CURVE_DERIVATIVE,
+    B_LEAST_RADIUS,
     B_LIPSCHITZ,
     B_OFFSET,
-    B_R_LOW,
+    B_OFFSET_RATE,
+    B_SECOND_DERIVATIVE,
     BOUNDS_SIZE,
     set_bounds,
     sine_of_tilt,
 )
-from threadstate.contact._entry_kernel import NEVER, THREAD, entry, half_space
+from threadstate.contact._branchless_kernel import larger
+from threadstate.contact._entry_kernel import NEVER, THREAD, entry_time, half_space
 from threadstate.contact._geometry_kernel import (
     M_KIND,
     PATH_SIZE,
     TWO_PI,
-    field,
+    phi_and_gradient,
     position,
     set_path_from,
     turn_vector,
     velocity,
 )
-from threadstate.contact._lane_kernel import larger
-from threadstate.contact._tangency_kernel import JET_SIZE, STANDING_SIZE, T_TIME, polish
+from threadstate.contact._tangency_kernel import JET_SIZE, PLACEMENT_SIZE, T_TIME, newton_tangency
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
 MAX_RECTANGLES = 4000
-MOST_STEPS = 120
-MOST_LOOKS = 200_000
+MAX_STEPS = 120
+MAX_EVALUATIONS = 200_000
 OVERFLOW = -1
 
 # A rectangle of the bolt's thread: middle and half-widths.
@@ -55,15 +55,17 @@ R_HALF_Z = 3
 RECTANGLE_SIZE = 4
 
 AZIMUTHS = 24
-SMALL_THETA = 0.03
-TINY_THETA = 2e-3
+NEWTON_HALF_THETA = 0.03
+LEAST_HALF_THETA = 2e-3
 
-OPEN, CLEAR, OUT = range(3)
+UNDECIDED, EXCLUDED, ABOVE_SURFACE = range(3)
 
 
 @kernel()
-def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> int:
-    """What a bound says of a rectangle before ``limit``."""
+def classify_rectangle(
+    rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array
+) -> int:
+    """Evaluates the bounds of a rectangle up to ``limit``: UNDECIDED, EXCLUDED or, all the time, ABOVE_SURFACE."""
     is_turn = motion[M_KIND] != 0.0
     theta = rect[R_THETA]
     z = rect[R_Z]
@@ -71,32 +73,32 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
     hz = rect[R_HALF_Z]
     k = bolt[pk.P] / TWO_PI
     cot = nut[pk.COT]
-    c1 = bounds[B_C1]
-    big = bolt[pk.R_MAJOR]
+    c1 = bounds[B_CURVE_DERIVATIVE]
+    largest_radius = bolt[pk.R_MAJOR]
     hs = hz + k * h
     r_b, slope_b, _ = pk.jet(z - k * theta, bolt)
     cosine = math.cos(theta)
     sine = math.sin(theta)
     set_path_from(r_b * cosine, r_b * sine, z, motion, path)
     tilt = sine_of_tilt(motion, bounds, limit)
-    pad = tilt * c1 * h + hz * (1.0 + bolt[pk.COT] * tilt)
-    start, stop = half_space(-path[2] + pad, -path[5], -path[8], is_turn)
+    margin = tilt * c1 * h + hz * (1.0 + bolt[pk.COT] * tilt)
+    start, stop = half_space(-path[2] + margin, -path[5], -path[8], is_turn)
     if start >= limit:
-        return OUT
+        return ABOVE_SURFACE
     end = min(stop, limit)
     tau = start
-    own_low, own_high = pk.bend_range(z - k * theta, hs, bolt)
-    size_own = larger(own_high, -own_low)
+    bolt_f2_low, bolt_f2_high = pk.second_derivative_range(z - k * theta, hs, bolt)
+    bolt_f2 = larger(bolt_f2_high, -bolt_f2_low)
     extent = c1 * h + hs * (1.0 + bolt[pk.COT])
-    k_r = k / bounds[B_R_LOW]
-    place = (cot * k_r * 2.0 + 1.0) / bounds[B_R_LOW]
+    k_r = k / bounds[B_LEAST_RADIUS]
+    curvature_factor = (cot * k_r * 2.0 + 1.0) / bounds[B_LEAST_RADIUS]
     v = path[9] + (extent if is_turn else 0.0)
     fastest = bounds[B_LIPSCHITZ] * v
     hx0, hy0, hz0 = -r_b * sine, r_b * cosine, k
     zx0, zy0, zz0 = slope_b * cosine, slope_b * sine, 1.0
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         x, y, zz = position(path, tau, is_turn)
-        value, gx, gy, gz = field(x, y, zz, nut, 1.0)
+        value, gx, gy, gz = phi_and_gradient(x, y, zz, nut, 1.0)
         hx, hy, hzz = turn_vector(hx0, hy0, hz0, motion, tau)
         ax, ay, az = turn_vector(zx0, zy0, zz0, motion, tau)
         a = gx * hx + gy * hy + gz * hzz
@@ -105,73 +107,75 @@ def judge(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
         rate = gx * vx + gy * vy + gz * vz
         r2 = x * x + y * y
         r = math.sqrt(r2)
-        r_low = larger(r - extent, bounds[B_R_LOW])
+        r_low = larger(r - extent, bounds[B_LEAST_RADIUS])
         s_mid = zz - k * math.atan2(y, x)
         s_h0 = abs(hzz - k * (x * hy - y * hx) / r2)
         s_z0 = abs(az - k * (x * ay - y * ax) / r2)
         s_t0 = abs(vz - k * (x * vy - y * vx) / r2)
-        level0 = math.sqrt(vx * vx + vy * vy)
+        transverse_speed0 = math.sqrt(vx * vx + vy * vy)
         span = 0.0
-        verdict = OPEN
+        outcome = UNDECIDED
         for attempt in range(4):
-            # First the instant tau, then spans of time: the whole rest, an eighth of it, a sixty-fourth.
+            # First the instant tau, then spans of time: all that is left, an eighth of it, a sixty-fourth.
             if attempt > 0:
                 span = (end - tau) * (1.0, 0.125, 0.015625)[attempt - 1]
             t = sine_of_tilt(motion, bounds, tau + span)
-            away = (bounds[B_OFFSET] + bounds[B_DRIFT] * (tau + span) + big * t * t + (z + hz) * t) / r_low
-            s_hh = t * big + (k / r_low) * away * big * 4.0
-            s_hz = t * bolt[pk.COT] + (k / r_low) * away * (2.0 + bolt[pk.COT])
-            swing = span if is_turn else 0.0
-            s_h = s_h0 + s_hh * h + s_hz * hs + c1 * swing
-            s_z = s_z0 + s_hz * h + t * size_own * hs + (1.0 + bolt[pk.COT]) * swing
-            s_t = s_t0 + (1.0 + k_r) * (v - path[9] + v * swing)
-            level = level0 + v - path[9] + v * swing
-            low, high = pk.bend_range(s_mid, s_h * h + s_z * hs + s_t * span, nut)
+            axis_distance_ratio = (
+                bounds[B_OFFSET] + bounds[B_OFFSET_RATE] * (tau + span) + largest_radius * t * t + (z + hz) * t
+            ) / r_low
+            s_hh = t * largest_radius + (k / r_low) * axis_distance_ratio * largest_radius * 4.0
+            s_hz = t * bolt[pk.COT] + (k / r_low) * axis_distance_ratio * (2.0 + bolt[pk.COT])
+            turn_angle = span if is_turn else 0.0
+            s_h = s_h0 + s_hh * h + s_hz * hs + c1 * turn_angle
+            s_z = s_z0 + s_hz * h + t * bolt_f2 * hs + (1.0 + bolt[pk.COT]) * turn_angle
+            s_t = s_t0 + (1.0 + k_r) * (v - path[9] + v * turn_angle)
+            transverse_speed = transverse_speed0 + v - path[9] + v * turn_angle
+            low, high = pk.second_derivative_range(s_mid, s_h * h + s_z * hs + s_t * span, nut)
             f2 = larger(high, -low)
-            side = t * (1.0 + cot) * size_own + 4.0 * away
-            bend_hh = f2 * s_h * s_h + cot * s_hh + away * big * 3.0
-            bend_hz = f2 * s_h * s_z + cot * s_hz + 2.0 * away * (1.0 + bolt[pk.COT])
-            up_zz = own_high - low * s_z * s_z + side
-            down_zz = high * s_z * s_z - own_low + side
+            side = t * (1.0 + cot) * bolt_f2 + 4.0 * axis_distance_ratio
+            phi_hh = f2 * s_h * s_h + cot * s_hh + axis_distance_ratio * largest_radius * 3.0
+            phi_hz = f2 * s_h * s_z + cot * s_hz + 2.0 * axis_distance_ratio * (1.0 + bolt[pk.COT])
+            phi_zz_high = bolt_f2_high - low * s_z * s_z + side
+            minus_phi_zz_high = high * s_z * s_z - bolt_f2_low + side
             if attempt == 0:
-                spread = abs(a) * h + abs(b) * hs + 0.5 * bend_hh * h * h + bend_hz * h * hs
-                above = spread + 0.5 * larger(up_zz, 0.0) * hs * hs
-                below = spread + 0.5 * larger(down_zz, 0.0) * hs * hs
-                room = -value - above
-                if room <= 0.0:
-                    room = value - below
+                spread = abs(a) * h + abs(b) * hs + 0.5 * phi_hh * h * h + phi_hz * h * hs
+                above = spread + 0.5 * larger(phi_zz_high, 0.0) * hs * hs
+                below = spread + 0.5 * larger(minus_phi_zz_high, 0.0) * hs * hs
+                clearance = -value - above
+                if clearance <= 0.0:
+                    clearance = value - below
                     rate = -rate
-                if room > 0.0:
-                    verdict = CLEAR
+                if clearance > 0.0:
+                    outcome = EXCLUDED
                 continue
             turning = bounds[B_LIPSCHITZ] if is_turn else 0.0
-            bend_ht = f2 * s_t * s_h + place * level * c1 + turning * c1
-            bend_zt = f2 * s_t * s_z + (place * level + turning) * (1.0 + bolt[pk.COT])
-            if verdict == CLEAR:
-                bend_tt = f2 * s_t * s_t + place * level * v + turning * v
-                if (rate + bend_ht * h + bend_zt * hs + 0.5 * bend_tt * span) * span <= room:
+            phi_ht = f2 * s_t * s_h + curvature_factor * transverse_speed * c1 + turning * c1
+            phi_zt = f2 * s_t * s_z + (curvature_factor * transverse_speed + turning) * (1.0 + bolt[pk.COT])
+            if outcome == EXCLUDED:
+                phi_tt = f2 * s_t * s_t + curvature_factor * transverse_speed * v + turning * v
+                if (rate + phi_ht * h + phi_zt * hs + 0.5 * phi_tt * span) * span <= clearance:
                     break
-            elif abs(a) > bend_hh * h + bend_hz * hs + bend_ht * span or abs(b) > (
-                bend_hz * h + larger(up_zz, down_zz) * hs + bend_zt * span
+            elif abs(a) > phi_hh * h + phi_hz * hs + phi_ht * span or abs(b) > (
+                phi_hz * h + larger(phi_zz_high, minus_phi_zz_high) * hs + phi_zt * span
             ):
                 break
             if attempt == 3:
-                if verdict == OPEN:
-                    return OPEN
-                span = room / fastest
+                if outcome == UNDECIDED:
+                    return UNDECIDED
+                span = clearance / fastest
         if tau + span >= end:
-            return CLEAR
+            return EXCLUDED
         tau += span
-    return OPEN
+    return UNDECIDED
 
 
 @kernel()
-def touch(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> float:
+def touch_time(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> float:
     """When the middle of a rectangle meets the nut's thread, a little beyond the limit at the most; else NEVER."""
     theta = rect[R_THETA]
     r = pk.radius(rect[R_Z] - bolt[pk.P] / TWO_PI * theta, bolt)
     set_path_from(r * math.cos(theta), r * math.sin(theta), rect[R_Z], motion, path)
-    tau, how = entry(
+    tau, how = entry_time(
         path,
         motion[M_KIND] != 0.0,
         nut,
@@ -179,26 +183,26 @@ def touch(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bou
         0.0,
         2.0 * limit,
         bounds[B_LIPSCHITZ],
-        bounds[B_BEND],
-        bounds[B_R_LOW],
+        bounds[B_SECOND_DERIVATIVE],
+        bounds[B_LEAST_RADIUS],
     )
     return tau if how == THREAD else NEVER
 
 
 @kernel()
 def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array) -> tuple[int, int]:
-    """All contacts of thread with thread before ``limit``, earliest first, and the number of rectangles looked at.
+    """All contacts of thread with thread before ``limit``, earliest first, and the number of rectangles evaluated.
 
     ``motion`` is the bolt's, seen from the nut.
     """
     bounds = np.empty(BOUNDS_SIZE)
     path = np.empty(PATH_SIZE)
-    standing = np.empty(STANDING_SIZE)
+    placement = np.empty(PLACEMENT_SIZE)
     jet = np.empty(JET_SIZE)
     set_bounds(motion, bolt, nut, bounds)
     p = bolt[pk.P]
     count = 0
-    looked = 0
+    evaluated = 0
     best = limit
     depth = 0
     for i in range(AZIMUTHS):
@@ -210,42 +214,44 @@ def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Arra
             r[R_HALF_THETA] = math.pi / AZIMUTHS
             r[R_Z] = 0.5 * (low + high)
             r[R_HALF_Z] = 0.5 * (high - low)
-            verdict = judge(r, best, motion, bolt, nut, bounds, path)
-            looked += 1
-            if verdict == OUT:
+            outcome = classify_rectangle(r, best, motion, bolt, nut, bounds, path)
+            evaluated += 1
+            if outcome == ABOVE_SURFACE:
                 break
-            if verdict == OPEN:
+            if outcome == UNDECIDED:
                 depth += 1
             low = high
             high = min(2.0 * high, p)
-    quad = np.empty(RECTANGLE_SIZE)
+    parent = np.empty(RECTANGLE_SIZE)
     while depth > 0:
         depth -= 1
         for j in range(RECTANGLE_SIZE):
-            quad[j] = rects[depth, j]
-        split_theta = quad[R_HALF_THETA] > 40.0 / p * quad[R_HALF_Z]
+            parent[j] = rects[depth, j]
+        split_theta = parent[R_HALF_THETA] > 40.0 / p * parent[R_HALF_Z]
         for side in (-1.0, 1.0):
             r = rects[depth]
             for j in range(RECTANGLE_SIZE):
-                r[j] = quad[j]
+                r[j] = parent[j]
             if split_theta:
-                r[R_HALF_THETA] = 0.5 * quad[R_HALF_THETA]
-                r[R_THETA] = quad[R_THETA] + side * r[R_HALF_THETA]
+                r[R_HALF_THETA] = 0.5 * parent[R_HALF_THETA]
+                r[R_THETA] = parent[R_THETA] + side * r[R_HALF_THETA]
             else:
-                r[R_HALF_Z] = 0.5 * quad[R_HALF_Z]
-                r[R_Z] = quad[R_Z] + side * r[R_HALF_Z]
-            looked += 1
-            if judge(r, best, motion, bolt, nut, bounds, path) != OPEN:
+                r[R_HALF_Z] = 0.5 * parent[R_HALF_Z]
+                r[R_Z] = parent[R_Z] + side * r[R_HALF_Z]
+            evaluated += 1
+            if classify_rectangle(r, best, motion, bolt, nut, bounds, path) != UNDECIDED:
                 continue
-            if r[R_HALF_THETA] < SMALL_THETA:
-                tau = touch(r, limit, motion, bolt, nut, bounds, path)
+            if r[R_HALF_THETA] < NEWTON_HALF_THETA:
+                tau = touch_time(r, limit, motion, bolt, nut, bounds, path)
                 if tau < NEVER:
-                    count = polish(r[R_THETA], r[R_Z], tau, limit, motion, bolt, nut, standing, jet, found, count)
+                    count = newton_tangency(
+                        r[R_THETA], r[R_Z], tau, limit, motion, bolt, nut, placement, jet, found, count
+                    )
                 if count > 0:
                     best = min(best, found[0, T_TIME])
-            if r[R_HALF_THETA] < TINY_THETA:
+            if r[R_HALF_THETA] < LEAST_HALF_THETA:
                 continue
             depth += 1
-            if depth + 2 >= MAX_RECTANGLES or looked > MOST_LOOKS:
+            if depth + 2 >= MAX_RECTANGLES or evaluated > MAX_EVALUATIONS:
                 return count, OVERFLOW
-    return count, looked
+    return count, evaluated

@@ -13,93 +13,93 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._branchless_kernel import profile_numbers, radius_and_slope
 from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._lane_kernel import profile_numbers, radius_and_slope
-from threadstate.contact._slope_kernel import slopes, standing_numbers
-from threadstate.contact._tangency_kernel import S_OFF, S_ROT
+from threadstate.contact._slope_kernel import placement_numbers, slopes
+from threadstate.contact._tangency_kernel import PLACEMENT_OFF, PLACEMENT_ROT
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-LANES = 8
-"""Columns are done in groups of so many."""
-MOST_AZIMUTHS = 256
-MOST_PIECES = 16
-STRIDE = 2 * MOST_AZIMUTHS + LANES
-"""Columns go round more than twice, so that any part of the circumference lies in one piece."""
+VECTOR_WIDTH = 8
+"""Columns are processed in groups of this size."""
+MAX_AZIMUTHS = 256
+MAX_PIECES = 16
+BLOCK_SIZE = 2 * MAX_AZIMUTHS + VECTOR_WIDTH
+"""Distance between blocks: the columns go round more than twice, so that every arc of columns is contiguous."""
 
 # Blocks of the grid: the columns' cosines and sines, the base's radius there, the z at which the nut's surface is
 # reached; then B, row after row.
 G_COS = 0
-G_SIN = STRIDE
-G_BASE = 2 * STRIDE
-G_TOP = 3 * STRIDE
-G_B = 4 * STRIDE
-GRID_SIZE = G_B + (MOST_PIECES + 1) * STRIDE
+G_SIN = BLOCK_SIZE
+G_BASE = 2 * BLOCK_SIZE
+G_TOP = 3 * BLOCK_SIZE
+G_B = 4 * BLOCK_SIZE
+GRID_SIZE = G_B + (MAX_PIECES + 1) * BLOCK_SIZE
 
-MOST_RIDGES = 4
-"""So many ridges are looked for on one azimuth."""
-BATCH = 2 * LANES
-"""Crossings are found in batches of so many: two vectors hide each other's delays."""
-MOST_CROSSINGS = MOST_RIDGES * (MOST_AZIMUTHS + 1) + BATCH
+MAX_RIDGES = 4
+"""Most ridges searched for on one azimuth."""
+BATCH = 2 * VECTOR_WIDTH
+"""Crossings are located in batches of this size: two vectors hide each other's latency."""
+MAX_CROSSINGS = MAX_RIDGES * (MAX_AZIMUTHS + 1) + BATCH
 
 # Where ridges cross azimuths: a block for each of theta, its cosine and sine, the column, z and the slope A there; then
-# the z between which it lies with the slopes B (lessened where the end has stayed), the side of the last step, and phi.
+# the z between which it lies with the slopes B (reduced where an end was retained), the side of the last step, and phi.
 C_THETA = 0
-C_COS = MOST_CROSSINGS
-C_SIN = 2 * MOST_CROSSINGS
-C_COLUMN = 3 * MOST_CROSSINGS
-C_Z = 4 * MOST_CROSSINGS
-C_A = 5 * MOST_CROSSINGS
-C_LOW = 6 * MOST_CROSSINGS
-C_HIGH = 7 * MOST_CROSSINGS
-C_B_LOW = 8 * MOST_CROSSINGS
-C_B_HIGH = 9 * MOST_CROSSINGS
-C_SIDE = 10 * MOST_CROSSINGS
-C_PHI = 11 * MOST_CROSSINGS
-CROSSINGS_SIZE = 12 * MOST_CROSSINGS
-MOST_STEPS = 16
-NARROW = 1e-4
-"""A crossing is known to this part of a pitch, or B is less than ``FLAT`` there."""
-FLAT = 1e-6
+C_COS = MAX_CROSSINGS
+C_SIN = 2 * MAX_CROSSINGS
+C_COLUMN = 3 * MAX_CROSSINGS
+C_Z = 4 * MAX_CROSSINGS
+C_A = 5 * MAX_CROSSINGS
+C_LOW = 6 * MAX_CROSSINGS
+C_HIGH = 7 * MAX_CROSSINGS
+C_B_LOW = 8 * MAX_CROSSINGS
+C_B_HIGH = 9 * MAX_CROSSINGS
+C_SIDE = 10 * MAX_CROSSINGS
+C_PHI = 11 * MAX_CROSSINGS
+CROSSINGS_SIZE = 12 * MAX_CROSSINGS
+MAX_STEPS = 16
+CROSSING_TOLERANCE = 1e-4
+"""A crossing is located to this part of a pitch, or until B is less than ``SLOPE_TOLERANCE`` there."""
+SLOPE_TOLERANCE = 1e-6
 
-STEEP = 0.1
-"""Less than this is taken for the cosine of the tilt at no time."""
+LEAST_TILT_COSINE = 0.1
+"""The cosine of the tilt is taken as no less than this."""
 
 
 @kernel()
 def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
     """Cosines, sines and radii of the base of all columns, ``TWO_PI / azimuths`` apart."""
     step = TWO_PI / azimuths
-    for j in range(LANES):
+    for j in range(VECTOR_WIDTH):
         grid[G_COS + j] = math.cos(step * j)
         grid[G_SIN + j] = math.sin(step * j)
-    c = math.cos(step * LANES)
-    s = math.sin(step * LANES)
-    columns = 2 * azimuths + LANES
-    for j in range(LANES, columns):
-        x = grid[G_COS + j - LANES]
-        y = grid[G_SIN + j - LANES]
+    c = math.cos(step * VECTOR_WIDTH)
+    s = math.sin(step * VECTOR_WIDTH)
+    columns = 2 * azimuths + VECTOR_WIDTH
+    for j in range(VECTOR_WIDTH, columns):
+        x = grid[G_COS + j - VECTOR_WIDTH]
+        y = grid[G_SIN + j - VECTOR_WIDTH]
         grid[G_COS + j] = x * c - y * s
         grid[G_SIN + j] = x * s + y * c
-    lead = bolt[pk.P] / azimuths
+    advance = bolt[pk.P] / azimuths
     numbers = profile_numbers(bolt)
     for j in range(columns):
-        r, _, _ = radius_and_slope(-lead * j, numbers)
+        r, _, _ = radius_and_slope(-advance * j, numbers)
         grid[G_BASE + j] = r
 
 
 @kernel()
-def set_tops(first: int, lanes: int, standing: Array, bolt: Array, grid: Array) -> float:
-    """Up to which z the columns from ``first`` on are below the nut's surface, p at the most; returns the largest."""
-    x, y, up = standing[S_ROT + 6], standing[S_ROT + 7], standing[S_ROT + 8]
+def set_tops(first: int, padded_columns: int, placement: Array, bolt: Array, grid: Array) -> float:
+    """Sets up to which z, at most p, columns from ``first`` on are below the nut's surface; returns the largest."""
+    x, y, up = placement[PLACEMENT_ROT + 6], placement[PLACEMENT_ROT + 7], placement[PLACEMENT_ROT + 8]
     p = bolt[pk.P]
-    per_up = 1.0 / up if up > STEEP else 1.0 / STEEP
+    inverse_up = 1.0 / up if up > LEAST_TILT_COSINE else 1.0 / LEAST_TILT_COSINE
     highest = 0.0
     view = grid[first:]
-    for j in range(lanes):
-        depth = -standing[S_OFF + 2] - view[G_BASE + j] * (x * view[G_COS + j] + y * view[G_SIN + j])
-        top = depth * per_up
+    for j in range(padded_columns):
+        depth = -placement[PLACEMENT_OFF + 2] - view[G_BASE + j] * (x * view[G_COS + j] + y * view[G_SIN + j])
+        top = depth * inverse_up
         top = top if top < p else p
         view[G_TOP + j] = top
         highest = top if top > highest else highest
@@ -108,24 +108,24 @@ def set_tops(first: int, lanes: int, standing: Array, bolt: Array, grid: Array) 
 
 @kernel(contract=True)
 def set_slopes(
-    pieces: int, first: int, lanes: int, azimuths: int, standing: Array, bolt: Array, nut: Array, grid: Array
+    pieces: int, first: int, padded_columns: int, azimuths: int, placement: Array, bolt: Array, nut: Array, grid: Array
 ) -> None:
-    """B at all ends of ``pieces`` pieces, ``lanes`` columns from ``first`` on."""
+    """Sets B at all ends of ``pieces`` pieces in ``padded_columns`` columns from ``first`` on."""
     k = bolt[pk.P] / TWO_PI
-    lead = bolt[pk.P] / azimuths
+    advance = bolt[pk.P] / azimuths
     bolt_numbers = profile_numbers(bolt)
     nut_numbers = profile_numbers(nut)
-    place = standing_numbers(standing)
+    placement_values = placement_numbers(placement)
     view = grid[first:]
     for m in range(pieces + 1):
-        row = view[m * STRIDE :]
+        row = view[m * BLOCK_SIZE :]
         part = m / pieces
-        for j in range(lanes):
+        for j in range(padded_columns):
             cos = view[G_COS + j]
             sin = view[G_SIN + j]
             z = part * view[G_TOP + j]
-            r, slope, _ = radius_and_slope(z - lead * (first + j), bolt_numbers)
-            _, _, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)
+            r, slope, _ = radius_and_slope(z - advance * (first + j), bolt_numbers)
+            _, _, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, placement_values, nut_numbers)
             row[G_B + j] = b
 
 
@@ -139,8 +139,8 @@ def list_crossings(first: int, columns: int, pieces: int, azimuths: int, grid: A
             continue
         ridge = 0
         for m in range(pieces):
-            b_low = grid[G_B + m * STRIDE + j]
-            b_high = grid[G_B + (m + 1) * STRIDE + j]
+            b_low = grid[G_B + m * BLOCK_SIZE + j]
+            b_high = grid[G_B + (m + 1) * BLOCK_SIZE + j]
             if b_low > 0.0 and b_high < 0.0:
                 crossings[C_THETA + count] = TWO_PI * j / azimuths
                 crossings[C_COS + count] = grid[G_COS + j]
@@ -153,29 +153,29 @@ def list_crossings(first: int, columns: int, pieces: int, azimuths: int, grid: A
                 crossings[C_SIDE + count] = 0.0
                 count += 1
                 ridge += 1
-                if ridge == MOST_RIDGES:
+                if ridge == MAX_RIDGES:
                     break
     return count
 
 
 @kernel(contract=True)
-def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossings: Array) -> None:
-    """Finds where in their pieces the listed crossings are, and A there, by regula falsi.
+def locate_crossings(count: int, placement: Array, bolt: Array, nut: Array, crossings: Array) -> None:
+    """Locates the listed crossings in their pieces by regula falsi, and sets A and phi there.
 
-    A slope at an end that stays is lessened as Anderson and Bjorck (1973) do, which keeps the steps fast.
+    The slope at a retained end is reduced as Anderson and Bjorck (1973) do, for superlinear convergence.
     """
     k = bolt[pk.P] / TWO_PI
     bolt_numbers = profile_numbers(bolt)
     nut_numbers = profile_numbers(nut)
-    place = standing_numbers(standing)
-    for i in range(CROSSINGS_SIZE // MOST_CROSSINGS):
+    placement_values = placement_numbers(placement)
+    for i in range(CROSSINGS_SIZE // MAX_CROSSINGS):
         for j in range(count, count + BATCH):
-            crossings[i * MOST_CROSSINGS + j] = crossings[i * MOST_CROSSINGS]
-    narrow = NARROW * bolt[pk.P]
+            crossings[i * MAX_CROSSINGS + j] = crossings[i * MAX_CROSSINGS]
+    narrow = CROSSING_TOLERANCE * bolt[pk.P]
     for first in range(0, count, BATCH):
         batch = crossings[first:]
-        for _ in range(MOST_STEPS):
-            unsettled = 0
+        for _ in range(MAX_STEPS):
+            unconverged = 0
             for j in range(BATCH):
                 low = batch[C_LOW + j]
                 high = batch[C_HIGH + j]
@@ -186,37 +186,37 @@ def set_crossings(count: int, standing: Array, bolt: Array, nut: Array, crossing
                 r, slope, _ = radius_and_slope(z - k * batch[C_THETA + j], bolt_numbers)
                 cos = batch[C_COS + j]
                 sin = batch[C_SIN + j]
-                phi, a, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, place, nut_numbers)
+                phi, a, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, placement_values, nut_numbers)
                 up = b > 0.0
-                left = 1.0 - b / (b_low if up else b_high)
-                left = left if left > 0.0 else 0.5
-                # Where a slope was zero to the last bit the next one divides by it.
-                left = left if left <= 1.0 else 0.5
+                factor = 1.0 - b / (b_low if up else b_high)
+                factor = factor if factor > 0.0 else 0.5
+                # Where a slope was exactly zero the next one is divided by it.
+                factor = factor if factor <= 1.0 else 0.5
                 batch[C_Z + j] = z
                 batch[C_A + j] = a
                 batch[C_PHI + j] = phi
                 batch[C_LOW + j] = z if up else low
                 batch[C_HIGH + j] = high if up else z
-                kept_low = left * b_low if side > 0.0 else b_low
-                kept_high = left * b_high if side < 0.0 else b_high
-                batch[C_B_LOW + j] = b if up else kept_low
-                batch[C_B_HIGH + j] = kept_high if up else b
+                reduced_low = factor * b_low if side > 0.0 else b_low
+                reduced_high = factor * b_high if side < 0.0 else b_high
+                batch[C_B_LOW + j] = b if up else reduced_low
+                batch[C_B_HIGH + j] = reduced_high if up else b
                 batch[C_SIDE + j] = -1.0 if up else 1.0
                 wide = batch[C_HIGH + j] - batch[C_LOW + j] > narrow
-                unsettled += 1 if wide and abs(b) > FLAT else 0
-            if unsettled == 0:
+                unconverged += 1 if wide and abs(b) > SLOPE_TOLERANCE else 0
+            if unconverged == 0:
                 break
 
 
 @kernel()
 def list_maxima(
-    count: int, lead: float, step: float, apart: float, aloft: float, crossings: Array, maxima: Array
+    count: int, advance: float, step: float, max_z_gap: float, max_phi_gap: float, crossings: Array, maxima: Array
 ) -> int:
-    """About where (theta, z) phi is highest along the ridges, from their crossings; returns how many places.
+    """Estimates where (theta, z) phi is highest along the ridges, from their crossings; returns the number of maxima.
 
-    Columns are ``step`` (rad) apart, over which the helix climbs by ``lead``. Crossings of neighbouring columns that
-    are more than ``apart`` from that, or in which phi differs by more than ``aloft`` and its slope, belong to two
-    ridges. A maximum lies between two columns, or between a column and a ridge's end.
+    Columns are ``step`` (rad) apart, over which the helix advances by ``advance``. Crossings of neighbouring columns
+    belong to two ridges if their z differ by more than ``max_z_gap`` from that, or phi by more than ``max_phi_gap`` and
+    what its slope explains. A maximum lies between two columns, or between a column and a ridge's end.
     """
     places = 0
     before = 0
@@ -234,12 +234,12 @@ def list_maxima(
             is_after = after < after_end
             i, j = before, after
             if is_before and is_after:
-                climb = crossings[C_Z + j] - crossings[C_Z + i] - lead
+                z_excess = crossings[C_Z + j] - crossings[C_Z + i] - advance
                 rise = abs(crossings[C_PHI + j] - crossings[C_PHI + i])
                 slope = 0.5 * (abs(crossings[C_A + i]) + abs(crossings[C_A + j]))
-                near = apart if rise < aloft + slope * step else 0.0
-                is_before = climb > -near or (near == 0.0 and climb == 0.0)
-                is_after = climb < near
+                z_gap = max_z_gap if rise < max_phi_gap + slope * step else 0.0
+                is_before = z_excess > -z_gap or (z_gap == 0.0 and z_excess == 0.0)
+                is_after = z_excess < z_gap
             before += 1 if is_before else 0
             after += 1 if is_after else 0
             if (is_before and not crossings[C_A + i] > 0.0) or (is_after and not crossings[C_A + j] < 0.0):

@@ -13,22 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import TWO_PI, stride
+from threadstate.contact._edge_search_kernel import E_THETA, E_TIME, E_Z
+from threadstate.contact._geometry_kernel import TWO_PI, motion_scale
 from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
     GRID_SIZE,
-    LANES,
-    MOST_AZIMUTHS,
-    MOST_CROSSINGS,
-    MOST_PIECES,
+    MAX_AZIMUTHS,
+    MAX_CROSSINGS,
+    MAX_PIECES,
+    VECTOR_WIDTH,
     list_crossings,
     list_maxima,
+    locate_crossings,
     set_columns,
-    set_crossings,
     set_slopes,
     set_tops,
 )
-from threadstate.contact._sweep_kernel import E_THETA, E_TIME, E_Z
 from threadstate.contact._tangency_kernel import (
     J_A,
     J_B,
@@ -41,53 +41,56 @@ from threadstate.contact._tangency_kernel import (
     J_ZT,
     J_ZZ,
     JET_SIZE,
-    S_OFF,
-    S_ROT,
-    STANDING_SIZE,
-    polish,
+    PLACEMENT_OFF,
+    PLACEMENT_ROT,
+    PLACEMENT_SIZE,
+    newton_tangency,
     set_jet,
-    set_standing,
+    set_placement,
 )
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-SLICE = math.radians(1.5)
-LATE = math.radians(38.0)
-LATE_SLICE = math.radians(0.2)
-"""Beyond ``LATE`` maxima of phi are narrow, and come and go within tenths of a degree; all azimuths are used there.
+INSTANT_STEP = math.radians(1.5)
+LATE_TURN = math.radians(38.0)
+LATE_INSTANT_STEP = math.radians(0.2)
+"""Steps between the instants at which ridges are searched for, up to ``LATE_TURN`` and beyond it.
 
-Angles (rad) of a turn; of a translation, parts of its ``stride``.
+Beyond it maxima of phi are narrow, and come and go within tenths of a degree; there all azimuths are used. Angles (rad)
+of a turn; of a translation, multiples of its ``motion_scale``.
 """
-FOLLOW = math.radians(0.5)
-APART = 0.06
+MAX_FOLLOW_STEP = math.radians(0.5)
+"""Largest step in time of following a maximum of phi; in the same unit."""
+MAX_Z_GAP = 0.06
 """Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
-ALOFT = 0.1
+MAX_PHI_GAP = 0.1
 """The same where phi differs by more than this part of a pitch, beyond what its slopes explain."""
-STEP_UP = 0.02
-STEP_UP_PITCHES = 0.004
-MOST_STEPS_UP = 8
-"""Steps along a ridge (rad) and towards it (thread pitches) where Newton's method does not lead up; and how many."""
-ALONG = 24
-"""Points of an azimuth, beside its ends, at which the bolt's thread is looked at for overlaps that go on beyond it."""
-WORTH = 3.0 * SLICE
-"""A maximum of phi that by its rate is farther than this from zero is left to the slices nearer to it."""
+ASCENT_STEP = 0.02
+ASCENT_STEP_PITCHES = 0.004
+MAX_ASCENT_STEPS = 8
+"""Steps along a ridge (rad) and towards it (thread pitches) where Newton's method does not ascend; the most of them."""
+AXIAL_SAMPLES = 24
+"""Intervals of an azimuth at whose ends the bolt's thread is sampled for overlaps that extend beyond it."""
+FOLLOW_RANGE = 3.0 * INSTANT_STEP
+"""A maximum of phi that by its rate reaches zero farther away in time than this is left to nearer instants."""
 
 
 @kernel()
-def settle(
-    theta: float, z: float, worth: float, standing: Array, bolt: Array, nut: Array, jet: Array
+def nearby_maximum(
+    theta: float, z: float, time_range: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
-    """The highest point of phi on the thread near (theta, z) where the bolt stands (A = B = 0), by Newton's method.
+    """The highest point of phi on the thread near (theta, z) for a placement (A = B = 0), by Newton's method.
 
-    Where phi bends upwards the way is up by short steps, at most ``MOST_STEPS_UP``: along the axis to the ridge (where
-    curvatures jump, a place between two crossings may be beside it), and then along the ridge. That is done only where
-    phi rises, and by its rate vanishes within ``worth`` of the motion.
+    Where the Hessian of phi is not negative definite it ascends by short steps, at most ``MAX_ASCENT_STEPS``: along the
+    axis to the ridge (where curvatures jump, a point between two crossings may be beside it), and then along the ridge.
+    That is done only where phi rises, and by its rate vanishes within ``time_range``. Also returns whether it
+    converged.
     """
     k = bolt[pk.P] / TWO_PI
     p = bolt[pk.P]
-    up = 0
-    set_jet(theta, z, standing, bolt, nut, jet)
+    ascent_steps = 0
+    set_jet(theta, z, placement, bolt, nut, jet)
     for _ in range(20):
         a, b = jet[J_A], jet[J_B]
         uu, uz, zz = jet[J_UU], jet[J_UZ], jet[J_ZZ]
@@ -96,26 +99,26 @@ def settle(
             du = min(max((uz * b - zz * a) / det, -0.1), 0.1)
             dz = (uz * a - uu * b) / det
         else:
-            up += 1
-            if up > MOST_STEPS_UP or abs(jet[J_PHI]) >= worth * jet[J_RATE]:
+            ascent_steps += 1
+            if ascent_steps > MAX_ASCENT_STEPS or abs(jet[J_PHI]) >= time_range * jet[J_RATE]:
                 return theta, z, False
             if zz < 0.0:
-                du = STEP_UP if a * zz < uz * b else -STEP_UP
+                du = ASCENT_STEP if a * zz < uz * b else -ASCENT_STEP
                 dz = -(b + uz * du) / zz
             else:
                 du = 0.0
-                dz = math.copysign(STEP_UP_PITCHES * p, b)
+                dz = math.copysign(ASCENT_STEP_PITCHES * p, b)
         dz = min(max(dz, -0.02 * p), 0.02 * p)
         theta += du
         z += k * du + dz
-        set_jet(theta, z, standing, bolt, nut, jet)
+        set_jet(theta, z, placement, bolt, nut, jet)
         if abs(du) < 1e-4 and abs(dz) < 1e-4 * p:
             return theta, z, True
     return theta, z, False
 
 
 @kernel()
-def follow(
+def follow_maximum(
     theta: float,
     z: float,
     tau: float,
@@ -123,33 +126,35 @@ def follow(
     motion: Array,
     bolt: Array,
     nut: Array,
-    standing: Array,
-    moved: Array,
+    placement: Array,
+    later_placement: Array,
     jet: Array,
     found: Array,
     count: int,
 ) -> int:
-    """Follows a highest point of phi through time to where phi vanishes there, in steps of at most ``FOLLOW``.
+    """Follows a highest point of phi through time to where phi vanishes there, in steps of at most ``MAX_FOLLOW_STEP``.
 
-    ``standing`` is where the bolt stands at ``tau``; ``moved`` and ``jet`` are scratch. Returns the number of contacts
-    found.
+    ``placement`` is that of the bolt at ``tau``; ``later_placement`` and ``jet`` are scratch. Returns the number of
+    contacts found.
     """
     k = bolt[pk.P] / TWO_PI
     p = bolt[pk.P]
-    step = stride(motion, bolt)
-    farthest = FOLLOW * step
+    step = motion_scale(motion, bolt)
+    farthest = MAX_FOLLOW_STEP * step
     start = tau
     for i in range(60):
         if i > 0:
-            set_standing(motion, tau, moved)
-        theta, z, settled = settle(theta, z, 2.0 * WORTH * step, standing if i == 0 else moved, bolt, nut, jet)
-        if not settled or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
+            set_placement(motion, tau, later_placement)
+        theta, z, converged = nearby_maximum(
+            theta, z, 2.0 * FOLLOW_RANGE * step, placement if i == 0 else later_placement, bolt, nut, jet
+        )
+        if not converged or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
             return count
         move = -jet[J_PHI] / jet[J_RATE]
-        if abs(tau + move - start) > WORTH * step:
+        if abs(tau + move - start) > FOLLOW_RANGE * step:
             return count
         if abs(move) < 1e-6 * step:
-            return polish(theta, z, tau + move, limit, motion, bolt, nut, moved, jet, found, count)
+            return newton_tangency(theta, z, tau + move, limit, motion, bolt, nut, later_placement, jet, found, count)
         move = min(max(move, -farthest), farthest)
         tau += move
         if tau <= 0.0 or tau > limit + farthest:
@@ -164,10 +169,10 @@ def follow(
 
 
 @kernel()
-def columns_below(standing: Array, azimuths: int, bolt: Array) -> tuple[int, int]:
+def columns_below(placement: Array, azimuths: int, bolt: Array) -> tuple[int, int]:
     """The first column, and how many, of all those that may have a point of the bolt below the nut's surface."""
-    x, y, up = standing[S_ROT + 6], standing[S_ROT + 7], standing[S_ROT + 8]
-    lowest = standing[S_OFF + 2] + min(0.0, up * bolt[pk.P])
+    x, y, up = placement[PLACEMENT_ROT + 6], placement[PLACEMENT_ROT + 7], placement[PLACEMENT_ROT + 8]
+    lowest = placement[PLACEMENT_OFF + 2] + min(0.0, up * bolt[pk.P])
     tilt = math.sqrt(x * x + y * y)
     reach = tilt * bolt[pk.R_MAJOR if lowest > 0.0 else pk.R_MINOR]
     if lowest >= reach:
@@ -182,27 +187,27 @@ def columns_below(standing: Array, azimuths: int, bolt: Array) -> tuple[int, int
 
 
 @kernel()
-def highest_places(
-    azimuths: int, standing: Array, bolt: Array, nut: Array, grid: Array, crossings: Array, maxima: Array
+def ridge_maxima(
+    azimuths: int, placement: Array, bolt: Array, nut: Array, grid: Array, crossings: Array, maxima: Array
 ) -> int:
-    """Where phi is highest along its ridges, as (theta, z), where the bolt stands; returns the number of ``maxima``."""
-    first, columns = columns_below(standing, azimuths, bolt)
+    """Sets the ``maxima`` of phi along its ridges, as (theta, z), for a placement of the bolt; returns their number."""
+    first, columns = columns_below(placement, azimuths, bolt)
     if columns == 0:
         return 0
-    lanes = (columns + LANES - 1) // LANES * LANES
-    highest = set_tops(first, lanes, standing, bolt, grid)
-    pieces = min(1 + int(highest / bolt[pk.P] * MOST_PIECES), MOST_PIECES)
-    set_slopes(pieces, first, lanes, azimuths, standing, bolt, nut, grid)
+    padded_columns = (columns + VECTOR_WIDTH - 1) // VECTOR_WIDTH * VECTOR_WIDTH
+    highest = set_tops(first, padded_columns, placement, bolt, grid)
+    pieces = min(1 + int(highest / bolt[pk.P] * MAX_PIECES), MAX_PIECES)
+    set_slopes(pieces, first, padded_columns, azimuths, placement, bolt, nut, grid)
     listed = list_crossings(first, columns, pieces, azimuths, grid, crossings)
     if listed == 0:
         return 0
-    set_crossings(listed, standing, bolt, nut, crossings)
+    locate_crossings(listed, placement, bolt, nut, crossings)
     places = list_maxima(
         listed,
         bolt[pk.P] / azimuths,
         TWO_PI / azimuths,
-        APART * bolt[pk.P],
-        ALOFT * bolt[pk.P],
+        MAX_Z_GAP * bolt[pk.P],
+        MAX_PHI_GAP * bolt[pk.P],
         crossings,
         maxima,
     )
@@ -213,35 +218,35 @@ def highest_places(
 
 
 @kernel()
-def thread_inside(
+def deepest_thread_point(
     motion: Array, shallow: float, azimuths: int, bolt: Array, nut: Array
 ) -> tuple[bool, float, float, float]:
-    """A point of the bolt's thread, in its frame, that is inside the nut by more than ``shallow`` before a motion.
+    """The deepest point found of the bolt's thread, in its frame: inside the nut by more than ``shallow``, or none.
 
-    The highest points of phi are looked at and, as an overlap may go on beyond the bolt's top or the nut's bottom,
-    points all over the thread.
+    The maxima of phi are examined and, as an overlap may extend beyond the bolt's top or the nut's bottom, a grid of
+    points of the whole thread.
     """
     grid = np.empty(GRID_SIZE)
-    standing = np.empty(STANDING_SIZE)
+    placement = np.empty(PLACEMENT_SIZE)
     jet = np.empty(JET_SIZE)
     crossings = np.empty(CROSSINGS_SIZE)
-    maxima = np.empty((MOST_CROSSINGS, 2))
+    maxima = np.empty((MAX_CROSSINGS, 2))
     set_columns(azimuths, bolt, grid)
-    set_standing(motion, 0.0, standing)
+    set_placement(motion, 0.0, placement)
     p = bolt[pk.P]
     deepest, at_theta, at_z = shallow, 0.0, 0.0
     for i in range(2 * azimuths):
-        for j in range(ALONG + 1):
-            theta, z = math.pi * i / azimuths, p * j / ALONG
-            set_jet(theta, z, standing, bolt, nut, jet)
+        for j in range(AXIAL_SAMPLES + 1):
+            theta, z = math.pi * i / azimuths, p * j / AXIAL_SAMPLES
+            set_jet(theta, z, placement, bolt, nut, jet)
             depth = min(jet[J_PHI], -jet[J_Z], p + jet[J_Z])
             if depth > deepest:
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
-        for j in range(highest_places(azimuths, standing, bolt, nut, grid, crossings, maxima)):
-            theta, z, settled = settle(maxima[j, 0], maxima[j, 1], 0.0, standing, bolt, nut, jet)
+        for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
+            theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
             depth = min(jet[J_PHI], -jet[J_Z], p + jet[J_Z])
-            if settled and depth > deepest and 0.0 <= z <= p:
+            if converged and depth > deepest and 0.0 <= z <= p:
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
         return False, 0.0, 0.0, 0.0
@@ -250,27 +255,29 @@ def thread_inside(
 
 
 @kernel()
-def ridges(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
+def ridge_contacts(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
     """Contacts of thread with thread along a motion before ``limit``, earliest first; returns their number.
 
-    ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MOST_AZIMUTHS`` at the most, is a resolution and not a
+    ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MAX_AZIMUTHS`` at the most, is a resolution and not a
     bound: docs/decisions/0001-contacts.md says how it was checked.
     """
-    step = stride(motion, bolt)
-    late = LATE * step
-    early = min(limit, late)
-    count = between(0.0, early, 1 + int(early / (SLICE * step)), azimuths, motion, bolt, nut, limit, found, 0)
-    if limit > late:
-        slices = 1 + int((limit - late) / (LATE_SLICE * step))
-        count = between(late, limit, slices, MOST_AZIMUTHS, motion, bolt, nut, limit, found, count)
+    step = motion_scale(motion, bolt)
+    late_start = LATE_TURN * step
+    early_end = min(limit, late_start)
+    count = contacts_at_instants(
+        0.0, early_end, 1 + int(early_end / (INSTANT_STEP * step)), azimuths, motion, bolt, nut, limit, found, 0
+    )
+    if limit > late_start:
+        instants = 1 + int((limit - late_start) / (LATE_INSTANT_STEP * step))
+        count = contacts_at_instants(late_start, limit, instants, MAX_AZIMUTHS, motion, bolt, nut, limit, found, count)
     return count
 
 
 @kernel()
-def between(
+def contacts_at_instants(
     start: float,
     end: float,
-    slices: int,
+    instants: int,
     azimuths: int,
     motion: Array,
     bolt: Array,
@@ -279,41 +286,54 @@ def between(
     found: Array,
     count: int,
 ) -> int:
-    """Adds the contacts that the highest places lead to at so many instants after ``start``, the last at ``end``."""
+    """Adds the contacts that maxima lead to at so many equally spaced instants after ``start``, the last at ``end``."""
     grid = np.empty(GRID_SIZE)
-    standing = np.empty(STANDING_SIZE)
+    placement = np.empty(PLACEMENT_SIZE)
     jet = np.empty(JET_SIZE)
-    moved = np.empty(STANDING_SIZE)
+    later_placement = np.empty(PLACEMENT_SIZE)
     crossings = np.empty(CROSSINGS_SIZE)
-    maxima = np.empty((MOST_CROSSINGS, 2))
+    maxima = np.empty((MAX_CROSSINGS, 2))
     set_columns(azimuths, bolt, grid)
-    for i in range(slices):
-        tau = start + (end - start) * (i + 1) / slices
-        set_standing(motion, tau, standing)
-        for j in range(highest_places(azimuths, standing, bolt, nut, grid, crossings, maxima)):
+    for i in range(instants):
+        tau = start + (end - start) * (i + 1) / instants
+        set_placement(motion, tau, placement)
+        for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
             theta, z = maxima[j, 0], maxima[j, 1]
-            count = follow(theta, z, tau, limit, motion, bolt, nut, standing, moved, jet, found, count)
+            count = follow_maximum(
+                theta, z, tau, limit, motion, bolt, nut, placement, later_placement, jet, found, count
+            )
     return count
 
 
 @kernel()
-def followed_back(
+def contacts_behind_entries(
     entries: Array, limit: float, motion: Array, bolt: Array, nut: Array, found: Array, count: int
 ) -> int:
-    """Adds the contacts from which overlaps have grown that edges come into; returns the number of contacts then.
+    """Adds the contacts from which the overlaps have grown that edges enter; returns the number of contacts then.
 
-    Where an edge is born inside, and is no contact, an overlap of the threads is open beside it: its deepest point is
-    followed to the time at which it began. One that has grown from an earlier contact leads to none.
+    Where the onset of an edge is not a contact, an overlap of the threads is open beside it: its deepest point is
+    followed to the time at which it began. One that has grown from an earlier contact leads to no new one.
     """
-    standing = np.empty(STANDING_SIZE)
-    moved = np.empty(STANDING_SIZE)
+    placement = np.empty(PLACEMENT_SIZE)
+    later_placement = np.empty(PLACEMENT_SIZE)
     jet = np.empty(JET_SIZE)
     for i in range(1, int(entries[0, 0]) + 1):
         tau = entries[i, E_TIME]
         if tau > limit:
             continue
-        set_standing(motion, tau, standing)
-        count = follow(
-            entries[i, E_THETA], entries[i, E_Z], tau, limit, motion, bolt, nut, standing, moved, jet, found, count
+        set_placement(motion, tau, placement)
+        count = follow_maximum(
+            entries[i, E_THETA],
+            entries[i, E_Z],
+            tau,
+            limit,
+            motion,
+            bolt,
+            nut,
+            placement,
+            later_placement,
+            jet,
+            found,
+            count,
         )
     return count

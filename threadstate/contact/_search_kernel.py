@@ -1,4 +1,4 @@
-"""The search of a stage behind a pointer: compiled once, by itself, and not again within each kernel that calls it."""
+"""The search of a stage as a function pointer: compiled once, not again within each kernel that calls it."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def search_address() -> int:
 
 @lru_cache(maxsize=1)
 def _compiled_search() -> Any:
-    # Kept: an address is good for as long as what it leads to.
+    # Cached: an address is valid only while the compiled function lives.
     return cfunc(SIGNATURE, cache=True, error_model="numpy", fastmath=False)(earliest)
 
 

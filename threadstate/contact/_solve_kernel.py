@@ -1,4 +1,4 @@
-"""All three stages of tilted poses, one row of numbers a pose."""
+"""All three stages of tilted poses, one record a pose."""
 
 from __future__ import annotations
 
@@ -12,15 +12,14 @@ from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
 from threadstate.contact._lift_kernel import least_lift
-from threadstate.contact._rest_kernel import rests_on_surface, start_height
 from threadstate.contact._search_kernel import Search, search_address, search_at
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     CONTACT_SIZE,
     EDGE_EDGE,
     EDGE_SURFACE,
-    K_BOLT,
-    K_NUT,
+    K_BOLT_AZIMUTH,
+    K_NUT_AZIMUTH,
     K_PAIR,
     K_TIME,
     K_X,
@@ -38,36 +37,37 @@ from threadstate.contact._stage_kernel import (
     rotation,
     turned,
 )
+from threadstate.contact._surface_kernel import meets_surface_first, start_height
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
 # Options of a solve: limit of a turn (rad), tolerance of a tie (length), whether both outlines are convex (1 or 0),
-# whether thread on thread is searched by closing rectangles (1) or along ridges (0).
+# whether thread on thread is searched by branch and bound over rectangles (1) or along ridges (0).
 S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE = range(4)
 OPTIONS_SIZE = 4
 
-BEFORE_FLUSH = 1e-9
-"""Where a turn ends flush, contacts are looked for up to this much (rad) before: there all edges meet at once."""
+FLUSH_MARGIN = 1e-9
+"""Where a turn ends flush, contacts are searched for up to this much (rad) before: there all edges meet at once."""
 
 
 @kernel()
-def in_plane(pair: int) -> bool:
+def lies_in_both_planes(pair: int) -> bool:
     """Whether a contact of these features lies both in the bolt's base plane and in the nut's surface plane."""
     return pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == BASE_EDGE
 
 
 @kernel()
 def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array) -> None:
-    """The axis about which the bolt turns by a positive angle: the reverse of the method's t0."""
+    """Sets the unit axis about which the bolt turns by a positive angle: the reverse of the method's t0."""
     pair = int(contact[K_PAIR])
     if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
-        _, _, x, y = edge_point(contact[K_NUT], nut)
+        _, _, x, y = edge_point(contact[K_NUT_AZIMUTH], nut)
         z = 0.0
     elif pair == THREAD_THREAD:
         x, y, z = -contact[K_Y], contact[K_X], bolt[pk.P] / TWO_PI
     else:
-        _, _, dx, dy = edge_point(contact[K_BOLT], bolt)
+        _, _, dx, dy = edge_point(contact[K_BOLT_AZIMUTH], bolt)
         x = pose[0] * dx + pose[1] * dy
         y = pose[3] * dx + pose[4] * dy
         z = 0.0 if pair == EDGE_SURFACE else pose[6] * dx + pose[7] * dy
@@ -81,14 +81,22 @@ def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array
 
 @kernel()
 def turn_to_flush(pose: Array, axis: Array) -> float:
-    """The turn about a horizontal ``axis`` in the base plane after which the base is level; negative: turning away."""
+    """The turn about a horizontal ``axis`` in the base plane after which the base is level; negative: the other way."""
     nx, ny, nz = pose[2], pose[5], pose[8]
     return math.atan2(axis[0] * ny - axis[1] * nx, nz)
 
 
 @kernel()
-def lay_flush(
-    stage: int, pose: Array, point: Array, axis: Array, tau: float, bolt: Array, nut: Array, extremes: Array, row: Array
+def append_flush_pose(
+    stage: int,
+    pose: Array,
+    point: Array,
+    axis: Array,
+    tau: float,
+    bolt: Array,
+    nut: Array,
+    extremes: Array,
+    record: Array,
 ) -> bool:
     """Appends the flush pose and the extreme points of its patch; False if the outlines do not overlap."""
     level = np.empty(12)
@@ -101,36 +109,38 @@ def lay_flush(
     count = fk.extreme_points(level, bolt, nut, axis[0], axis[1], extremes)
     if count == 0:
         return False
-    rk.put_pose(level, row)
-    known = int(row[rk.O_CONTACTS])
+    rk.append_pose(level, record)
+    known = int(record[rk.O_CONTACTS])
     for i in range(count):
         x, y = extremes[i, fk.F_X], extremes[i, fk.F_Y]
-        again = False
+        is_listed = False
         for j in range(known):
             c = rk.O_CONTACT + rk.POINT_SIZE * j + rk.P_POINT
-            if abs(row[c] - x) + abs(row[c + 1] - y) + abs(row[c + 2]) < 1e-6 * bolt[pk.R_MAJOR]:
-                again = True
-        if not again:
-            rk.put_flush(stage, extremes[i, fk.F_THETA], extremes[i, fk.F_CORNER] > 0.0, x, y, bolt, nut, row)
-    row[rk.O_FLAGS] = int(row[rk.O_FLAGS]) | rk.FLAG_FLUSH
+            if abs(record[c] - x) + abs(record[c + 1] - y) + abs(record[c + 2]) < 1e-6 * bolt[pk.R_MAJOR]:
+                is_listed = True
+        if not is_listed:
+            rk.append_flush_point(
+                stage, extremes[i, fk.F_THETA], extremes[i, fk.F_CORNER] > 0.0, x, y, bolt, nut, record
+            )
+    record[rk.O_FLAGS] = int(record[rk.O_FLAGS]) | rk.FLAG_FLUSH
     return True
 
 
 @kernel()
-def add_flag(row: Array, flag: int) -> None:
+def add_flag(record: Array, flag: int) -> None:
     """Sets a flag."""
-    row[rk.O_FLAGS] = int(row[rk.O_FLAGS]) | flag
+    record[rk.O_FLAGS] = int(record[rk.O_FLAGS]) | flag
 
 
 @kernel()
-def ties(found: Array, count: int, slack: float) -> tuple[int, float]:
-    """How many contacts appear together with the first, and when that one appears.
+def sort_simultaneous(found: Array, count: int, tie_tolerance: float) -> tuple[int, float]:
+    """Sorts the contacts within a tolerance of the earliest by azimuth on the nut; their number, the earliest time.
 
-    They are put in order of azimuth on the nut, so that the earliest may not be the first any more.
+    The earliest contact need not be the first after that.
     """
     n = 1
     first = found[0, K_TIME]
-    while n < count and found[n, K_TIME] <= first + slack:
+    while n < count and found[n, K_TIME] <= first + tie_tolerance:
         n += 1
     for i in range(1, n):
         j = i
@@ -158,21 +168,21 @@ def solve_pose(
     nut: Array,
     search: Search,
     work: Work,
-    row: Array,
+    record: Array,
 ) -> None:
-    """Solves one tilted pose (angles in rad) into ``row``; see ``_record_kernel`` for its layout."""
-    row[:] = 0.0
+    """Solves one tilted pose (angles in rad) into ``record``; see ``_record_kernel`` for its layout."""
+    record[:] = 0.0
     for i in (rk.O_LAMBDA, rk.O_MU, rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT):
-        row[i] = math.nan
+        record[i] = math.nan
     found = np.empty((MAX_CONTACTS, CONTACT_SIZE))
     known = np.empty((2, CONTACT_SIZE))
     extremes = np.empty((4, fk.EXTREME_SIZE))
     pose = np.empty(12)
     axis = np.zeros(3)
     point = np.zeros(3)
-    slack = options[S_TIE]
-    turn_slack = slack / bolt[pk.R_MAJOR]
-    threads = PROVED if options[S_PROVE] > 0.0 else RIDGES
+    tie_tolerance = options[S_TIE]
+    turn_tolerance = tie_tolerance / bolt[pk.R_MAJOR]
+    thread_search = PROVED if options[S_PROVE] > 0.0 else RIDGES
 
     # First stage: straight down.
     rotation(roll, pitch, phase, pose)
@@ -181,8 +191,8 @@ def solve_pose(
     high = start_height(pose, bolt)
     pose[11] = high
     axis[2] = -1.0
-    together = 1
-    if options[S_CONVEX] > 0.0 and rests_on_surface(pose, bolt, nut, found[0]):
+    simultaneous = 1
+    if options[S_CONVEX] > 0.0 and meets_surface_first(pose, bolt, nut, found[0]):
         time = high - found[0, K_TIME]
     else:
         count, status, _ = search(
@@ -193,39 +203,39 @@ def solve_pose(
             known,
             0,
             high + bolt[pk.P],
-            slack,
+            tie_tolerance,
             bolt,
             nut,
-            threads,
+            thread_search,
             work,
             found,
         )
         if status != RESOLVED or count == 0:
-            row[rk.O_STATUS] = UNRESOLVED
+            record[rk.O_STATUS] = UNRESOLVED
             return
-        together, time = ties(found, count, slack)
+        simultaneous, time = sort_simultaneous(found, count, tie_tolerance)
     pose[11] = high - time
     copy_numbers(found[0], known[0])
-    rk.put_pose(pose, row)
-    rk.put_contact(1, known[0], pose, bolt, nut, row)
+    rk.append_pose(pose, record)
+    rk.append_contact(1, known[0], pose, bolt, nut, record)
     if rk.grazes(known[0], pose, bolt, nut):
-        add_flag(row, rk.FLAG_GRAZING)
-    if together > 1:
-        add_flag(row, rk.FLAG_TIE)
+        add_flag(record, rk.FLAG_GRAZING)
+    if simultaneous > 1:
+        add_flag(record, rk.FLAG_TIE)
 
     # Second stage: the turn about the tangent at the first contact.
     for i in range(3):
         point[i] = known[0, K_X + i]
     second = np.empty(12)
-    tied_third = False
-    if together > 1:
-        row[rk.O_LAMBDA] = 0.0
+    third_is_simultaneous = False
+    if simultaneous > 1:
+        record[rk.O_LAMBDA] = 0.0
         copy_numbers(found[1], known[1])
         copy_numbers(pose, second)
-        for i in range(2, together):
+        for i in range(2, simultaneous):
             copy_numbers(found[i], found[i - 2])
-        together -= 2
-        tied_third = together > 0
+        simultaneous -= 2
+        third_is_simultaneous = simultaneous > 0
     else:
         second_axis(known[0], pose, bolt, nut, axis)
         limit = options[S_TURN_LIMIT]
@@ -233,36 +243,36 @@ def solve_pose(
         if int(known[0, K_PAIR]) == EDGE_SURFACE:
             flush = turn_to_flush(pose, axis)
             if flush <= limit:
-                limit = flush - BEFORE_FLUSH
+                limit = flush - FLUSH_MARGIN
         count = 0
         # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
         if flush < 0.0 or options[S_CONVEX] == 0.0:
             count, status, _ = search(
-                pose, True, point, axis, known, 1, limit, turn_slack, bolt, nut, threads, work, found
+                pose, True, point, axis, known, 1, limit, turn_tolerance, bolt, nut, thread_search, work, found
             )
             if status != RESOLVED:
-                row[rk.O_STATUS] = UNRESOLVED
+                record[rk.O_STATUS] = UNRESOLVED
                 return
         if count == 0:
-            if flush >= 0.0 and lay_flush(2, pose, point, axis, flush, bolt, nut, extremes, row):
-                row[rk.O_LAMBDA] = flush
+            if flush >= 0.0 and append_flush_pose(2, pose, point, axis, flush, bolt, nut, extremes, record):
+                record[rk.O_LAMBDA] = flush
             else:
-                add_flag(row, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
+                add_flag(record, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
             return
-        together, time = ties(found, count, turn_slack)
-        if together > 1:
-            add_flag(row, rk.FLAG_TIE)
-        row[rk.O_LAMBDA] = time
+        simultaneous, time = sort_simultaneous(found, count, turn_tolerance)
+        if simultaneous > 1:
+            add_flag(record, rk.FLAG_TIE)
+        record[rk.O_LAMBDA] = time
         turned(pose, point, axis, time, second)
         copy_numbers(found[0], known[1])
-        for i in range(1, together):
+        for i in range(1, simultaneous):
             copy_numbers(found[i], found[i - 1])
-        together -= 1
-        tied_third = together > 0
-    rk.put_pose(second, row)
-    rk.put_contact(2, known[1], second, bolt, nut, row)
+        simultaneous -= 1
+        third_is_simultaneous = simultaneous > 0
+    rk.append_pose(second, record)
+    rk.append_contact(2, known[1], second, bolt, nut, record)
     if rk.grazes(known[1], second, bolt, nut):
-        add_flag(row, rk.FLAG_GRAZING)
+        add_flag(record, rk.FLAG_GRAZING)
 
     # Third stage: the turn about the pivot axis, in the sense that lowers the bolt's origin.
     n = 0.0
@@ -276,40 +286,40 @@ def solve_pose(
     cx = axis[1] * oz - axis[2] * oy
     cy = axis[2] * ox - axis[0] * oz
     cz = axis[0] * oy - axis[1] * ox
-    row[rk.O_PIVOT] = math.sqrt(cx * cx + cy * cy + cz * cz)
-    if tied_third:
-        row[rk.O_MU] = 0.0
-        put_third(second, 0.0, known, together, slack, bolt, nut, search, work, found, row)
+    record[rk.O_PIVOT] = math.sqrt(cx * cx + cy * cy + cz * cz)
+    if third_is_simultaneous:
+        record[rk.O_MU] = 0.0
+        append_third_pose(second, 0.0, known, simultaneous, tie_tolerance, bolt, nut, search, work, found, record)
         return
     if cz > 0.0:
         for i in range(3):
             axis[i] = -axis[i]
-    if abs(cz) > slack:
-        third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, row)
+    if abs(cz) > tie_tolerance:
+        third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, record)
         return
-    # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is kept.
-    add_flag(row, rk.FLAG_BALANCED)
-    other = row.copy()
-    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, row)
+    # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is chosen.
+    add_flag(record, rk.FLAG_BALANCED)
+    other_record = record.copy()
+    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, record)
     for i in range(3):
         axis[i] = -axis[i]
-    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, other)
-    keep_shorter_turn(row, other)
+    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, other_record)
+    choose_shorter_turn(record, other_record)
 
 
 @kernel()
-def keep_shorter_turn(row: Array, other: Array) -> None:
-    """Leaves in ``row`` that of two senses of the third turn which ends first; unresolved where that is not certain.
+def choose_shorter_turn(record: Array, other_record: Array) -> None:
+    """Copies into ``record`` the sense of the third turn that ends first; unresolved where that is not certain.
 
     A sense whose turn is known is compared by it, even where its embedment is unresolved: if the other one is shorter
     that does not matter.
     """
-    for sense in (row, other):
+    for sense in (record, other_record):
         if sense[rk.O_STATUS] != RESOLVED and math.isnan(sense[rk.O_MU]):
-            row[rk.O_STATUS] = UNRESOLVED
+            record[rk.O_STATUS] = UNRESOLVED
             return
-    if not math.isnan(other[rk.O_MU]) and not row[rk.O_MU] <= other[rk.O_MU]:
-        copy_numbers(other, row)
+    if not math.isnan(other_record[rk.O_MU]) and not record[rk.O_MU] <= other_record[rk.O_MU]:
+        copy_numbers(other_record, record)
 
 
 @kernel()
@@ -325,70 +335,74 @@ def third_stage(
     work: Work,
     found: Array,
     extremes: Array,
-    row: Array,
+    record: Array,
 ) -> None:
     """The turn about the pivot axis up to the third contact, the drop and the embedment."""
-    slack = options[S_TIE]
-    turn_slack = slack / bolt[pk.R_MAJOR]
-    threads = PROVED if options[S_PROVE] > 0.0 else RIDGES
+    tie_tolerance = options[S_TIE]
+    turn_tolerance = tie_tolerance / bolt[pk.R_MAJOR]
+    thread_search = PROVED if options[S_PROVE] > 0.0 else RIDGES
     limit = options[S_TURN_LIMIT]
     flush = -1.0
-    if in_plane(int(known[0, K_PAIR])) and in_plane(int(known[1, K_PAIR])):
+    if lies_in_both_planes(int(known[0, K_PAIR])) and lies_in_both_planes(int(known[1, K_PAIR])):
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
-            limit = flush - BEFORE_FLUSH
-    count, status, _ = search(second, True, point, axis, known, 2, limit, turn_slack, bolt, nut, threads, work, found)
+            limit = flush - FLUSH_MARGIN
+    count, status, _ = search(
+        second, True, point, axis, known, 2, limit, turn_tolerance, bolt, nut, thread_search, work, found
+    )
     if status != RESOLVED:
-        row[rk.O_STATUS] = UNRESOLVED
+        record[rk.O_STATUS] = UNRESOLVED
         return
     if count == 0:
-        if flush > 0.0 and lay_flush(3, second, point, axis, flush, bolt, nut, extremes, row):
-            row[rk.O_MU] = flush
-            row[rk.O_DROP] = second[11] - row[rk.O_POSE + 35]
-            row[rk.O_EMBEDMENT] = 0.0
+        if flush > 0.0 and append_flush_pose(3, second, point, axis, flush, bolt, nut, extremes, record):
+            record[rk.O_MU] = flush
+            record[rk.O_DROP] = second[11] - record[rk.O_POSE + 35]
+            record[rk.O_EMBEDMENT] = 0.0
         else:
-            add_flag(row, rk.FLAG_NO_THIRD)
+            add_flag(record, rk.FLAG_NO_THIRD)
         return
     third = np.empty(12)
-    together, time = ties(found, count, turn_slack)
-    if together > 1:
-        add_flag(row, rk.FLAG_TIE)
-    row[rk.O_MU] = time
+    simultaneous, time = sort_simultaneous(found, count, turn_tolerance)
+    if simultaneous > 1:
+        add_flag(record, rk.FLAG_TIE)
+    record[rk.O_MU] = time
     turned(second, point, axis, time, third)
-    put_third(third, second[11] - third[11], known, together, slack, bolt, nut, search, work, found, row)
+    append_third_pose(
+        third, second[11] - third[11], known, simultaneous, tie_tolerance, bolt, nut, search, work, found, record
+    )
 
 
 @kernel()
-def put_third(
+def append_third_pose(
     third: Array,
     drop: float,
     known: Array,
-    together: int,
-    slack: float,
+    simultaneous: int,
+    tie_tolerance: float,
     bolt: Array,
     nut: Array,
     search: Search,
     work: Work,
     found: Array,
-    row: Array,
+    record: Array,
 ) -> None:
-    """Appends the third pose and its contacts, the first ``together`` found; sets the drop and the embedment."""
-    rk.put_pose(third, row)
-    contacts = np.empty((2 + together, CONTACT_SIZE))
+    """Appends the third pose and its contacts, the first ``simultaneous`` found; sets the drop and the embedment."""
+    rk.append_pose(third, record)
+    contacts = np.empty((2 + simultaneous, CONTACT_SIZE))
     for i in range(2):
         copy_numbers(known[i], contacts[i])
-    for i in range(together):
+    for i in range(simultaneous):
         copy_numbers(found[i], contacts[2 + i])
-        rk.put_contact(3, found[i], third, bolt, nut, row)
+        rk.append_contact(3, found[i], third, bolt, nut, record)
         if rk.grazes(found[i], third, bolt, nut):
-            add_flag(row, rk.FLAG_GRAZING)
-    row[rk.O_DROP] = drop
-    row[rk.O_EMBEDMENT] = 0.0
-    if threads_touch(contacts) or edges_overlap(third, contacts, 2 + together, bolt, nut, work):
-        lift, status = least_lift(third, slack, bolt, nut, search, work, found)
-        row[rk.O_EMBEDMENT] = lift
+            add_flag(record, rk.FLAG_GRAZING)
+    record[rk.O_DROP] = drop
+    record[rk.O_EMBEDMENT] = 0.0
+    if threads_touch(contacts) or edges_overlap(third, contacts, 2 + simultaneous, bolt, nut, work):
+        lift, status = least_lift(third, tie_tolerance, bolt, nut, search, work, found)
+        record[rk.O_EMBEDMENT] = lift
         if status != RESOLVED:
-            row[rk.O_STATUS] = UNRESOLVED
+            record[rk.O_STATUS] = UNRESOLVED
 
 
 @kernel()
@@ -403,14 +417,14 @@ def threads_touch(contacts: Array) -> bool:
 def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> None:
     """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE).
 
-    Other threads of Python go on in the meantime.
+    The global interpreter lock is released meanwhile.
     """
     solve_with(poses, options, bolt, nut, search_address(), rows)
 
 
 @kernel(nogil=True)
 def solve_with(poses: Array, options: Array, bolt: Array, nut: Array, address: int, rows: Array) -> None:
-    """As :func:`solve_rows`, with the search at an address."""
+    """As :func:`solve_rows`, with the address of the compiled search."""
     search = search_at(address)
     work = new_work()
     for i in range(poses.shape[0]):

@@ -11,9 +11,20 @@ from threadstate._compile import kernel
 from threadstate.contact import _rectangle_kernel as rect
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _tangency_kernel as tk
-from threadstate.contact._birth_kernel import (
+from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
+from threadstate.contact._edge_search_kernel import (
+    AZIMUTH_TOLERANCE,
+    ENTRY_SIZE,
+    MAX_ENTRIES,
+    OUTSIDE,
+    OVERFLOW,
+    find_inside,
+    search_edge,
+)
+from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, copy_numbers, edge_point, motion_scale
+from threadstate.contact._onset_kernel import (
     C_KIND,
-    C_OTHER,
+    C_OTHER_THETA,
     C_THETA,
     C_TIME,
     C_X,
@@ -22,9 +33,6 @@ from threadstate.contact._birth_kernel import (
     CANDIDATE_SIZE,
     MAX_CANDIDATES,
 )
-from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
-from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, copy_numbers, edge_point, stride
-from threadstate.contact._sweep_kernel import ENTRY_SIZE, EPS_PUNCTURE, MAX_ENTRIES, OUTSIDE, OVERFLOW, inside_at, sweep
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -34,7 +42,7 @@ Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array]
 EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, FLUSH = range(7)
 
 # A contact of a stage: time, pair, azimuth on the bolt, azimuth on the nut, point in the nut's frame.
-K_TIME, K_PAIR, K_BOLT, K_NUT, K_X, K_Y, K_Z = range(7)
+K_TIME, K_PAIR, K_BOLT_AZIMUTH, K_NUT_AZIMUTH, K_X, K_Y, K_Z = range(7)
 CONTACT_SIZE = 7
 MAX_CONTACTS = 16
 
@@ -46,18 +54,18 @@ RIDGE_AZIMUTHS = 32
 
 FIRST_SPAN_TURN = math.radians(2.0)
 FIRST_SPAN_HEIGHT = 0.05
-LONGER = 1.25
-"""A motion is searched span by span: the first one (rad, thread pitches), and how much longer each next one is."""
+SPAN_GROWTH = 1.25
+"""A motion is searched in spans of time: the first (rad, thread pitches), and the factor to each next one."""
 
-SHALLOW = 1e-10
+TOUCH_DEPTH = 1e-10
 """Depth (thread pitches) up to which an edge counts as touching."""
 
-NARROW = 1e-7
-"""Half-width (rad) of an overlap that is not told apart from a contact."""
+LEAST_HALF_WIDTH = 1e-7
+"""Half-width (rad) of an overlap that is not distinguished from a contact."""
 
-SHORTER = 0.25
+SPAN_REDUCTION = 0.25
 SHORTEST_SPAN = 1e-9
-"""How much shorter a span is made that has too many boxes, and where that ends (of the motion's ``stride``)."""
+"""Factor by which a span with too many boxes is shortened, and the shortest one (in units of ``motion_scale``)."""
 
 
 @kernel()
@@ -103,38 +111,48 @@ def turned(pose: Array, point: Array, axis: Array, tau: float, out: Array) -> No
 
 @kernel()
 def set_motions(
-    pose: Array, is_turn: bool, coplanar: bool, point: Array, axis: Array, bolt_walks: Array, nut_walks: Array
+    pose: Array, is_turn: bool, coplanar: bool, point: Array, axis: Array, bolt_motion: Array, nut_motion: Array
 ) -> None:
-    """The same motion seen from the nut (the bolt's edge walks) and from the bolt (the nut's edge walks)."""
+    """Sets the motion of the bolt's edge in the nut's frame, and that of the nut's edge in the bolt's frame."""
     for i in range(12):
-        bolt_walks[i] = pose[i]
-    bolt_walks[12] = 1.0 if is_turn else 0.0
+        bolt_motion[i] = pose[i]
+    bolt_motion[12] = 1.0 if is_turn else 0.0
     for i in range(3):
-        bolt_walks[13 + i] = point[i]
-        bolt_walks[16 + i] = axis[i]
-    bolt_walks[19] = 1.0
-    bolt_walks[20] = 1.0 if coplanar else 0.0
-    nut_walks[12] = bolt_walks[12]
-    nut_walks[19] = -1.0
-    nut_walks[20] = bolt_walks[20]
+        bolt_motion[13 + i] = point[i]
+        bolt_motion[16 + i] = axis[i]
+    bolt_motion[19] = 1.0
+    bolt_motion[20] = 1.0 if coplanar else 0.0
+    nut_motion[12] = bolt_motion[12]
+    nut_motion[19] = -1.0
+    nut_motion[20] = bolt_motion[20]
     for i in range(3):
         for j in range(3):
-            nut_walks[3 * i + j] = pose[3 * j + i]
-        nut_walks[9 + i] = -(pose[i] * pose[9] + pose[3 + i] * pose[10] + pose[6 + i] * pose[11])
-        nut_walks[13 + i] = (
+            nut_motion[3 * i + j] = pose[3 * j + i]
+        nut_motion[9 + i] = -(pose[i] * pose[9] + pose[3 + i] * pose[10] + pose[6 + i] * pose[11])
+        nut_motion[13 + i] = (
             pose[i] * (point[0] - pose[9]) + pose[3 + i] * (point[1] - pose[10]) + pose[6 + i] * (point[2] - pose[11])
         )
-        nut_walks[16 + i] = -(pose[i] * axis[0] + pose[3 + i] * axis[1] + pose[6 + i] * axis[2])
+        nut_motion[16 + i] = -(pose[i] * axis[0] + pose[3 + i] * axis[1] + pose[6 + i] * axis[2])
 
 
 @kernel()
-def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z: float, count: int, out: Array) -> int:
-    """Inserts a contact by time unless the same is there already (found from the other edge).
+def insert_contact(
+    time: float,
+    pair: int,
+    bolt_azimuth: float,
+    nut_azimuth: float,
+    x: float,
+    y: float,
+    z: float,
+    count: int,
+    out: Array,
+) -> int:
+    """Inserts a contact by time unless it is listed already (found from the other edge); returns the number listed.
 
-    A full list keeps the earliest ones.
+    A full list drops the latest. Azimuths are those on the bolt and on the nut.
     """
     for i in range(count):
-        if abs(out[i, K_X] - x) + abs(out[i, K_Y] - y) + abs(out[i, K_Z] - z) < EPS_PUNCTURE * (abs(x) + abs(y)):
+        if abs(out[i, K_X] - x) + abs(out[i, K_Y] - y) + abs(out[i, K_Z] - z) < AZIMUTH_TOLERANCE * (abs(x) + abs(y)):
             return count
     if count == MAX_CONTACTS:
         if time >= out[count - 1, K_TIME]:
@@ -146,8 +164,8 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
         i -= 1
     out[i, K_TIME] = time
     out[i, K_PAIR] = pair
-    out[i, K_BOLT] = bolt
-    out[i, K_NUT] = nut
+    out[i, K_BOLT_AZIMUTH] = bolt_azimuth
+    out[i, K_NUT_AZIMUTH] = nut_azimuth
     out[i, K_X] = x
     out[i, K_Y] = y
     out[i, K_Z] = z
@@ -155,8 +173,8 @@ def keep(time: float, pair: int, bolt: float, nut: float, x: float, y: float, z:
 
 
 @kernel()
-def is_full(listed: Array, count: int, until: float) -> bool:
-    """Whether a list by time, in its first column, has no room for all that there may be up to ``until``."""
+def may_be_truncated(listed: Array, count: int, until: float) -> bool:
+    """Whether a list sorted by time, its first column, is full up to ``until``, so that some may have been dropped."""
     return count == listed.shape[0] and listed[count - 1, 0] <= until
 
 
@@ -178,45 +196,47 @@ def new_work() -> Work:
 
 @kernel()
 def on_bolt_edge(contact: Array, pose: Array, bolt: Array) -> bool:
-    """Whether a contact of the bolt's thread or base is at the bolt's edge, too, as far as azimuths are told apart."""
-    near = EPS_PUNCTURE * bolt[pk.R_MAJOR]
+    """Whether a contact of the bolt's thread or base is on the bolt's edge, too, within ``AZIMUTH_TOLERANCE``."""
+    near = AZIMUTH_TOLERANCE * bolt[pk.R_MAJOR]
     x, y, z = contact[K_X] - pose[9], contact[K_Y] - pose[10], contact[K_Z] - pose[11]
     if int(contact[K_PAIR]) != BASE_EDGE:
         return abs(pose[2] * x + pose[5] * y + pose[8] * z) < near
     r = math.hypot(pose[0] * x + pose[3] * y + pose[6] * z, pose[1] * x + pose[4] * y + pose[7] * z)
-    return abs(r - pk.radius(-bolt[pk.P] / TWO_PI * contact[K_BOLT], bolt)) < near
+    return abs(r - pk.radius(-bolt[pk.P] / TWO_PI * contact[K_BOLT_AZIMUTH], bolt)) < near
 
 
 @kernel()
 def on_nut_edge(contact: Array, nut: Array) -> bool:
-    """Whether a contact of the nut's thread or surface is at the nut's edge, too, as far as azimuths are told apart."""
-    near = EPS_PUNCTURE * nut[pk.R_MAJOR]
+    """Whether a contact of the nut's thread or surface is on the nut's edge, too, within ``AZIMUTH_TOLERANCE``."""
+    near = AZIMUTH_TOLERANCE * nut[pk.R_MAJOR]
     if int(contact[K_PAIR]) != EDGE_SURFACE:
         return abs(contact[K_Z]) < near
     r = math.hypot(contact[K_X], contact[K_Y])
-    return abs(r - pk.radius(-nut[pk.P] / TWO_PI * contact[K_NUT], nut)) < near
+    return abs(r - pk.radius(-nut[pk.P] / TWO_PI * contact[K_NUT_AZIMUTH], nut)) < near
 
 
 @kernel()
-def set_marks(
-    known: Array, known_count: int, pose: Array, bolt: Array, nut: Array, bolt_marks: Array, nut_marks: Array
+def set_contact_azimuths(
+    known: Array, known_count: int, pose: Array, bolt: Array, nut: Array, bolt_azimuths: Array, nut_azimuths: Array
 ) -> tuple[int, int]:
-    """Azimuths in [0, 2 pi) of a pose's contacts on the bolt's and on the nut's edge curve, and their numbers.
+    """Sets the azimuths in [0, 2 pi) of contacts on the bolt's and on the nut's edge curve; returns their numbers.
 
-    Where a contact changes from a part's edge to its thread or its flat face it is on both, as far as azimuths are
-    told apart: then its edge must not be taken for another contact.
+    Where a contact changes from a part's edge to its thread or its flat face it is on both within the tolerance: the
+    edge there must not count as another contact.
     """
-    on_bolt = 0
-    on_nut = 0
+    on_bolt_count = 0
+    on_nut_count = 0
     for i in range(known_count):
         pair = int(known[i, K_PAIR])
         if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD or on_bolt_edge(known[i], pose, bolt):
-            bolt_marks[on_bolt] = known[i, K_BOLT] - TWO_PI * math.floor(known[i, K_BOLT] / TWO_PI)
-            on_bolt += 1
+            bolt_azimuths[on_bolt_count] = known[i, K_BOLT_AZIMUTH] - TWO_PI * math.floor(
+                known[i, K_BOLT_AZIMUTH] / TWO_PI
+            )
+            on_bolt_count += 1
         if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE or on_nut_edge(known[i], nut):
-            nut_marks[on_nut] = known[i, K_NUT] - TWO_PI * math.floor(known[i, K_NUT] / TWO_PI)
-            on_nut += 1
-    return on_bolt, on_nut
+            nut_azimuths[on_nut_count] = known[i, K_NUT_AZIMUTH] - TWO_PI * math.floor(known[i, K_NUT_AZIMUTH] / TWO_PI)
+            on_nut_count += 1
+    return on_bolt_count, on_nut_count
 
 
 @kernel()
@@ -239,10 +259,10 @@ def earliest(
     known: Array,
     known_count: int,
     limit: float,
-    slack: float,
+    tie_tolerance: float,
     bolt: Array,
     nut: Array,
-    threads: int,
+    thread_search: int,
     work: Work,
     out: Array,
 ) -> tuple[int, int, float]:
@@ -250,118 +270,138 @@ def earliest(
 
     Kernels call it as a ``Search`` of ``_search_kernel``, which compiles it.
 
-    ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number
-    of contacts (those within ``slack`` of the earliest are listed, or the status is UNRESOLVED), a status, and the
-    earliest time at which an edge enters (of a translation) or touches (of a turn). ``threads`` says how thread on
-    thread is searched: RIDGES (proved where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
+    ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number of
+    contacts (all within ``tie_tolerance`` of the earliest are listed, or the status is UNRESOLVED), a status, and the
+    earliest time at which an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how
+    thread on thread is searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
-    boxes, others, found_b, found_n, bolt_walks, nut_walks, rects, tangent, entries = work
-    bolt_marks = np.empty(2)
-    nut_marks = np.empty(2)
-    bolt_mark_count, nut_mark_count = set_marks(known, known_count, pose, bolt, nut, bolt_marks, nut_marks)
+    boxes, spare_boxes, bolt_found, nut_found, bolt_motion, nut_motion, rectangles, tangencies, entries = work
+    bolt_azimuths = np.empty(2)
+    nut_azimuths = np.empty(2)
+    bolt_azimuth_count, nut_azimuth_count = set_contact_azimuths(
+        known, known_count, pose, bolt, nut, bolt_azimuths, nut_azimuths
+    )
     coplanar = axis_in_both_planes(known, known_count)
-    set_motions(pose, is_turn, coplanar, point, axis, bolt_walks, nut_walks)
-    any_birth = not is_turn
+    set_motions(pose, is_turn, coplanar, point, axis, bolt_motion, nut_motion)
+    any_onset = not is_turn
     entries[0, 0] = 0.0
-    count_b = 0
-    count_n = 0
-    used = 0
+    bolt_count = 0
+    nut_count = 0
+    rectangles_evaluated = 0
     best = limit
     since = 0.0
     span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt[pk.P]
     while since < best:
         until = min(since + span, limit)
-        count_b, used_b, best = sweep(
+        bolt_count, bolt_evaluated, best = search_edge(
             since,
             until,
-            bolt_walks,
+            bolt_motion,
             bolt,
             nut,
-            bolt_marks,
-            bolt_mark_count,
+            bolt_azimuths,
+            bolt_azimuth_count,
             best,
-            any_birth,
-            slack,
+            any_onset,
+            tie_tolerance,
             boxes,
-            others,
-            count_b,
-            found_b,
+            spare_boxes,
+            bolt_count,
+            bolt_found,
             entries,
         )
-        count_n, used_n, best = sweep(
+        nut_count, nut_evaluated, best = search_edge(
             since,
             until,
-            nut_walks,
+            nut_motion,
             nut,
             bolt,
-            nut_marks,
-            nut_mark_count,
+            nut_azimuths,
+            nut_azimuth_count,
             best,
-            any_birth,
-            slack,
+            any_onset,
+            tie_tolerance,
             boxes,
-            others,
-            count_n,
-            found_n,
+            spare_boxes,
+            nut_count,
+            nut_found,
             entries,
         )
-        if used_b == OVERFLOW or used_n == OVERFLOW:
-            span *= SHORTER
-            if span < SHORTEST_SPAN * stride(bolt_walks, bolt):
+        if bolt_evaluated == OVERFLOW or nut_evaluated == OVERFLOW:
+            span *= SPAN_REDUCTION
+            if span < SHORTEST_SPAN * motion_scale(bolt_motion, bolt):
                 return 0, UNRESOLVED, best
             continue
         since = until
-        span *= LONGER
-    reach = min(limit, best + slack)
-    unexplained = any_birth and best < limit
-    if (count_b > 0 and found_b[0, C_TIME] <= best + slack) or (count_n > 0 and found_n[0, C_TIME] <= best + slack):
+        span *= SPAN_GROWTH
+    reach = min(limit, best + tie_tolerance)
+    unexplained = any_onset and best < limit
+    if (bolt_count > 0 and bolt_found[0, C_TIME] <= best + tie_tolerance) or (
+        nut_count > 0 and nut_found[0, C_TIME] <= best + tie_tolerance
+    ):
         unexplained = False
-    count_t = 0
-    if threads != PROVED:
-        count_t = ridge.ridges(bolt_walks, bolt, nut, reach, RIDGE_AZIMUTHS, tangent)
+    tangency_count = 0
+    if thread_search != PROVED:
+        tangency_count = ridge.ridge_contacts(bolt_motion, bolt, nut, reach, RIDGE_AZIMUTHS, tangencies)
         if is_turn:
-            count_t = ridge.followed_back(entries, reach, bolt_walks, bolt, nut, tangent, count_t)
-    if threads == PROVED or (threads == RIDGES and unexplained and count_t == 0):
+            tangency_count = ridge.contacts_behind_entries(
+                entries, reach, bolt_motion, bolt, nut, tangencies, tangency_count
+            )
+    if thread_search == PROVED or (thread_search == RIDGES and unexplained and tangency_count == 0):
         # Where no edge contact explains the earliest entry, the threads must have met before it.
-        count_t, used = rect.tangencies(bolt_walks, bolt, nut, reach, rects, tangent)
-        if used == rect.OVERFLOW:
+        tangency_count, rectangles_evaluated = rect.tangencies(bolt_motion, bolt, nut, reach, rectangles, tangencies)
+        if rectangles_evaluated == rect.OVERFLOW:
             return 0, UNRESOLVED, best
     count = 0
-    for i in range(count_b):
-        kind = int(found_b[i, C_KIND])
+    for i in range(bolt_count):
+        kind = int(bolt_found[i, C_KIND])
         pair = EDGE_EDGE if kind == ONE_EDGE else (EDGE_SURFACE if kind == ONE_PLANE else EDGE_THREAD)
-        count = keep(
-            found_b[i, C_TIME],
+        count = insert_contact(
+            bolt_found[i, C_TIME],
             pair,
-            found_b[i, C_THETA],
-            found_b[i, C_OTHER],
-            found_b[i, C_X],
-            found_b[i, C_Y],
-            found_b[i, C_Z],
+            bolt_found[i, C_THETA],
+            bolt_found[i, C_OTHER_THETA],
+            bolt_found[i, C_X],
+            bolt_found[i, C_Y],
+            bolt_found[i, C_Z],
             count,
             out,
         )
-    for i in range(count_n):
-        kind = int(found_n[i, C_KIND])
+    for i in range(nut_count):
+        kind = int(nut_found[i, C_KIND])
         pair = EDGE_EDGE if kind == ONE_EDGE else (BASE_EDGE if kind == ONE_PLANE else THREAD_EDGE)
-        theta_n = found_n[i, C_THETA]
-        x, y, _, _ = edge_point(theta_n, nut)
-        count = keep(found_n[i, C_TIME], pair, found_n[i, C_OTHER], theta_n, x, y, 0.0, count, out)
-    for i in range(count_t):
-        x, y, z = tangent[i, tk.T_X], tangent[i, tk.T_Y], tangent[i, tk.T_POINT_Z]
-        again = False
+        nut_theta = nut_found[i, C_THETA]
+        x, y, _, _ = edge_point(nut_theta, nut)
+        count = insert_contact(
+            nut_found[i, C_TIME], pair, nut_found[i, C_OTHER_THETA], nut_theta, x, y, 0.0, count, out
+        )
+    for i in range(tangency_count):
+        x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
+        is_known = False
         for j in range(known_count):
             if abs(x - known[j, K_X]) + abs(y - known[j, K_Y]) + abs(z - known[j, K_Z]) < 1e-4 * bolt[pk.P]:
-                again = True
-        if not again:
-            count = keep(
-                tangent[i, tk.T_TIME], THREAD_THREAD, tangent[i, tk.T_THETA], math.atan2(y, x), x, y, z, count, out
+                is_known = True
+        if not is_known:
+            count = insert_contact(
+                tangencies[i, tk.T_TIME],
+                THREAD_THREAD,
+                tangencies[i, tk.T_THETA],
+                math.atan2(y, x),
+                x,
+                y,
+                z,
+                count,
+                out,
             )
-    if threads != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
+    if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best
     if count > 0:
-        tied = out[0, K_TIME] + slack
-        if is_full(out, count, tied) or is_full(found_b, count_b, tied) or is_full(found_n, count_n, tied):
+        tie_end = out[0, K_TIME] + tie_tolerance
+        if (
+            may_be_truncated(out, count, tie_end)
+            or may_be_truncated(bolt_found, bolt_count, tie_end)
+            or may_be_truncated(nut_found, nut_count, tie_end)
+        ):
             return count, UNRESOLVED, best
     return count, RESOLVED, best
 
@@ -369,13 +409,19 @@ def earliest(
 @kernel()
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
-    boxes, others, _, _, bolt_walks, nut_walks, _, _, _ = work
-    bolt_marks = np.empty(count)
-    nut_marks = np.empty(count)
-    bolt_mark_count, nut_mark_count = set_marks(contacts, count, pose, bolt, nut, bolt_marks, nut_marks)
+    boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = work
+    bolt_azimuths = np.empty(count)
+    nut_azimuths = np.empty(count)
+    bolt_azimuth_count, nut_azimuth_count = set_contact_azimuths(
+        contacts, count, pose, bolt, nut, bolt_azimuths, nut_azimuths
+    )
     down = np.array([0.0, 0.0, -1.0])
-    set_motions(pose, False, False, down, down, bolt_walks, nut_walks)
-    said, _ = inside_at(bolt_walks, bolt, nut, bolt_marks, bolt_mark_count, SHALLOW, NARROW, boxes, others)
-    if said == OUTSIDE:
-        said, _ = inside_at(nut_walks, nut, bolt, nut_marks, nut_mark_count, SHALLOW, NARROW, boxes, others)
-    return said != OUTSIDE
+    set_motions(pose, False, False, down, down, bolt_motion, nut_motion)
+    outcome, _ = find_inside(
+        bolt_motion, bolt, nut, bolt_azimuths, bolt_azimuth_count, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes
+    )
+    if outcome == OUTSIDE:
+        outcome, _ = find_inside(
+            nut_motion, nut, bolt, nut_azimuths, nut_azimuth_count, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes
+        )
+    return outcome != OUTSIDE

@@ -1,4 +1,4 @@
-"""Thread on thread at one place: phi along the bolt's thread, its derivatives, and Newton's method to a tangency.
+"""Thread on thread at one point: phi along the bolt's thread, its derivatives, and Newton's method to a tangency.
 
 The bolt's thread is parametrised by azimuth and axial position (theta, z), 0 <= z <= p, in the bolt's frame. With the
 nut's phi along it, a tangency is a point with phi = 0 and both derivatives zero; it is a contact where phi has a
@@ -14,7 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import M_AXIS, M_KIND, M_OFF, M_POINT, M_ROT, TWO_PI, copy_numbers, stride
+from threadstate.contact._geometry_kernel import (
+    M_AXIS,
+    M_KIND,
+    M_OFF,
+    M_POINT,
+    M_ROT,
+    TWO_PI,
+    copy_numbers,
+    motion_scale,
+)
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -34,16 +43,16 @@ REACH_THETA = 0.12
 REACH_Z = 0.2
 """The same along the axis, in pitches."""
 
-NOISE = 4e-15
-"""Round-off of phi, in thread pitches: where it changes slowly with time no steps get smaller than this allows."""
+ROUND_OFF = 4e-15
+"""Round-off of phi, in thread pitches: where phi changes slowly with time it bounds the last steps from below."""
 
-# Where a motion has brought the bolt: rotation by rows, offset, and its twist there; a point x moves by
-# ``turn x x + drift``.
-S_ROT = 0
-S_OFF = 9
-S_TURN = 12
-S_DRIFT = 15
-STANDING_SIZE = 18
+# The placement of the bolt after a motion: rotation by rows, offset, and its velocity there; that of a point x is
+# ``axis x x + drift``.
+PLACEMENT_ROT = 0
+PLACEMENT_OFF = 9
+PLACEMENT_AXIS = 12
+PLACEMENT_DRIFT = 15
+PLACEMENT_SIZE = 18
 
 # phi at a point of the bolt's thread, its derivatives A (by u), B (by z) and its rate (by tau), the point in the nut's
 # frame, and the second derivatives.
@@ -63,15 +72,15 @@ JET_SIZE = 12
 
 
 @kernel()
-def set_standing(motion: Array, tau: float, standing: Array) -> None:
-    """Where ``motion`` has brought the bolt after ``tau``."""
+def set_placement(motion: Array, tau: float, placement: Array) -> None:
+    """Sets the placement of the bolt after ``tau`` of a motion."""
     if motion[M_KIND] == 0.0:
         for i in range(9):
-            standing[S_ROT + i] = motion[M_ROT + i]
+            placement[PLACEMENT_ROT + i] = motion[M_ROT + i]
         for i in range(3):
-            standing[S_OFF + i] = motion[M_OFF + i] + tau * motion[M_AXIS + i]
-            standing[S_TURN + i] = 0.0
-            standing[S_DRIFT + i] = motion[M_AXIS + i]
+            placement[PLACEMENT_OFF + i] = motion[M_OFF + i] + tau * motion[M_AXIS + i]
+            placement[PLACEMENT_AXIS + i] = 0.0
+            placement[PLACEMENT_DRIFT + i] = motion[M_AXIS + i]
         return
     ax, ay, az = motion[M_AXIS], motion[M_AXIS + 1], motion[M_AXIS + 2]
     px, py, pz = motion[M_POINT], motion[M_POINT + 1], motion[M_POINT + 2]
@@ -87,51 +96,51 @@ def set_standing(motion: Array, tau: float, standing: Array) -> None:
         vy = h * ay + c * wy + s * (az * wx - ax * wz)
         vz = h * az + c * wz + s * (ax * wy - ay * wx)
         if j < 3:
-            standing[S_ROT + j] = vx
-            standing[S_ROT + 3 + j] = vy
-            standing[S_ROT + 6 + j] = vz
+            placement[PLACEMENT_ROT + j] = vx
+            placement[PLACEMENT_ROT + 3 + j] = vy
+            placement[PLACEMENT_ROT + 6 + j] = vz
         else:
-            standing[S_OFF] = px + vx
-            standing[S_OFF + 1] = py + vy
-            standing[S_OFF + 2] = pz + vz
-    standing[S_TURN] = ax
-    standing[S_TURN + 1] = ay
-    standing[S_TURN + 2] = az
-    standing[S_DRIFT] = az * py - ay * pz
-    standing[S_DRIFT + 1] = ax * pz - az * px
-    standing[S_DRIFT + 2] = ay * px - ax * py
+            placement[PLACEMENT_OFF] = px + vx
+            placement[PLACEMENT_OFF + 1] = py + vy
+            placement[PLACEMENT_OFF + 2] = pz + vz
+    placement[PLACEMENT_AXIS] = ax
+    placement[PLACEMENT_AXIS + 1] = ay
+    placement[PLACEMENT_AXIS + 2] = az
+    placement[PLACEMENT_DRIFT] = az * py - ay * pz
+    placement[PLACEMENT_DRIFT + 1] = ax * pz - az * px
+    placement[PLACEMENT_DRIFT + 2] = ay * px - ax * py
 
 
 @kernel(forceinline=True)
-def rotated(x: float, y: float, z: float, standing: Array) -> tuple[float, float, float]:
+def rotated(x: float, y: float, z: float, placement: Array) -> tuple[float, float, float]:
     """A vector of the bolt's frame in the nut's frame."""
     return (
-        standing[0] * x + standing[1] * y + standing[2] * z,
-        standing[3] * x + standing[4] * y + standing[5] * z,
-        standing[6] * x + standing[7] * y + standing[8] * z,
+        placement[0] * x + placement[1] * y + placement[2] * z,
+        placement[3] * x + placement[4] * y + placement[5] * z,
+        placement[6] * x + placement[7] * y + placement[8] * z,
     )
 
 
 @kernel()
-def set_jet(theta: float, z: float, standing: Array, bolt: Array, nut: Array, jet: Array) -> None:
-    """Phi and its derivatives at (theta, z) of the bolt's thread, where the bolt stands."""
+def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array) -> None:
+    """Phi and its derivatives at (theta, z) of the bolt's thread, for a placement."""
     k = bolt[pk.P] / TWO_PI
-    r_b, slope, bend = pk.jet(z - k * theta, bolt)
+    r_b, slope, second_derivative = pk.jet(z - k * theta, bolt)
     cos = math.cos(theta)
     sin = math.sin(theta)
-    x, y, zz = rotated(r_b * cos, r_b * sin, z, standing)
-    x += standing[S_OFF]
-    y += standing[S_OFF + 1]
-    zz += standing[S_OFF + 2]
+    x, y, zz = rotated(r_b * cos, r_b * sin, z, placement)
+    x += placement[PLACEMENT_OFF]
+    y += placement[PLACEMENT_OFF + 1]
+    zz += placement[PLACEMENT_OFF + 2]
     # Derivatives of the point by u, z and tau, and the second derivatives by u and z.
-    ux, uy, uz = rotated(-r_b * sin, r_b * cos, k, standing)
-    zx, zy, z_z = rotated(slope * cos, slope * sin, 1.0, standing)
-    outx, outy, outz = rotated(cos, sin, 0.0, standing)
-    acrossx, acrossy, acrossz = rotated(-sin, cos, 0.0, standing)
-    ax, ay, az = standing[S_TURN], standing[S_TURN + 1], standing[S_TURN + 2]
-    tx = ay * zz - az * y + standing[S_DRIFT]
-    ty = az * x - ax * zz + standing[S_DRIFT + 1]
-    tz = ax * y - ay * x + standing[S_DRIFT + 2]
+    ux, uy, uz = rotated(-r_b * sin, r_b * cos, k, placement)
+    zx, zy, z_z = rotated(slope * cos, slope * sin, 1.0, placement)
+    outx, outy, outz = rotated(cos, sin, 0.0, placement)
+    acrossx, acrossy, acrossz = rotated(-sin, cos, 0.0, placement)
+    ax, ay, az = placement[PLACEMENT_AXIS], placement[PLACEMENT_AXIS + 1], placement[PLACEMENT_AXIS + 2]
+    tx = ay * zz - az * y + placement[PLACEMENT_DRIFT]
+    ty = az * x - ax * zz + placement[PLACEMENT_DRIFT + 1]
+    tz = ax * y - ay * x + placement[PLACEMENT_DRIFT + 2]
     r = math.sqrt(x * x + y * y)
     f, f1, f2 = pk.jet(zz - k * math.atan2(y, x), nut)
     ex = x / r
@@ -139,7 +148,7 @@ def set_jet(theta: float, z: float, standing: Array, bolt: Array, nut: Array, je
     k_r = k / r
     gx = ex - f1 * k_r * ey
     gy = ey + f1 * k_r * ex
-    # Radial and azimuthal parts of the three derivatives, and by how much s changes along them.
+    # Radial and azimuthal components of the three derivatives, and the derivatives of s along them.
     ur, ua = ex * ux + ey * uy, ex * uy - ey * ux
     zr, za = ex * zx + ey * zy, ex * zy - ey * zx
     tr, ta = ex * tx + ey * ty, ex * ty - ey * tx
@@ -158,7 +167,7 @@ def set_jet(theta: float, z: float, standing: Array, bolt: Array, nut: Array, je
     along_across = gx * acrossx + gy * acrossy - f1 * acrossz
     jet[J_UU] = ua * ua / r - f2 * us * us - 2.0 * twist * ur * ua - r_b * along_out
     jet[J_UZ] = ua * za / r - f2 * us * zs - twist * (ur * za + ua * zr) + slope * along_across
-    jet[J_ZZ] = za * za / r - f2 * zs * zs - 2.0 * twist * zr * za + bend * along_out
+    jet[J_ZZ] = za * za / r - f2 * zs * zs - 2.0 * twist * zr * za + second_derivative * along_out
     jet[J_UT] = (
         ua * ta / r
         - f2 * us * ts
@@ -178,7 +187,7 @@ def set_jet(theta: float, z: float, standing: Array, bolt: Array, nut: Array, je
 
 
 @kernel()
-def polish(
+def newton_tangency(
     theta_start: float,
     z_start: float,
     tau: float,
@@ -186,7 +195,7 @@ def polish(
     motion: Array,
     bolt: Array,
     nut: Array,
-    standing: Array,
+    placement: Array,
     jet: Array,
     found: Array,
     count: int,
@@ -198,35 +207,35 @@ def polish(
     k = bolt[pk.P] / TWO_PI
     theta = theta_start
     z = z_start
-    set_standing(motion, tau, standing)
-    set_jet(theta, z, standing, bolt, nut, jet)
+    set_placement(motion, tau, placement)
+    set_jet(theta, z, placement, bolt, nut, jet)
     converged = False
-    step = stride(motion, bolt)
+    step = motion_scale(motion, bolt)
     for _ in range(30):
         phi, a, b, rate = jet[J_PHI], jet[J_A], jet[J_B], jet[J_RATE]
         uu, uz, zz, ut, zt = jet[J_UU], jet[J_UZ], jet[J_ZZ], jet[J_UT], jet[J_ZT]
-        # Cramer's rule: minors of the rows of A and B, and what A and B leave of each column.
+        # Cramer's rule: minors of the rows of A and B, and the combinations of A and B with each column.
         minor_u = uz * zt - ut * zz
         minor_z = uu * zt - ut * uz
         minor_t = uu * zz - uz * uz
-        left_u = a * uz - uu * b
-        left_z = a * zz - uz * b
-        left_t = a * zt - ut * b
+        rest_u = a * uz - uu * b
+        rest_z = a * zz - uz * b
+        rest_t = a * zt - ut * b
         det = a * minor_u - b * minor_z + rate * minor_t
         if det == 0.0:
             return count
-        du = (-phi * minor_u + b * left_t - rate * left_z) / det
-        dz = (phi * minor_z - a * left_t + rate * left_u) / det
-        dt = (-phi * minor_t + a * left_z - b * left_u) / det
+        du = (-phi * minor_u + b * rest_t - rate * rest_z) / det
+        dz = (phi * minor_z - a * rest_t + rate * rest_u) / det
+        dt = (-phi * minor_t + a * rest_z - b * rest_u) / det
         theta += du
         z += k * du + dz
         tau += dt
         if abs(theta - theta_start) > REACH_THETA or abs(z - z_start) > REACH_Z * bolt[pk.P]:
             return count
-        set_standing(motion, tau, standing)
-        set_jet(theta, z, standing, bolt, nut, jet)
+        set_placement(motion, tau, placement)
+        set_jet(theta, z, placement, bolt, nut, jet)
         small = abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (step + abs(tau))
-        if small or (abs(jet[J_PHI]) < NOISE * bolt[pk.P] and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]):
+        if small or (abs(jet[J_PHI]) < ROUND_OFF * bolt[pk.P] and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]):
             converged = True
             break
     # Both parts are one thread pitch long.

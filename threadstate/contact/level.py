@@ -44,26 +44,26 @@ def level_contact(pair: Pair, phase: float) -> LevelContact:
     return LevelContact(0.0, False)
 
 
-def solve_level(pair: Pair, phase: float, row: np.ndarray) -> None:
+def solve_level(pair: Pair, phase: float, record: np.ndarray) -> None:
     """Fills the record of a level pose; see ``_record_kernel`` for its layout. ``phase`` in rad."""
-    row[:] = 0.0
+    record[:] = 0.0
     for i in (rk.O_LAMBDA, rk.O_MU, rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT):
-        row[i] = math.nan
+        record[i] = math.nan
     contact = level_contact(pair, phase)
     pose = np.zeros(12)
     rotation(0.0, 0.0, phase, pose)
     pose[11] = contact.height
-    rk.put_pose(pose, row)
-    row[rk.O_FLAGS] = rk.FLAG_FLUSH
-    bolt, nut = pair.bolt.row, pair.nut.row
+    rk.append_pose(pose, record)
+    record[rk.O_FLAGS] = rk.FLAG_FLUSH
+    bolt, nut = pair.bolt.packed, pair.nut.packed
     if contact.on_thread:
         for x, y, z in strip_extremes(pair, contact.height):
-            rk.put_strip(np.array([0.0, FLUSH, 0.0, 0.0, x, y, z]), pose, bolt, nut, row)
+            rk.append_strip_corner(np.array([0.0, FLUSH, 0.0, 0.0, x, y, z]), pose, bolt, nut, record)
         return
     extremes = np.empty((4, fk.EXTREME_SIZE))
     for i in range(fk.extreme_points(pose, bolt, nut, 1.0, 0.0, extremes)):
         theta, corner, x, y = extremes[i]
-        rk.put_flush(1, theta, corner > 0.0, x, y, bolt, nut, row)
+        rk.append_flush_point(1, theta, corner > 0.0, x, y, bolt, nut, record)
 
 
 def strip_extremes(pair: Pair, height: float) -> tuple[tuple[float, float, float], ...]:

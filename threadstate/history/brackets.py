@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from threadstate.history.changes import NO_ANSWER, Changes
+from threadstate.history.changes import UNDECIDED_CODE, Changes
 from threadstate.history.model import CIRCLE_DEG, POINT_DEG
 
 UNDECIDED_GAP_DEG = 0.02
@@ -29,7 +29,7 @@ class Bracket:
     @property
     def decided(self) -> bool:
         """Whether there are labels on both sides."""
-        return NO_ANSWER not in (self.low_code, self.high_code)
+        return UNDECIDED_CODE not in (self.low_code, self.high_code)
 
 
 def brackets_of(changes: Changes, line: int) -> list[Bracket]:
@@ -49,17 +49,17 @@ def brackets_of(changes: Changes, line: int) -> list[Bracket]:
         later = tuple(phase + CIRCLE_DEG for phase in first.through)
         once_more = replace(first, low=first.low + CIRCLE_DEG, high=first.high + CIRCLE_DEG, through=later)
         joined[-1] = joined_brackets(joined[-1], once_more)
-    kept: list[Bracket] = []
+    remaining: list[Bracket] = []
     for bracket in joined:
         if (
-            kept
-            and kept[-1].low_code == bracket.high_code == NO_ANSWER
-            and bracket.low - kept[-1].high < UNDECIDED_GAP_DEG
+            remaining
+            and remaining[-1].low_code == bracket.high_code == UNDECIDED_CODE
+            and bracket.low - remaining[-1].high < UNDECIDED_GAP_DEG
         ):
-            kept.pop()
+            remaining.pop()
         else:
-            kept.append(bracket)
-    return kept
+            remaining.append(bracket)
+    return remaining
 
 
 def joined_brackets(one: Bracket, other: Bracket) -> Bracket:

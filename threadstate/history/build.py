@@ -8,7 +8,7 @@ import numpy as np
 
 from threadstate.history.brackets import Bracket, brackets_of
 from threadstate.history.changes import (
-    NO_ANSWER,
+    UNDECIDED_CODE,
     Floats,
     Integers,
     Resolution,
@@ -28,11 +28,11 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
 
-RESOLUTION = Resolution(step=1.0, width=5e-7, jump_width=1e-11, no_answer_width=1e-3)
+RESOLUTION = Resolution(step=1.0, width=5e-7, jump_width=1e-11, undecided_width=1e-3)
 """In degrees; what a denser start finds is in decision 7."""
 
-TOGETHER = 8
-"""Orientations that are searched together: so many keep their poses' records in some 20 MB."""
+BATCH_SIZE = 8
+"""Orientations that are searched together; the records of their poses take about 20 MB."""
 
 
 def history_of(pair: Pair, roll_deg: float, pitch_deg: float, options: SolveOptions | None = None) -> SolvedHistory:
@@ -57,16 +57,16 @@ def histories_of(
     options = options or SolveOptions()
     orientations = checked_poses([(roll, pitch, 0.0) for roll, pitch in orientations_deg])[:, :2]
     histories: list[SolvedHistory] = []
-    for first in range(0, len(orientations), TOGETHER):
-        together = orientations[first : first + TOGETHER]
-        histories += _histories(pair, options, together, resolution, store or RecordStore(pair, options))
+    for first in range(0, len(orientations), BATCH_SIZE):
+        batch = orientations[first : first + BATCH_SIZE]
+        histories += _histories(pair, options, batch, resolution, store or RecordStore(pair, options))
     return histories
 
 
 def _histories(
     pair: Pair, options: SolveOptions, orientations_deg: Floats, resolution: Resolution, store: RecordStore
 ) -> list[SolvedHistory]:
-    """The histories of orientations of shape (n, 2) whose poses are all kept in one store."""
+    """The histories of orientations of shape (n, 2) whose poses share one store."""
     codes = LabelCodes(pair, options, store)
     counts = np.zeros(len(orientations_deg), dtype=np.int64)
 
@@ -91,7 +91,7 @@ def _histories(
 def _steady_brackets(
     codes: LabelCodes, sample: Sampler, orientation_deg: Floats, line: int, brackets: list[Bracket]
 ) -> list[Bracket]:
-    """The brackets of a line, as wide as labels flicker where a contact is born beside an earlier one.
+    """The brackets of a line, widened to where labels flicker beside the onset of a contact close to an earlier one.
 
     Where the height of first contact jumps that is the event, and the bracket stays as it is.
     """
@@ -100,10 +100,10 @@ def _steady_brackets(
         return brackets
     ends = np.array([phase % CIRCLE_DEG for bracket in decided for phase in (bracket.low, bracket.high)])
     poses = np.column_stack([np.tile(orientation_deg, (len(ends), 1)), ends])
-    beside = codes.born_beside(poses)
+    close = codes.have_close_contacts(poses)
     height = codes.samples(poses).values[:, 0]
-    unsure = (beside[0::2] | beside[1::2]) & (np.abs(height[1::2] - height[0::2]) <= 1.0)
-    doubtful = {bracket for bracket, doubt in zip(decided, unsure.tolist(), strict=True) if doubt}
+    uncertain = (close[0::2] | close[1::2]) & (np.abs(height[1::2] - height[0::2]) <= 1.0)
+    doubtful = {bracket for bracket, doubt in zip(decided, uncertain.tolist(), strict=True) if doubt}
     return widened(sample, brackets, line, doubtful)
 
 
@@ -136,7 +136,7 @@ def _cut(brackets: list[Bracket], states: list[ContactState | None]) -> tuple[li
         middle = next(remaining)
         changes = contact_changes(before, after)
         boundaries.append(Boundary(bracket.low, bracket.high, before, after, through, changes))
-        if bracket.high_code == NO_ANSWER:
+        if bracket.high_code == UNDECIDED_CODE:
             middle = None
         shift = CIRCLE_DEG if start >= CIRCLE_DEG else 0.0
         intervals.append(Interval(start - shift, end - shift, labels_of(middle), middle))

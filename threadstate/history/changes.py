@@ -1,8 +1,8 @@
 """Where an integer code changes along many lines at once, and where numbers jump although it does not.
 
 The search knows codes and numbers alone, not what they stand for. Each line is sampled at even steps; a stretch between
-two samples whose codes differ is halved, and both halves are judged in the same way, until it is as narrow as wanted.
-What then lies between two changes is sampled in its middle, too, and searched where that is unlike its ends.
+two samples whose codes differ is bisected, and both halves are tested in the same way, down to the resolution. What
+then lies between two changes is sampled in its middle, too, and searched where the code there differs from its ends.
 All stretches of all lines are halved together, so that one call samples one point of each.
 
 Resolution: a code that differs from both its neighbours is certain to be found where it lasts for a start step or
@@ -22,8 +22,8 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-LASTING = 3
-"""Over so many halvings a jump has to stay in one half; a steep rise, as a root has where it begins, spreads.
+LASTING_HALVINGS = 3
+"""Number of bisections over which a jump stays in one half; a steep rise, as where a square root begins, spreads.
 
 Of the rise of a root the steeper half has 0.71.
 """
@@ -31,13 +31,13 @@ Of the rise of a root the steeper half has 0.71.
 LASTING_SHARE = 0.9
 """The share of a rise that one half has to have."""
 
-NO_ANSWER = -1
-"""The code of a place that has no code: where that begins and ends is narrowed less."""
+UNDECIDED_CODE = -1
+"""The code of an undecided place; the ends of undecided stretches have a resolution of their own."""
 
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Codes of shape (n,), NO_ANSWER where undecided, and numbers of shape (n, k), NaN where a code has none."""
+    """Codes of shape (n,), UNDECIDED_CODE where undecided, and numbers of shape (n, k), NaN where a code has none."""
 
     codes: Integers
     values: Floats
@@ -51,15 +51,15 @@ Sampler = Callable[[Integers, Floats], Samples]
 class Resolution:
     """How finely to search.
 
-    ``step`` is that of the first samples, ``width`` that to which a change is narrowed, ``jump_width`` that to which a
-    jump of the first number is, ``no_answer_width`` that to which the ends of a stretch without answers are. A jump is
-    a change of a number by more than 1.
+    ``step`` is that of the first samples; ``width`` is the final width of a change, ``jump_width`` that of a jump of
+    the first number, ``undecided_width`` that of the ends of an undecided stretch. A jump is a change of a number by
+    more than 1.
     """
 
     step: float
     width: float
     jump_width: float
-    no_answer_width: float
+    undecided_width: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,15 +132,15 @@ def changes_on_circles(sample: Sampler, line_count: int, period: float, resoluti
 
 
 def _narrowed(sample: Sampler, stretches: _Stretches, resolution: Resolution, counts: Integers) -> _Stretches:
-    """The changes within stretches, each as narrow as wanted; samples are added to the lines' ``counts``."""
+    """The changes within stretches, bisected down to the resolution; samples are added to the lines' ``counts``."""
     found: list[_Stretches] = []
     while True:
         changing = (stretches.low_code != stretches.high_code) | _jumps(stretches)
-        answered = (stretches.low_code != NO_ANSWER) & (stretches.high_code != NO_ANSWER)
+        decided = (stretches.low_code != UNDECIDED_CODE) & (stretches.high_code != UNDECIDED_CODE)
         jumping = np.abs(stretches.high_value[:, 0] - stretches.low_value[:, 0]) > 1.0
         wanted = np.where(jumping, resolution.jump_width, resolution.width)
-        wanted[~answered] = resolution.no_answer_width
-        spreads = (stretches.low_code == stretches.high_code) & (stretches.lasting < LASTING)
+        wanted[~decided] = resolution.undecided_width
+        spreads = (stretches.low_code == stretches.high_code) & (stretches.lasting < LASTING_HALVINGS)
         wanted[spreads] = resolution.jump_width
         narrow = stretches.high - stretches.low <= wanted
         found.append(stretches[changing & narrow])
@@ -159,7 +159,7 @@ def _unlike_their_middle(sample: Sampler, found: _Stretches, counts: Integers) -
     between = (
         (found.line[after] == found.line[before])
         & (found.high_code[after] == found.low_code[before])
-        & (found.high_code[after] != NO_ANSWER)
+        & (found.high_code[after] != UNDECIDED_CODE)
         & (found.low[before] > found.high[after])
     )
     after, before = after[between], before[between]

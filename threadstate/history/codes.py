@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._stage_kernel import FLUSH
-from threadstate.history.changes import NO_ANSWER, Samples
+from threadstate.history.changes import UNDECIDED_CODE, Samples
 from threadstate.history.records import Floats, Integers, RecordStore
 from threadstate.state.classify import classify
 from threadstate.state.model import StateClass
@@ -17,11 +17,11 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
 BATCH = 4096
-"""Poses that are solved in one go: as many records fit into 8 MB."""
+"""Poses that are solved in one call: their records take 8 MB."""
 
 _CLASSES = tuple(StateClass)
 _LABEL_COLUMNS = (rk.P_STAGE, rk.P_PAIR, rk.P_BOLT_REGION, rk.P_NUT_REGION)
-_MOST_NUMBERS = 3 + 3 * rk.MOST_CONTACTS
+_VALUE_COUNT = 3 + 3 * rk.MAX_RECORD_CONTACTS
 
 HEIGHT_JUMP = 2e-4
 """The least change of a height, in thread pitches, that is a jump."""
@@ -33,57 +33,59 @@ Where edges graze, a contact runs along them so fast that shorter jumps cannot b
 """
 
 
-BESIDE = 1e-3
-"""How near to an earlier contact, in thread pitches, another one may be within round-off."""
+CLOSE_CONTACT = 1e-3
+"""Distance of two contacts, in thread pitches, within which round-off may decide whether they are distinct."""
 
 
 class LabelCodes:
-    """Samples poses; a code is the place of its labels in the order in which they were met.
+    """Samples poses; a code numbers the distinct labels in the order in which they were found.
 
-    Codes differ between two objects of this class, whether two of them are equal does not. With ``first_alone`` labels
-    and numbers are those of the first contact, and class and flags of the state count for nothing.
+    Codes differ between two objects of this class, whether two of them are equal does not. With ``first_contact_only``
+    labels and numbers are those of the first contact; class and flags of the state are ignored.
     """
 
-    def __init__(self, pair: Pair, options: SolveOptions, store: RecordStore, *, first_alone: bool = False) -> None:
+    def __init__(
+        self, pair: Pair, options: SolveOptions, store: RecordStore, *, first_contact_only: bool = False
+    ) -> None:
         self._pair = pair
         self._store = store
         self._options = options
-        self._first_alone = first_alone
+        self._first_contact_only = first_contact_only
         self._codes: dict[bytes, int] = {}
 
     def samples(self, poses_deg: Floats) -> Samples:
         """Codes and numbers of poses of shape (n, 3): roll, pitch, phase in degrees.
 
-        The code of an undecided pose is NO_ANSWER. The numbers are the heights of the bolt's origin in its three poses,
-        as multiples of a height's jump, and the coordinates in the nut's frame, as multiples of a place's jump, of all
-        contacts but those of a patch, whose extreme points are no events.
+        The code of an undecided pose is UNDECIDED_CODE. The numbers are the heights of the bolt's origin in its three
+        poses, as multiples of a height's jump, and the coordinates in the nut's frame, as multiples of a place's jump,
+        of all contacts but those of a patch, whose extreme points are no events.
         """
         if not len(poses_deg):
-            return Samples(np.empty(0, dtype=np.int64), np.empty((0, _MOST_NUMBERS)))
+            return Samples(np.empty(0, dtype=np.int64), np.empty((0, _VALUE_COUNT)))
         parts = [self._batch(poses_deg[i : i + BATCH]) for i in range(0, len(poses_deg), BATCH)]
         return Samples(np.concatenate([p.codes for p in parts]), np.concatenate([p.values for p in parts]))
 
-    def born_beside(self, poses_deg: Floats) -> NDArray[np.bool_]:
-        """Whether poses of shape (n, 3) have a contact, not of a patch, nearer than BESIDE to an earlier one."""
+    def have_close_contacts(self, poses_deg: Floats) -> NDArray[np.bool_]:
+        """Whether poses of shape (n, 3) have a contact, not of a patch, nearer than CLOSE_CONTACT to another one."""
         records = self._store.records(poses_deg)
-        contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MOST_CONTACTS, rk.POINT_SIZE)
-        used = np.arange(rk.MOST_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
+        contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MAX_RECORD_CONTACTS, rk.POINT_SIZE)
+        used = np.arange(rk.MAX_RECORD_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
         used &= contacts[:, :, rk.P_PAIR] != FLUSH
         points = np.where(used[..., np.newaxis], contacts[:, :, rk.P_POINT : rk.P_POINT + 3], np.nan)
         apart = np.linalg.norm(points[:, :, np.newaxis] - points[:, np.newaxis], axis=3)
         of_two = np.triu(np.ones(apart.shape[1:], dtype=np.bool_), 1)
-        near: NDArray[np.bool_] = (of_two & (apart < BESIDE * self._pair.thread_pitch)).any(axis=(1, 2))
+        near: NDArray[np.bool_] = (of_two & (apart < CLOSE_CONTACT * self._pair.thread_pitch)).any(axis=(1, 2))
         return near
 
     def _batch(self, poses_deg: Floats) -> Samples:
         records = self._store.records(poses_deg)
         undecided = records[:, rk.O_STATUS] != 0.0
-        contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MOST_CONTACTS, rk.POINT_SIZE)
-        used = np.arange(rk.MOST_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
+        contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MAX_RECORD_CONTACTS, rk.POINT_SIZE)
+        used = np.arange(rk.MAX_RECORD_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
         used[undecided] = False
-        labels = np.zeros((len(records), 3 + 4 * rk.MOST_CONTACTS), dtype=np.uint8)
+        labels = np.zeros((len(records), 3 + 4 * rk.MAX_RECORD_CONTACTS), dtype=np.uint8)
         pose_count = records[:, rk.O_POSES]
-        if self._first_alone:
+        if self._first_contact_only:
             used &= contacts[:, :, rk.P_STAGE] == 1.0
             pose_count = np.minimum(pose_count, 1.0)
         else:
@@ -93,27 +95,27 @@ class LabelCodes:
         named = contacts[:, :, _LABEL_COLUMNS]
         labels[:, 3:] = np.where(used[..., np.newaxis], named, 0.0).reshape(len(records), -1)
 
-        values = np.full((len(records), _MOST_NUMBERS), np.nan)
+        values = np.full((len(records), _VALUE_COUNT), np.nan)
         heights = records[:, rk.O_POSE + 11 : rk.O_CONTACT : 12]
         reached = (np.arange(3) < pose_count[:, np.newaxis]) & ~undecided[:, np.newaxis]
         values[:, :3] = np.where(reached, heights / (HEIGHT_JUMP * self._pair.thread_pitch), np.nan)
         points = contacts[:, :, rk.P_POINT : rk.P_POINT + 3] / (PLACE_JUMP * self._pair.thread_pitch)
         placed = used & (contacts[:, :, rk.P_PAIR] != FLUSH)
         values[:, 3:] = np.where(placed[..., np.newaxis], points, np.nan).reshape(len(records), -1)
-        return Samples(np.where(undecided, NO_ANSWER, self._numbered(labels)), values)
+        return Samples(np.where(undecided, UNDECIDED_CODE, self._numbered(labels)), values)
 
     def _classes(self, records: Floats) -> NDArray[np.uint8]:
         """Index of every record's class.
 
-        A class depends on which margins are present and on their signs: it is asked for once for all records that
-        are alike in that.
+        A class depends on which margins are present and on their signs: it is computed once for all records that
+        agree in that.
         """
         flush = records[:, rk.O_FLAGS].astype(np.int64) & rk.FLAG_FLUSH
         third = ~np.isnan(records[:, rk.O_MU])
         drop, embedment, pivot = (records[:, i] for i in (rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT))
         pivot_threshold = self._options.quasi_stable_fraction * self._pair.nominal_diameter / 2.0
         embedment_tolerance = self._options.embedment_tolerance * self._pair.thread_pitch
-        alike = np.column_stack(
+        criteria = np.column_stack(
             [
                 flush,
                 third,
@@ -122,7 +124,7 @@ class LabelCodes:
                 _sign(pivot - pivot_threshold),
             ]
         )
-        _, first, which = np.unique(alike, axis=0, return_index=True, return_inverse=True)
+        _, first, which = np.unique(criteria, axis=0, return_index=True, return_inverse=True)
         classes = [
             _CLASSES.index(
                 classify(

@@ -19,10 +19,10 @@ LEAST_FALL = 2e-8
 """A descent by no more than this many thread pitches is ignored: 1e-9 in of 1/4-20."""
 
 NARROW_DEG = 0.25
-"""Stretches on which the steepest fall may lie are halved to this width, and then searched by its slope."""
+"""Stretches on which the steepest fall may lie are bisected to this width, and then searched by slope."""
 
 STEEPEST_DEG = 1e-8
-"""To this the phase of the steepest fall is narrowed where the slopes at its two ends agree."""
+"""Resolution of the phase of the steepest fall where the slopes at its two ends agree."""
 
 
 def falls_of(curve: HeightCurve, thread_pitch: float, span_deg: float = SPAN_DEG) -> Falls:
@@ -62,8 +62,8 @@ def _descents(curve: HeightCurve, least_fall: float) -> tuple[Descent, ...]:
     after_rises = [first + k for k in range(len(rises) + 1) if rises[(first + k) % len(rises)]]
     runs = [range(one + 1, other) for one, other in pairwise(after_rises)]
     found = [_descent(course, run, curve.round_off) for run in runs]
-    kept = [one for one in found if one is not None and one.fall > least_fall]
-    return tuple(sorted(kept, key=lambda one: one.start_deg))
+    descents = [one for one in found if one is not None and one.fall > least_fall]
+    return tuple(sorted(descents, key=lambda one: one.start_deg))
 
 
 def _descent(course: _Course, run: range, round_off: float) -> Descent | None:
@@ -112,10 +112,10 @@ class _Steepest:
     def found(self) -> tuple[float, float, float]:
         """The fall, and the phases at which it begins and ends."""
         self._between_ends()
-        once = self._curve.segments
-        again = [_turned(segment) for segment in once]
-        for low in once:
-            for high in (*once, *again):
+        this_turn = self._curve.segments
+        next_turn = [_turned(segment) for segment in this_turn]
+        for low in this_turn:
+            for high in (*this_turn, *next_turn):
                 start = max(low.start_deg, high.start_deg - self._span)
                 end = min(low.end_deg, high.end_deg - self._span)
                 if start < end and _highest(low) - _lowest(high) > self._fall + self._curve.round_off:
@@ -125,7 +125,7 @@ class _Steepest:
     def _between_ends(self) -> None:
         """Falls from an end of a step to another, as where both are extremes."""
         curve = self._curve
-        marks = [
+        step_ends = [
             (phase, height)
             for gap, segment in zip(curve.gaps, curve.segments, strict=True)
             for phase, height in (
@@ -135,9 +135,9 @@ class _Steepest:
                 (segment.end_deg, segment.end_height),
             )
         ]
-        marks += [(phase + CIRCLE_DEG, height) for phase, height in marks]
-        for number, (start, height) in enumerate(marks[: len(marks) // 2]):
-            for end, lower in marks[number + 1 :]:
+        step_ends += [(phase + CIRCLE_DEG, height) for phase, height in step_ends]
+        for number, (start, height) in enumerate(step_ends[: len(step_ends) // 2]):
+            for end, lower in step_ends[number + 1 :]:
                 if end - start > self._span:
                     break
                 self._offer(height - lower, start, end)
@@ -179,7 +179,7 @@ class _Steepest:
         return heights[:2], heights[2:]
 
     def _offer(self, fall: float, start: float, end: float) -> None:
-        """Keep a fall that is larger than what was found, or as large within a narrower stretch."""
+        """Store a fall that is larger than the one found before, or as large within a narrower stretch."""
         more = fall - self._fall
         level = self._curve.round_off
         if more > level or (abs(more) <= level and self._fall > 0.0 and end - start < self._end - self._start):

@@ -9,7 +9,7 @@ from threadstate.history.labels import contact_labels
 from threadstate.history.model import ContactChange
 from threadstate.state.model import Contact, ContactState
 
-STILL = 1e-6
+UNMOVED = 1e-6
 """A contact of the same labels that moves less, as a multiple of its distance from the axis, is the same."""
 
 
@@ -38,4 +38,4 @@ def _change(stage: int, place: int, before: Contact | None, after: Contact | Non
 
 
 def _jumps(before: Contact, after: Contact) -> bool:
-    return math.dist(before.point, after.point) > STILL * math.hypot(before.point[0], before.point[1])
+    return math.dist(before.point, after.point) > UNMOVED * math.hypot(before.point[0], before.point[1])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 SPAN_DEG = 3.0
-"""The span of phase within which the steepest fall is looked for."""
+"""The span of phase within which the steepest fall is searched for."""
 
 SNAP_PITCHES = 0.05
 """A steepest fall of more than so many thread pitches is a snap's."""

@@ -1,8 +1,8 @@
 """Stretches of phase over which round-off decides the labels, as brackets as wide as these.
 
-Where a contact is born next to an earlier one, nearer than some 1e-3 thread pitches, the curve between them leaves the
-overlap by less than round-off shows: neighbouring phases have the contact or have it not, at random. A change there has
-no phase of its own, so its bracket is widened until the answers beside it are steady.
+At the onset of a contact close to an earlier one, within some 1e-3 thread pitches, the curve between them leaves the
+overlap by less than round-off: neighbouring phases have the contact or not, at random. A change there has
+no phase of its own, so its bracket is widened until the labels beside it are steady.
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ from threadstate.history.changes import Sampler
 from threadstate.history.model import CIRCLE_DEG, POINT_DEG
 
 NEAREST_DEG = 1e-6
-"""The least distance from a bracket at which labels are looked at."""
+"""The least distance from a bracket at which labels are sampled."""
 
-FARTHER = 2.0
-"""How many times as far from a bracket the next place is at which labels are looked at."""
+DISTANCE_FACTOR = 2.0
+"""Ratio of the distances from a bracket of successive samples."""
 
-NEARER = 16.0
-"""What part of a bracket's own width the least distance from it is where it is wide."""
+WIDTH_DIVISOR = 16.0
+"""A wide bracket's width divided by this is the least distance from it at which labels are sampled."""
 
 MARGIN = 0.5
-"""What part of its width a bracket is at last widened by on either side: towards its ends other answers grow rare."""
+"""Part of its width by which a bracket is finally widened on either side: towards its ends other labels are rare."""
 
 GAP_DEG = 1e-3
 """Stretches over which labels flicker, no farther apart than this, are one."""
 
-ROUNDS = 12
-"""How often a bracket is widened at most."""
+MAX_ROUNDS = 12
+"""How many times a bracket is widened at most."""
 
 
 def widened(sample: Sampler, brackets: Sequence[Bracket], line: int, doubtful: Set[Bracket]) -> list[Bracket]:
@@ -71,8 +71,8 @@ def _joined(brackets: Sequence[Bracket], unsteady: Sequence[bool]) -> tuple[list
 
 
 def _widened(sample: Sampler, line: int, bracket: Bracket, lowest: float, highest: float) -> Bracket:
-    for _ in range(ROUNDS):
-        nearest = max(NEAREST_DEG, bracket.width / NEARER)
+    for _ in range(MAX_ROUNDS):
+        nearest = max(NEAREST_DEG, bracket.width / WIDTH_DIVISOR)
         low = _steady(sample, line, bracket.low, lowest, -nearest, bracket.low_code)
         high = _steady(sample, line, bracket.high, highest, nearest, bracket.high_code)
         if (low, high) == (bracket.low, bracket.high):
@@ -91,12 +91,12 @@ def _widened(sample: Sampler, line: int, bracket: Bracket, lowest: float, highes
 
 
 def _steady(sample: Sampler, line: int, start: float, limit: float, step: float, code: int) -> float:
-    """The nearest place from the start on, looked at towards the limit, beyond which none has another code."""
+    """The nearest sampled place from the start towards the limit beyond which none has another code."""
     reach = abs(limit - start)
     if reach <= abs(step):
         return start
-    count = 1 + int(np.log(reach / abs(step)) / np.log(FARTHER))
-    places = np.append(start + step * FARTHER ** np.arange(count), limit)
+    count = 1 + int(np.log(reach / abs(step)) / np.log(DISTANCE_FACTOR))
+    places = np.append(start + step * DISTANCE_FACTOR ** np.arange(count), limit)
     codes = sample(np.full(len(places), line, dtype=np.int64), places).codes
     other = np.flatnonzero(codes != code)
     return start if not len(other) else float(places[min(int(other[-1]) + 1, count)])

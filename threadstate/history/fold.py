@@ -17,9 +17,9 @@ from dataclasses import dataclass
 from threadstate.thread.pair import Pair
 from threadstate.thread.profile import Profile
 
-MOST_STEPS = 20
+MAX_STEPS = 20
 SETTLED = 1e-12
-"""Steps of Newton's method, and the last one's size (rad): the next would be within round-off."""
+"""Most steps of Newton's method, and the size of the last one (rad): the next would be within round-off."""
 
 ROUND_OFF = 8.0 * sys.float_info.epsilon
 """Relative error of g and its derivatives as they are computed."""
@@ -50,7 +50,7 @@ def fold_near(pair: Pair, roll_deg: float, pitch_deg: float, phase_deg: float, a
     """The fold near a phase and an azimuth (rad) on the bolt's edge, by Newton's method; None where it finds none."""
     roll, pitch = math.radians(roll_deg), math.radians(pitch_deg)
     theta, phase = azimuth, math.radians(phase_deg)
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         bolt = _edge_from_above(pair.bolt, roll, pitch, theta)
         radius, slope, bend = _outline(pair.nut, bolt.azimuth[0] + phase)
         g = bolt.radius[0] - radius

@@ -24,7 +24,7 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact._stage_kernel import BASE_EDGE, EDGE_EDGE, THREAD_EDGE
 from threadstate.history.brackets import Bracket, brackets_of
 from threadstate.history.build import RESOLUTION
-from threadstate.history.changes import NO_ANSWER, Samples, changes_on_circles
+from threadstate.history.changes import UNDECIDED_CODE, Samples, changes_on_circles
 from threadstate.history.codes import HEIGHT_JUMP, LabelCodes
 from threadstate.history.limits import fold_in
 from threadstate.history.model import CIRCLE_DEG
@@ -37,10 +37,10 @@ ROUND_OFF = 1e-12
 """A change of the height by no more than this many thread pitches is ignored."""
 
 SAMPLES_DEG = 1.0
-"""Slopes are looked at where the phase is a multiple of this, as the poses of a library are."""
+"""Slopes are sampled where the phase is a multiple of this, as the poses of a library are."""
 
 EXTREME_DEG = 1e-9
-"""To this a phase is narrowed at which the slope changes its sign."""
+"""Resolution of a phase at which the slope changes its sign."""
 
 CURVED = (EDGE_EDGE, BASE_EDGE, THREAD_EDGE)
 """Features of a first contact along which the height is no straight line."""
@@ -123,8 +123,9 @@ def monotone_segments(
 ) -> list[Segment]:
     """A stretch over which the height is smooth, cut at its extremes.
 
-    Slopes are looked at where the phase is a multiple of SAMPLES_DEG, at both ends and in the middle; where the sign
-    changes between two of these its change is found by halving. One of at most ``level_slope`` per degree has none.
+    Slopes are sampled where the phase is a multiple of SAMPLES_DEG, at both ends and in the middle; where the sign
+    changes between two of these its change is found by bisection. A slope of at most ``level_slope`` per degree has no
+    sign.
     """
 
     def sign(phases: Floats) -> Floats:
@@ -161,11 +162,11 @@ def _end_of_sign(sign: Evaluate, low: float, high: float) -> float:
 
 def _between_decided(brackets: list[Bracket]) -> list[tuple[Bracket, bool]]:
     """The brackets in order of phase over one turn, the two about an undecided stretch as one; whether each is such."""
-    first = next(number for number, bracket in enumerate(brackets) if bracket.low_code != NO_ANSWER)
+    first = next(number for number, bracket in enumerate(brackets) if bracket.low_code != UNDECIDED_CODE)
     later = [replace(one, low=one.low + CIRCLE_DEG, high=one.high + CIRCLE_DEG) for one in brackets[:first]]
     merged: list[tuple[Bracket, bool]] = []
     for bracket in [*brackets[first:], *later]:
-        if bracket.low_code == NO_ANSWER:
+        if bracket.low_code == UNDECIDED_CODE:
             before, _ = merged.pop()
             merged.append((replace(before, high=bracket.high, high_code=bracket.high_code), True))
         else:
@@ -180,7 +181,7 @@ class _FirstContacts:
         self._pair = pair
         self._tilt = (roll, pitch)
         self._store = store
-        self._codes = LabelCodes(pair, options, store, first_alone=True)
+        self._codes = LabelCodes(pair, options, store, first_contact_only=True)
 
     def stretches(self) -> list[tuple[Gap, float, float]]:
         """The decided stretches of phase over which no label changes, each with the gap before it."""
@@ -234,7 +235,7 @@ class _FirstContacts:
             contact = record[rk.O_CONTACT :]
             if int(contact[rk.P_PAIR]) != EDGE_EDGE:
                 continue
-            azimuth = math.atan2(contact[rk.P_BOLT + 1], contact[rk.P_BOLT])
+            azimuth = math.atan2(contact[rk.P_BOLT_POINT + 1], contact[rk.P_BOLT_POINT])
             fold = fold_in(self._pair, *self._tilt, event.low, event.high, float(sides[side]), azimuth)
             if fold is not None:
                 heights[side], errors[side] = fold.height, fold.height_error

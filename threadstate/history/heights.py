@@ -21,16 +21,16 @@ from threadstate.thread.pair import Pair
 Floats = NDArray[np.float64]
 
 START_DEG = 5.0
-"""Phases at which a curve begins to be made, beside those of its boundaries."""
+"""Spacing of the first samples of a curve, which also begins with those of its boundaries."""
 
 WHOLE_DEG = 1.0
-"""While steps are longer than this they end at multiples of it, where a library has its states."""
+"""Steps longer than this end at multiples of it, where a library has its states."""
 
 NARROW_DEG = 1e-3
-"""Within a stretch of this width a height is taken to rise or to fall throughout."""
+"""Within a stretch of this width a height is assumed to be monotone."""
 
 LEAST_DEG = 1e-6
-"""Narrower stretches are halved no more: boundaries, and the foot of a fall as a root."""
+"""Narrower stretches are not bisected: boundaries, and the end of a fall as a square root."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +62,9 @@ def heights_of(
     known: KnownHeights | None = None,
     options: SolveOptions | None = None,
 ) -> Heights:
-    """Heights from phase 0 to 360 between which straight lines are right.
+    """Heights from phase 0 to 360 that linear interpolation reproduces within the tolerance.
 
-    Stretches are halved until their middles lie no farther than ``tolerance``, a length in the pair's unit, from the
+    Stretches are bisected until their middles lie no farther than ``tolerance``, a length in the pair's unit, from the
     line between their ends, so that a curve that bends evenly is within a quarter of it; where it ends as a root does
     the last stretch is LEAST_DEG wide or within the tolerance. ``boundaries_deg`` are both phases of every boundary of
     the orientation's history: a jump shows as two heights that near each other. What is ``known`` is not solved again.
@@ -80,32 +80,32 @@ def heights_of(
 
     even = np.linspace(0.0, CIRCLE_DEG, 1 + round(CIRCLE_DEG / START_DEG))
     sides = np.array(list(boundaries_deg), dtype=np.float64) % CIRCLE_DEG
-    phases = _bent(heights, np.unique(np.concatenate([even, sides])), tolerance)
+    phases = _refined(heights, np.unique(np.concatenate([even, sides])), tolerance)
     columns = phases, *heights(phases).T.copy()
     for column in columns:
         column.setflags(write=False)
     return Heights(*columns)
 
 
-def _bent(heights: Callable[[Floats], Floats], phases: Floats, tolerance: float) -> Floats:
-    """The phases, and those at which a line between two neighbours has to bend, in order."""
-    kept = [phases]
+def _refined(heights: Callable[[Floats], Floats], phases: Floats, tolerance: float) -> Floats:
+    """The phases, and those that linear interpolation needs between two neighbours, in order."""
+    arrays = [phases]
     low, high = phases[:-1], phases[1:]
     while len(low):
         at_low, at_high = heights(low), heights(high)
         changes = (np.abs(at_high - at_low) > tolerance).any(axis=1)
         changes |= _rest_differs(at_low, at_high)
-        unsure = (high - low > NARROW_DEG) | (changes & (high - low > LEAST_DEG))
-        low, high, at_low, at_high = low[unsure], high[unsure], at_low[unsure], at_high[unsure]
+        candidates = (high - low > NARROW_DEG) | (changes & (high - low > LEAST_DEG))
+        low, high, at_low, at_high = low[candidates], high[candidates], at_low[candidates], at_high[candidates]
         middle = _middles(low, high)
         share = ((middle - low) / (high - low))[:, np.newaxis]
         at_middle = heights(middle)
-        bends = (np.abs(at_middle - (1.0 - share) * at_low - share * at_high) > tolerance).any(axis=1)
-        bends |= np.isnan(at_middle).any(axis=1) & ~np.isnan(at_low + at_high).any(axis=1)
-        bends |= _rest_differs(at_low, at_middle) | _rest_differs(at_middle, at_high)
-        kept.append(middle)
-        low, high = np.concatenate([low[bends], middle[bends]]), np.concatenate([middle[bends], high[bends]])
-    return np.sort(np.concatenate(kept))
+        refine = (np.abs(at_middle - (1.0 - share) * at_low - share * at_high) > tolerance).any(axis=1)
+        refine |= np.isnan(at_middle).any(axis=1) & ~np.isnan(at_low + at_high).any(axis=1)
+        refine |= _rest_differs(at_low, at_middle) | _rest_differs(at_middle, at_high)
+        arrays.append(middle)
+        low, high = np.concatenate([low[refine], middle[refine]]), np.concatenate([middle[refine], high[refine]])
+    return np.sort(np.concatenate(arrays))
 
 
 def _rest_differs(one: Floats, other: Floats) -> NDArray[np.bool_]:

@@ -1,4 +1,4 @@
-"""Labels: everything of a state that is no number."""
+"""Labels: everything of a state that is not a number."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from threadstate.thread.regions import Region
 
 @dataclass(frozen=True, slots=True)
 class ContactLabels:
-    """What touches what at one contact, and in which stage the contact is born."""
+    """What touches what at one contact, and the stage of its onset."""
 
     stage: int
     bolt_region: Region
@@ -36,7 +36,7 @@ class Labels:
 
 
 UNDECIDED = Labels(None, (), ())
-"""The labels of a pose that the solver refuses."""
+"""The labels of an undecided pose."""
 
 
 def labels_of(state: ContactState | None) -> Labels:

@@ -16,20 +16,20 @@ TWO_PI = 2.0 * math.pi
 
 
 @kernel()
-def depths(points: Array, T: Array, row: Array, sigma: float, out: Array) -> None:
+def depths(points: Array, T: Array, profile: Array, sigma: float, out: Array) -> None:
     """How deep points of shape (n, 3) are behind the cut plane and within the thread, both positive inside; (n, 2).
 
-    ``T`` (4, 4) takes them to the frame of the solid, whose thread is ``row``; ``sigma`` is +1 for the nut, -1 for the
-    bolt.
+    ``T`` (4, 4) takes them to the frame of the solid, whose thread is ``profile``; ``sigma`` is +1 for the nut, -1 for
+    the bolt.
     """
-    k = row[pk.P] / TWO_PI
+    k = profile[pk.P] / TWO_PI
     for i in range(points.shape[0]):
         a, b, c = points[i, 0], points[i, 1], points[i, 2]
         x = T[0, 0] * a + T[0, 1] * b + T[0, 2] * c + T[0, 3]
         y = T[1, 0] * a + T[1, 1] * b + T[1, 2] * c + T[1, 3]
         z = T[2, 0] * a + T[2, 1] * b + T[2, 2] * c + T[2, 3]
         out[i, 0] = -sigma * z
-        out[i, 1] = sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), row))
+        out[i, 1] = sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), profile))
 
 
 @kernel()

@@ -8,26 +8,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import field
+from threadstate.contact._geometry_kernel import phi_and_gradient
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 DIVISIONS = 4
-"""A triangle is looked at where a grid of this many divisions of its sides has points, a segment likewise."""
+"""A triangle is sampled at the points of a grid with this many divisions of its sides, a segment likewise."""
 STEPS = 3
 """Newton steps towards the surface."""
 
 
 @kernel()
-def distance(x: float, y: float, z: float, in_plane: bool, row: Array) -> float:
+def distance(x: float, y: float, z: float, in_plane: bool, profile: Array) -> float:
     """The distance to a point of the surface that lies along the gradient: never less than the true distance.
 
     With ``in_plane`` steps keep their height, so that it is the distance to the outline at ``z``.
     """
     px, py, pz = x, y, z
     for _ in range(STEPS):
-        phi, gx, gy, gz = field(px, py, pz, row, 1.0)
+        phi, gx, gy, gz = phi_and_gradient(px, py, pz, profile, 1.0)
         if in_plane:
             gz = 0.0
         share = phi / (gx * gx + gy * gy + gz * gz)
@@ -38,7 +38,7 @@ def distance(x: float, y: float, z: float, in_plane: bool, row: Array) -> float:
 
 
 @kernel()
-def largest_of_triangles(vertices: Array, triangles: Indices, row: Array) -> float:
+def largest_of_triangles(vertices: Array, triangles: Indices, profile: Array) -> float:
     """The largest distance from triangles, of shape (m, 3), to the surface."""
     largest = 0.0
     for t in range(triangles.shape[0]):
@@ -52,12 +52,12 @@ def largest_of_triangles(vertices: Array, triangles: Indices, row: Array) -> flo
                     u * a[1] + v * b[1] + w * c[1],
                     u * a[2] + v * b[2] + w * c[2],
                 )
-                largest = max(largest, distance(x, y, z, False, row))
+                largest = max(largest, distance(x, y, z, False, profile))
     return largest
 
 
 @kernel()
-def largest_of_outline(points: Array, row: Array) -> float:
+def largest_of_outline(points: Array, profile: Array) -> float:
     """The largest distance, within their plane, from a closed polygon of shape (k, 3) to the edge curve."""
     largest = 0.0
     for i in range(points.shape[0]):
@@ -65,5 +65,5 @@ def largest_of_outline(points: Array, row: Array) -> float:
         for j in range(DIVISIONS):
             u = j / DIVISIONS
             x, y, z = a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1]), a[2] + u * (b[2] - a[2])
-            largest = max(largest, distance(x, y, z, True, row))
+            largest = max(largest, distance(x, y, z, True, profile))
     return largest

@@ -10,7 +10,7 @@ import numpy as np
 from threadstate.errors import ThreadstateError
 from threadstate.mesh.solid import Floats, Ints, Solid
 
-MOST_PAIRS = 200_000
+MAX_PAIRS = 200_000
 
 
 class TooManyPairsError(ThreadstateError):
@@ -37,7 +37,7 @@ class Collider:
         self._bolt, self._nut = fcl.CollisionObject(_tree(bolt)), fcl.CollisionObject(_tree(nut))
         self._any = fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
         # Without positions: those that fcl gives of meshes are vertices of the triangles.
-        self._all = fcl.CollisionRequest(num_max_contacts=MOST_PAIRS, enable_contact=False)
+        self._all = fcl.CollisionRequest(num_max_contacts=MAX_PAIRS, enable_contact=False)
         self._distance = fcl.DistanceRequest()
 
     def collides(self, T_nut_bolt: Floats) -> bool:
@@ -49,12 +49,12 @@ class Collider:
         """The numbers of the triangles that meet, the bolt's first, shape (k, 2), in ascending order.
 
         Raises:
-            TooManyPairsError: there are more than ``MOST_PAIRS``.
+            TooManyPairsError: there are more than ``MAX_PAIRS``.
         """
         self._place(T_nut_bolt)
         result = fcl.CollisionResult()
-        if fcl.collide(self._bolt, self._nut, self._all, result) >= MOST_PAIRS:
-            raise TooManyPairsError(f"more than {MOST_PAIRS} pairs of triangles collide")
+        if fcl.collide(self._bolt, self._nut, self._all, result) >= MAX_PAIRS:
+            raise TooManyPairsError(f"more than {MAX_PAIRS} pairs of triangles collide")
         found = np.array([(contact.b1, contact.b2) for contact in result.contacts], dtype=np.int64).reshape(-1, 2)
         return np.unique(found, axis=0)
 

@@ -14,7 +14,15 @@ from threadstate.mesh.clusters import Cluster
 from threadstate.mesh.edge_curve import EdgeCurve, distance
 from threadstate.mesh.frames import apply, fixed_from_bolt, inverse, trans
 from threadstate.mesh.options import Descent, MeshOptions
-from threadstate.mesh.procedure import FIRST_STEP, LEAP, MARCH, MOMENT, MeshProcedure, Touches, Undecided
+from threadstate.mesh.procedure import (
+    APPROACH_TURN,
+    FIRST_STEP,
+    JUMP_GROWTH,
+    MARCH_STEP,
+    MeshProcedure,
+    Touches,
+    Undecided,
+)
 from threadstate.mesh.solid import Floats
 from threadstate.mesh.steps import Reached, decades, march_and_halve, regress
 from threadstate.mesh.touch import Touch
@@ -81,18 +89,18 @@ class CurveProcedure(MeshProcedure):
         p = self._pair.thread_pitch
         start = -float((self._bolt.vertices @ level[2, :3]).min()) + 2.0 * self._final
 
-        def pose(way: float) -> Floats:
-            return trans([0.0, 0.0, start - way]) @ level
+        def pose(travel: float) -> Floats:
+            return trans([0.0, 0.0, start - travel]) @ level
 
-        def found(way: float) -> Runs | None:
-            overlaps = self._overlaps(pose(way))
+        def found(travel: float) -> Runs | None:
+            overlaps = self._overlaps(pose(travel))
             return overlaps if overlaps.sides else None
 
         limit = start + p
         if self._options.descent is Descent.DECADES:
             reached = regress(found, decades(FIRST_STEP * p, self._final), limit)
         else:
-            reached = march_and_halve(found, MARCH * p, self._final, limit)
+            reached = march_and_halve(found, MARCH_STEP * p, self._final, limit)
         if reached is None:
             raise Undecided("the edges do not enter the other part on the way down by a thread pitch")
         return pose(reached.place), reached.found
@@ -107,22 +115,22 @@ class CurveProcedure(MeshProcedure):
             nonlocal before, since
             T_nut_bolt = pose(turn)
             overlaps = self._overlaps(T_nut_bolt)
-            born = self._born(overlaps, before, T_nut_bolt, pose(turn + MOMENT))
-            if not born:
-                if turn - since > final and overlaps.sides > 1.1 * before.sides + LEAP:
+            onsets = self._onsets(overlaps, before, T_nut_bolt, pose(turn + APPROACH_TURN))
+            if not onsets:
+                if turn - since > final and overlaps.sides > 1.1 * before.sides + JUMP_GROWTH:
                     return found(0.5 * (since + turn)) or found(turn)
                 before, since = overlaps, turn
                 return None
-            if any(np.linalg.norm(one.point - old.point) < TOO_NEAR * self._side for one in born for old in known):
+            if any(np.linalg.norm(one.point - old.point) < TOO_NEAR * self._side for one in onsets for old in known):
                 raise Undecided("a contact appears within two sides of an earlier one: too near for these curves")
-            return born
+            return onsets
 
         p = self._pair.thread_pitch
         if self._options.descent is Descent.DECADES:
             return regress(found, decades(FIRST_STEP * p / self._arm, final), limit)
-        return march_and_halve(found, MARCH * p / self._arm, final, limit)
+        return march_and_halve(found, MARCH_STEP * p / self._arm, final, limit)
 
-    def _born(self, overlaps: Runs, before: Runs, T_nut_bolt: Floats, later: Floats) -> Touches:
+    def _onsets(self, overlaps: Runs, before: Runs, T_nut_bolt: Floats, later: Floats) -> Touches:
         """The contacts at runs that are apart from all those before, on both edges."""
         bolt_new = np.array([not self._bolt_edge.near(run, before.bolt, NEAR) for run in overlaps.bolt], dtype=bool)
         nut_new = np.array([not self._nut_edge.near(run, before.nut, NEAR) for run in overlaps.nut], dtype=bool)

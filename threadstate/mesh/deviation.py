@@ -21,13 +21,13 @@ class Deviation:
 def deviation(solid: Solid, profile: Profile) -> Deviation:
     """The deviation of a part of that profile, by the closed form of the profile.
 
-    Every triangle of the thread is looked at in 15 points, every segment of the edge in 4; flat faces are exact.
+    Every triangle of the thread is sampled at 15 points, every segment of the edge at 4; flat faces are exact.
     """
     from threadstate.mesh import _deviation_kernel as kernel
 
     threads = np.ascontiguousarray(solid.triangles[solid.faces == Face.THREAD])
     vertices = np.array(solid.vertices)
     return Deviation(
-        surface=float(kernel.largest_of_triangles(vertices, threads, profile.row)),
-        edge=float(kernel.largest_of_outline(vertices[solid.edge], profile.row)),
+        surface=float(kernel.largest_of_triangles(vertices, threads, profile.packed)),
+        edge=float(kernel.largest_of_outline(vertices[solid.edge], profile.packed)),
     )

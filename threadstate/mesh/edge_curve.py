@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
-from threadstate.contact._geometry_kernel import edge_point, field
+from threadstate.contact._geometry_kernel import edge_point, phi_and_gradient
 from threadstate.mesh import _curve_kernel as kernel
 from threadstate.mesh.frames import apply
 from threadstate.mesh.solid import Floats, Solid
 from threadstate.thread.profile import Profile
 
-MOST_RUNS = 256
+MAX_RUNS = 256
 
 
 class EdgeCurve:
@@ -24,17 +24,17 @@ class EdgeCurve:
 
     def __init__(self, part: Solid, profile: Profile, sigma: float) -> None:
         self._points = part.vertices[part.edge]
-        self._row, self._sigma = profile.row, sigma
+        self._profile, self._sigma = profile.packed, sigma
         azimuths = np.unwrap(np.arctan2(self._points[:, 1], self._points[:, 0]))
         self._azimuths = np.append(azimuths, azimuths[0] + 2.0 * math.pi)
         self.sides = len(self._points)
         self.longest_side = float(np.linalg.norm(np.roll(self._points, -1, axis=0) - self._points, axis=1).max())
         self._depths = np.empty((self.sides, 2))
-        self._runs = np.empty((MOST_RUNS, 2))
+        self._runs = np.empty((MAX_RUNS, 2))
 
     def runs_inside(self, other: EdgeCurve, T_other_own: Floats) -> Floats:
         """Starts and ends of the runs inside the other curve's solid, shape (k, 2)."""
-        kernel.depths(self._points, T_other_own, other._row, other._sigma, self._depths)
+        kernel.depths(self._points, T_other_own, other._profile, other._sigma, self._depths)
         count = kernel.runs(self._depths, self._runs)
         return self._runs[:count].copy()
 
@@ -44,7 +44,7 @@ class EdgeCurve:
 
     def point(self, place: float) -> Floats:
         """The point of the true edge curve there, (3,)."""
-        x, y, _, _ = edge_point(self.azimuth(place), self._row)
+        x, y, _, _ = edge_point(self.azimuth(place), self._profile)
         return np.array([x, y, 0.0])
 
     def points(self, run: Floats) -> Floats:
@@ -54,19 +54,19 @@ class EdgeCurve:
 
     def tangent(self, place: float) -> Floats:
         """The unit tangent there."""
-        _, _, dx, dy = edge_point(self.azimuth(place), self._row)
+        _, _, dx, dy = edge_point(self.azimuth(place), self._profile)
         return np.array([dx, dy, 0.0]) / math.hypot(dx, dy)
 
     def thread_depth(self, point: Floats) -> float:
         """How far a point of this part's frame is inside its thread, to first order."""
         x, y, z = point.tolist()
-        phi, *gradient = field(x, y, z, self._row, self._sigma)
+        phi, *gradient = phi_and_gradient(x, y, z, self._profile, self._sigma)
         return float(phi / np.linalg.norm(gradient))
 
     def thread_normal(self, point: Floats) -> Floats:
         """The outward unit normal of the thread at a point of this part's frame."""
         x, y, z = point.tolist()
-        _, *gradient = field(x, y, z, self._row, -self._sigma)
+        _, *gradient = phi_and_gradient(x, y, z, self._profile, -self._sigma)
         return np.array(gradient) / float(np.linalg.norm(gradient))
 
     @property

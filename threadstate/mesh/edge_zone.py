@@ -29,8 +29,8 @@ def edge_zone_part(
 ) -> Solid:
     """Thread and cut end of a part, in its own frame; ``outward`` is the bolt, which ends at z = 0 below, not above.
 
-    The mesh is open: at the thread's far rim, whose triangles are a far end (a contact there is none), and at the
-    polygon of that inradius, which the cut end extends to.
+    The mesh is open: at the thread's far rim, whose triangles count as a far end (a contact there does not count), and
+    at the polygon of that inradius, which the cut end extends to.
     """
     p = profile.thread_pitch
     coarse = Tessellation(min(COARSER * tessellation.chord_height, LARGEST_CHORD), tessellation.angle_control)

@@ -1,4 +1,4 @@
-"""Solids as mesh files, and what can be said of them; by trimesh."""
+"""Solids as mesh files, and reports on them; by trimesh."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def file_ending(path: Path) -> str:
     """The ending of a mesh file, without its dot and in small letters.
 
     Raises:
-        InvalidValueError: it is none that can be written.
+        InvalidValueError: it is not one that can be written.
     """
     ending = path.suffix.removeprefix(".").lower()
     if ending not in ENDINGS:

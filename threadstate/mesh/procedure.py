@@ -31,18 +31,18 @@ from threadstate.thread.pair import Pair
 
 FIRST_STEP = 0.2
 """First step of a descent in decades, in thread pitches: the paper's 0.01 in."""
-MARCH = 2e-3
+MARCH_STEP = 2e-3
 """Step of the march of a safe turn and of a lift, in thread pitches of arc at the bolt's major radius."""
-MOST_STEPS = 20_000
+MAX_STEPS = 20_000
 """Steps after which a safe descent gives up: the bolt slides down beside the nut, nearer than the final step."""
 BEFORE_FLUSH = 4.0
 """A turn that ends flush is searched up to this many final steps of arc before: there everything meets at once."""
-LEAP = 6
-"""Pairs of triangles, beyond a tenth more, by which overlaps grow in a leap: what is between is looked at, too."""
-MOMENT = 1e-4
-"""The turn (rad) after which a contact is looked at to tell which way it goes."""
+JUMP_GROWTH = 6
+"""Beyond a growth of overlaps by a tenth and so many pairs of triangles, or sides, the step is halved, too."""
+APPROACH_TURN = 1e-4
+"""The further turn (rad) by which it is decided whether the parts approach each other at a contact."""
 NOISE = 4.0
-"""An embedment counts beyond this many times what meshes and steps can make of none."""
+"""An embedment counts beyond this many times the errors of meshes and steps."""
 
 Clusters = tuple[Cluster, ...]
 Touches = tuple[Touch, ...]
@@ -110,11 +110,11 @@ class MeshProcedure:
         p = self._pair.thread_pitch
         start = -float((self._bolt.vertices @ level[2, :3]).min()) + 2.0 * self._final
 
-        def pose(way: float) -> Floats:
-            return trans([0.0, 0.0, start - way]) @ level
+        def pose(travel: float) -> Floats:
+            return trans([0.0, 0.0, start - travel]) @ level
 
-        def meets(way: float) -> bool | None:
-            return self._collides(pose(way)) or None
+        def meets(travel: float) -> bool | None:
+            return self._collides(pose(travel)) or None
 
         limit = start + p
         if self._options.descent is Descent.DECADES:
@@ -122,10 +122,10 @@ class MeshProcedure:
         else:
             try:
                 reached = approach(
-                    meets, lambda way: self._collider.distance(pose(way)), self._final, limit, MOST_STEPS
+                    meets, lambda travel: self._collider.distance(pose(travel)), self._final, limit, MAX_STEPS
                 )
             except TimeoutError:
-                raise Undecided(f"the bolt slides beside the nut for more than {MOST_STEPS} steps") from None
+                raise Undecided(f"the bolt slides beside the nut for more than {MAX_STEPS} steps") from None
         if reached is None:
             raise Undecided("the meshes do not collide on the way down by a thread pitch")
         blocked = pose(reached.place)
@@ -144,8 +144,8 @@ class MeshProcedure:
         if self._is_level(first):
             self._lie_level(first, row)
             return
-        self._put_pose(first, row)
-        self._put(1, touches[:1], first, row)
+        self._append_pose(first, row)
+        self._append_contacts(1, touches[:1], first, row)
         if len(touches) > 1:
             sk.add_flag(row, rk.FLAG_TIE)
             row[rk.O_LAMBDA] = 0.0
@@ -162,15 +162,15 @@ class MeshProcedure:
         return math.hypot(T_nut_bolt[2, 0], T_nut_bolt[2, 1]) * self._arm < self._final
 
     def _lie_level(self, first: Floats, row: Floats) -> None:
-        """A level bolt: on the surface a patch; on its thread, which facets cannot tell from a crossing, no answer."""
+        """A level bolt: a patch on the surface, undecided on its thread, where facets cannot show a crossing."""
         if first[2, 3] < -BEFORE_FLUSH * self._final:
             raise Undecided("a level bolt in phase rests on a strip of its thread: facets in one plane have no segment")
-        self._lay_flush(1, first, np.array([1.0, 0.0, 0.0]), row)
+        self._append_flush_pose(1, first, np.array([1.0, 0.0, 0.0]), row)
 
     def _second_stage(self, first: Floats, cp0: Touch, options: SolveOptions, row: Floats) -> None:
         numbers = cp0.numbers(first)
         reverse = np.zeros(3)
-        sk.second_axis(numbers, _flat(first), self._pair.bolt.row, self._pair.nut.row, reverse)
+        sk.second_axis(numbers, _flat(first), self._pair.bolt.packed, self._pair.nut.packed, reverse)
         if self._options.tangent is Tangent.AZIMUTHAL:
             x, y, _ = cp0.point
             reverse = np.array([y, -x, 0.0]) / math.hypot(x, y)
@@ -188,7 +188,7 @@ class MeshProcedure:
                 limit = max(0.0, flush - BEFORE_FLUSH * self._final / self._arm)
         reached = self._turn(pose, [cp0], limit)
         if reached is None:
-            if flush >= 0.0 and self._lay_flush(2, pose(flush), tangent, row):
+            if flush >= 0.0 and self._append_flush_pose(2, pose(flush), tangent, row):
                 row[rk.O_LAMBDA] = flush
             else:
                 sk.add_flag(row, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
@@ -203,14 +203,14 @@ class MeshProcedure:
     def _after_second(self, second: Floats, cp0: Touch, touches: Touches, options: SolveOptions, row: Floats) -> None:
         """Continue after CP1, the first of the touches; further touches are the third stage."""
         cp1, more = touches[0], touches[1:]
-        self._put_pose(second, row)
-        self._put(2, (cp1,), second, row)
+        self._append_pose(second, row)
+        self._append_contacts(2, (cp1,), second, row)
         axis = (cp1.point - cp0.point) / np.linalg.norm(cp1.point - cp0.point)
         row[rk.O_PIVOT] = float(np.linalg.norm(np.cross(axis, second[:3, 3] - cp0.point)))
         if more:
             row[rk.O_MU] = row[rk.O_DROP] = row[rk.O_EMBEDMENT] = 0.0
-            self._put_pose(second, row)
-            self._put(3, more, second, row)
+            self._append_pose(second, row)
+            self._append_contacts(3, more, second, row)
             return
         moment = origin_moment(cp0.point, cp1.point, second[:3, 3])
         if abs(moment) > self._final:
@@ -234,13 +234,13 @@ class MeshProcedure:
 
         limit = math.radians(options.turn_limit_deg)
         flush = math.nan
-        if sk.in_plane(cp0.features) and sk.in_plane(cp1.features):
+        if sk.lies_in_both_planes(cp0.features) and sk.lies_in_both_planes(cp1.features):
             flush = float(sk.turn_to_flush(_flat(second), sense * axis))
             if 0.0 < flush <= limit:
                 limit = max(0.0, flush - BEFORE_FLUSH * self._final / self._arm)
         reached = self._turn(pose, [cp0, cp1], limit)
         if reached is None:
-            if flush > 0.0 and self._lay_flush(3, pose(flush), axis, row):
+            if flush > 0.0 and self._append_flush_pose(3, pose(flush), axis, row):
                 row[rk.O_MU] = flush
                 row[rk.O_DROP] = second[2, 3] - row[rk.O_POSE + 35]
                 row[rk.O_EMBEDMENT] = 0.0
@@ -252,8 +252,8 @@ class MeshProcedure:
         if len(touches) > 1:
             sk.add_flag(row, rk.FLAG_TIE)
         row[rk.O_MU] = reached.place
-        self._put_pose(third, row)
-        self._put(3, touches, third, row)
+        self._append_pose(third, row)
+        self._append_contacts(3, touches, third, row)
         row[rk.O_DROP] = second[2, 3] - third[2, 3]
         row[rk.O_EMBEDMENT] = self._least_lift(third)
 
@@ -262,7 +262,7 @@ class MeshProcedure:
 
         A cluster holds a contact where it lies in the ring of triangles about it on both meshes. One that is connected
         with a cluster of the place before is not new: it may grow and roll away, and parts of it may part. A hole in
-        an overlap is none, nor is what touches a part's far end.
+        an overlap does not count, nor does what touches a part's far end.
         """
         before: Clusters = tuple(one.cluster for one in known)
         own = [self._connectivity.neighbourhood(cluster) for cluster in before]
@@ -272,25 +272,25 @@ class MeshProcedure:
 
         def found(turn: float) -> Touches | None:
             nonlocal before, since
-            T_nut_bolt, later = pose(turn), pose(turn + MOMENT)
+            T_nut_bolt, later = pose(turn), pose(turn + APPROACH_TURN)
             clusters = self._clusters(T_nut_bolt)
             new = self._touches((one for one in clusters if self._is_new(one, own, before)), T_nut_bolt)
-            born = tuple(one for one in new if closes_a_gap(one, self._bolt, self._nut, T_nut_bolt, later))
-            if not born:
-                if turn - since > final and _has_leapt(before, clusters):
+            onsets = tuple(one for one in new if closes_a_gap(one, self._bolt, self._nut, T_nut_bolt, later))
+            if not onsets:
+                if turn - since > final and _has_jumped(before, clusters):
                     return found(0.5 * (since + turn)) or found(turn)
                 before, since = clusters, turn
                 return None
-            if any(self._connectivity.reaches(one.cluster, place) for one in born for place in about):
+            if any(self._connectivity.reaches(one.cluster, place) for one in onsets for place in about):
                 raise Undecided(
                     "a contact appears within a ring of triangles about an earlier one: too near for these meshes"
                 )
-            return born
+            return onsets
 
         p = self._pair.thread_pitch
         if self._options.descent is Descent.DECADES:
             return regress(found, decades(FIRST_STEP * p / self._arm, final), limit)
-        return march_and_halve(found, MARCH * p / self._arm, final, limit)
+        return march_and_halve(found, MARCH_STEP * p / self._arm, final, limit)
 
     def _is_new(self, cluster: Cluster, places: list[Neighbourhood], before: Clusters) -> bool:
         return (
@@ -306,7 +306,7 @@ class MeshProcedure:
             return None if self._collides(trans([0.0, 0.0, lift]) @ T_nut_bolt) else True
 
         p = self._pair.thread_pitch
-        reached = march_and_halve(free, MARCH * p, self._final, 2.0 * (p + self._arm))
+        reached = march_and_halve(free, MARCH_STEP * p, self._final, 2.0 * (p + self._arm))
         if reached is None:
             raise Undecided("no lift frees the third pose")
         return reached.place
@@ -314,15 +314,15 @@ class MeshProcedure:
     def _collides(self, T_nut_bolt: Floats) -> bool:
         return self._collider.collides(T_nut_bolt)
 
-    def _lay_flush(self, number: int, T_nut_bolt: Floats, axis: Floats, row: Floats) -> bool:
-        """Put the flush pose and the extreme points of its patch that are no contacts yet; False without a patch."""
+    def _append_flush_pose(self, number: int, T_nut_bolt: Floats, axis: Floats, row: Floats) -> bool:
+        """Append the flush pose and the extreme points of its patch that are no contacts yet; False without a patch."""
         level = T_nut_bolt.copy()
         level[2, :3] = level[:3, 2] = (0.0, 0.0, 1.0)
         level[2, 3] = 0.0
         extremes = extreme_points(self._bolt, self._nut, level, axis)
         if not extremes:
             return False
-        self._put_pose(level, row)
+        self._append_pose(level, row)
         known = int(row[rk.O_CONTACTS])
         used = row[rk.O_CONTACT : rk.O_CONTACT + rk.POINT_SIZE * known].reshape(known, rk.POINT_SIZE)
         places = used[:, rk.P_POINT : rk.P_POINT + 2].copy()
@@ -331,7 +331,9 @@ class MeshProcedure:
             # A contact's place is known to a segment of the mesh: an extreme point that near is the contact.
             if len(places) and np.hypot(places[:, 0] - x, places[:, 1] - y).min() < self.segment:
                 continue
-            rk.put_flush(number, one.bolt_azimuth, one.corner, x, y, self._pair.bolt.row, self._pair.nut.row, row)
+            rk.append_flush_point(
+                number, one.bolt_azimuth, one.corner, x, y, self._pair.bolt.packed, self._pair.nut.packed, row
+            )
         sk.add_flag(row, rk.FLAG_FLUSH)
         return True
 
@@ -341,22 +343,22 @@ class MeshProcedure:
         edge = self._bolt.vertices[self._bolt.edge]
         return float(np.linalg.norm(edge - np.roll(edge, 1, axis=0), axis=1).max())
 
-    def _put_pose(self, T_nut_bolt: Floats, row: Floats) -> None:
-        rk.put_pose(_flat(T_nut_bolt), row)
+    def _append_pose(self, T_nut_bolt: Floats, row: Floats) -> None:
+        rk.append_pose(_flat(T_nut_bolt), row)
 
-    def _put(self, number: int, touches: Touches, T_nut_bolt: Floats, row: Floats) -> None:
-        bolt, nut = self._pair.bolt.row, self._pair.nut.row
+    def _append_contacts(self, number: int, touches: Touches, T_nut_bolt: Floats, row: Floats) -> None:
+        bolt, nut = self._pair.bolt.packed, self._pair.nut.packed
         flat = _flat(T_nut_bolt)
         for one in touches:
             numbers = one.numbers(T_nut_bolt)
-            rk.put_contact(number, numbers, flat, bolt, nut, row)
+            rk.append_contact(number, numbers, flat, bolt, nut, row)
             if rk.grazes(numbers, flat, bolt, nut):
                 sk.add_flag(row, rk.FLAG_GRAZING)
 
 
-def _has_leapt(before: Clusters, after: Clusters) -> bool:
-    """Whether the overlaps have grown so much between two places that one born between may be part of them already."""
-    return _pair_count(after) > 1.1 * _pair_count(before) + LEAP
+def _has_jumped(before: Clusters, after: Clusters) -> bool:
+    """Whether the overlaps have grown so much between two places that a new one may have joined them already."""
+    return _pair_count(after) > 1.1 * _pair_count(before) + JUMP_GROWTH
 
 
 def _pair_count(clusters: Clusters) -> int:

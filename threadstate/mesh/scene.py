@@ -34,14 +34,14 @@ def _near_side(whole: Solid) -> Solid:
     """The part without its far end and walls; triangles at the thread's far rim count as far end.
 
     Nothing is lost by that, as the solids end there without a face (method, section 1): a contact that holds a triangle
-    of a far end or of walls is none.
+    of a far end or of walls does not count.
     """
     far = np.zeros(len(whole.vertices), dtype=bool)
     far[whole.triangles[whole.faces == Face.FAR_END]] = True
-    kept = (whole.faces == Face.THREAD) | (whole.faces == Face.CUT)
-    faces = whole.faces[kept].copy()
-    faces[(faces == Face.THREAD) & far[whole.triangles[kept]].any(axis=1)] = Face.FAR_END
-    used, triangles = np.unique(whole.triangles[kept], return_inverse=True)
+    is_near = (whole.faces == Face.THREAD) | (whole.faces == Face.CUT)
+    faces = whole.faces[is_near].copy()
+    faces[(faces == Face.THREAD) & far[whole.triangles[is_near]].any(axis=1)] = Face.FAR_END
+    used, triangles = np.unique(whole.triangles[is_near], return_inverse=True)
     return Solid(
         vertices=whole.vertices[used],
         triangles=triangles.reshape(-1, 3),

@@ -26,7 +26,7 @@ class Intersection(IntEnum):
     IV = 4
     """n n b b: both reach the line, apart from each other; the collision library was inexact."""
     V = 5
-    """One of them does not reach the line, or there is none."""
+    """One of them does not reach the line, or there is no line."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,8 +45,8 @@ class Touch:
         at_bolt = apply(inverse(T_nut_bolt), self.point)
         row = np.zeros(stage.CONTACT_SIZE)
         row[stage.K_PAIR] = self.features
-        row[stage.K_BOLT] = math.atan2(at_bolt[1], at_bolt[0])
-        row[stage.K_NUT] = math.atan2(self.point[1], self.point[0])
+        row[stage.K_BOLT_AZIMUTH] = math.atan2(at_bolt[1], at_bolt[0])
+        row[stage.K_NUT_AZIMUTH] = math.atan2(self.point[1], self.point[0])
         row[stage.K_X : stage.K_Z + 1] = self.point
         return row
 

@@ -51,7 +51,7 @@ class WindowReach:
 
 
 @dataclass(frozen=True, slots=True)
-class Telling:
+class IdentifyingFormation:
     """A formation that occurs at one orientation alone: observing it determines the tilt."""
 
     formation: Formation
@@ -181,10 +181,10 @@ def cut_formations(network: ConstraintNetwork, moves: Collection[Move] = ALL_MOV
     return tuple(network.node(key).formation for key in sorted(keys))
 
 
-def telling_formations(network: ConstraintNetwork) -> tuple[Telling, ...]:
-    """The formations that tell an orientation apart, by orientation and then by falling cover."""
+def telling_formations(network: ConstraintNetwork) -> tuple[IdentifyingFormation, ...]:
+    """The formations that identify an orientation, by orientation and then by falling cover."""
     found = [
-        Telling(node.formation, node.orientations[0], node.cover_deg)
+        IdentifyingFormation(node.formation, node.orientations[0], node.cover_deg)
         for node in network.nodes
         if len(node.orientations) == 1
     ]

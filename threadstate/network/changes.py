@@ -85,8 +85,8 @@ class FormationDifference:
 def difference(before: Formation, after: Formation) -> FormationDifference:
     """How ``after`` differs from ``before``.
 
-    Contacts are compared place by place within their stage. Of an undecided formation the contacts are not known: none
-    is compared with them.
+    Contacts are compared place by place within their stage. The contacts of an undecided formation are unknown
+    and not compared.
     """
     undecided = before.state_class is None or after.state_class is None
     contacts = () if undecided else tuple(_contacts(before.contacts, after.contacts))

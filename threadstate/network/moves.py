@@ -50,7 +50,7 @@ def in_order(moves: Collection[Move]) -> tuple[Move, ...]:
     """The moves, each once, in the order in which :class:`Move` names them.
 
     Raises:
-        InvalidValueError: there is none.
+        InvalidValueError: no moves.
     """
     if not moves:
         raise InvalidValueError("moves", (), f"at least one of {', '.join(Move)}")

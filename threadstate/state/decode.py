@@ -20,7 +20,7 @@ from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 Array = NDArray[np.float64]
 
 STAGES = 3
-"""How many poses a record has room for."""
+"""Number of poses in a record."""
 
 _FEATURES = tuple(FeaturePair)
 _FLAG_BITS = (
@@ -49,7 +49,7 @@ def decoded_states(pair: Pair, options: SolveOptions, poses_deg: Array, records:
     """The states of poses of shape (n, 3), in degrees, from their records of shape (n, RECORD_SIZE).
 
     Raises:
-        UnresolvedPoseError: a record says that the search could not close all its cells.
+        UnresolvedPoseError: a record is unresolved: the search could not exclude all its boxes.
     """
     unresolved = np.flatnonzero(records[:, rk.O_STATUS] != 0.0)
     if len(unresolved):
@@ -69,7 +69,7 @@ def decoded_states(pair: Pair, options: SolveOptions, poses_deg: Array, records:
         _contacts(records),
         strict=True,
     ):
-        verdict = classify(
+        classification = classify(
             flush=bits & rk.FLAG_FLUSH != 0,
             third=mu_deg is not None,
             drop=drop,
@@ -83,7 +83,7 @@ def decoded_states(pair: Pair, options: SolveOptions, poses_deg: Array, records:
                 roll_deg=pose[0],
                 pitch_deg=pose[1],
                 phase_deg=pose[2],
-                state_class=verdict.state_class,
+                state_class=classification.state_class,
                 flags=_FLAGS[bits],
                 poses=poses,
                 lambda_deg=lambda_deg,
@@ -91,9 +91,9 @@ def decoded_states(pair: Pair, options: SolveOptions, poses_deg: Array, records:
                 drop=drop,
                 embedment=embedment,
                 pivot_offset=pivot_offset,
-                drop_margin=verdict.drop_margin,
-                embedment_margin=verdict.embedment_margin,
-                pivot_margin=verdict.pivot_margin,
+                drop_margin=classification.drop_margin,
+                embedment_margin=classification.embedment_margin,
+                pivot_margin=classification.pivot_margin,
                 contacts=contacts,
             )
         )
@@ -112,13 +112,13 @@ def _stage_poses(records: Array) -> list[tuple[StagePose, ...]]:
 def _contacts(records: Array) -> list[tuple[Contact, ...]]:
     """The contacts of every record."""
     counts = records[:, rk.O_CONTACTS]
-    found = _used(records[:, rk.O_CONTACT :].reshape(-1, rk.MOST_CONTACTS, rk.POINT_SIZE), counts)
+    found = _used(records[:, rk.O_CONTACT :].reshape(-1, rk.MAX_RECORD_CONTACTS, rk.POINT_SIZE), counts)
     # In the order of the fields: named, they take a third longer.
     contacts = map(
         Contact,
         _integers(found[:, rk.P_STAGE]),
         _vectors(found, rk.P_POINT),
-        _vectors(found, rk.P_BOLT),
+        _vectors(found, rk.P_BOLT_POINT),
         _vectors(found, rk.P_NORMAL),
         map(BOLT_REGIONS.__getitem__, _integers(found[:, rk.P_BOLT_REGION])),
         map(NUT_REGIONS.__getitem__, _integers(found[:, rk.P_NUT_REGION])),

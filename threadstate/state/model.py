@@ -107,7 +107,7 @@ class ContactState:
 
 @dataclass(frozen=True, slots=True)
 class UndecidedPose:
-    """A pose (degrees) whose state a method could not decide, and why."""
+    """A pose (degrees) whose state could not be decided, and why."""
 
     roll_deg: float
     pitch_deg: float

@@ -18,7 +18,7 @@ class SolveOptions:
 
     ``turn_limit_deg`` is where a turn ends without a contact, ``quasi_stable_fraction`` the q of the method's section
     5. Tolerances are multiples of the thread pitch: contacts nearer in height (or turn times major radius) than
-    ``tie_tolerance`` are simultaneous, an embedment up to ``embedment_tolerance`` counts as none.
+    ``tie_tolerance`` are simultaneous, an embedment up to ``embedment_tolerance`` counts as 0.
 
     Raises:
         InvalidValueError: a value out of range.

@@ -1,4 +1,4 @@
-"""The numbers of a contact state that may be absent: each said once, for tables, hashes, exports and sorting.
+"""The numbers of a contact state that may be absent: each declared once, for tables, hashes, exports and sorting.
 
 A new one is a field of :class:`threadstate.state.model.ContactState`, a line here, its place in the document
 (:mod:`threadstate.state.document`) and in the client's model, and a migration.

@@ -1,4 +1,4 @@
-"""The kernels' records of poses, which say that a pose is undecided instead of raising an error."""
+"""The kernels' records of poses, in which an undecided pose has a status instead of raising an error."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats) -> Float
     records = np.empty((len(poses_deg), rk.RECORD_SIZE))
     level = (np.abs(poses_deg[:, 0]) < LEVEL_TILT_DEG) & (np.abs(poses_deg[:, 1]) < LEVEL_TILT_DEG)
     if not level.any():
-        sk.solve_rows(poses_deg * (math.pi / 180.0), _packed(pair, options), pair.bolt.row, pair.nut.row, records)
+        sk.solve_rows(poses_deg * (math.pi / 180.0), _packed(pair, options), pair.bolt.packed, pair.nut.packed, records)
         return records
     if not level.all():
         records[~level] = solve_records(pair, options, poses_deg[~level])

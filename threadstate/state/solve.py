@@ -23,7 +23,7 @@ def solve_pose(
 
     Raises:
         InvalidValueError: a value not finite, roll or pitch beyond 10 deg.
-        UnresolvedPoseError: the search could not close all its cells.
+        UnresolvedPoseError: the search could not exclude all its boxes.
     """
     return solve_poses(pair, [(roll_deg, pitch_deg, phase_deg)], options)[0]
 
@@ -36,7 +36,7 @@ def solve_poses(pair: Pair, poses: ArrayLike, options: SolveOptions | None = Non
 
     Raises:
         InvalidValueError: poses not of shape (n, 3), a value not finite, roll or pitch beyond 10 deg.
-        UnresolvedPoseError: the search could not close all its cells; no state is better than a guessed one.
+        UnresolvedPoseError: the search could not exclude all its boxes.
     """
     options = options or SolveOptions()
     wanted = checked_poses(poses)

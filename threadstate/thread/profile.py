@@ -76,8 +76,8 @@ class Profile:
             )
 
     def __getstate__(self) -> dict[str, float]:
-        # Without ``row``: out of a pickle it would come writable, and kernels would be compiled anew for such an array.
-        return {name: value for name, value in vars(self).items() if name != "row"}
+        # Without ``packed``: unpickled it would be writable, and kernels would be compiled again for such an array.
+        return {name: value for name, value in vars(self).items() if name != "packed"}
 
     def _largest_fillet(self, side: int) -> float:
         half_angle = math.radians(self.flank_half_angle_deg)
@@ -103,13 +103,13 @@ class Profile:
         return low - t_low, low + t_low * math.cos(turn), high - t_high * math.cos(turn), high + t_high
 
     @cached_property
-    def row(self) -> NDArray[np.float64]:
+    def packed(self) -> NDArray[np.float64]:
         """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (11,)."""
         import numpy as np
 
         flat, flank, crest, top = self.boundaries
         cot = 1.0 / math.tan(math.radians(self.flank_half_angle_deg))
-        row = np.array(
+        packed = np.array(
             [
                 self.thread_pitch,
                 self.minor_diameter / 2.0,
@@ -124,16 +124,16 @@ class Profile:
                 self.major_fillet_radius,
             ]
         )
-        row.setflags(write=False)
-        return row
+        packed.setflags(write=False)
+        return packed
 
     def radius(self, s: float) -> float:
         """``f(s)``: the radius at axial position ``s`` (any finite number), in the pair's unit."""
-        return float(_kernel().radius(_finite(s), self.row))
+        return float(_kernel().radius(_finite(s), self.packed))
 
     def derivatives(self, s: float) -> tuple[float, float, float]:
         """``f, f', f''`` at ``s``, lengths in the pair's unit; between two regions f'' is the flat's or flank's."""
-        r, d1, d2 = _kernel().jet(_finite(s), self.row)
+        r, d1, d2 = _kernel().jet(_finite(s), self.packed)
         return float(r), float(d1), float(d2)
 
     def inverse(self, r: float) -> float:
@@ -148,14 +148,14 @@ class Profile:
         low, high = self.minor_diameter / 2.0, self.major_diameter / 2.0
         if not low <= r <= high:
             raise InvalidValueError("radius", r, f"{low!r} to {high!r}")
-        return float(_kernel().inverse_rising(r, self.row))
+        return float(_kernel().inverse_rising(r, self.packed))
 
     def region_index(self, s: float) -> tuple[int, float]:
         """Index 0..7 of the region at ``s`` (0 the small-radius flat, growing with ``s``), and its margin.
 
         The margin is the arc length along the profile to the nearest boundary of the region.
         """
-        index, margin = _kernel().region_index(_finite(s), self.row)
+        index, margin = _kernel().region_index(_finite(s), self.packed)
         return int(index), float(margin)
 
 

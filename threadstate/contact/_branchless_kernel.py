@@ -1,7 +1,7 @@
 """Elementary functions without branches or library calls, so that loops over many arguments become vector instructions.
 
-They serve bounds and brackets, never a result: each is exact to a few units of 1e-15. What is not a number stays so:
-a bound that cannot be told must exclude nothing.
+They serve bounds and brackets, never a result: each is accurate to a few units of 1e-15. NaN stays NaN: an unknown
+bound must exclude nothing.
 """
 
 from __future__ import annotations
@@ -37,17 +37,17 @@ ARC_TANGENT = (
     -0.031214975598123744,
     0.0069422257580898546,
 )
-"""Coefficients of atan(t) / t in powers of t^2 up to tan(pi / 8), Chebyshev interpolation: 2e-15 off at most."""
+"""Coefficients of atan(t) / t in powers of t^2 up to tan(pi / 8), Chebyshev interpolation: error at most 2e-15."""
 
-ROUNDER = 1.5 * 2.0**52
-"""Adding and taking it away rounds to the nearest whole number."""
+ROUNDING_SHIFT = 1.5 * 2.0**52
+"""Adding and subtracting it rounds to the nearest integer."""
 TINY = 1e-300
 
 
 @kernel(contract=True, forceinline=True)
 def sine_cosine(x: float) -> tuple[float, float]:
     """Sine and cosine of an angle of a few turns at most (rad): Taylor series about the nearest quarter turn."""
-    n = (x * TWO_OVER_PI + ROUNDER) - ROUNDER
+    n = (x * TWO_OVER_PI + ROUNDING_SHIFT) - ROUNDING_SHIFT
     r = (x - n * HALF_PI_HIGH) - n * HALF_PI_LOW
     w = r * r
     s = SINE[6] + w * SINE[7]
@@ -93,55 +93,55 @@ def azimuth(x: float, y: float, r: float) -> float:
 
 @kernel(contract=True, forceinline=True)
 def larger(x: float, y: float) -> float:
-    """The larger of two numbers; not a number where either is none."""
+    """The larger of two numbers; NaN where either is."""
     return x if x > y or math.isnan(x) else y
 
 
 @kernel(contract=True, forceinline=True)
 def smaller(x: float, y: float) -> float:
-    """The smaller of two numbers; not a number where either is none."""
+    """The smaller of two numbers; NaN where either is."""
     return x if x < y or math.isnan(x) else y
 
 
 @kernel(contract=True, forceinline=True)
 def clamp(x: float, low: float, high: float) -> float:
-    """``x`` brought into [low, high]."""
+    """``x`` clipped to [low, high]."""
     x = low if x <= low else x
     return high if x >= high else x
 
 
 @kernel(contract=True, forceinline=True)
-def profile_numbers(row: Array) -> Numbers:
-    """What :func:`radius_and_slope` and :func:`bends` need of a profile's row."""
+def profile_numbers(profile: Array) -> Numbers:
+    """The parameters of a packed profile that :func:`radius_and_slope` and :func:`second_derivative_range` take."""
     return (
-        row[pk.P],
-        1.0 / row[pk.P],
-        row[pk.U_FLAT],
-        row[pk.U_FLANK],
-        row[pk.R_PITCH],
-        row[pk.COT],
-        row[pk.U_CREST],
-        row[pk.U_TOP],
-        row[pk.R_MINOR] + row[pk.RHO_MINOR],
-        row[pk.R_MAJOR] - row[pk.RHO_MAJOR],
-        row[pk.RHO_MINOR] * row[pk.RHO_MINOR],
-        row[pk.RHO_MAJOR] * row[pk.RHO_MAJOR],
+        profile[pk.P],
+        1.0 / profile[pk.P],
+        profile[pk.U_FLAT],
+        profile[pk.U_FLANK],
+        profile[pk.R_PITCH],
+        profile[pk.COT],
+        profile[pk.U_CREST],
+        profile[pk.U_TOP],
+        profile[pk.R_MINOR] + profile[pk.RHO_MINOR],
+        profile[pk.R_MAJOR] - profile[pk.RHO_MAJOR],
+        profile[pk.RHO_MINOR] * profile[pk.RHO_MINOR],
+        profile[pk.RHO_MAJOR] * profile[pk.RHO_MAJOR],
     )
 
 
 @kernel(contract=True, forceinline=True)
 def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
     """The profile's radius and slope at ``s``, and the coordinate ``u`` of its rising half period."""
-    p, per_p, u_flat, u_flank, r_pitch, cot, u_crest, u_top, low_middle, high_middle, minor2, major2 = numbers
-    turns = s * per_p + 0.25
-    q = (turns - ((turns + ROUNDER) - ROUNDER)) * p
+    p, inverse_p, u_flat, u_flank, r_pitch, cot, u_crest, u_top, low_middle, high_middle, minor2, major2 = numbers
+    turns = s * inverse_p + 0.25
+    q = (turns - ((turns + ROUNDING_SHIFT) - ROUNDING_SHIFT)) * p
     u = abs(q) - 0.25 * p
     low = u < 0.5 * (u_flank + u_crest)
     du = u - u_flat if low else u_top - u
     du = 0.0 if du <= 0.0 else du
-    # On the flank, and at a corner without a fillet, this is not a square: the flank's own numbers are taken below.
-    left = (minor2 if low else major2) - du * du
-    c = math.sqrt(TINY if left <= TINY else left)
+    # On the flank, and at a corner without a fillet, this may be negative: the flank's own values replace it below.
+    radicand = (minor2 if low else major2) - du * du
+    c = math.sqrt(TINY if radicand <= TINY else radicand)
     slope = du / c
     radius = low_middle - c if low else high_middle + c
     on_flank = slope >= cot
@@ -151,10 +151,9 @@ def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
 
 
 @kernel(contract=True, forceinline=True)
-def bends(u: float, reach: float, numbers: Numbers) -> tuple[float, float]:
-    """Smallest and largest ``f''`` within ``reach`` of ``u``; not a number at a corner without a fillet.
+def second_derivative_range(u: float, reach: float, numbers: Numbers) -> tuple[float, float]:
+    """Smallest and largest ``f''`` within ``reach`` of ``u``; NaN at a corner without a fillet, or of NaN.
 
-    Nor are they where ``u`` or ``reach`` is none.
     On the small fillet f'' grows towards the flank, on the large one it falls from it: the extremes are at the ends.
     """
     _, _, u_flat, u_flank, _, _, u_crest, u_top, _, _, minor2, major2 = numbers
@@ -164,13 +163,13 @@ def bends(u: float, reach: float, numbers: Numbers) -> tuple[float, float]:
     on_major = first < u_top and last > u_crest
     d = clamp(last - u_flat if on_minor else u_top - last, 0.0, u_flank - u_flat if on_minor else u_top - u_crest)
     rho2 = minor2 if on_minor else major2
-    left = rho2 - d * d
-    high = rho2 / (left * math.sqrt(left))
+    radicand = rho2 - d * d
+    high = rho2 / (radicand * math.sqrt(radicand))
     high = high if on_minor else (-high if first >= u_crest and last <= u_top else 0.0)
     d = clamp(u_top - first if on_major else first - u_flat, 0.0, u_top - u_crest if on_major else u_flank - u_flat)
     rho2 = major2 if on_major else minor2
-    left = rho2 - d * d
-    low = rho2 / (left * math.sqrt(left))
+    radicand = rho2 - d * d
+    low = rho2 / (radicand * math.sqrt(radicand))
     low = -low if on_major else (low if first >= u_flat and last <= u_flank else 0.0)
     known = first <= last
     return (low if known else math.nan), (high if known else math.nan)

@@ -1,4 +1,8 @@
-"""Births of an overlap at one part's edge curve: their exact place and time, and whether they are contacts."""
+"""Onsets of overlap along one part's edge curve: their place and time by root finding, and whether they are contacts.
+
+An onset is where a new arc of the edge curve enters the other solid (``_box_kernel`` gives the equations). It is a
+contact onset unless an overlap is open there already.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +19,10 @@ from threadstate.contact._geometry_kernel import (
     M_SIGMA,
     TWO_PI,
     edge_point,
-    field,
+    motion_scale,
+    phi_and_gradient,
     position,
     set_path,
-    stride,
     turn_vector,
     velocity,
 )
@@ -26,26 +30,28 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-# A candidate: time, kind (ONE_EDGE, ONE_THREAD or ONE_PLANE), azimuth on the walker's curve, azimuth on the other part,
+# A candidate contact: time, kind (ONE_EDGE, ONE_THREAD or ONE_PLANE), azimuth on the edge curve, azimuth on the solid,
 # point in the solid's frame.
-C_TIME, C_KIND, C_THETA, C_OTHER, C_X, C_Y, C_Z = range(7)
+C_TIME, C_KIND, C_THETA, C_OTHER_THETA, C_X, C_Y, C_Z = range(7)
 CANDIDATE_SIZE = 7
 MAX_CANDIDATES = 16
 
 # A jet: g, phi and their derivatives by theta and tau; their second derivatives by theta twice and by theta and tau;
-# the place.
+# the position of the edge point.
 J_G, J_G_THETA, J_G_TAU, J_PHI, J_PHI_THETA, J_PHI_TAU = range(6)
-J_G_2, J_G_MIXED, J_PHI_2, J_PHI_MIXED, J_X, J_Y, J_Z = range(6, 13)
+J_G_THETA_THETA, J_G_THETA_TAU, J_PHI_THETA_THETA, J_PHI_THETA_TAU, J_X, J_Y, J_Z = range(6, 13)
 JET_SIZE = 13
 
 
 @kernel()
-def set_jet(theta: float, tau: float, motion: Array, row_c: Array, row_s: Array, path: Array, jet: Array) -> None:
-    """The functions whose zeros are births, at one point of the edge curve and one time."""
+def set_jet(
+    theta: float, tau: float, motion: Array, curve_profile: Array, solid_profile: Array, path: Array, jet: Array
+) -> None:
+    """Sets g and phi, whose zeros are onsets, and their derivatives at one edge point and time."""
     is_turn = motion[M_KIND] != 0.0
     sigma = motion[M_SIGMA]
-    k = row_c[pk.P] / TWO_PI
-    r, d1, d2 = pk.jet(-k * theta, row_c)
+    k = curve_profile[pk.P] / TWO_PI
+    r, d1, d2 = pk.jet(-k * theta, curve_profile)
     c = math.cos(theta)
     s = math.sin(theta)
     dr = -k * d1
@@ -62,7 +68,7 @@ def set_jet(theta: float, tau: float, motion: Array, row_c: Array, row_s: Array,
         ax, ay, az = motion[16], motion[17], motion[18]
         wx, wy, wz = ay * tz - az * ty, az * tx - ax * tz, ax * ty - ay * tx
     rr = math.sqrt(x * x + y * y)
-    f, f1, f2 = pk.jet(z - k * math.atan2(y, x), row_s)
+    f, f1, f2 = pk.jet(z - k * math.atan2(y, x), solid_profile)
     ex, ey = x / rr, y / rr
     kr = k / rr
     tr, tt = tx * ex + ty * ey, ty * ex - tx * ey
@@ -73,58 +79,58 @@ def set_jet(theta: float, tau: float, motion: Array, row_c: Array, row_s: Array,
     jet[J_PHI] = sigma * (rr - f)
     jet[J_PHI_THETA] = sigma * (tr - f1 * ts)
     jet[J_PHI_TAU] = sigma * (vr - f1 * vs)
-    jet[J_PHI_2] = sigma * (br - f1 * bs + tt * tt / rr - f2 * ts * ts - 2.0 * f1 * kr / rr * tr * tt)
-    jet[J_PHI_MIXED] = sigma * (wr - f1 * ws + tt * vt / rr - f2 * ts * vs - f1 * kr / rr * (tr * vt + tt * vr))
+    jet[J_PHI_THETA_THETA] = sigma * (br - f1 * bs + tt * tt / rr - f2 * ts * ts - 2.0 * f1 * kr / rr * tr * tt)
+    jet[J_PHI_THETA_TAU] = sigma * (wr - f1 * ws + tt * vt / rr - f2 * ts * vs - f1 * kr / rr * (tr * vt + tt * vr))
     jet[J_X] = x
     jet[J_Y] = y
     jet[J_Z] = z
     if motion[M_COPLANAR] != 0.0:
         jet[J_G] = -sigma * (path[2] + path[5])
         jet[J_G_THETA] = -sigma * (motion[6] * cx + motion[7] * cy)
-        jet[J_G_2] = -sigma * (motion[6] * ccx + motion[7] * ccy)
+        jet[J_G_THETA_THETA] = -sigma * (motion[6] * ccx + motion[7] * ccy)
         jet[J_G_TAU] = 0.0
-        jet[J_G_MIXED] = 0.0
+        jet[J_G_THETA_TAU] = 0.0
         return
     jet[J_G] = -sigma * z
     jet[J_G_THETA] = -sigma * tz
     jet[J_G_TAU] = -sigma * vz
-    jet[J_G_2] = -sigma * bz
-    jet[J_G_MIXED] = -sigma * wz
+    jet[J_G_THETA_THETA] = -sigma * bz
+    jet[J_G_THETA_TAU] = -sigma * wz
 
 
 @kernel()
-def pin(
+def newton_onset(
     kind: int,
     theta: float,
     half: float,
     start: float,
     end: float,
     motion: Array,
-    row_c: Array,
-    row_s: Array,
+    curve_profile: Array,
+    solid_profile: Array,
     path: Array,
     jet: Array,
 ) -> tuple[bool, float, float]:
-    """The one birth or end of a box by Newton's method: whether it lies in the box, its azimuth and time.
+    """The one onset or end of overlap in a box by Newton's method: whether it is in the box, its azimuth and time.
 
-    ``kind`` is the box's verdict: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0.
+    ``kind`` is the class of the box: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0.
     """
     t = theta
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
-    step = stride(motion, row_c)
+    step = motion_scale(motion, curve_profile)
     before = math.inf
     for _ in range(40):
-        set_jet(t, tau, motion, row_c, row_s, path, jet)
+        set_jet(t, tau, motion, curve_profile, solid_profile, path, jet)
         if kind == ONE_EDGE:
             f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
             f1, c, d = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
         elif kind == ONE_THREAD:
             f0, a, b = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
-            f1, c, d = jet[J_PHI_THETA], jet[J_PHI_2], jet[J_PHI_MIXED]
+            f1, c, d = jet[J_PHI_THETA], jet[J_PHI_THETA_THETA], jet[J_PHI_THETA_TAU]
         else:
             f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
-            f1, c, d = jet[J_G_THETA], jet[J_G_2], jet[J_G_MIXED]
+            f1, c, d = jet[J_G_THETA], jet[J_G_THETA_THETA], jet[J_G_THETA_TAU]
         det = a * d - b * c
         if det == 0.0:
             return False, t, tau
@@ -144,60 +150,67 @@ def pin(
 
 
 @kernel()
-def peak(
-    low: float, high: float, tau: float, motion: Array, row_c: Array, row_s: Array, path: Array, jet: Array
+def peak_of_minimum(
+    low: float,
+    high: float,
+    tau: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    path: Array,
+    jet: Array,
 ) -> tuple[bool, int, float]:
-    """A local maximum over theta of min(g, phi) between two azimuths, by halving: whether, of what kind and where.
+    """A local maximum over theta of min(g, phi) between two azimuths by bisection: whether there is one, kind, azimuth.
 
-    Second derivatives are not needed: they jump where a flank meets its fillet, and Newton's method may not end there.
+    No second derivative is used: it jumps where a flank meets its fillet, and Newton's method may not converge there.
     """
-    set_jet(low, tau, motion, row_c, row_s, path, jet)
-    on_edge = jet[J_G] < jet[J_PHI]
-    if (jet[J_G_THETA] if on_edge else jet[J_PHI_THETA]) <= 0.0:
+    set_jet(low, tau, motion, curve_profile, solid_profile, path, jet)
+    low_on_plane = jet[J_G] < jet[J_PHI]
+    if (jet[J_G_THETA] if low_on_plane else jet[J_PHI_THETA]) <= 0.0:
         return False, 0, low
-    set_jet(high, tau, motion, row_c, row_s, path, jet)
-    over_edge = jet[J_G] < jet[J_PHI]
-    if (jet[J_G_THETA] if over_edge else jet[J_PHI_THETA]) >= 0.0:
+    set_jet(high, tau, motion, curve_profile, solid_profile, path, jet)
+    high_on_plane = jet[J_G] < jet[J_PHI]
+    if (jet[J_G_THETA] if high_on_plane else jet[J_PHI_THETA]) >= 0.0:
         return False, 0, high
     while True:
         middle = 0.5 * (low + high)
         if not low < middle < high:
             break
-        set_jet(middle, tau, motion, row_c, row_s, path, jet)
-        plane = jet[J_G] < jet[J_PHI]
-        if (jet[J_G_THETA] if plane else jet[J_PHI_THETA]) > 0.0:
-            low, on_edge = middle, plane
+        set_jet(middle, tau, motion, curve_profile, solid_profile, path, jet)
+        middle_on_plane = jet[J_G] < jet[J_PHI]
+        if (jet[J_G_THETA] if middle_on_plane else jet[J_PHI_THETA]) > 0.0:
+            low, low_on_plane = middle, middle_on_plane
         else:
-            high, over_edge = middle, plane
-    set_jet(low, tau, motion, row_c, row_s, path, jet)
-    if on_edge != over_edge:
+            high, high_on_plane = middle, middle_on_plane
+    set_jet(low, tau, motion, curve_profile, solid_profile, path, jet)
+    if low_on_plane != high_on_plane:
         return True, int(ONE_EDGE), low
-    return True, int(ONE_PLANE if on_edge else ONE_THREAD), low
+    return True, int(ONE_PLANE if low_on_plane else ONE_THREAD), low
 
 
 @kernel()
-def pin_narrow(
+def bracketed_onset(
     theta: float,
     half: float,
     start: float,
     end: float,
     motion: Array,
-    row_c: Array,
-    row_s: Array,
+    curve_profile: Array,
+    solid_profile: Array,
     path: Array,
     jet: Array,
 ) -> tuple[bool, int, float, float]:
-    """A birth in a box too narrow for azimuths to be told apart: whether there is one, its kind, azimuth and time.
+    """An onset in a box narrower than azimuths are resolved to: whether there is one, its kind, azimuth and time.
 
-    The peak of min(g, phi) rises from below zero to above it there; its time by regula falsi (Illinois).
+    There the peak of min(g, phi) rises from below zero to above it. The time is found by regula falsi (Illinois).
     """
     low, high = theta - half, theta + half
     early, late = start, end
-    found, kind, t = peak(low, high, early, motion, row_c, row_s, path, jet)
+    found, kind, t = peak_of_minimum(low, high, early, motion, curve_profile, solid_profile, path, jet)
     before = min(jet[J_G], jet[J_PHI])
     if not found or before > 0.0:
         return False, kind, t, early
-    found, kind, t = peak(low, high, late, motion, row_c, row_s, path, jet)
+    found, kind, t = peak_of_minimum(low, high, late, motion, curve_profile, solid_profile, path, jet)
     after = min(jet[J_G], jet[J_PHI])
     if not found or after < 0.0:
         return False, kind, t, late
@@ -209,7 +222,7 @@ def pin_narrow(
         tau = (early * after - late * before) / (after - before)
         if not early < tau < late:
             break
-        found, kind, t = peak(low, high, tau, motion, row_c, row_s, path, jet)
+        found, kind, t = peak_of_minimum(low, high, tau, motion, curve_profile, solid_profile, path, jet)
         if not found:
             return False, kind, t, tau
         value = min(jet[J_G], jet[J_PHI])
@@ -229,13 +242,13 @@ def pin_narrow(
 
 
 @kernel()
-def wedge(theta: float, row: Array, sigma: float, out: Array) -> None:
+def set_wedge(theta: float, profile: Array, sigma: float, out: Array) -> None:
     """Unit vectors at the edge point: along the edge (counter-clockwise), into the flat face, into the thread face."""
-    x, y, ex, ey = edge_point(theta, row)
+    x, y, ex, ey = edge_point(theta, profile)
     n = math.hypot(ex, ey)
     ex /= n
     ey /= n
-    _, gx, gy, gz = field(x, y, 0.0, row, sigma)
+    _, gx, gy, gz = phi_and_gradient(x, y, 0.0, profile, sigma)
     out[0] = ex
     out[1] = ey
     out[2] = 0.0
@@ -260,22 +273,28 @@ def dot(ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> flo
 
 
 @kernel()
-def wedge_support(motion: Array, tau: float, w: Array, nx: float, ny: float, nz: float) -> tuple[float, float]:
-    """Components along n of the walker's two face directions after ``tau``."""
-    ax, ay, az = turn_vector(w[3], w[4], w[5], motion, tau)
-    bx, by, bz = turn_vector(w[6], w[7], w[8], motion, tau)
+def wedge_components(motion: Array, tau: float, wedge: Array, nx: float, ny: float, nz: float) -> tuple[float, float]:
+    """Components along n of the two face directions at the edge point (``set_wedge``) after ``tau``."""
+    ax, ay, az = turn_vector(wedge[3], wedge[4], wedge[5], motion, tau)
+    bx, by, bz = turn_vector(wedge[6], wedge[7], wedge[8], motion, tau)
     return dot(ax, ay, az, nx, ny, nz), dot(bx, by, bz, nx, ny, nz)
 
 
 @kernel()
-def edges_apart(
-    theta_c: float, theta_s: float, tau: float, motion: Array, row_c: Array, row_s: Array, w: Array
+def edges_separated(
+    curve_theta: float,
+    solid_theta: float,
+    tau: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    wedge: Array,
 ) -> bool:
     """Whether at a crossing of two edges a plane separates the two wedges."""
     sigma = motion[M_SIGMA]
-    wedge(theta_c, row_c, -sigma, w)
-    ex, ey, ez = turn_vector(w[0], w[1], w[2], motion, tau)
-    _, _, sx, sy = edge_point(theta_s, row_s)
+    set_wedge(curve_theta, curve_profile, -sigma, wedge)
+    ex, ey, ez = turn_vector(wedge[0], wedge[1], wedge[2], motion, tau)
+    _, _, sx, sy = edge_point(solid_theta, solid_profile)
     n = math.hypot(sx, sy)
     sx /= n
     sy /= n
@@ -288,10 +307,10 @@ def edges_apart(
     nx /= n
     ny /= n
     nz /= n
-    c1, c2 = wedge_support(motion, tau, w, nx, ny, nz)
-    wedge(theta_s, row_s, sigma, w)
-    s1 = dot(w[3], w[4], w[5], nx, ny, nz)
-    s2 = dot(w[6], w[7], w[8], nx, ny, nz)
+    c1, c2 = wedge_components(motion, tau, wedge, nx, ny, nz)
+    set_wedge(solid_theta, solid_profile, sigma, wedge)
+    s1 = dot(wedge[3], wedge[4], wedge[5], nx, ny, nz)
+    s2 = dot(wedge[6], wedge[7], wedge[8], nx, ny, nz)
     tol = 1e-12
     return (c1 >= -tol and c2 >= -tol and s1 <= tol and s2 <= tol) or (
         c1 <= tol and c2 <= tol and s1 >= -tol and s2 >= -tol
@@ -299,20 +318,20 @@ def edges_apart(
 
 
 @kernel()
-def face_apart(
-    theta_c: float, tau: float, nx: float, ny: float, nz: float, motion: Array, row_c: Array, w: Array
+def face_separated(
+    curve_theta: float, tau: float, nx: float, ny: float, nz: float, motion: Array, curve_profile: Array, wedge: Array
 ) -> bool:
-    """Whether the walker's wedge lies on the side of a face to which its outward normal n points."""
-    wedge(theta_c, row_c, -motion[M_SIGMA], w)
-    c1, c2 = wedge_support(motion, tau, w, nx, ny, nz)
+    """Whether the wedge at the edge point lies on the side of a face to which the face's outward normal n points."""
+    set_wedge(curve_theta, curve_profile, -motion[M_SIGMA], wedge)
+    c1, c2 = wedge_components(motion, tau, wedge, nx, ny, nz)
     return c1 >= -1e-12 and c2 >= -1e-12
 
 
 @kernel()
-def add_candidate(
+def insert_candidate(
     time: float, kind: int, theta: float, other: float, x: float, y: float, z: float, count: int, found: Array
 ) -> int:
-    """Appends a candidate unless it is listed already; the list stays sorted by time and keeps the earliest."""
+    """Inserts a candidate by time unless it is listed; a full list drops the latest. Returns the number listed."""
     for i in range(count):
         if found[i, C_KIND] == kind and abs(found[i, C_X] - x) + abs(found[i, C_Y] - y) + abs(
             found[i, C_Z] - z
@@ -330,7 +349,7 @@ def add_candidate(
     found[i, C_TIME] = time
     found[i, C_KIND] = kind
     found[i, C_THETA] = theta
-    found[i, C_OTHER] = other
+    found[i, C_OTHER_THETA] = other
     found[i, C_X] = x
     found[i, C_Y] = y
     found[i, C_Z] = z
@@ -339,7 +358,7 @@ def add_candidate(
 
 @kernel()
 def rises(kind: int, jet: Array) -> bool:
-    """Whether the peak of min(g, phi) rises through zero there: a birth, and not the end of an overlap."""
+    """Whether the peak of min(g, phi) rises through zero there: an onset, and not the end of an overlap."""
     if kind == ONE_EDGE:
         fall = jet[J_PHI_THETA] - jet[J_G_THETA]
         return (jet[J_G_TAU] * jet[J_PHI_THETA] - jet[J_PHI_TAU] * jet[J_G_THETA]) * fall > 0.0
@@ -348,18 +367,25 @@ def rises(kind: int, jet: Array) -> bool:
 
 @kernel()
 def is_contact(
-    kind: int, theta: float, tau: float, motion: Array, row_c: Array, row_s: Array, jet: Array, w: Array
+    kind: int,
+    theta: float,
+    tau: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    jet: Array,
+    wedge: Array,
 ) -> bool:
-    """Whether at a birth the walker's wedge is outside the other part: else an overlap is open there already."""
+    """Whether at an onset the wedge at the edge point is outside the other part; else an overlap is open already."""
     sigma = motion[M_SIGMA]
     x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
-    if -sigma * z > row_s[pk.P]:
+    if -sigma * z > solid_profile[pk.P]:
         # Beyond the far end of the part, which is one thread pitch long.
         return False
     if kind == ONE_EDGE:
-        return edges_apart(theta, math.atan2(y, x), tau, motion, row_c, row_s, w)
+        return edges_separated(theta, math.atan2(y, x), tau, motion, curve_profile, solid_profile, wedge)
     if kind == ONE_THREAD:
-        _, gx, gy, gz = field(x, y, z, row_s, sigma)
+        _, gx, gy, gz = phi_and_gradient(x, y, z, solid_profile, sigma)
         n = math.sqrt(gx * gx + gy * gy + gz * gz)
-        return face_apart(theta, tau, -gx / n, -gy / n, -gz / n, motion, row_c, w)
-    return face_apart(theta, tau, 0.0, 0.0, sigma, motion, row_c, w)
+        return face_separated(theta, tau, -gx / n, -gy / n, -gz / n, motion, curve_profile, wedge)
+    return face_separated(theta, tau, 0.0, 0.0, sigma, motion, curve_profile, wedge)
