@@ -92,5 +92,5 @@ def test_coplanar_faces_are_no_contact() -> None:
     surface = np.flatnonzero(NUT.faces == 1)
     pairs = np.array([(base[0], surface[0])])
     (cluster,) = Connectivity(BOLT, NUT).clusters(pairs)
-    with pytest.raises(NoContactPointError, match="no contact of the method"):
+    with pytest.raises(NoContactPointError, match="is not a contact of the method"):
         touch(cluster, BOLT, NUT, level)
