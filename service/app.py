@@ -60,6 +60,8 @@ from threadstate.library.engine import reader_engine
 from threadstate.settings import Settings, read_settings
 
 MEGABYTE = 10**6
+CANCEL_S = 1.0
+"""How long background tasks are waited for at the end."""
 NO_TELEMETRY = TelemetryConfig(tracing=False, metrics=False, logs=False)
 """FastAPI's default checks at every request whether OpenTelemetry is configured."""
 LARGEST_BODY_BYTES = 256 * 1024
@@ -100,6 +102,9 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         yield
         for task in tasks:
             task.cancel()
+        if tasks:
+            # Threads cannot be cancelled; what they compute is not waited for any longer.
+            await asyncio.wait(tasks, timeout=CANCEL_S)
         names.close()
         stored.close()
         engine.dispose()

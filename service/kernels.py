@@ -84,5 +84,6 @@ async def _compile() -> None:
     finally:
         if process.returncode is None:
             process.kill()
+            await process.wait()
     if code != 0:
         _log.error("the process that compiles the kernels ended with code %d; they are compiled in this one", code)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import sys
 import time
 from collections.abc import Iterator
@@ -102,3 +103,20 @@ def test_kernels_that_are_compiled_are_ready_at_once(made_up: StoredLibrary, tmp
     with TestClient(create_app(settings, serving=True)) as client:
         assert client.get("/readyz").json()["kernels"] == "ready"
         assert client.post("/v1/solve", json=SOLVE).status_code == 200
+
+
+def test_a_service_that_ends_ends_the_compiler(
+    made_up: StoredLibrary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun = tmp_path / "begun"
+    script = "import os, pathlib, sys, time; pathlib.Path(sys.argv[1]).write_text(str(os.getpid())); time.sleep(600)"
+    monkeypatch.setattr("service.kernels.COMPILE", (sys.executable, "-c", script, str(begun)))
+    monkeypatch.setattr("service.kernels.kernels_are_compiled", lambda: False)
+    settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
+    with TestClient(create_app(settings, serving=True)):
+        until = time.monotonic() + LONGEST_S
+        while not (begun.exists() and begun.read_text()):
+            assert time.monotonic() < until
+            time.sleep(0.01)
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(begun.read_text()), 0)
