@@ -1,8 +1,8 @@
 // All formations of the network: where one is, what may come next, and the way to the window.
 
 import { CLASS_COLOURS, UNDECIDED_COLOUR } from "./colours.js";
-import { bandsOf, passed } from "./overview.js";
-import { picture, put, svg } from "./svg.js";
+import { bandsOf, formationsAlong } from "./overview.js";
+import { picture, replaceContent, svg } from "./svg.js";
 import { CLASSES } from "./terms.js";
 import { percent } from "./units.js";
 
@@ -17,21 +17,21 @@ const [LEAST_SIDE, MOST_SIDE] = [6, 11.2];
 const KEY = 36;
 const PLACES = [14, 92, 194];
 
-/** The picture in a frame; `choose` is called with the key of a formation, `tell` with a line about one. */
+/** The picture in a frame; `choose` is called with the key of a formation, `showText` with a line about one. */
 export class NetworkView {
   #frame;
   #choose;
-  #tell;
+  #showText;
   #places = new Map();
   #marks = null;
   #here = null;
   /** The square that Tab leads to. */
   #stop = null;
 
-  constructor(frame, choose, tell) {
+  constructor(frame, choose, showText) {
     this.#frame = frame;
     this.#choose = choose;
-    this.#tell = tell;
+    this.#showText = showText;
   }
 
   /** Draws all formations. */
@@ -56,7 +56,7 @@ export class NetworkView {
     root.prepend(this.#marks.links);
     root.append(squares, this.#marks.way, ...heading(), ...key(height - KEY + 8));
     squares.addEventListener("keydown", (event) => this.#step(event));
-    put(this.#frame, root);
+    replaceContent(this.#frame, root);
   }
 
   /**
@@ -70,35 +70,35 @@ export class NetworkView {
     this.#here?.element.setAttribute("aria-selected", false);
     this.#here = this.#places.get(node?.formation.key) ?? this.#places.values().next().value ?? null;
     if (!ledAway) this.#stopAt(this.#here?.element ?? null);
-    put(this.#marks.links);
-    put(this.#marks.way);
+    replaceContent(this.#marks.links);
+    replaceContent(this.#marks.way);
     if (node === null || this.#here === null) return;
     this.#here.element.setAttribute("aria-selected", true);
-    put(this.#marks.links, ...this.#links(node));
-    put(this.#marks.way, ...this.#way(path));
+    replaceContent(this.#marks.links, ...this.#links(node));
+    replaceContent(this.#marks.way, ...this.#way(path));
     if (focused && !ledAway) this.#here.element.focus();
-    this.#tell(this.#here.formation.text);
+    this.#showText(this.#here.formation.text);
   }
 
-  /** Says that there is nothing to be drawn. */
-  tell(text) {
+  /** Shows a text in place of the network. */
+  showEmpty(text) {
     this.#marks = null;
-    put(this.#frame);
-    this.#tell(text);
+    replaceContent(this.#frame);
+    this.#showText(text);
   }
 
   #square(formation, x, y, greatest) {
     const { key: name, class: stateClass, share, text, orientations } = formation;
     const side = LEAST_SIDE + (MOST_SIDE - LEAST_SIDE) * Math.cbrt(share / greatest);
-    const told = `${text}; ${percent(share)} of all poses, at ${orientations} orientation${orientations === 1 ? "" : "s"}`;
-    const element = svg("g", { role: "option", class: "formation", tabindex: -1, "aria-selected": false, "aria-label": told, "data-key": name });
+    const label = `${text}; ${percent(share)} of all poses, at ${orientations} orientation${orientations === 1 ? "" : "s"}`;
+    const element = svg("g", { role: "option", class: "formation", tabindex: -1, "aria-selected": false, "aria-label": label, "data-key": name });
     element.append(
       svg("rect", { x: x - STEP / 2, y: y - STEP / 2, width: STEP, height: STEP, class: "reach", fill: "transparent" }),
       svg("rect", { x: x - side / 2, y: y - side / 2, width: side, height: side, rx: 1.5, fill: CLASS_COLOURS[stateClass] ?? UNDECIDED_COLOUR }),
     );
     element.addEventListener("click", () => this.#choose(name));
-    element.addEventListener("pointerenter", () => this.#tell(told));
-    element.addEventListener("focus", () => this.#tell(told));
+    element.addEventListener("pointerenter", () => this.#showText(label));
+    element.addEventListener("focus", () => this.#showText(label));
     this.#places.set(name, { x, y, element, formation });
     return element;
   }
@@ -115,7 +115,7 @@ export class NetworkView {
   }
 
   #way(path) {
-    const places = passed(path).map((name) => this.#places.get(name)).filter(Boolean);
+    const places = formationsAlong(path).map((name) => this.#places.get(name)).filter(Boolean);
     const points = places.map(({ x, y }) => `${x} ${y}`);
     const line = points.length > 1 ? [svg("path", { d: `M${points.join("L")}`, class: "outline" }), svg("path", { d: `M${points.join("L")}`, class: "line" })] : [];
     const { x, y } = this.#here;
