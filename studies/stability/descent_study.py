@@ -1,6 +1,6 @@
 """Heights of first contact over the grid by both descents of the mesh method, against the exact ones.
 
-Those that are wrong are looked at again: about their poses, and by finer meshes.
+Those that are wrong are checked again: about their poses, and by finer meshes.
 """
 
 from __future__ import annotations

@@ -46,7 +46,7 @@ def _all_finite(state: ContactState) -> bool:
 
 
 def _pose_faults(solved: SolvedCase, tolerance: float) -> list[str]:
-    """The first pose is the one asked for; each turn keeps the contacts before it, and has the reported angle."""
+    """The first pose is the requested one; each turn keeps the contacts before it, and has the reported angle."""
     state = solved.state
     rotations = [np.array(pose.rotation) for pose in state.poses]
     translations = [np.array(pose.translation) for pose in state.poses]
@@ -55,7 +55,7 @@ def _pose_faults(solved: SolvedCase, tolerance: float) -> list[str]:
     asked = pose_rotation(roll, pitch, phase)
     slack = LEVEL if Flag.FLUSH in state.flags and len(rotations) == 1 else ROTATION_TOLERANCE
     if np.abs(rotations[0] - asked).max() > slack + 2e-16 * abs(phase) or translations[0][:2].any():
-        faults.append("the first pose is not the one asked for")
+        faults.append("the first pose is not the requested one")
     if any(np.abs(r @ r.T - np.eye(3)).max() > ROTATION_TOLERANCE for r in rotations):
         faults.append("a pose is no rotation")
     held = leading_contacts(state)

@@ -10,7 +10,7 @@ from studies.stability.maps import DECADE_MAP, MAPS
 CRITERIA = """\
 An answer fails silently where something that knows nothing of the solver says that it is wrong:
 
-- **Laws.** Numbers are finite; the first pose is the one asked for; both points of a contact are one, to 1e-9 in on
+- **Laws.** Numbers are finite; the first pose is the requested one; both points of a contact are one, to 1e-9 in on
   the surfaces that its features name and in both closed solids; normals and regions are right; a turn keeps its
   contacts and has the reported angle; drop, pivot offset and class follow from the rest. Checked for every answer.
 - **Continuity.** Every perturbed answer is joined to its centre's by steps in which nothing happens. Where there is no

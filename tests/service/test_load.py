@@ -16,8 +16,8 @@ def _result(rate: float, p99_ms: float = 1.0) -> LoadResult:
 
 
 def test_promises_are_held_against_what_was_found() -> None:
-    kept = Case("pose", _result(3000.0), _result(1500.0), _result(375.0), 3000.0, 15.0, 8.0)
-    assert kept.broken == []
+    met = Case("pose", _result(3000.0), _result(1500.0), _result(375.0), 3000.0, 15.0, 8.0)
+    assert met.broken == []
     for case, said in (
         (Case("pose", _result(2999.0), least_rate=3000.0), "2999/s instead of 3000/s"),
         (Case("pose", _result(1.0, 15.1), most_p99_ms=15.0), "p99 15 ms instead of 15 ms"),
@@ -26,8 +26,8 @@ def test_promises_are_held_against_what_was_found() -> None:
     ):
         (line,) = case.broken
         assert said in line
-    assert "| pose | 2.6 | 3,000 | 0.5 | 1.0 | 3,000/s, p99 15 ms, 8 times | 1,500 | 1.0 | 375.0 | 8 |" in table([kept])
-    assert "Every promise was met" in document([kept], 5.0)
+    assert "| pose | 2.6 | 3,000 | 0.5 | 1.0 | 3,000/s, p99 15 ms, 8 times | 1,500 | 1.0 | 375.0 | 8 |" in table([met])
+    assert "Every promise was met" in document([met], 5.0)
     assert "- pose: 2999/s" in document([Case("pose", _result(2999.0), least_rate=3000.0)], 5.0)
 
 

@@ -18,10 +18,10 @@ const LINE = 15;
 const BOTTOM = 38;
 const RIBBON = 12;
 const CLIP = "depth-clip";
-/** About how wide a letter is: lines of the key that do not fit beside each other are put below each other. */
+/** About how wide a letter is: lines of the legend that do not fit beside each other are put below each other. */
 const LETTER = 6.3;
 const BOLD_LETTER = 6.9;
-/** The mark before an entry of the key, with the room behind it. */
+/** The mark before an entry of the legend, with the room behind it. */
 const MARK = 27;
 /** How many steps of the phase a key with Shift goes. */
 const MANY_STEPS = 10;
@@ -52,8 +52,8 @@ export class DepthView {
     const curves = depthCurves(heights, library.pair.thread_pitch);
     const besideCurve = beside ? depthCurves(beside.heights, beside.library.pair.thread_pitch).first : [];
     const size = sizeOf(this.#frame, LEAST);
-    const keyLines = keyOf(intervals?.history ?? null, beside, view, size.width);
-    const scale = scaleOf([...curves.first, ...curves.rest, ...besideCurve], range, size, keyLines.length);
+    const legendLines = legendOf(intervals?.history ?? null, beside, view, size.width);
+    const scale = scaleOf([...curves.first, ...curves.rest, ...besideCurve], range, size, legendLines.length);
     this.#scale = scale;
     const root = picture(scale.width, scale.height, "Depth against phase", { class: "depth" });
     root.append(clip(scale));
@@ -64,7 +64,7 @@ export class DepthView {
     root.append(...curveLines(curves.rest, scale, "curve rest"), ...curveLines(besideCurve, scale, "curve beside"));
     root.append(...curveLines(curves.first, scale, "curve first"));
     root.append(...jumpMarks(intervals, scale));
-    root.append(...keyLines.flatMap((entries, line) => key(entries, LINE * line + 11)));
+    root.append(...legendLines.flatMap((entries, line) => legendLine(entries, LINE * line + 11)));
     root.append(...this.#poseMarks(measured ?? [], curves, view, scale));
     this.#cursor = svg("g", { class: "cursor" });
     root.append(this.#cursor);
@@ -170,10 +170,10 @@ function isOf(state, view) {
 }
 
 /**
- * The lines of the key, each with entries {name, text, x}: beside each other where they fit. A text that is longer than the
+ * The lines of the legend, each with entries {name, text, x}: beside each other where they fit. A text that is longer than the
  * picture is wide goes on in the next line, without a mark.
  */
-function keyOf(history, beside, view, width) {
+function legendOf(history, beside, view, width) {
   const entries = [
     { name: "first", text: "first contact" },
     { name: "rest", text: "at rest" },
@@ -199,7 +199,7 @@ function keyOf(history, beside, view, width) {
   return lines;
 }
 
-function scaleOf(curves, { from, span }, { width, height }, keyLines) {
+function scaleOf(curves, { from, span }, { width, height }, legendLines) {
   const heights = curves.flat();
   const inRange = heights.filter(({ phase }) => visibleParts(phase, phase, from, span).length > 0).map((point) => point.height);
   const shown = inRange.length > 1 ? inRange : heights.map((point) => point.height);
@@ -207,7 +207,7 @@ function scaleOf(curves, { from, span }, { width, height }, keyLines) {
   const high = shown.length > 0 ? Math.max(...shown) : 1;
   const room = (high - low || Math.abs(high) || 1) * 0.08;
   const [bottom, top] = [low - room, high + room];
-  const [x0, x1, y0, y1] = [LEFT, width - RIGHT, height - BOTTOM, 9 + LINE * keyLines];
+  const [x0, x1, y0, y1] = [LEFT, width - RIGHT, height - BOTTOM, 9 + LINE * legendLines];
   return {
     width,
     height,
@@ -318,8 +318,8 @@ function jumpMarks(intervals, scale) {
   );
 }
 
-/** A line of the key: each entry's mark and text, beside each other. */
-function key(entries, y) {
+/** A line of the legend: each entry's mark and text, beside each other. */
+function legendLine(entries, y) {
   return entries.flatMap(({ name, text, x, marked }) => {
     const words = svg("text", { x: x + MARK, y, class: name === "snap" ? "snap-text" : null }, text);
     if (!marked) return [words];

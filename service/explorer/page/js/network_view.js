@@ -14,7 +14,7 @@ const MOST = Math.floor((WIDTH - LEFT) / STEP);
 const APART = 2.4;
 /** Sides of squares: the rarest formation's and the commonest's. */
 const [LEAST_SIDE, MOST_SIDE] = [6, 11.2];
-const KEY = 36;
+const LEGEND_HEIGHT = 36;
 const PLACES = [14, 92, 194];
 
 /** The picture in a frame; `choose` is called with the key of a formation, `showText` with a line about one. */
@@ -38,7 +38,7 @@ export class NetworkView {
   draw(formations) {
     const bands = bandsOf(formations, MOST);
     const lines = bands.reduce((sum, band) => sum + band.lines.length, 0);
-    const height = TOP + lines * STEP + bands.length * APART + KEY + 6;
+    const height = TOP + lines * STEP + bands.length * APART + LEGEND_HEIGHT + 6;
     const root = picture(WIDTH, height, "All formations of the network", { class: "network", role: "group" });
     const squares = svg("g", { role: "listbox", "aria-label": "formations by the turning to the window" });
     const greatest = Math.max(...formations.map(({ share }) => share));
@@ -54,7 +54,7 @@ export class NetworkView {
     }
     this.#marks = { links: svg("g", { class: "links" }), way: svg("g", { class: "way" }) };
     root.prepend(this.#marks.links);
-    root.append(squares, this.#marks.way, ...heading(), ...key(height - KEY + 8));
+    root.append(squares, this.#marks.way, ...heading(), ...legend(height - LEGEND_HEIGHT + 8));
     squares.addEventListener("keydown", (event) => this.#step(event));
     replaceContent(this.#frame, root);
   }
@@ -165,7 +165,7 @@ function heading() {
   ];
 }
 
-function key(y) {
+function legend(y) {
   const entry = (x, at, name, text) => [
     svg("line", { x1: x, x2: x + 22, y1: at, y2: at, class: name, "stroke-width": 2 }),
     svg("text", { x: x + 27, y: at + 4 }, text),

@@ -37,7 +37,7 @@ export const FLAGS = {
   flush: "flush: the bolt lies on a patch, not on points",
   tie: "tie: several contacts at once",
   balanced: "balanced: the origin lies on the pivot axis, both senses were followed",
-  grazing: "grazing: surfaces touch without crossing",
+  grazing: "grazing: the features that touch are nearly parallel",
   no_second: "no second contact within 45 deg",
   no_third: "no third contact within 45 deg",
 };
