@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.exact import first_heights, seconds_to_solve
-from benchmarks.questions import answered
 from benchmarks.rebuild import floor, profile, rebuilt
 from benchmarks.report import Pace, Report, as_json, print_tables
+from benchmarks.request_times import measured
 from benchmarks.rivalry import rivals
 from benchmarks.sample import sample_poses
 from threadstate.library.grid import Grid
@@ -41,24 +41,24 @@ def main() -> None:
 
 def _measured(pose_count: int, compared_count: int, grid: Grid) -> Report:
     pair = quarter_twenty_unc()
-    _tell("exact method ...")
+    _report_progress("exact method ...")
     sampled = sample_poses(pose_count)
     heights = first_heights(pair, sampled)
     decided = ~np.isnan(heights)
     poses, heights = sampled[decided], heights[decided]
     paces = [Pace(cores, len(poses), seconds_to_solve(pair, poses, cores)) for cores in CORES]
-    _tell("meshes ...")
+    _report_progress("meshes ...")
     compared = poses[:compared_count]
     seconds = min(seconds_to_solve(pair, compared, 1) for _ in range(3))
     found = rivals(pair, compared, heights[:compared_count], seconds)
-    _tell("whole library ...")
+    _report_progress("whole library ...")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         rebuilds = [rebuilt(folder, grid, cores) for cores in CORES]
         parts = profile(folder, pair, grid)
         limit = floor(folder, parts, rebuilds[-1].processes, rebuilds[-1].database_bytes)
-        _tell("questions ...")
-        questions = answered(rebuilds[-1].path(folder), grid)
+        _report_progress("requests ...")
+        requests = measured(rebuilds[-1].path(folder), grid)
     return Report(
         sampled=len(sampled),
         declined=len(sampled) - len(poses),
@@ -69,11 +69,11 @@ def _measured(pose_count: int, compared_count: int, grid: Grid) -> Report:
         rebuilds=rebuilds,
         parts=parts,
         floor=limit,
-        questions=questions,
+        requests=requests,
     )
 
 
-def _tell(what: str) -> None:
+def _report_progress(what: str) -> None:
     print(what, file=sys.stderr, flush=True)
 
 

@@ -7,7 +7,7 @@ boolean: one contact ends them and none is computed.
 
 A step tunnels where the meshes part again below the first contact before the step has ended: it passes a barrier that
 is thinner than the step. Over 10,212 poses with roll and pitch within 4 deg (6,000 at random, half of them within
-20 deg of phase 0, and the grid of whole degrees at every seventh phase) the thinnest barrier, looked for in steps of
+20 deg of phase 0, and the grid of whole degrees at every seventh phase) the thinnest barrier, searched in steps of
 1e-4 in, was 1.0e-3 in thick. That is a measurement and no bound: near a jump a barrier can be as thin as one likes, and
 no fixed step is proven.
 """
@@ -47,7 +47,7 @@ class Descent:
 
 
 SAFE = Descent(1e-4)
-"""The plain descent: its step is a tenth of the thinnest barrier that was found, and the step it was looked for in."""
+"""The plain descent: its step is a tenth of the thinnest barrier that was found, and the step it was searched in."""
 FASTER = (Descent(1e-4, probe_plane=True), Descent(5e-4), Descent(5e-4, probe_plane=True))
 """With what is known of this geometry: a step of half the thinnest barrier, the plane first, both."""
 
@@ -93,7 +93,7 @@ def mesh_first_heights(pair: Pair, poses: ArrayLike, descent: Descent = SAFE) ->
     """First heights (in) of poses, shape (n, 3) of roll, pitch, phase in degrees; and the seconds the descents took.
 
     Measured is the wall time of the descents alone, on one core: meshes and search trees are built before, as the exact
-    method's kernels are compiled before. The contact's place is not asked for, nor are the second and third contacts.
+    method's kernels are compiled before. The contact's place is not computed, nor are the second and third contacts.
     """
     meshes = MeshDescent(pair)
     rows = np.asarray(poses, dtype=np.float64).reshape(-1, 3)

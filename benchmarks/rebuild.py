@@ -1,4 +1,4 @@
-"""The whole of ``threadstate rebuild`` by the clock, and where its time goes."""
+"""The wall time of ``threadstate rebuild``, and its profile."""
 
 from __future__ import annotations
 

@@ -8,8 +8,8 @@ from dataclasses import asdict, dataclass
 from rich.console import Console
 from rich.table import Table
 
-from benchmarks.questions import Question
 from benchmarks.rebuild import Floor, Part, Rebuilt
+from benchmarks.request_times import RequestTimes
 from benchmarks.rivalry import Rival
 
 WIDTH_OF_A_FILE = 150
@@ -46,7 +46,7 @@ class Report:
     rebuilds: list[Rebuilt]
     parts: list[Part]
     floor: Floor
-    questions: list[Question]
+    requests: list[RequestTimes]
 
 
 def as_json(report: Report) -> str:
@@ -59,7 +59,7 @@ def print_tables(report: Report) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         console = Console(highlight=False, width=WIDTH_OF_A_FILE)
-    for table in (_paces(report), _rivals(report), _rebuilds(report), _parts(report), _questions(report)):
+    for table in (_paces(report), _rivals(report), _rebuilds(report), _parts(report), _requests(report)):
         # Apart from its table: a title is broken to the table's width.
         console.print(table.title, style="bold")
         table.title = None
@@ -122,15 +122,15 @@ def _parts(report: Report) -> Table:
     return table
 
 
-def _questions(report: Report) -> Table:
+def _requests(report: Report) -> Table:
     table = _table(
-        "Stored questions on this library, of a service in this process that is prepared",
-        "question",
+        "Requests to this library, by a service in this process after its precomputation",
+        "request",
         "first (ms)",
         "median",
         "longest",
     )
-    for one in report.questions:
+    for one in report.requests:
         table.add_row(one.name, f"{one.first_ms:.1f}", f"{one.median_ms:.1f}", f"{one.longest_ms:.1f}")
     return table
 

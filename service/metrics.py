@@ -1,4 +1,4 @@
-"""``/metrics``: counts and durations of requests, and values that are read when Prometheus asks for them."""
+"""``/metrics``: counts and durations of requests, and values that are read when Prometheus scrapes them."""
 
 from __future__ import annotations
 

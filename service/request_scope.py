@@ -40,7 +40,7 @@ def note_route(scope: Scope, template: str) -> None:
 
 
 def noted_route(scope: Scope) -> str:
-    """The noted template."""
+    """The recorded template."""
     return cast("Notes", scope[_NOTES]).route if _NOTES in scope else UNMATCHED
 
 
@@ -56,7 +56,7 @@ def method_of(scope: Scope) -> str:
 
 
 HEAD_REQUEST = "threadstate.head_request"
-"""Key in the scope of a HEAD request that is handled as GET; endpoints that stream look for it."""
+"""Key in the scope of a HEAD request that is handled as GET; endpoints that stream check it."""
 
 HEADER = "X-Request-ID"
 INSTANCE_PREFIX = "urn:threadstate:request:"

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.questions import Question
 from benchmarks.rebuild import Floor, Part, Rebuilt
 from benchmarks.report import Pace, Report, print_tables
+from benchmarks.request_times import RequestTimes
 from benchmarks.rivalry import TUNNELLED_INCH, Rival
 from benchmarks.sample import sample_poses
 from threadstate.library.grid import Grid
@@ -64,9 +64,9 @@ def test_whole_libraries_are_made_and_every_part_is_timed(report: dict[str, Any]
     assert all(part["seconds"] > 0.0 for part in report["parts"] if part["name"].startswith("solve"))
 
 
-def test_every_kind_of_question_is_answered(report: dict[str, Any]) -> None:
-    assert len({one["name"] for one in report["questions"]}) == 17
-    assert all(0.0 < one["median_ms"] <= one["longest_ms"] for one in report["questions"])
+def test_every_kind_of_request_is_answered(report: dict[str, Any]) -> None:
+    assert len({one["name"] for one in report["requests"]}) == 17
+    assert all(0.0 < one["median_ms"] <= one["longest_ms"] for one in report["requests"])
 
 
 def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
@@ -81,7 +81,7 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
             rebuilds=[Rebuilt(2, 27, 1.5, 4_000_000)],
             parts=[Part("rows", "computing", 3.0), Part("writing", "writer", 1.0)],
             floor=Floor(0.75, 0.5),
-            questions=[Question("intervals", 210.0, 3.25, 12.0)],
+            requests=[RequestTimes("intervals", 210.0, 3.25, 12.0)],
         )
     )
     lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]

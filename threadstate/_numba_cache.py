@@ -12,7 +12,7 @@ without that a kernel compiled against an older version of one that it calls wou
 A ``NUMBA_CACHE_DIR`` that the user has set himself is left as it is, unless ``THREADSTATE_NUMBA_CACHE_DIR`` is set.
 
 A subdirectory that no process has used for ``UNUSED_DAYS`` is removed. A process holds a shared lock on the file
-``used`` of its own while it lives, and who removes one needs the exclusive lock.
+``used`` of its own while it lives, and a process that removes one needs the exclusive lock.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from typing import IO
 
 UNUSED_DAYS = 30.0
 LOOK_DAYS = 1.0
-"""How long a subdirectory is kept after its last use, and how often the last use is noted and others are looked at."""
+"""How long a subdirectory is kept after its last use, and how often the last use is recorded and others are checked."""
 SETTING = "THREADSTATE_NUMBA_CACHE_DIR"
 _NUMBA_SETTING = "NUMBA_CACHE_DIR"
 _MARKS = (b"njit", b"@kernel", b"cfunc")
@@ -104,7 +104,7 @@ def _remove_if_unused(directory: Path) -> None:
             return
         with marker.open("ab") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            # Moved first: whoever comes now makes a new one, and finds no half of the old one.
+            # Moved first: a process that starts now makes a new one, and never reads half of the old one.
             removed = directory.rename(directory.with_name(f"removed-{directory.name}-{os.getpid()}"))
         shutil.rmtree(removed, ignore_errors=True)
 

@@ -17,7 +17,7 @@ PosesDeg = list[tuple[float, float, float]]
 
 
 def read_poses(path: Path) -> PosesDeg:
-    """(roll, pitch, phase) in degrees of every line, in the file's order; blank lines are passed over.
+    """(roll, pitch, phase) in degrees of every line, in the file's order; blank lines are skipped.
 
     Raises:
         InvalidValueError: the file cannot be read, its header is another one, or a line has something that is not

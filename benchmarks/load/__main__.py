@@ -1,4 +1,4 @@
-"""``make load``: how many questions the service answers, beside Datasette over the same file."""
+"""``make load``: how many requests a second the service handles, and Datasette over the same file."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import tempfile
 import urllib.request
 from pathlib import Path
 
-from benchmarks.load.questions import (
+from benchmarks.load.report import Case, document, table
+from benchmarks.load.requests import (
     HISTORY,
     HISTORY_BY_DATASETTE,
     HISTORY_FROM_ROWS,
@@ -19,7 +20,6 @@ from benchmarks.load.questions import (
     ZIPPED_HISTORY,
     not_modified,
 )
-from benchmarks.load.report import Case, document, table
 from benchmarks.load.servers import (
     NOTHING_CACHED,
     datasette,
@@ -28,10 +28,10 @@ from benchmarks.load.servers import (
     threadstate_service,
     wait_until_prepared,
 )
-from benchmarks.load.wrk import Answered, LoadError, Question, load
+from benchmarks.load.wrk import LoadError, LoadResult, RequestPattern, load
 
 SEED = 20060501
-_Answers = dict[str, Answered]
+_Results = dict[str, LoadResult]
 
 
 def main() -> int:
@@ -66,7 +66,9 @@ def _measured(folder: Path, arguments: argparse.Namespace) -> list[Case]:
     seconds = arguments.seconds
     database = prepare(folder, arguments.library)
     with datasette(arguments.datasette, database) as address:
-        by_datasette = _asked(address, {"pose": POSE_BY_DATASETTE, "history": HISTORY_BY_DATASETTE}, seconds)
+        by_datasette = _measured_patterns(
+            address, {"pose": POSE_BY_DATASETTE, "history": HISTORY_BY_DATASETTE}, seconds
+        )
     alone = _of_service(folder, database, seconds)
     with rebuilding(database):
         disturbed = _of_service(folder, database, seconds)
@@ -88,26 +90,26 @@ def _measured(folder: Path, arguments: argparse.Namespace) -> list[Case]:
     ]
 
 
-def _of_service(folder: Path, database: str, seconds: float) -> _Answers:
+def _of_service(folder: Path, database: str, seconds: float) -> _Results:
     with threadstate_service(folder, database, NOTHING_CACHED) as address:
         wait_until_prepared(address)
-        questions = {"pose": POSE, "history": HISTORY, "rows": HISTORY_FROM_ROWS, "intervals": INTERVALS}
-        found = _asked(address, questions, seconds)
+        patterns = {"pose": POSE, "history": HISTORY, "rows": HISTORY_FROM_ROWS, "intervals": INTERVALS}
+        found = _measured_patterns(address, patterns, seconds)
     with threadstate_service(folder, database, {}) as address:
         wait_until_prepared(address)
         unchanged = not_modified(_fetch(address + ONE_HISTORY))
-        questions = {"cached": HISTORY, "zipped": ZIPPED_HISTORY, "cached intervals": INTERVALS}
-        for question in questions.values():
-            load(address, question, seconds, SEED)
-        return {**found, **_asked(address, {**questions, "unchanged": unchanged}, seconds)}
+        patterns = {"cached": HISTORY, "zipped": ZIPPED_HISTORY, "cached intervals": INTERVALS}
+        for pattern in patterns.values():
+            load(address, pattern, seconds, SEED)
+        return {**found, **_measured_patterns(address, {**patterns, "unchanged": unchanged}, seconds)}
 
 
-def _asked(address: str, questions: dict[str, Question], seconds: float) -> _Answers:
-    return {name: load(address, question, seconds, SEED) for name, question in questions.items()}
+def _measured_patterns(address: str, patterns: dict[str, RequestPattern], seconds: float) -> _Results:
+    return {name: load(address, pattern, seconds, SEED) for name, pattern in patterns.items()}
 
 
 def _fetch(address: str) -> str:
-    """Ask once; the ETag."""
+    """Send one request; the ETag of the response."""
     with urllib.request.urlopen(address, timeout=60.0) as answer:
         return str(answer.headers["ETag"])
 

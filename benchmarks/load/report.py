@@ -7,7 +7,7 @@ import platform
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.load.wrk import CONNECTIONS, Answered
+from benchmarks.load.wrk import CONNECTIONS, LoadResult
 
 LEAST_DISTURBED = 0.5
 """What is to be left of a rate while a library is computed on the same cores."""
@@ -15,15 +15,15 @@ LEAST_DISTURBED = 0.5
 
 @dataclass(frozen=True)
 class Case:
-    """A question, what it was answered at, and what is promised: None where nothing is.
+    """A kind of request, the measured results, and what is promised: None where nothing is.
 
-    ``times_datasette`` is how often the rate of Datasette at the same question it has to be.
+    ``times_datasette`` is how often the rate of Datasette at the same request it has to be.
     """
 
     name: str
-    alone: Answered
-    disturbed: Answered | None = None
-    datasette: Answered | None = None
+    alone: LoadResult
+    disturbed: LoadResult | None = None
+    datasette: LoadResult | None = None
     least_rate: float | None = None
     most_p99_ms: float | None = None
     times_datasette: float | None = None
@@ -50,7 +50,7 @@ class Case:
 def table(cases: list[Case]) -> str:
     """The cases as a table in Markdown."""
     lines = [
-        "| asked | kB | answers/s | p50 | p99 | promised | during a rebuild | p99 | Datasette | times |",
+        "| request | kB | responses/s | p50 | p99 | promised | during a rebuild | p99 | Datasette | times |",
         "|---|--:|--:|--:|--:|---|--:|--:|--:|--:|",
     ]
     return "\n".join([*lines, *(_row(case) for case in cases)]) + "\n"
@@ -81,7 +81,7 @@ fails the run.
 Machine: {machine}. Load average at the end of the run: {load}; what else ran took its share.
 
 {table}
-Times are milliseconds to the whole answer as wrk sees it. kB are those of an answer on the wire.
+Times are milliseconds to the whole response as wrk measures them. kB are those of a response on the wire.
 
 - **pose**: random ones of all 29,160, each read and serialised every time ([decision 20](decisions/0020-one-read.md)):
 poses
@@ -92,7 +92,7 @@ poses
 - **304**: the client sends the ETag that it has.
 - **during a rebuild**: `threadstate rebuild` computes a finer library into the same database meanwhile, with as many
   processes as there are cores and at the same priority.
-- **Datasette** serves the very same file, with nothing beside it, and is asked the same by one SQL statement: a state,
+- **Datasette** serves the very same file, without other load, and gets the same by one SQL statement: a state,
   its poses, contacts and flags; or these of all phases of an orientation.
 
 {outcome}

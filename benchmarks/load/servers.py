@@ -1,4 +1,4 @@
-"""The servers that are asked, each a process of its own, and a rebuild that disturbs them."""
+"""The servers that are measured, each its own process, and a rebuild that disturbs them."""
 
 from __future__ import annotations
 

@@ -33,12 +33,12 @@ end
 
 
 class LoadError(Exception):
-    """A load test that says nothing: a server refused or broke off, or wrk is not there."""
+    """A load test without a result: a server refused or broke off, or wrk is not installed."""
 
 
 @dataclass(frozen=True)
-class Question:
-    """What is asked: a pattern of an address, the range of each whole number in it, and headers."""
+class RequestPattern:
+    """Requests of one kind: a pattern of an address, the range of each whole number in it, and headers."""
 
     path: str
     ranges: tuple[tuple[int, int], ...] = ()
@@ -50,8 +50,8 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Answered:
-    """Answers a second, percentiles of the time to an answer in milliseconds, kilobytes of one."""
+class LoadResult:
+    """Responses a second, percentiles of the response time in milliseconds, kilobytes of a response."""
 
     rate: float
     p50_ms: float
@@ -59,8 +59,8 @@ class Answered:
     kilobytes: float
 
 
-def load(address: str, question: Question, seconds: float, seed: int) -> Answered:
-    """Ask a server as fast as it answers.
+def load(address: str, pattern: RequestPattern, seconds: float, seed: int) -> LoadResult:
+    """Load a server with as many requests as it can answer.
 
     Raises:
         LoadError: an answer was none (4xx, 5xx, a connection that broke), or there is no wrk.
@@ -70,12 +70,12 @@ def load(address: str, question: Question, seconds: float, seed: int) -> Answere
         raise LoadError("wrk is not installed: apt-get install wrk")
     script = _SCRIPT % {
         "seed": seed,
-        "path": json.dumps(question.path),
-        "ranges": ", ".join(f"{{{low}, {high}}}" for low, high in question.ranges),
-        "headers": ", ".join(f"[{json.dumps(name)}] = {json.dumps(value)}" for name, value in question.headers),
+        "path": json.dumps(pattern.path),
+        "ranges": ", ".join(f"{{{low}, {high}}}" for low, high in pattern.ranges),
+        "headers": ", ".join(f"[{json.dumps(name)}] = {json.dumps(value)}" for name, value in pattern.headers),
     }
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "ask.lua"
+        path = Path(folder) / "request.lua"
         path.write_text(script)
         command = [wrk, "-t1", f"-c{CONNECTIONS}", f"-d{seconds:g}s", "--timeout", "30s", "-s", str(path), address]
         said = subprocess.run(command, check=False, capture_output=True, text=True)
@@ -83,5 +83,5 @@ def load(address: str, question: Question, seconds: float, seed: int) -> Answere
         raise LoadError(said.stderr.strip() or said.stdout.strip())
     requests, microseconds, received, p50, p99, refused, broken = json.loads(said.stdout.strip().splitlines()[-1])
     if refused or broken or not requests:
-        raise LoadError(f"{question.path}: of {requests} requests {refused} were refused, and {broken} broken off")
-    return Answered(requests / (microseconds * 1e-6), p50 * 1e-3, p99 * 1e-3, received / requests * 1e-3)
+        raise LoadError(f"{pattern.path}: of {requests} requests {refused} were refused, and {broken} broken off")
+    return LoadResult(requests / (microseconds * 1e-6), p50 * 1e-3, p99 * 1e-3, received / requests * 1e-3)

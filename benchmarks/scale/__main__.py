@@ -37,13 +37,13 @@ JSON = Path("docs/scale.json")
 
 
 def main() -> None:
-    """Measure, tell and write."""
+    """Measure, report progress and write."""
     load_kernels()
     with reading(read_settings().database) as source, tempfile.TemporaryDirectory() as folder:
         figures = measured(source, Path(folder))
     JSON.write_text(json.dumps(asdict(figures), indent=1) + "\n")
     write_page(figures)
-    tell(f"{JSON} and the tables of docs/scale.md are written")
+    report(f"{JSON} and the tables of docs/scale.md are written")
 
 
 def measured(source: Engine, folder: Path) -> Figures:
@@ -57,18 +57,18 @@ def measured(source: Engine, folder: Path) -> Figures:
         parquet = _parquet_bytes(source, record, folder) / record.state_count
     chunks = []
     for grid in GRIDS:
-        tell(f"computing: {grid.tilt_step_deg:g}, {grid.phase_step_deg:g} deg")
+        report(f"computing: {grid.tilt_step_deg:g}, {grid.phase_step_deg:g} deg")
         chunks.append(computed(grid))
     commits, growth, sizes, copies = [], [], [], []
     with _databases(folder) as databases:
         for name, own, others in databases:
-            tell(f"{name}: committing")
+            report(f"{name}: committing")
             commits += [committed(others, name, grid, made) for grid, (_, made) in zip(GRIDS, chunks, strict=True)]
-            tell(f"{name}: copying")
+            report(f"{name}: copying")
             stopwatch = Stopwatch.on(own)
             copy_library(source, own, record.id)
             copies.append(Copied(name, record.state_count, stopwatch.seconds))
-            tell(f"{name}: growing")
+            report(f"{name}: growing")
             growth += list(grown(own, name))
             sizes += rooms(own, name)
     return Figures([one for one, _ in chunks], commits, growth, sizes, copies, parquet, _flush_ms(folder), network_s)
@@ -115,7 +115,7 @@ def _flush_ms(folder: Path) -> float:
     return 1e3 * statistics.median(times)
 
 
-def tell(line: str) -> None:
+def report(line: str) -> None:
     """A line for whoever is watching."""
     sys.stderr.write(f"{line}\n")
 

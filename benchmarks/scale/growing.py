@@ -20,7 +20,7 @@ from threadstate.library.write import publish_in
 from threadstate.tables import metadata
 
 SIZES = (1, 3, 9)
-ASKED = 60
+REPEATS = 60
 PUBLISHED = 5
 PAGE = 100
 
@@ -114,15 +114,15 @@ def _measured(engine: Engine, database: str, size: int) -> Grown:
 
 def _mean_ms(
     connection: Connection,
-    ask: Callable[[LibraryRecord], object],
+    query: Callable[[LibraryRecord], object],
     records: Sequence[LibraryRecord],
     moments: random.Random,
 ) -> float:
-    ask(records[0])
+    query(records[0])
     stopwatch = Stopwatch(connection)
-    for _ in range(ASKED):
-        ask(moments.choice(records))
-    return 1e3 * stopwatch.seconds / ASKED
+    for _ in range(REPEATS):
+        query(moments.choice(records))
+    return 1e3 * stopwatch.seconds / REPEATS
 
 
 def _publish_ms(engine: Engine, record: LibraryRecord) -> float:
@@ -144,8 +144,8 @@ def _count(connection: Connection, table: Table) -> int:
 def _bytes(engine: Engine) -> int:
     pages = "SELECT page_count * page_size FROM pragma_page_count(), pragma_page_size()"
     with engine.connect() as connection:
-        asked = pages if is_sqlite(engine.url) else "SELECT pg_database_size(current_database())"
-        return int(connection.scalar(text(asked)) or 0)
+        statement = pages if is_sqlite(engine.url) else "SELECT pg_database_size(current_database())"
+        return int(connection.scalar(text(statement)) or 0)
 
 
 def _sqlite_bytes(connection: Connection, table: Table) -> tuple[int, int]:

@@ -154,7 +154,7 @@ def get_events(request: Request, job_id: JobId, last_event_id: LastEventHeader =
     """Server-sent events: those that have happened, and those that happen until the job ends.
 
     Each has a number, as `id`, a kind, as `event`, and as `data` an object with `job`, `kind`, `at`, `committed`,
-    `chunks` and `reason`. A client that comes back with `Last-Event-ID` receives what it has missed.
+    `chunks` and `reason`. A client that reconnects with `Last-Event-ID` receives what it has missed.
     """
     engine = engine_of(request)
     # Not the request's connection, which would be held as long as the stream is open.

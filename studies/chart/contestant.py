@@ -92,7 +92,7 @@ class Exactly:
 
 @dataclass(frozen=True)
 class Contestant:
-    """A method with its settings; ``label`` tells it from the others of its series."""
+    """A method with its settings; ``label`` distinguishes it within its series."""
 
     series: Series
     label: str

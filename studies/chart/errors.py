@@ -28,7 +28,7 @@ class Spread:
 
 @dataclass(frozen=True)
 class Score:
-    """What a run came to.
+    """The result of a run.
 
     Errors are of poses that were answered: ``height`` of first contact and ``point`` (of contacts of the same stage
     and place in order, the largest of a pose) as lengths, ``turn`` (the larger of both) in degrees. ``same_class`` and
@@ -138,7 +138,7 @@ class FailureMode(StrEnum):
 
 
 def is_clear(state: ContactState, segment: float) -> bool:
-    """Whether a mesh with edges of such segments can tell the true contacts and their features apart."""
+    """Whether a mesh with edges of such segments can distinguish the true contacts and their features."""
     touching = [contact for contact in state.contacts if contact.features is not FeaturePair.FLUSH]
     margins = [margin for contact in touching for margin in (contact.bolt_margin, contact.nut_margin)]
     return (

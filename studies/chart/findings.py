@@ -1,4 +1,4 @@
-"""What the measurements come to: who is on the front, at what ratio of times, how the finest mesh agrees."""
+"""Results of the measurements: who is on the front, at what ratio of times, how the finest mesh agrees."""
 
 from __future__ import annotations
 

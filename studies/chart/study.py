@@ -1,4 +1,4 @@
-"""All that the chart and its page stand on, measured in one run by processes side by side.
+"""The data of the chart and its page, measured in one run by processes side by side.
 
 The poses, every contestant on them, what a scene costs before the first pose, and heights of first contact by meshes,
 extrapolated to meshes of no chord height (Richardson).
@@ -117,7 +117,7 @@ def limit_of_none(chords: Floats, heights: Floats) -> Floats:
 
 
 CHUNK = 20
-"""Poses of a job of the comparison; its meshes are made anew for each."""
+"""Poses of a job of the comparison; its meshes are made again for each."""
 
 Advance = Callable[[int], None]
 Job = Callable[[], object]

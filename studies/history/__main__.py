@@ -1,4 +1,4 @@
-"""``make histories``: random orientations' boundaries looked at from outside, the grid's from a denser start."""
+"""``make histories``: checks boundaries of random orientations by states beside them, the grid's by a denser start."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Boundaries of histories looked at from outside, by states a little beside each, and found from a denser start."""
+"""Checks of histories' boundaries: by states solved a little beside each, and by histories from a denser start."""
 
 from __future__ import annotations
 
@@ -101,9 +101,9 @@ SAME_DEG = 1e-6
 class Unmatched:
     """A boundary that one history has and the other has not; angles in degrees.
 
-    ``dense`` says whether the one from the denser start has it. ``hidden`` are those whose place no search can tell:
-    beside an undecided stretch, or where round-off decides the labels. ``nearest_deg`` is how far off the other
-    history's nearest bracket is.
+    ``dense`` says whether the one from the denser start has it. ``hidden`` are those whose place no search can
+    determine: beside an undecided stretch, or where round-off decides the labels. ``nearest_deg`` is how far off the
+    other history's nearest bracket is.
     """
 
     roll_deg: float

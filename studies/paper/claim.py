@@ -161,9 +161,9 @@ def settled(declared: Finding, others: Sequence[Read], note: str = "") -> Outcom
     differing = [other for other in others if other.finding.holds != declared.holds]
     if declared.holds:
         verdict = Verdict.AGREES
-        told = [other.reading for other in differing]
+        stated = [other.reading for other in differing]
     else:
         verdict = Verdict.UNDECIDED if differing else Verdict.DISAGREES
-        told = [f"{other.reading} ({other.finding.measurement})" for other in differing]
-    exceptions = [f"{'not so' if declared.holds else 'holds'} if {', or if '.join(told)}"] if told else []
+        stated = [f"{other.reading} ({other.finding.measurement})" for other in differing]
+    exceptions = [f"{'not so' if declared.holds else 'holds'} if {', or if '.join(stated)}"] if stated else []
     return Outcome(declared.measurement, verdict, "; ".join([*exceptions, *([note] if note else [])]))

@@ -23,7 +23,7 @@ paper` computes this page; no verdict is typed in."""
 CONVENTIONS = """\
 ## How the paper is read
 
-- **Geometry.** The paper gives neither fit nor fillet radii, and its figures are not at hand. The pair is the default
+- **Geometry.** The paper gives neither fit nor fillet radii, and its figures are not available. The pair is the default
   one: 1/4-20 UNC, 2A at maximum on 2B at minimum material, root fillets of the bolt and crest fillets of the nut
   0.108 p, the others 0.054 p. Statements of section 5, which hang on edges and fillets, are also tested on four other
   geometries: the fit in the middle and at the loose end of its tolerances, all fillets half as large, the root of the
@@ -66,7 +66,7 @@ UNTESTED = """\
 - Whether the triangles of the bolt are smaller than those of the nut, how many pairs of triangles a contact has (four
   each in Fig. 21) and what their number does to the accuracy (4.1, 4.2): properties of meshes that are not given.
 - The depth in Fig. 8 below what is possible, and its variability that grows with roll: read off single triangles.
-- That a clockwise rotation after the snap assembles the parts (7): a motion with contact kept, which no state
+- That a clockwise rotation after the snap assembles the parts (7): a motion that keeps contact, which no state
   describes.
 - The annuli of Fig. 22 for roll -3, pitch 3: the figure alone holds them.
 - The types of intersection of two triangles and the angles of Tables 1 to 3 (4.2): steps of a computation on meshes,

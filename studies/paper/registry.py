@@ -35,7 +35,7 @@ def statement_count() -> int:
 
 
 def claims_by_chapter(study: Study, advance: Callable[[int], None]) -> tuple[tuple[Chapter, tuple[Claim, ...]], ...]:
-    """Every chapter with its claims; ``advance`` is told of each claim."""
+    """Every chapter with its claims; ``advance`` is called with 1 after each claim."""
     found = []
     for chapter in CHAPTERS:
         claims = []

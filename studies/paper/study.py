@@ -1,4 +1,4 @@
-"""All that the measurements stand on: states of the paper's orientations by reading, and a sample off the grid."""
+"""The data of the measurements: states of the paper's orientations by reading, and a sample off the grid."""
 
 from __future__ import annotations
 

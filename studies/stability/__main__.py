@@ -1,4 +1,4 @@
-"""``make stability``: does the study and writes its page, its maps and the list of its failures."""
+"""``make stability``: runs the study and writes its page, its maps and the list of its failures."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 
 def main() -> None:
-    """Do the study and write what it found."""
+    """Run the study and write its results."""
     parser = argparse.ArgumentParser(prog="python -m studies.stability", description=__doc__)
     parser.add_argument("--into", type=Path, default=DOCS, help="folder of the page [docs]")
     parser.add_argument("--processes", type=int, default=2, help="computing processes [%(default)s]")

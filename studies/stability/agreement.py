@@ -1,4 +1,4 @@
-"""Whether an answer is one that the exact method gives no farther from the case than a method says that it errs."""
+"""Whether an answer agrees with an exact one to a case that is within the method's declared error."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from enum import StrEnum
 from functools import lru_cache
 
 from studies.methods import Answer, Case, Method, with_dimensions
-from studies.stability.change import STEEPNESS, Answered, leading_contacts
+from studies.stability.change import STEEPNESS, SolvedCase, leading_contacts
 from threadstate.state.model import Contact, ContactState, FeaturePair
 from threadstate.thread.pair import Pair
 
@@ -19,7 +19,7 @@ ONE_CONTACT_PITCHES = 0.1
 
 
 class Outcome(StrEnum):
-    """What an answer is; from ``HEIGHT`` on it is wrong, by the first of its stages that is."""
+    """The classification of an answer; from ``HEIGHT`` on it is wrong, at the first wrong stage."""
 
     RIGHT = "right"
     REFUSED = "refused"
@@ -32,7 +32,7 @@ class Outcome(StrEnum):
 
     @property
     def is_wrong(self) -> bool:
-        """Whether the method says something that is not so."""
+        """Whether the answer is wrong."""
         return self not in (Outcome.RIGHT, Outcome.REFUSED, Outcome.NO_TRUTH)
 
 
@@ -62,26 +62,26 @@ def _grown(pair: Pair, off: float) -> Pair:
     return with_dimensions(pair, (2.0 * off, 2.0 * off, 2.0 * off, 0.0, 0.0, 0.0, 0.0))
 
 
-def truths(exact: Method, case: Case, error: float) -> list[Answered]:
+def truths(exact: Method, case: Case, error: float) -> list[SolvedCase]:
     """The exact answers about a case, its own first; refused ones are left out."""
     cases = about(case, error)
     answers = exact.answers(cases)
     return [
-        Answered(one, answer) for one, answer in zip(cases, answers, strict=True) if isinstance(answer, ContactState)
+        SolvedCase(one, answer) for one, answer in zip(cases, answers, strict=True) if isinstance(answer, ContactState)
     ]
 
 
-def outcome(case: Case, answer: Answer, known: Sequence[Answered], error: float) -> Outcome:
-    """The answer against the exact ones known about its case; where it agrees with none, how far it does at best."""
+def outcome(case: Case, answer: Answer, known: Sequence[SolvedCase], error: float) -> Outcome:
+    """The answer against the exact ones known about its case; if it agrees with none, the best match's outcome."""
     if not isinstance(answer, ContactState):
         return Outcome.REFUSED
     if not known:
         return Outcome.NO_TRUTH
-    given = Answered(case, answer)
+    given = SolvedCase(case, answer)
     return max((difference(given, truth, error) for truth in known), key=_AGREEING_FARTHER.index)
 
 
-def difference(one: Answered, other: Answered, error: float) -> Outcome:
+def difference(one: SolvedCase, other: SolvedCase, error: float) -> Outcome:
     """The first stage in which two answers differ by more than an error of the surfaces can make; else RIGHT."""
     a, b = one.state, other.state
     if abs(a.poses[0].translation[2] - b.poses[0].translation[2]) > error:
@@ -90,7 +90,7 @@ def difference(one: Answered, other: Answered, error: float) -> Outcome:
     turns = ((None, None), (a.lambda_deg, b.lambda_deg), (a.mu_deg, b.mu_deg))
     for stage, (turn, turn_too) in enumerate(turns, start=1):
         far = math.inf if (turn is None) != (turn_too is None) else math.radians(abs((turn or 0.0) - (turn_too or 0.0)))
-        if far * one.case.reach > slack or not _meets(_of_stage(a, stage), _of_stage(b, stage), slack):
+        if far * one.case.reach > slack or not _stages_agree(_of_stage(a, stage), _of_stage(b, stage), slack):
             return (Outcome.FIRST, Outcome.SECOND, Outcome.THIRD)[stage - 1]
     return Outcome.RIGHT if a.state_class is b.state_class else Outcome.CLASS
 
@@ -105,7 +105,7 @@ def _of_stage(state: ContactState, stage: int) -> list[Contact]:
     return [contact for contact in state.contacts if contact.stage == stage]
 
 
-def _meets(these: list[Contact], those: list[Contact], slack: float) -> bool:
+def _stages_agree(these: list[Contact], those: list[Contact], slack: float) -> bool:
     """Whether a stage ends alike: in a patch, in nothing, or in a contact that both have."""
     kinds = [{contact.features is FeaturePair.FLUSH for contact in contacts} for contacts in (these, those)]
     if kinds[0] != kinds[1]:
@@ -115,7 +115,7 @@ def _meets(these: list[Contact], those: list[Contact], slack: float) -> bool:
     return any(math.dist(one.point, other.point) <= slack for one in these for other in those)
 
 
-def flips_within_margins(before: Answered, after: Answered, slack: float) -> bool:
+def flips_within_margins(before: SolvedCase, after: SolvedCase, slack: float) -> bool:
     """Whether a class that flips has a margin, on either side, that is no larger than ``slack``."""
     margins = (
         margin
@@ -126,7 +126,7 @@ def flips_within_margins(before: Answered, after: Answered, slack: float) -> boo
     return any(abs(margin) <= slack for margin in margins)
 
 
-def same_contacts(before: Answered, after: Answered, error: float) -> bool:
+def same_contacts(before: SolvedCase, after: SolvedCase, error: float) -> bool:
     """Whether both states come to the same contacts."""
     held = leading_contacts(before.state).keys() == leading_contacts(after.state).keys()
     return held and difference(before, after, error) in (Outcome.RIGHT, Outcome.CLASS)

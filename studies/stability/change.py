@@ -28,16 +28,16 @@ JUMP_INCH = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Answered:
+class SolvedCase:
     """A case and the state that a method gave for it; what is compared here has the scale 1."""
 
     case: Case
     state: ContactState
 
 
-def at_scale_one(answered: Answered, pair: Pair) -> Answered:
+def at_scale_one(solved: SolvedCase, pair: Pair) -> SolvedCase:
     """The state of a scaled case as one of the pair from which it was scaled: every length divided by the scale."""
-    factor = 1.0 / answered.case.scale
+    factor = 1.0 / solved.case.scale
 
     def length(value: float | None) -> float | None:
         return None if value is None else factor * value
@@ -45,7 +45,7 @@ def at_scale_one(answered: Answered, pair: Pair) -> Answered:
     def vector(value: Vector) -> Vector:
         return factor * value[0], factor * value[1], factor * value[2]
 
-    state = answered.state
+    state = solved.state
     state = replace(
         state,
         poses=tuple(replace(pose, translation=vector(pose.translation)) for pose in state.poses),
@@ -66,7 +66,7 @@ def at_scale_one(answered: Answered, pair: Pair) -> Answered:
         embedment_margin=length(state.embedment_margin),
         pivot_margin=length(state.pivot_margin),
     )
-    return Answered(replace(answered.case, pair=pair, scale=1.0), state)
+    return SolvedCase(replace(solved.case, pair=pair, scale=1.0), state)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ def pivot_lever(state: ContactState) -> float | None:
     return float(lever[2])
 
 
-def change_between(one: Answered, other: Answered) -> Change | None:
+def change_between(one: SolvedCase, other: SolvedCase) -> Change | None:
     """How two states differ; None where their stages do."""
     a, b = one.state, other.state
     if stages(a) != stages(b):
@@ -148,7 +148,7 @@ def allowed(one: Case, other: Case, factor: float = 1.0) -> tuple[float, float]:
     return height + HEIGHT_NOISE_INCH, rest + NOISE_INCH
 
 
-def is_steady(one: Answered, other: Answered, factor: float = 1.0) -> bool:
+def is_steady(one: SolvedCase, other: SolvedCase, factor: float = 1.0) -> bool:
     """Whether nothing happens between two states: same stages, and no change beyond what is allowed."""
     change = change_between(one, other)
     if change is None:
@@ -157,7 +157,7 @@ def is_steady(one: Answered, other: Answered, factor: float = 1.0) -> bool:
     return change.height <= height and max(change.turn, change.point, change.number) <= rest
 
 
-def has_jumped(one: Answered, other: Answered) -> bool:
+def has_jumped(one: SolvedCase, other: SolvedCase) -> bool:
     """Whether neighbouring states differ by more than a steep slope could make of what is between them."""
     change = change_between(one, other)
     return change is None or (change.largest > JUMP_INCH and not is_steady(one, other))

@@ -28,7 +28,7 @@ class Demonstration:
 
 @dataclass(frozen=True)
 class Reply:
-    """What a method answered, and what that is."""
+    """A method's answer and its outcome."""
 
     outcome: Outcome
     answer: Answer
@@ -44,9 +44,9 @@ class Shown:
 
 
 _FIXED = (
-    ("tunnelling", "the first step of 0.01 in lands where the surfaces do not cross", (0.0, -4.0, 350.0)),
+    ("tunnelling", "the first step of 0.01 in ends where the surfaces do not cross", (0.0, -4.0, 350.0)),
     ("before the jump", "the highest contact is about to vanish", (0.0, -4.0, 357.0)),
-    ("behind the jump", "the bolt has fallen by 0.009 in within 1 deg of phase", (0.0, -4.0, 358.0)),
+    ("after the jump", "the bolt has fallen by 0.009 in within 1 deg of phase", (0.0, -4.0, 358.0)),
     ("flush contact", "after the second turn base and surface are coplanar", (4.0, 0.0, 185.0)),
     ("coplanar from the start", "a level bolt out of phase", (0.0, 0.0, 180.0)),
     ("coplanar threads", "a level bolt in phase lies on a strip of its thread", (0.0, 0.0, 0.0)),
@@ -56,10 +56,10 @@ _FIXED = (
 _AT_EVENTS = (
     (EventKind.TIE, "two first contacts at one height"),
     (EventKind.LATER_TIE, "two later contacts at one turn"),
-    (EventKind.DOUBLE_ROOT, "a contact is born where it merges with another overlap"),
+    (EventKind.DOUBLE_ROOT, "a contact appears where it merges with another overlap"),
     (EventKind.GRAZING, "edges that meet are nearly parallel"),
-    (EventKind.FLUSH, "a contact comes at the very turn at which the bolt would lie flush"),
-    (EventKind.TANGENT_X, "the second turn's axis is along x, where acos has half of its digits"),
+    (EventKind.FLUSH, "a contact appears at the very turn at which the bolt would lie flush"),
+    (EventKind.TANGENT_X, "the second turn's axis is along x, where acos loses half of its digits"),
     (EventKind.TANGENT_Y, "the second turn's axis is along y, whose sign acos loses"),
     (EventKind.DROP, "material rolls in at the pivot axis: drop equals embedment"),
     (EventKind.BALANCED, "the origin is on the pivot axis: the third turn has no sense"),
@@ -106,23 +106,23 @@ def shown(exact: Method, others: Sequence[Method], demonstration: Demonstration)
 
 
 def in_words(reply: Reply, exact: Answer, scale: float) -> str:
-    """A reply as a reader sees it; lengths in inches on a 1/4-20."""
+    """A reply in words; lengths in inches on a 1/4-20."""
     if isinstance(reply.answer, Refusal):
         return f"refused: {reply.answer.reason}"
     if not reply.outcome.is_wrong or not isinstance(exact, ContactState):
         return reply.outcome.value
     one, other = reply.answer, exact
-    said = {
+    numbers = {
         Outcome.HEIGHT: (one.poses[0].translation[2] / scale, other.poses[0].translation[2] / scale, " in"),
         Outcome.SECOND: (one.lambda_deg, other.lambda_deg, " deg"),
         Outcome.THIRD: (one.mu_deg, other.mu_deg, " deg"),
     }
     if reply.outcome is Outcome.CLASS:
         return f"**wrong**: {_class(one)} instead of {_class(other)}"
-    if reply.outcome not in said:
+    if reply.outcome not in numbers:
         return f"**wrong**: {reply.outcome.value}"
-    told, true, unit = said[reply.outcome]
-    return f"**wrong**: {reply.outcome.value}, {_number(told)}{unit} instead of {_number(true)}"
+    computed, true, unit = numbers[reply.outcome]
+    return f"**wrong**: {reply.outcome.value}, {_number(computed)}{unit} instead of {_number(true)}"
 
 
 def _class(state: ContactState) -> str:

@@ -1,6 +1,6 @@
 """Heights of first contact over the grid by both descents of the mesh method, against the exact ones.
 
-Those that are wrong are looked at again: about their poses, and by finer meshes.
+Those that are wrong are checked again: about their poses, and by finer meshes.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ class DescentRow:
         return self.poses_deg[0][1]
 
     def outcomes(self, descent: int) -> tuple[Outcome, ...]:
-        """Of each pose: right within the error that the method declares, refused, or a wrong height."""
+        """Of each pose: right within the method's declared error, refused, or a wrong height."""
         pairs = zip(self.exact, self.heights[descent], strict=True)
-        return tuple(judged(exact, found.height, self.errors[descent]) for exact, found in pairs)
+        return tuple(height_outcome(exact, found.height, self.errors[descent]) for exact, found in pairs)
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class OutcomeRow:
     poses: tuple[Outcome, ...]
 
 
-def judged(exact: float | None, found: float | None, error: float) -> Outcome:
+def height_outcome(exact: float | None, found: float | None, error: float) -> Outcome:
     """A height against the exact one."""
     if found is None:
         return Outcome.REFUSED
@@ -107,8 +107,8 @@ class WrongHeight:
 
 
 @dataclass(frozen=True, slots=True)
-class SecondLook:
-    """What a wrong height is seen to be.
+class Recheck:
+    """What a second check of a wrong height shows.
 
     ``beside_event``: it lies, to within the declared error, between the exact heights of poses and bolts that are off
     by no more than that. ``finer`` is what the same descent of ``FINER`` meshes gives.
@@ -131,14 +131,14 @@ def wrong_heights(methods: Iterable[MeshStates], pair: Pair, rows: Iterable[Desc
                     yield WrongHeight(method, Case(pair, pose), found.height, exact)
 
 
-def second_look(exact: Method, wrong: WrongHeight) -> SecondLook:
-    """Look again at one."""
+def recheck(exact: Method, wrong: WrongHeight) -> Recheck:
+    """Check one wrong height again."""
     pair = wrong.case.pair
     error = wrong.method.declared_error(pair)
     heights = [known.state.poses[0].translation[2] for known in truths(exact, wrong.case, error)]
     finer = replace(wrong.method, preset=FINER)
-    return SecondLook(
+    return Recheck(
         wrong,
         min(heights) - error <= wrong.height <= max(heights) + error,
-        judged(wrong.exact, first_height(finer, wrong.case).height, finer.declared_error(pair)),
+        height_outcome(wrong.exact, first_height(finer, wrong.case).height, finer.declared_error(pair)),
     )

@@ -1,6 +1,7 @@
 """Where something happens to the answers along phase: found by a sweep of whole degrees, then halved to the last digit.
 
-Each event is a place where methods may fail: a contact is lost, taken over or born, a label changes, a class flips.
+Each event is a place where methods may fail: a contact vanishes, appears or is replaced, a label changes, or a
+class flips.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from itertools import pairwise
 
 from oracle.state_turns import first_tangent
 from studies.methods import Case, Method, between, same_input
-from studies.stability.change import Answered, leading_contacts, pivot_lever
+from studies.stability.change import SolvedCase, leading_contacts, pivot_lever
 from threadstate.state.model import ContactState, FeaturePair, Flag
 
 FEATURE_WIDTH_DEG = 1e-7
@@ -30,7 +31,7 @@ class EventKind(StrEnum):
     TIE = "ties of first contacts"
     JUMP = "first contact lost (jump)"
     LATER_TIE = "ties of later contacts"
-    DOUBLE_ROOT = "later contact born or lost (double root)"
+    DOUBLE_ROOT = "later contact appears or vanishes (double root)"
     FLUSH = "flush or not (coplanar)"
     GRAZING = "grazing contact"
     REGION = "region boundaries"
@@ -56,7 +57,7 @@ Likeness = Callable[[ContactState], bool]
 
 @dataclass(frozen=True, slots=True)
 class _Bracket:
-    """Two cases between which something happens; no kind where it is a jump, whose kind its ends will tell."""
+    """Two cases between which something happens; ``kind`` is None for a jump, whose kind follows from its ends."""
 
     kind: EventKind | None
     is_like: Likeness
@@ -101,7 +102,7 @@ def events_along(method: Method, line: list[Case]) -> list[Event]:
     found = []
     for bracket, before, after in zip(brackets, ends[::2], ends[1::2], strict=True):
         if isinstance(before, ContactState) and isinstance(after, ContactState):
-            kind = bracket.kind or _jump_kind(Answered(bracket.low, before), Answered(bracket.high, after))
+            kind = bracket.kind or _jump_kind(SolvedCase(bracket.low, before), SolvedCase(bracket.high, after))
             found.append(Event(kind, bracket.low))
             if Flag.GRAZING in before.flags:
                 found.append(Event(EventKind.GRAZING, bracket.low))
@@ -109,7 +110,7 @@ def events_along(method: Method, line: list[Case]) -> list[Event]:
 
 
 def _differences(case: Case, a: ContactState, b: ContactState) -> list[tuple[EventKind | None, Likeness]]:
-    """What tells two neighbouring states apart; no kind where it is a jump, whose kind its ends will tell."""
+    """What tells two neighbouring states apart; ``kind`` is None for a jump, whose kind follows from its ends."""
     one, other = leading_contacts(a), leading_contacts(b)
     for stage in (1, 2, 3):
         if stage == 3 and _moment_side(case, a) != _moment_side(case, b):
@@ -142,7 +143,7 @@ def _reads(read: Callable[[Case, ContactState], object], case: Case, label: obje
     return lambda state: read(case, state) == label
 
 
-def _jump_kind(before: Answered, after: Answered) -> EventKind:
+def _jump_kind(before: SolvedCase, after: SolvedCase) -> EventKind:
     a, b = before.state, after.state
     if abs(a.poses[0].translation[2] - b.poses[0].translation[2]) > SAME_HEIGHT_INCH:
         return EventKind.JUMP

@@ -1,4 +1,4 @@
-"""The whole study: hard places under perturbation, the grid, the descents, and what is shown of each trap.
+"""The whole study: hard places under perturbation, the grid, the descents, and the pitfalls of meshes.
 
 Work is done in processes, one a core; results come in the order of the tasks, whatever process did them.
 """
@@ -17,10 +17,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from studies.methods import Case, MeshStates, Method
 from studies.stability.demonstrations import Shown, demonstrations, shown
-from studies.stability.descent_study import DESCENTS, DescentRow, SecondLook, descent_row, second_look, wrong_heights
+from studies.stability.descent_study import DESCENTS, DescentRow, Recheck, descent_row, recheck, wrong_heights
 from studies.stability.events import Event, events_along, phase_line
 from studies.stability.grid_study import GridRow, grid_row
-from studies.stability.mesh_traps import MeshTraps, mesh_traps
+from studies.stability.mesh_pitfalls import MeshPitfalls, mesh_pitfalls
 from studies.stability.place_study import study
 from studies.stability.places import Place, lines, places, spread
 from studies.stability.rival_study import RivalChunk, RivalTally, study_rival, thinned
@@ -38,7 +38,7 @@ PRELOADED = ["studies.stability.findings"]
 
 
 class Workers(Protocol):
-    """Whatever does tasks and hands back the results in their order."""
+    """Anything that runs tasks and returns the results in their order."""
 
     def imap(self, func: Callable[[Task], Result], iterable: Iterable[Task], chunksize: int = 1) -> Iterator[Result]:
         """The results."""
@@ -95,9 +95,9 @@ RIVALS = (
 
 @dataclass(frozen=True)
 class Extent:
-    """How much is done: lines along which events are sought, degrees of each, centres of a place, the grid.
+    """How much is done: lines along which events are searched for, degrees of each, centres of a place, the grid.
 
-    ``rivals`` and ``descents`` are slower methods, ``trapped`` poses whose colliding pairs are looked at.
+    ``rivals`` and ``descents`` are slower methods, ``pitfall_poses`` poses whose colliding pairs are examined.
     """
 
     lines: int
@@ -106,7 +106,7 @@ class Extent:
     grid: Grid
     rivals: tuple[RivalExtent, ...] = RIVALS
     descents: tuple[MeshStates, ...] = DESCENTS
-    trapped: int = 200
+    pitfall_poses: int = 200
 
 
 @dataclass(frozen=True)
@@ -120,9 +120,9 @@ class Findings:
     axes: tuple[BesideAxis, ...]
     rivals: Mapping[str, tuple[RivalTally, ...]]
     descents: tuple[DescentRow, ...]
-    looks: tuple[SecondLook, ...]
+    rechecks: tuple[Recheck, ...]
     shown: tuple[Shown, ...]
-    traps: MeshTraps
+    pitfalls: MeshPitfalls
 
     @property
     def total(self) -> Tally:
@@ -134,7 +134,7 @@ class Findings:
 
 
 def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findings:
-    """Do the study, with bars on stderr."""
+    """Run the study, with progress bars on stderr."""
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -146,7 +146,7 @@ def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findi
     console = Console(stderr=True)
     with Progress(*columns, console=console, refresh_per_second=2) as progress, workers(processes) as pool:
         along = partial(_events, exact, extent.degrees)
-        found = in_order(pool, along, lines(pair, extent.lines), progress, "seeking events")
+        found = in_order(pool, along, lines(pair, extent.lines), progress, "searching for events")
         hard = places(pair, [event for events in found for event in events], extent.centres)
         chunks = [chunk for place in hard for chunk in place.chunks()]
         tallies = {place.name: Tally() for place in hard}
@@ -158,17 +158,19 @@ def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findi
         rows = tuple(in_order(pool, row, orientations, progress, "mapping the grid"))
         descend = partial(descent_row, exact, extent.descents, pair, extent.grid)
         descents = tuple(in_order(pool, descend, orientations, progress, "descending by meshes"))
-        again = list(wrong_heights(extent.descents, pair, descents))
-        looks = tuple(in_order(pool, partial(second_look, exact), again, progress, "looking again"))
-        asked = [chunk for rival in extent.rivals for place in hard for chunk in _rival_chunks(rival, place)]
+        wrong = list(wrong_heights(extent.descents, pair, descents))
+        rechecks = tuple(in_order(pool, partial(recheck, exact), wrong, progress, "rechecking wrong heights"))
+        rival_chunks = [chunk for rival in extent.rivals for place in hard for chunk in _rival_chunks(rival, place)]
         rivals = {rival.method.name: {place.name: RivalTally() for place in hard} for rival in extent.rivals}
-        replies = in_order(pool, partial(study_rival, exact), asked, progress, "asking the meshes")
-        for rival_chunk, rival_tally in zip(asked, replies, strict=True):
+        replies = in_order(pool, partial(study_rival, exact), rival_chunks, progress, "perturbing with meshes")
+        for rival_chunk, rival_tally in zip(rival_chunks, replies, strict=True):
             rivals[rival_chunk.method.name][rival_chunk.place].add(rival_tally)
         others = [rival.method for rival in extent.rivals if rival.demonstrated]
         show = partial(shown, exact, others)
         demonstrated = tuple(in_order(pool, show, demonstrations(pair, hard), progress, "demonstrating"))
-        (traps,) = in_order(pool, partial(mesh_traps, others[0], extent.trapped), [pair], progress, "setting traps")
+        (pitfalls,) = in_order(
+            pool, partial(mesh_pitfalls, others[0], extent.pitfall_poses), [pair], progress, "measuring pitfalls"
+        )
     return Findings(
         extent,
         tuple(hard),
@@ -177,9 +179,9 @@ def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findi
         tuple(beside_axes()),
         {name: tuple(by_place.values()) for name, by_place in rivals.items()},
         descents,
-        looks,
+        rechecks,
         demonstrated,
-        traps,
+        pitfalls,
     )
 
 

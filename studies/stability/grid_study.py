@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from studies.methods import Answer, Case, Method, moved
-from studies.stability.change import Answered, change_between, is_steady
+from studies.stability.change import SolvedCase, change_between, is_steady
 from studies.stability.laws import broken_laws
 from studies.stability.tally import described
 from studies.stability.tangent_study import DirectionErrors, direction_errors
@@ -60,9 +60,9 @@ def grid_row(method: Method, pair: Pair, grid: Grid, orientation: int) -> GridRo
     for i, (centre, cases) in enumerate(zip(centres, around, strict=True)):
         given, *others = answers[i * size : (i + 1) * size]
         refused += sum(not isinstance(answer, ContactState) for answer in others)
-        faults = broken_laws(method, Answered(centre, given)) if isinstance(given, ContactState) else []
+        faults = broken_laws(method, SolvedCase(centre, given)) if isinstance(given, ContactState) else []
         broken += [f"{described(centre)}: {fault}" for fault in faults]
-        poses.append(_seen(centre, given, cases, others))
+        poses.append(_grid_pose(centre, given, cases, others))
     first = centres[0].pose_deg
     return GridRow(first[0], first[1], tuple(poses), (size - 1) * len(centres), refused, tuple(broken))
 
@@ -76,16 +76,16 @@ def _neighbours(centre: Case) -> list[Case]:
     return found
 
 
-def _seen(centre: Case, given: Answer, cases: list[Case], others: list[Answer]) -> GridPose:
+def _grid_pose(centre: Case, given: Answer, cases: list[Case], others: list[Answer]) -> GridPose:
     if not isinstance(given, ContactState):
         return GridPose(None, None, None, DirectionErrors(None, None, None))
-    here = Answered(centre, given)
+    here = SolvedCase(centre, given)
     event, slope = None, None
     for i, (case, answer) in enumerate(zip(cases, others, strict=True)):
         decade = DECADES[i // len(DIRECTIONS)]
         if not isinstance(answer, ContactState):
             continue
-        there = Answered(case, answer)
+        there = SolvedCase(case, answer)
         if not is_steady(here, there):
             event = decade if event is None else event
         elif decade == SLOPE_DECADE and centre.tilt > 0.0:

@@ -1,4 +1,4 @@
-"""Laws that a state must keep whatever method found it: said from the method's page, with the geometry of the tests."""
+"""Laws that hold for every state, whatever method computed it: from docs/method.md, with the geometry of the tests."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from oracle.contact_rules import Touch, frame_gap, normal_faults, region_faults,
 from oracle.pose import pose_rotation
 from oracle.solids import Floats
 from studies.methods import Method
-from studies.stability.change import Answered, leading_contacts
+from studies.stability.change import SolvedCase, leading_contacts
 from threadstate.state.model import ContactState, Flag, StateClass
 
 ROTATION_TOLERANCE = 1e-12
 LEVEL = math.radians(2e-9)
-"""A bolt that lies flush from the start may be tilted by no more than this, which its state then leaves out."""
+"""A bolt that lies flush from the start may be tilted by no more than this, which its state ignores."""
 TURN_TOLERANCE = 1e-9
 """Of an angle, in rad: a rotation's arc cosine is known to the root of round-off where it is small."""
 
 
-def broken_laws(method: Method, answered: Answered) -> list[str]:
-    """What a state says that cannot be, in words; empty for a sound one."""
-    state = answered.state
+def broken_laws(method: Method, solved: SolvedCase) -> list[str]:
+    """The laws that a state breaks, in words; empty if there are none."""
+    state = solved.state
     if not _all_finite(state):
         return ["a number that is not finite"]
-    case = answered.case
+    case = solved.case
     tolerance = method.declared_error(case.pair)
     if Flag.TIE in state.flags:
         tolerance += case.options.tie_tolerance * case.pair.thread_pitch
     return [
-        *_pose_faults(answered, tolerance),
-        *_contact_faults(answered, tolerance),
+        *_pose_faults(solved, tolerance),
+        *_contact_faults(solved, tolerance),
         *_number_faults(state, tolerance),
-        *_class_faults(answered),
+        *_class_faults(solved),
     ]
 
 
@@ -45,17 +45,17 @@ def _all_finite(state: ContactState) -> bool:
     return all(map(math.isfinite, numbers))
 
 
-def _pose_faults(answered: Answered, tolerance: float) -> list[str]:
-    """The first pose is the one asked for; each turn keeps the contacts before it, and has the angle that is told."""
-    state = answered.state
+def _pose_faults(solved: SolvedCase, tolerance: float) -> list[str]:
+    """The first pose is the requested one; each turn keeps the contacts before it, and has the reported angle."""
+    state = solved.state
     rotations = [np.array(pose.rotation) for pose in state.poses]
     translations = [np.array(pose.translation) for pose in state.poses]
-    roll, pitch, phase = answered.case.pose_deg
+    roll, pitch, phase = solved.case.pose_deg
     faults = []
     asked = pose_rotation(roll, pitch, phase)
     slack = LEVEL if Flag.FLUSH in state.flags and len(rotations) == 1 else ROTATION_TOLERANCE
     if np.abs(rotations[0] - asked).max() > slack + 2e-16 * abs(phase) or translations[0][:2].any():
-        faults.append("the first pose is not the one asked for")
+        faults.append("the first pose is not the requested one")
     if any(np.abs(r @ r.T - np.eye(3)).max() > ROTATION_TOLERANCE for r in rotations):
         faults.append("a pose is no rotation")
     held = leading_contacts(state)
@@ -78,11 +78,11 @@ def _angle_between(before: Floats, after: Floats) -> float:
     return math.atan2(float(np.linalg.norm(sine)), float(np.trace(relative)) - 1.0)
 
 
-def _contact_faults(answered: Answered, tolerance: float) -> list[str]:
+def _contact_faults(solved: SolvedCase, tolerance: float) -> list[str]:
     """Both points of a contact are one, on the surfaces that its features name; normal and regions are right."""
     faults = []
-    for contact in answered.state.contacts:
-        touch = Touch.of(answered.case.pair, contact, answered.state.poses[contact.stage - 1])
+    for contact in solved.state.contacts:
+        touch = Touch.of(solved.case.pair, contact, solved.state.poses[contact.stage - 1])
         gaps = {"the contact's two points": frame_gap(touch), **surface_gaps(touch)}
         where = f"stage {contact.stage} {contact.features.value}"
         faults += [f"{where}: off {name} by {gap:.1e}" for name, gap in gaps.items() if gap > tolerance]
@@ -107,9 +107,9 @@ def _number_faults(state: ContactState, tolerance: float) -> list[str]:
     return faults
 
 
-def _class_faults(answered: Answered) -> list[str]:
+def _class_faults(solved: SolvedCase) -> list[str]:
     """The class is the one of the method's table."""
-    state, case = answered.state, answered.case
+    state, case = solved.state, solved.case
     threshold = case.options.quasi_stable_fraction * case.pair.nominal_diameter / 2.0
     slack = case.options.embedment_tolerance * case.pair.thread_pitch
     if Flag.FLUSH in state.flags:

@@ -25,10 +25,10 @@ from threadstate.state.model import StateClass
 PHASE_TICK_DEG = 30
 
 Seen = TypeVar("Seen")
-SeenThere = TypeVar("SeenThere", covariant=True)
+PoseThere = TypeVar("PoseThere", covariant=True)
 
 
-class Row(Protocol[SeenThere]):
+class Row(Protocol[PoseThere]):
     """An orientation of the grid with what was seen at each phase."""
 
     @property
@@ -40,7 +40,7 @@ class Row(Protocol[SeenThere]):
         """Of all poses."""
 
     @property
-    def poses(self) -> Sequence[SeenThere]:
+    def poses(self) -> Sequence[PoseThere]:
         """By phase, from 0 on."""
 
 
@@ -111,7 +111,7 @@ MAPS: tuple[Map[GridPose], ...] = (
     Map(
         "events",
         "The smallest change of pose after which other contacts take over",
-        "Dark poses sit on an event: a tie, a lost contact, a birth. Changes in one direction at four sizes.",
+        "Dark poses are at an event: a tie, a lost or a new contact. Changes in one direction at four sizes.",
         (
             Shade("#3b0f70", "1e-12 deg"),
             Shade("#8c2981", "1e-9 deg"),

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
+from studies.stability.brute_force import Event
 from studies.stability.findings import Findings
-from studies.stability.judge import Event
 from studies.stability.table import table
 from studies.stability.tally import Failure, Steepest, Tally
 from studies.stability.tangent_study import WRONG_DEG, is_wrong
@@ -29,16 +29,27 @@ def answers_text(found: Findings) -> str:
     total = found.total
     return (
         "Each centre is perturbed by 1e-12 to 1e-3 (degrees; thread pitches) in nine directions of the pose and three "
-        "of the dimensions. Kept: the contacts are the centre's. Taken over: others, after the events of the next "
-        f"table. Alone: judged by the brute force without following the way ({total.judged_alone:,}). Without: the "
-        f"centre itself is refused, so that laws alone are checked ({total.without_centre:,})."
+        "of the dimensions. Same contacts: the contacts are the centre's. Other contacts: they differ, after the "
+        f"events of the next table. Unfollowed: checked by the brute force alone, without a path from the centre "
+        f"({total.unfollowed:,}). No centre: the centre itself is refused, so that laws alone are checked "
+        f"({total.without_centre:,})."
     )
 
 
 def answers_table(found: Findings) -> str:
     """What the method does at each place."""
     flips = ("class flips by margin", "class flips at events")
-    head = ("place", "perturbed", "refused", "kept", "taken over", "alone", "without", *flips, "silent failures")
+    head = (
+        "place",
+        "perturbed",
+        "refused",
+        "same contacts",
+        "other contacts",
+        "unfollowed",
+        "no centre",
+        *flips,
+        "silent failures",
+    )
     rows = [(place.name, *_counts(tally)) for place, tally in zip(found.places, found.tallies, strict=True)]
     return table(head, [*rows, ("**all**", *_counts(found.total))])
 
@@ -47,9 +58,9 @@ def _counts(tally: Tally) -> tuple[str, ...]:
     numbers = (
         tally.trials,
         tally.refused,
-        tally.kept,
-        tally.replaced,
-        tally.judged_alone,
+        tally.same_contacts,
+        tally.other_contacts,
+        tally.unfollowed,
         tally.without_centre,
         tally.flips_by_margin,
         tally.flips_at_events,
@@ -63,7 +74,7 @@ def events_table(found: Findings) -> str:
     total = found.total
     rows = [(event.value, f"{total.events[event]:,}") for event in Event if total.events[event]]
     compared = (
-        f"Put to the brute force besides: {total.compared_heights:,} heights, {total.compared_turns:,} states' turns, "
+        f"Also checked by the brute force: {total.compared_heights:,} heights, {total.compared_turns:,} states' turns, "
         f"{total.compared_lifts:,} embedments."
     )
     return table(("what explains the jump", "neighbours"), rows) + f"\n\n{compared}"

@@ -30,7 +30,7 @@ def grid_text(found: Findings) -> str:
     refused = sum(row.refused for row in found.rows)
     return (
         f"Of {len(poses):,} poses {named}, {classes[None]:,} refused. Each was changed in one direction by 1e-12, "
-        f"1e-9, 1e-6 and 1e-3 deg; {refused:,} of these neighbours were refused. Other contacts take over: "
+        f"1e-9, 1e-6 and 1e-3 deg; {refused:,} of these neighbours were refused. The contacts change: "
         f"{near or 'nowhere'}. In each map a row is an orientation; within a band of one roll, pitch grows downwards."
     )
 
@@ -42,8 +42,8 @@ def descents_text(found: Findings) -> str:
         rows = found.descents
         counts = Counter(one for row in rows for one in row.outcomes(number))
         off = sorted(_errors(found, number))
-        looks = [look for look in found.looks if look.wrong.method == method]
-        low = sum(look.wrong.height < look.wrong.exact for look in looks)
+        rechecks = [one for one in found.rechecks if one.wrong.method == method]
+        low = sum(one.wrong.height < one.wrong.exact for one in rechecks)
         lines.append(
             (
                 method.name,
@@ -51,9 +51,9 @@ def descents_text(found: Findings) -> str:
                 f"{counts[Outcome.RIGHT]:,}",
                 f"{counts[Outcome.REFUSED]:,}",
                 f"{counts[Outcome.HEIGHT]:,}",
-                f"{low:,} / {len(looks) - low:,}",
-                f"{sum(look.beside_event for look in looks):,}",
-                f"{sum(look.finer is Outcome.HEIGHT for look in looks):,}",
+                f"{low:,} / {len(rechecks) - low:,}",
+                f"{sum(one.beside_event for one in rechecks):,}",
+                f"{sum(one.finer is Outcome.HEIGHT for one in rechecks):,}",
                 f"{rows[0].errors[number]:.2g}",
                 f"{off[len(off) // 2]:.1g}",
                 f"{off[-1]:.2g}",
@@ -88,7 +88,7 @@ def refusals_text(found: Findings) -> str:
 
 def descents_csv(found: Findings) -> str:
     """Every pose that a descent gets wrong or refuses, one a line; heights in inches."""
-    looks = {(look.wrong.method.name, look.wrong.case.pose_deg): look for look in found.looks}
+    rechecks = {(one.wrong.method.name, one.wrong.case.pose_deg): one for one in found.rechecks}
     lines = [
         "method,roll_deg,pitch_deg,phase_deg,outcome,height_in,exact_height_in,beside_event,by_finer_meshes,reason"
     ]
@@ -99,11 +99,15 @@ def descents_csv(found: Findings) -> str:
             ):
                 if outcome is not Outcome.RIGHT:
                     angles = ",".join(f"{angle:g}" for angle in pose)
-                    told = "" if height.height is None else f"{height.height:.9f}"
+                    computed = "" if height.height is None else f"{height.height:.9f}"
                     true = "" if exact is None else f"{exact:.9f}"
-                    look = looks.get((method.name, pose))
-                    seen = "," if look is None else f"{'yes' if look.beside_event else 'no'},{look.finer.value}"
-                    lines.append(f'"{method.name}",{angles},{outcome.value},{told},{true},{seen},"{height.reason}"')
+                    recheck = rechecks.get((method.name, pose))
+                    checked = (
+                        "," if recheck is None else f"{'yes' if recheck.beside_event else 'no'},{recheck.finer.value}"
+                    )
+                    lines.append(
+                        f'"{method.name}",{angles},{outcome.value},{computed},{true},{checked},"{height.reason}"'
+                    )
     return "\n".join(lines) + "\n"
 
 
@@ -148,12 +152,12 @@ def places_table(found: Findings) -> str:
     total = found.total
     exact = f"{len(total.failures):,} / {total.refused:,} / {total.trials:,}"
     rows.append(("**all**", exact, *(_counted(all_places(found.rivals[name])) for name in names)))
-    return table(("wrong / refused / asked", "exact", *names), rows)
+    return table(("wrong / refused / total", "exact", *names), rows)
 
 
 def _counted(tally: RivalTally) -> str:
     wrong = sum(tally.outcomes[one] for one in OF_WRONG)
-    return f"{wrong:,} / {tally.outcomes[Outcome.REFUSED]:,} / {tally.asked:,}"
+    return f"{wrong:,} / {tally.outcomes[Outcome.REFUSED]:,} / {tally.case_count:,}"
 
 
 def all_places(tallies: Sequence[RivalTally]) -> RivalTally:
@@ -199,20 +203,20 @@ def reasons_text(found: Findings) -> str:
     return "\n".join(f"- {count:,} times: {reason}" for reason, count in reasons.most_common()) or "- never"
 
 
-def traps_text(found: Findings) -> str:
-    """What the library's pairs would say as they come."""
-    traps = found.traps
-    met = ", ".join(f"{traps.types[kind]:,} of type {kind.name}" for kind in Intersection)
+def pitfalls_text(found: Findings) -> str:
+    """What the library's unfiltered pairs would give."""
+    pitfalls = found.pitfalls
+    met = ", ".join(f"{pitfalls.types[kind]:,} of type {kind.name}" for kind in Intersection)
     return (
         f"- **Two contacts averaged into one.** At the second contact of roll -4, pitch 0, phase 131 the colliding "
-        f"triangles form {traps.clusters} clusters. The mean of all their midpoints is {traps.averaged_off:.3f} in off "
-        f"the nearer contact, inside both parts.\n"
+        f"triangles form {pitfalls.clusters} clusters. The mean of all their midpoints is {pitfalls.averaged_off:.3f} "
+        f"in off the nearer contact, inside both parts.\n"
         f"- **Coplanar triangles.** Where the bolt of roll 4, pitch 0, phase 185 has come to lie flush, "
-        f"{traps.flush_pairs:,} pairs of triangles collide; {traps.flush_pairs - traps.flush_met:,} of them have no "
-        f"segment in common, since their planes are one.\n"
-        f"- **Pairs returned without an intersection** (the paper's type IV). In the first contacts of {traps.poses:,} "
-        f"random poses the library returned {traps.types.total():,} pairs of triangles: {met}. In {traps.fooled:,} "
-        f"poses one of them does not meet."
+        f"{pitfalls.flush_pairs:,} pairs of triangles collide; {pitfalls.flush_pairs - pitfalls.flush_met:,} of them "
+        f"have no segment in common, since their planes are one.\n"
+        f"- **Pairs returned without an intersection** (the paper's type IV). In the first contacts of "
+        f"{pitfalls.poses:,} random poses the library returned {pitfalls.types.total():,} pairs of triangles: {met}. "
+        f"In {pitfalls.poses_without_contact:,} poses one of them does not meet."
     )
 
 

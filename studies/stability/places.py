@@ -11,7 +11,7 @@ import numpy as np
 from studies.methods import Case
 from studies.stability.events import Event, EventKind
 from studies.stability.place_study import Chunk
-from studies.stability.trials import Trial, perturbations, rescaled, turned_on, with_tolerances
+from studies.stability.trials import Trial, perturbations, rescaled, with_tolerances, with_whole_turns
 from threadstate.thread.pair import Pair
 from threadstate.thread.play import axial_play
 
@@ -42,7 +42,7 @@ _HOW = {
     EventKind.TIE: "two first contacts far apart at one height; the phase halved to the last digit",
     EventKind.JUMP: "the highest contact vanishes and the bolt falls; halved until the method refuses or digits end",
     EventKind.LATER_TIE: "two second or third contacts at one turn; halved to the last digit",
-    EventKind.DOUBLE_ROOT: "a second or third contact is born in, or merges with, another overlap; halved likewise",
+    EventKind.DOUBLE_ROOT: "a second or third contact appears in, or merges with, another overlap; halved likewise",
     EventKind.FLUSH: "the turn ends flush on one side (coplanar faces) and in a contact on the other; halved likewise",
     EventKind.GRAZING: "poses of all these events whose state is flagged for nearly parallel edges",
     EventKind.REGION: "a contact moves over the boundary of a region; halved to the last digit",
@@ -56,11 +56,11 @@ _HOW = {
 
 
 _SLOW = {EventKind.JUMP: 3, EventKind.FLUSH: 2, EventKind.GRAZING: 2}
-"""A centre in so many is taken where poses take long, or the way to each is sought long."""
+"""A centre in so many is taken where poses take long, or the search for each takes long."""
 
 
 def lines(pair: Pair, count: int) -> list[Case]:
-    """Orientations along whose phases events are sought: half within 4 deg, half of all sizes down to 0.03 deg."""
+    """Orientations whose phases are searched for events: half within 4 deg, half of all sizes down to 0.03 deg."""
     choose = np.random.default_rng([SEED, 0])
     found = []
     for i in range(count):
@@ -111,7 +111,7 @@ def places(pair: Pair, events: list[Event], each: int) -> list[Place]:
             "large coordinates",
             "random poses; whole turns of phase added, up to a million either way",
             ordinary,
-            lambda centres, _: turned_on(centres),
+            lambda centres, _: with_whole_turns(centres),
         ),
         Place(
             "tolerances",

@@ -1,4 +1,4 @@
-"""A slower method at a hard place: fewer trials, each held against the exact answers about its case, and counted."""
+"""A slower method at a hard place: fewer trials, each compared with the exact answers about its case, and counted."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from studies.methods import Answer, Case, Method, Refusal
 from studies.stability.agreement import Outcome, contact_slack, flips_within_margins, outcome, same_contacts, truths
-from studies.stability.change import Answered, change_between
+from studies.stability.change import SolvedCase, change_between
 from studies.stability.tally import described
 from studies.stability.trials import Kind, Trial
 from threadstate.state.model import ContactState
@@ -16,7 +16,7 @@ from threadstate.state.model import ContactState
 
 @dataclass(frozen=True, slots=True)
 class Wrong:
-    """A wrong answer given without a word: what is wrong, and the case in words that reproduce it."""
+    """A silently wrong answer: what is wrong, and the case in words that reproduce it."""
 
     outcome: Outcome
     case: str
@@ -40,23 +40,23 @@ class RivalTally:
     flips_beyond: int = 0
 
     @property
-    def asked(self) -> int:
-        """How many cases."""
+    def case_count(self) -> int:
+        """The number of cases."""
         return self.outcomes.total()
 
     def add(self, other: RivalTally) -> None:
-        """Take another one's counts and extremes into this one."""
+        """Add another one's counts and extremes to this one."""
         self.outcomes.update(other.outcomes)
         self.reasons.update(other.reasons)
         self.wrong += other.wrong
         for decade, (height, turn, point) in other.largest.items():
-            self.see_change(decade, height, turn, point)
+            self.record_change(decade, height, turn, point)
         self.flips_within += other.flips_within
         self.flips_at_events += other.flips_at_events
         self.flips_beyond += other.flips_beyond
 
-    def see_change(self, decade: int, height: float, turn: float, point: float) -> None:
-        """Keep the largest changes of a decade."""
+    def record_change(self, decade: int, height: float, turn: float, point: float) -> None:
+        """Record the largest changes of a decade."""
         a, b, c = self.largest.get(decade, (0.0, 0.0, 0.0))
         self.largest[decade] = max(a, height), max(b, turn), max(c, point)
 
@@ -67,7 +67,7 @@ DIMENSION_DECADES = (-12, -6, -3)
 
 @dataclass(frozen=True)
 class RivalChunk:
-    """A centre of one place with its trials, and the method that is asked; ``place`` is its name."""
+    """A centre of one place with its trials, and the method that solves them; ``place`` is its name."""
 
     method: Method
     place: str
@@ -77,7 +77,7 @@ class RivalChunk:
 
 def thinned(trials: Sequence[Trial], most: int) -> tuple[Trial, ...]:
     """The first trial of each kind and decade, all of those without a decade; at most so many, evenly chosen."""
-    kept: list[Trial] = []
+    chosen: list[Trial] = []
     seen: set[tuple[Kind, int]] = set()
     for trial in trials:
         if trial.kind is Kind.DIMENSIONS and trial.decade not in DIMENSION_DECADES:
@@ -86,29 +86,29 @@ def thinned(trials: Sequence[Trial], most: int) -> tuple[Trial, ...]:
             if (trial.kind, trial.decade) in seen:
                 continue
             seen.add((trial.kind, trial.decade))
-        kept.append(trial)
-    if len(kept) <= most:
-        return tuple(kept)
-    return tuple(kept[i * len(kept) // most] for i in range(most))
+        chosen.append(trial)
+    if len(chosen) <= most:
+        return tuple(chosen)
+    return tuple(chosen[i * len(chosen) // most] for i in range(most))
 
 
 def study_rival(exact: Method, chunk: RivalChunk) -> RivalTally:
-    """What the method does about this centre."""
+    """The tally of the method about this centre."""
     tally = RivalTally()
     method = chunk.method
     (given,) = method.answers([chunk.centre])
-    at_centre = _judge(exact, method, chunk.centre, given, tally)
-    centre = Answered(chunk.centre, given) if isinstance(given, ContactState) else None
+    at_centre = _classify(exact, method, chunk.centre, given, tally)
+    centre = SolvedCase(chunk.centre, given) if isinstance(given, ContactState) else None
     for trial, answer in zip(chunk.trials, method.answers([trial.case for trial in chunk.trials]), strict=True):
-        found = _judge(exact, method, trial.case, answer, tally)
+        found = _classify(exact, method, trial.case, answer, tally)
         if centre is None or not isinstance(answer, ContactState) or trial.decade is None:
             continue
         if found is Outcome.RIGHT and at_centre is Outcome.RIGHT:
-            _compare(method, centre, Answered(trial.case, answer), trial.decade, tally)
+            _compare(method, centre, SolvedCase(trial.case, answer), trial.decade, tally)
     return tally
 
 
-def _judge(exact: Method, method: Method, case: Case, answer: Answer, tally: RivalTally) -> Outcome:
+def _classify(exact: Method, method: Method, case: Case, answer: Answer, tally: RivalTally) -> Outcome:
     error = method.declared_error(case.pair)
     found = outcome(case, answer, truths(exact, case, error), error)
     tally.outcomes[found] += 1
@@ -119,12 +119,12 @@ def _judge(exact: Method, method: Method, case: Case, answer: Answer, tally: Riv
     return found
 
 
-def _compare(method: Method, centre: Answered, other: Answered, decade: int, tally: RivalTally) -> None:
+def _compare(method: Method, centre: SolvedCase, other: SolvedCase, decade: int, tally: RivalTally) -> None:
     error = method.declared_error(centre.case.pair)
     same = same_contacts(centre, other, error)
     change = change_between(centre, other) if same else None
     if change is not None:
-        tally.see_change(decade, change.height, change.turn, change.point)
+        tally.record_change(decade, change.height, change.turn, change.point)
     if centre.state.state_class is other.state.state_class:
         return
     if not same:

@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from studies.methods import FIT_DIAMETERS, USUAL, Case
-from studies.stability.judge import Event, Fault
+from studies.stability.brute_force import Event, Fault
 from threadstate.thread.catalogue import pair_by_designation
 
 
@@ -30,8 +30,8 @@ class Steepest:
     ratio: float = 0.0
     where: str = ""
 
-    def look_at(self, ratio: float, case: Case) -> None:
-        """Keep it if it is larger."""
+    def update(self, ratio: float, case: Case) -> None:
+        """Record a ratio if it is larger."""
         if ratio > self.ratio:
             self.ratio, self.where = ratio, described(case)
 
@@ -40,18 +40,18 @@ class Steepest:
 class Tally:
     """Counts and extremes of one place; two of them add up.
 
-    ``trials`` are the perturbed cases, ``kept`` those whose contacts are the centre's. Ratios are of heights, of turns
-    times the bolt's reach and of contact points. ``largest`` has the largest change of each, in inches, by the decade
-    of the input's change.
+    ``trials`` are the perturbed cases, ``same_contacts`` those whose contacts are the centre's. Ratios are of heights,
+    of turns times the bolt's reach and of contact points. ``largest`` has the largest change of each, in inches, by the
+    decade of the input's change.
     """
 
     centres: int = 0
     centres_refused: int = 0
     trials: int = 0
     refused: int = 0
-    kept: int = 0
-    replaced: int = 0
-    judged_alone: int = 0
+    same_contacts: int = 0
+    other_contacts: int = 0
+    unfollowed: int = 0
     without_centre: int = 0
     flips_by_margin: int = 0
     flips_at_events: int = 0
@@ -66,7 +66,7 @@ class Tally:
     failures: list[Failure] = field(default_factory=list)
 
     def add(self, other: Tally) -> None:
-        """Take another one's counts and extremes into this one."""
+        """Add another one's counts and extremes to this one."""
         for name in _COUNTS:
             setattr(self, name, getattr(self, name) + getattr(other, name))
         self.events.update(other.events)
@@ -74,16 +74,16 @@ class Tally:
             if theirs.ratio > mine.ratio:
                 mine.ratio, mine.where = theirs.ratio, theirs.where
         for decade, (height, turn, point) in other.largest.items():
-            self.see_change(decade, height, turn, point)
+            self.record_change(decade, height, turn, point)
         self.failures += other.failures
 
-    def see_change(self, decade: int, height: float, turn: float, point: float) -> None:
-        """Keep the largest changes of a decade."""
+    def record_change(self, decade: int, height: float, turn: float, point: float) -> None:
+        """Record the largest changes of a decade."""
         a, b, c = self.largest.get(decade, (0.0, 0.0, 0.0))
         self.largest[decade] = max(a, height), max(b, turn), max(c, point)
 
     def fail(self, fault: Fault, case: Case, detail: str) -> None:
-        """Note a silent failure, once for each case and fault."""
+        """Record a silent failure, once for each case and fault."""
         failure = Failure(fault, _pose(case), _changed_input(case), detail)
         if all(
             (known.fault, known.pose, known.dimensions) != (fault, failure.pose, failure.dimensions)
@@ -97,9 +97,9 @@ _COUNTS = (
     "centres_refused",
     "trials",
     "refused",
-    "kept",
-    "replaced",
-    "judged_alone",
+    "same_contacts",
+    "other_contacts",
+    "unfollowed",
     "without_centre",
     "flips_by_margin",
     "flips_at_events",

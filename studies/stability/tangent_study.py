@@ -13,7 +13,7 @@ import numpy as np
 
 from oracle.solids import Floats
 from oracle.state_turns import first_tangent
-from studies.stability.change import Answered, leading_contacts
+from studies.stability.change import SolvedCase, leading_contacts
 
 
 def printed_angles(direction: Floats) -> tuple[float, float]:
@@ -112,13 +112,13 @@ def _beside(sign: float, along: int, across: int, k: int, offset: float) -> Floa
     return np.asarray(direction / np.linalg.norm(direction))
 
 
-def direction_errors(answered: Answered) -> DirectionErrors:
+def direction_errors(solved: SolvedCase) -> DirectionErrors:
     """The printed formula along the tangent at CP0, in the nut's and the bolt's frame, and along CP0-CP1."""
-    state = answered.state
+    state = solved.state
     held = leading_contacts(state)
     if 1 not in held:
         return DirectionErrors(None, None, None)
-    tangent = first_tangent(answered.case.pair, state)
+    tangent = first_tangent(solved.case.pair, state)
     in_bolt = np.array(state.poses[0].rotation).T @ tangent
     pivot = None
     if 2 in held:

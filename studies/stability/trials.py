@@ -82,7 +82,7 @@ def rescaled(centres: list[Case]) -> list[Trial]:
     return found
 
 
-def turned_on(centres: list[Case]) -> list[Trial]:
+def with_whole_turns(centres: list[Case]) -> list[Trial]:
     """The same poses after whole turns of phase, up to a million either way: nothing else may change."""
     found = []
     for i, centre in enumerate(centres):

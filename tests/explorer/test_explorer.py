@@ -144,7 +144,7 @@ def test_lengths_follow_the_unit(explorer: Explorer) -> None:
 
 def test_a_phase_beside_the_grid_is_solved(explorer: Explorer) -> None:
     explorer.choose("#phase", "131.25")
-    explorer.wait_for_text("#state", "the exact solver, asked now")
+    explorer.wait_for_text("#state", "the exact solver, computed now")
     body = {"poses": [{"roll": 0, "pitch": -4, "phase": 131.25}]}
     solved = explorer.chromium.execute_async_script(
         "const [body, done] = arguments; fetch('/v1/solve', {method: 'POST', body: JSON.stringify(body), "

@@ -124,7 +124,7 @@ def test_page_tells_of_a_lost_service_and_finds_it_again(chromium: webdriver.Chr
     explorer.wait(lambda: kind_of(explorer) == "lost", "the page does not say that the service is lost")
     with running_service(library_database, port=int(address.rpartition(":")[2])):
         explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg, phase 33 deg")
-        explorer.wait(lambda: kind_of(explorer) == "", "the page does not go on")
+        explorer.wait(lambda: kind_of(explorer) == "", "the page does not continue")
 
 
 def test_an_unknown_address_has_a_friendly_page(explorer: Explorer) -> None:

@@ -107,7 +107,7 @@ def test_without_a_cut_formation_there_are_more_parts(cell_map: CellMap) -> None
 
 
 def test_formations_that_tell_an_orientation_apart() -> None:
-    assert analysis.telling_formations(NETWORK) == (
+    assert analysis.identifying_formations(NETWORK) == (
         analysis.IdentifyingFormation(C, 0, 70.0),
         analysis.IdentifyingFormation(UNDECIDED, 2, 360.0),
     )

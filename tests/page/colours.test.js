@@ -45,12 +45,12 @@ function nearest(eye, colours) {
 }
 
 for (const eye of Object.keys(EYES)) {
-  test(`classes and stages are told apart at a glance: ${eye}`, () => {
+  test(`classes and stages are easy to distinguish: ${eye}`, () => {
     assert.ok(nearest(eye, Object.values(CLASS_COLOURS)) >= AT_A_GLANCE, `classes: ${nearest(eye, Object.values(CLASS_COLOURS))}`);
     assert.ok(nearest(eye, STAGE_COLOURS) >= AT_A_GLANCE, `stages: ${nearest(eye, STAGE_COLOURS)}`);
   });
 
-  test(`regions that lie beside each other on a thread are told apart: ${eye}`, () => {
+  test(`neighbouring regions of a thread are easy to distinguish: ${eye}`, () => {
     const order = Object.keys(REGION_COLOURS).filter((region) => region !== "base" && region !== "surface");
     order.forEach((region, k) => {
       const beside = order[(k + 1) % order.length];

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { behindSnap, jumpsOfSnap, middleOfEvent, noSnapText, snapText, toleranceText } from "../../service/explorer/page/js/falls.js";
-import { lastStage, restHeight, restlessness, rests } from "../../service/explorer/page/js/resting.js";
+import { afterSnap, jumpsOfSnap, middleOfEvent, noSnapText, snapText, toleranceText } from "../../service/explorer/page/js/falls.js";
+import { lastStage, restHeight, whyNotAtRest, rests } from "../../service/explorer/page/js/resting.js";
 import { turnPath } from "../../service/explorer/page/js/turn_path.js";
 
 const SNAP = { from: 351.2, to: 359.04, fall: 0.01098, steepest: 0.0102, steepest_from: 355.9, jump: 0.0075, jump_at: 357.38089147 };
@@ -15,9 +15,9 @@ test("a snap is its whole fall, its span and the jump within it", () => {
   );
 });
 
-test("to the snap is just behind its jump, or at the end of its steepest part", () => {
-  assert.equal(behindSnap(SNAP), 357.380893);
-  assert.equal(behindSnap({ ...SNAP, jump: 0, steepest_from: 358.5 }), 1.5);
+test("to the snap is just after its jump, or at the end of its steepest part", () => {
+  assert.equal(afterSnap(SNAP), 357.380893);
+  assert.equal(afterSnap({ ...SNAP, jump: 0, steepest_from: 358.5 }), 1.5);
 });
 
 test("where there is no snap the reason says how far the bolt falls at most", () => {
@@ -50,18 +50,18 @@ const state = (stateClass, embedment, ...heights) => ({ class: stateClass, margi
 test("only a stable or quasi-stable state within its embedment's tolerance rests", () => {
   const stable = state("stable_three_point", 1e-9, 3, 2, 1);
   assert.ok(rests(stable) && rests(state("quasi_stable_two_point", 0, 3, 2, 1)) && rests(state("stable_three_point", null, 3, 2)));
-  assert.deepEqual([restHeight(stable), lastStage(stable), restlessness(stable)], [1, 3, null]);
+  assert.deepEqual([restHeight(stable), lastStage(stable), whyNotAtRest(stable)], [1, 3, null]);
   for (const [restless, why] of [
     [state("unstable_two_point", -0.01, 3, 2, -40), "ends unstable: does not rest"],
     [state("unstable_two_point", null, 3, 2), "ends unstable: does not rest"],
     [state("stable_three_point", -1e-6, 3, 2, 1), "ends overlapping the nut: does not rest"],
   ]) {
-    assert.deepEqual([rests(restless), restHeight(restless), lastStage(restless), restlessness(restless)], [false, null, 2, why]);
+    assert.deepEqual([rests(restless), restHeight(restless), lastStage(restless), whyNotAtRest(restless)], [false, null, 2, why]);
   }
   assert.equal(lastStage(state("unstable_two_point", null, 3)), 1);
 });
 
-test("off the grid the way to the window is by turning alone", () => {
+test("off the grid the path to the window is by turning alone", () => {
   const interval = (start, end, key, within) => ({ start, end, in_window: within, margin: 1, formation: { key, class: null, text: key } });
   const history = { roll: 2.5, pitch: -1.2, intervals: [interval(5, 100, "a", false), interval(100, 350, "b", false), interval(350, 365, "c", true)] };
   const { steps, transitions, turning } = turnPath(history, 90);

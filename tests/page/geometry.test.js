@@ -1,15 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { inkOn, scaleColour } from "../../service/explorer/page/js/colours.js";
-import { depthCurves, heightAt, heightsOf, intervalAt, nextFormations, seen } from "../../service/explorer/page/js/curve.js";
+import { textColourOn, scaleColour } from "../../service/explorer/page/js/colours.js";
+import { depthCurves, heightAt, heightsOf, intervalAt, nextFormations, visibleParts } from "../../service/explorer/page/js/curve.js";
 import { atPhase, phaseOf, sectors } from "../../service/explorer/page/js/disks.js";
 import { notesOf } from "../../service/explorer/page/js/follows_view.js";
 import { meshesOf } from "../../service/explorer/page/js/glb.js";
-import { behind, isOnGrid, nearestPhase, nearestTilt, steppedPhase, steppedTilt, tilts } from "../../service/explorer/page/js/grid.js";
+import { justAfter, isOnGrid, nearestPhase, nearestTilt, steppedPhase, steppedTilt, tilts } from "../../service/explorer/page/js/grid.js";
 import { poseAt } from "../../service/explorer/page/js/motion.js";
 import { followed, groupsOf } from "../../service/explorer/page/js/neighbours.js";
-import { dragged, firstCamera, keyed, standpoint, zoomed as nearer } from "../../service/explorer/page/js/orbit.js";
+import { dragged, firstCamera, cameraAfterKey, cameraPosition, zoomed as nearer } from "../../service/explorer/page/js/orbit.js";
 import { aroundEvent, middleOf, rangeOf, zoomed } from "../../service/explorer/page/js/zoom.js";
 
 const near = (a, b, tolerance = 1e-12) => assert.ok(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
@@ -80,10 +80,10 @@ test("the next formation is another one, whichever way the bolt turns", () => {
   assert.deepEqual(nextFormations({ history: { intervals: CELLS.slice(0, 1) } }, 50), { ccw: null, cw: null });
 });
 
-test("a stretch of phase is seen as often as the range repeats it", () => {
-  assert.deepEqual(seen(350, 370, 0, 360), [[0, 10], [350, 360]]);
-  assert.deepEqual(seen(350, 370, -20, 40), [[-10, 10]]);
-  assert.deepEqual(seen(10, 20, 30, 5), []);
+test("a stretch of phase is visible as often as the range repeats it", () => {
+  assert.deepEqual(visibleParts(350, 370, 0, 360), [[0, 10], [350, 360]]);
+  assert.deepEqual(visibleParts(350, 370, -20, 40), [[-10, 10]]);
+  assert.deepEqual(visibleParts(10, 20, 30, 5), []);
 });
 
 test("depth breaks where it jumps and where a phase is undecided, and nowhere else", () => {
@@ -118,8 +118,8 @@ test("a history without heights of its own gives those of its states", () => {
 });
 
 test("sectors join where nothing changes and share a ring where a stage has several contacts", () => {
-  assert.deepEqual(sectors(CELLS, 1, "nut_region"), [{ start: 5, end: 365, lane: 0, lanes: 1, region: "surface" }]);
-  assert.deepEqual(sectors(CELLS, 2, "bolt_region").map(({ lane, lanes, region }) => [lane, lanes, region]), [[0, 2, "flank_pos"], [1, 2, "flank_neg"]]);
+  assert.deepEqual(sectors(CELLS, 1, "nut_region"), [{ start: 5, end: 365, subring: 0, subrings: 1, region: "surface" }]);
+  assert.deepEqual(sectors(CELLS, 2, "bolt_region").map(({ subring, subrings, region }) => [subring, subrings, region]), [[0, 2, "flank_pos"], [1, 2, "flank_neg"]]);
   assert.deepEqual(sectors(CELLS, 3, "bolt_region"), []);
 });
 
@@ -142,7 +142,7 @@ test("phases of the grid are stepped through in turn, from beside the grid too",
   assert.equal(steppedTilt(grid, 0.3, 1), 0.4);
   assert.equal(steppedTilt(grid, -10, -1), -10);
   assert.ok(isOnGrid(grid, { roll: 0.3, pitch: -0.1 }) && !isOnGrid(grid, { roll: 0.25, pitch: 0 }) && !isOnGrid(grid, { roll: 0.4, pitch: 0 }));
-  assert.ok(behind(357.38089147) > 357.38089147 && behind(357.38089147) < 357.380894);
+  assert.ok(justAfter(357.38089147) > 357.38089147 && justAfter(357.38089147) < 357.380894);
 });
 
 test("a zoom keeps the phase under the pointer and never shows more than a turn", () => {
@@ -169,11 +169,11 @@ test("a whole turn begins where its main event is in the middle, and any other r
 test("the camera stays above and below the poles, and its keys lead back", () => {
   const camera = dragged(firstCamera(), 0, 10000);
   assert.equal(camera.elevation, 89);
-  assert.deepEqual(keyed(keyed(firstCamera(), "ArrowLeft"), "ArrowRight"), firstCamera());
-  assert.deepEqual(keyed(camera, "0"), firstCamera());
-  assert.equal(keyed(camera, "a"), null);
+  assert.deepEqual(cameraAfterKey(cameraAfterKey(firstCamera(), "ArrowLeft"), "ArrowRight"), firstCamera());
+  assert.deepEqual(cameraAfterKey(camera, "0"), firstCamera());
+  assert.equal(cameraAfterKey(camera, "a"), null);
   assert.ok(nearer(camera, 1).distance < camera.distance);
-  near(Math.hypot(...standpoint(camera)), camera.distance);
+  near(Math.hypot(...cameraPosition(camera)), camera.distance);
 });
 
 test("what comes next here stands first; the rest by its share", () => {
@@ -204,8 +204,8 @@ test("a formation is followed to where it occurs nearest", () => {
 test("colours go from dark to light, with ink that is read on each", () => {
   assert.equal(scaleColour(0), "#00204c");
   assert.equal(scaleColour(1), "#fddc3b");
-  assert.equal(inkOn(scaleColour(0)), "#ffffff");
-  assert.equal(inkOn(scaleColour(1)), "#000000");
+  assert.equal(textColourOn(scaleColour(0)), "#ffffff");
+  assert.equal(textColourOn(scaleColour(1)), "#000000");
 });
 
 test("meshes are read from binary glTF, and nothing else is", () => {

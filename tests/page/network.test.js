@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { bandsOf, passed } from "../../service/explorer/page/js/overview.js";
+import { bandsOf, formationsAlong } from "../../service/explorer/page/js/overview.js";
 import { TABS, tabAfter } from "../../service/explorer/page/js/tabs.js";
 
 const formation = (key, stateClass, least) => ({ key, class: stateClass, to_window: { least } });
@@ -31,10 +31,10 @@ test("a band with more formations than a line holds goes on in the next", () => 
   assert.equal(new Set(lines.flat().map(({ key }) => key)).size, 23);
 });
 
-test("what a path passes is told once where it stays", () => {
+test("a formation that a path stays in is listed once", () => {
   const path = { steps: ["a", "a", "b", "c", "c", "a"].map((key) => ({ formation: key })) };
-  assert.deepEqual(passed(path), ["a", "b", "c", "a"]);
-  assert.deepEqual(passed(null), []);
+  assert.deepEqual(formationsAlong(path), ["a", "b", "c", "a"]);
+  assert.deepEqual(formationsAlong(null), []);
 });
 
 test("arrows go round the tabs", () => {

@@ -6,7 +6,7 @@ import { stepLabels } from "../../service/explorer/page/js/path_view.js";
 import { nearestThreshold, stableShare } from "../../service/explorer/page/js/quantities.js";
 import { stateLine } from "../../service/explorer/page/js/terms.js";
 import { csvOf } from "../../service/explorer/page/js/csv.js";
-import { angle, angleNumber, fixed, inTurn, length, percent, shortLength } from "../../service/explorer/page/js/units.js";
+import { angle, angleNumber, fixed, wrapAngle, length, percent, shortLength } from "../../service/explorer/page/js/units.js";
 import { wrapped } from "../../service/explorer/page/js/wrap.js";
 
 test("lengths have the decimals of their unit, and are never rounded to nothing", () => {
@@ -35,10 +35,10 @@ test("what rounds to zero has no sign", () => {
   assert.equal(fixed(-0.001, 3), "−0.001");
 });
 
-test("phases are brought into one turn", () => {
-  assert.equal(inTurn(395.25), 35.25);
-  assert.equal(inTurn(-2), 358);
-  assert.ok(Object.is(inTurn(-360), 0));
+test("phases are wrapped into one turn", () => {
+  assert.equal(wrapAngle(395.25), 35.25);
+  assert.equal(wrapAngle(-2), 358);
+  assert.ok(Object.is(wrapAngle(-360), 0));
 });
 
 test("shares keep what is small visible", () => {
@@ -54,7 +54,7 @@ test("text is wrapped at words and cut with an ellipsis", () => {
   assert.deepEqual(wrapped("contact 2.1 nut flank to surface again", 16, 2), ["contact 2.1 nut", "flank to surfac…"]);
 });
 
-test("a state is told in a line, and a change of class by the new one", () => {
+test("a state is one line of text, and a change of class names the new one", () => {
   assert.equal(stateLine({ class: "unstable_two_point", flags: ["no_third", "tie"] }), "unstable two-point, no third contact, tie");
   const change = "unstable two-point to stable three-point; contact 1.1 nut crest to flank";
   assert.equal(changeText(change, "stable_three_point"), "to stable three-point; contact 1.1 nut crest to flank");
@@ -62,7 +62,7 @@ test("a state is told in a line, and a change of class by the new one", () => {
   assert.equal(changeText("", "stable_three_point"), "the same contacts");
 });
 
-test("steps of a path are told apart by as few decimals as will do", () => {
+test("steps of a path have as few decimals as distinguish them", () => {
   const step = (phase, within = false) => ({ phase, in_window: within });
   const steps = [step(10), step(355.6), step(355.67201), step(355.67262), step(357.1), step(360.5, true)];
   assert.deepEqual(stepLabels(steps), ["here", "355.6", "355.672", "355.673", "357.1", "window"]);

@@ -47,7 +47,7 @@ test("every part of a view is in its fragment", () => {
   }
 });
 
-test("what is not valid in a fragment is left out and said, the rest is kept", () => {
+test("what is not valid in a fragment is left out and reported, the rest stays", () => {
   const bad = {
     roll: "11", pitch: "", phase: "x", unit: "ft", theme: "red", span: "0", library: "-1", stage: "NaN", nut: "", tab: "numbers",
     distance: "1e999", quantity: "colour", tolerance: "-0.1", beside_roll: "12", poses: "1,2", observed: "class=x", from: "400",
@@ -70,13 +70,13 @@ test("a number is written in decimals", () => {
   }
 });
 
-test("any angle is kept exactly; a phase is brought into the turn and said", () => {
+test("any angle is restored exactly; a phase is wrapped into one turn and reported", () => {
   assert.deepEqual(readFragment("#roll=2.5&pitch=-1.2&phase=357.38"), { view: { roll: 2.5, pitch: -1.2, phase: 357.38 }, remarks: [] });
   assert.deepEqual(readFragment("#phase=400"), { view: { phase: 40 }, remarks: ["phase 400 deg is 40 deg within the turn"] });
   assert.deepEqual(readFragment("#phase=-5"), { view: { phase: 355 }, remarks: ["phase -5 deg is 355 deg within the turn"] });
 });
 
-test("what one goes to is a step of the history, what one moves is not", () => {
+test("a jump is an entry of the history, a gradual change is not", () => {
   const step = (...names) => isStep(new Set(names), null);
   assert.ok(step("roll") && step("pitch") && step("tab") && step("library"));
   assert.ok(!step("phase") && !step("azimuth", "elevation") && !step("from", "span") && !step("unit"));
@@ -84,7 +84,7 @@ test("what one goes to is a step of the history, what one moves is not", () => {
   assert.ok(!isStep(new Set(["roll"]), "restored"));
 });
 
-test("followers hear of what differs, and of nothing else", () => {
+test("listeners are called with what differs, and with nothing else", () => {
   const view = new View({ phase: 10 });
   const heard = [];
   view.follow((now, changed) => heard.push([now.phase, [...changed]]));

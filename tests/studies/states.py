@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from studies.methods import Case, ExactMethod
-from studies.stability.change import Answered
+from studies.stability.change import SolvedCase
 from threadstate.state.model import ContactState
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -17,9 +17,9 @@ FLUSH = (4.0, 0.0, 185.0)
 
 
 @cache
-def answered(pose_deg: tuple[float, float, float]) -> Answered:
+def answered(pose_deg: tuple[float, float, float]) -> SolvedCase:
     """The exact answer for a pose of 1/4-20 UNC."""
     case = Case(PAIR, pose_deg)
     (state,) = EXACT.answers([case])
     assert isinstance(state, ContactState)
-    return Answered(case, state)
+    return SolvedCase(case, state)

@@ -1,4 +1,4 @@
-"""What the stability study calls wrong: laws, changes, the brute force's word, agreement with the exact answers."""
+"""What the stability study calls wrong: laws, changes, the brute force, agreement with the exact answers."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ import pytest
 
 from studies.methods import Case, Refusal, scaled
 from studies.stability.agreement import Outcome, about, difference, flips_within_margins, outcome, truths
-from studies.stability.change import Answered, at_scale_one, change_between, has_jumped, is_steady
-from studies.stability.judge import Event, Fault, explanation, missed_first, missed_later, wrong_embedment
+from studies.stability.brute_force import Event, Fault, explanation, missed_first, missed_later, wrong_embedment
+from studies.stability.change import SolvedCase, at_scale_one, change_between, has_jumped, is_steady
 from studies.stability.laws import broken_laws
-from studies.stability.place_study import Surroundings
+from studies.stability.place_study import Neighbourhood
 from tests.studies.states import EXACT, FLUSH, PAIR, THREE_POINT, answered
 from threadstate.state.model import ContactState, StateClass
 
 pytestmark = pytest.mark.slow
 
 
-def changed(one: Answered, **values: object) -> Answered:
-    return Answered(one.case, replace(one.state, **values))  # type: ignore[arg-type]
+def changed(one: SolvedCase, **values: object) -> SolvedCase:
+    return SolvedCase(one.case, replace(one.state, **values))  # type: ignore[arg-type]
 
 
-def moved_up(one: Answered, lift: float) -> Answered:
+def moved_up(one: SolvedCase, lift: float) -> SolvedCase:
     """The same state with its first pose, and nothing else, higher."""
     first, *rest = one.state.poses
     x, y, z = first.translation
@@ -44,7 +44,7 @@ def test_laws_find_what_is_wrong() -> None:
     wrong = {
         "off": changed(right, contacts=(replace(first, point=(x, y, z + 1e-8)), *rest)),
         "normal": changed(right, contacts=(replace(first, normal=(0.0, 0.0, -1.0)), *rest)),
-        "first pose": Answered(Case(PAIR, (1.0, -2.0, 10.0 + 1e-9)), right.state),
+        "first pose": SolvedCase(Case(PAIR, (1.0, -2.0, 10.0 + 1e-9)), right.state),
         "turn": changed(right, lambda_deg=right.state.lambda_deg + 1e-6),
         "drop": changed(right, drop=right.state.drop + 1e-8),
         "class": changed(right, state_class=StateClass.UNSTABLE_TWO_POINT),
@@ -74,14 +74,14 @@ def test_a_scaled_state_comes_back_to_scale_one() -> None:
     case = Case(scaled(PAIR, 1e3), THREE_POINT, scale=1e3)
     (state,) = EXACT.answers([case])
     assert isinstance(state, ContactState)
-    back = at_scale_one(Answered(case, state), PAIR)
+    back = at_scale_one(SolvedCase(case, state), PAIR)
     change = change_between(right, back)
     assert change is not None
     assert change.largest < 1e-12
     assert is_steady(right, back)
 
 
-def jump_sides() -> tuple[Answered, Answered]:
+def jump_sides() -> tuple[SolvedCase, SolvedCase]:
     """The two sides of the jump of roll 0, pitch -4, some 1e-6 deg of phase apart."""
     low, high = 357.0, 358.0
     while high - low > 1e-6:
@@ -93,7 +93,7 @@ def jump_sides() -> tuple[Answered, Answered]:
     return answered((0.0, -4.0, low)), answered((0.0, -4.0, high))
 
 
-def test_judge_believes_a_jump_and_no_bolt_that_falls_without_one() -> None:
+def test_brute_force_accepts_a_jump_and_no_bolt_that_falls_without_one() -> None:
     above, below = jump_sides()
     assert explanation(above, below) is Event.FIRST_LOST
     assert not missed_first(above)
@@ -103,31 +103,31 @@ def test_judge_believes_a_jump_and_no_bolt_that_falls_without_one() -> None:
     assert explanation(above, tunnelled) is Fault.MISSED_FIRST
 
 
-def test_judge_sees_a_turn_that_goes_past_a_contact() -> None:
+def test_brute_force_finds_a_turn_that_passes_a_contact() -> None:
     right = answered(THREE_POINT)
     assert not missed_later(right)
     assert right.state.mu_deg is not None
     assert missed_later(changed(right, mu_deg=right.state.mu_deg + 0.1))
 
 
-def test_judge_measures_the_least_lift() -> None:
+def test_brute_force_measures_the_least_lift() -> None:
     right = answered((-4.0, 0.0, 131.0))
     assert right.state.embedment is not None
     assert wrong_embedment(right) == ""
     assert "least lift" in wrong_embedment(changed(right, embedment=right.state.embedment + 1e-6))
 
 
-def test_ways_from_a_centre_are_steady_or_cross_events_that_are_judged() -> None:
+def test_routes_from_a_centre_are_steady_or_cross_events_that_are_explained() -> None:
     above, below = jump_sides()
-    nowhere = Surroundings(EXACT, answered(THREE_POINT))
+    nowhere = Neighbourhood(EXACT, answered(THREE_POINT))
     assert nowhere.route_to(answered((1.0, -2.0, 10.0 + 1e-6)), divisible=True) == ()
-    assert nowhere.met == []
-    around = Surroundings(EXACT, above)
+    assert nowhere.events == []
+    around = Neighbourhood(EXACT, above)
     route = around.route_to(below, divisible=True)
     assert route is not None
     assert route[-1] is Event.FIRST_LOST
     assert set(route) <= {Event.STEEP, Event.FIRST_LOST}
-    assert {verdict for verdict, _, _ in around.met} == {Event.FIRST_LOST}
+    assert {explained for explained, _, _ in around.events} == {Event.FIRST_LOST}
 
 
 ERROR = 5e-4

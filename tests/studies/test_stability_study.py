@@ -16,16 +16,16 @@ import pytest
 from studies.methods import Case, MeshStates
 from studies.stability import page_exact, page_methods
 from studies.stability.agreement import Outcome
-from studies.stability.descent_study import OutcomeRow, WrongHeight, first_height, judged, second_look
+from studies.stability.brute_force import Fault
+from studies.stability.descent_study import OutcomeRow, WrongHeight, first_height, height_outcome, recheck
 from studies.stability.events import EventKind, events_along, phase_line
 from studies.stability.findings import Extent, Findings, RivalExtent, findings
-from studies.stability.judge import Fault
 from studies.stability.maps import DECADE_MAP, MAPS, colours, drawn
 from studies.stability.page import page
 from studies.stability.rival_study import RivalTally, Wrong, thinned
 from studies.stability.tally import Tally, described
 from studies.stability.tangent_study import error_deg, printed_angles, two_argument_angles
-from studies.stability.trials import DECADES, SCALES, Kind, perturbations, rescaled, turned_on, with_tolerances
+from studies.stability.trials import DECADES, SCALES, Kind, perturbations, rescaled, with_tolerances, with_whole_turns
 from tests.studies.states import EXACT, PAIR, THREE_POINT, answered
 from threadstate.library.grid import Grid
 from threadstate.mesh.options import Descent
@@ -43,7 +43,7 @@ EXTENT = Extent(
     grid=Grid(tilt_max_deg=4.0, tilt_step_deg=4.0, phase_step_deg=10.0),
     rivals=(RivalExtent(DECADES_DOWN, 1, 1, demonstrated=True),),
     descents=(DECADES_DOWN,),
-    trapped=10,
+    pitfall_poses=10,
 )
 
 
@@ -70,15 +70,15 @@ def test_other_inputs_change_one_thing_alone() -> None:
         assert trial.case.pair.fit.nut_major_diameter == PAIR.fit.nut_major_diameter * trial.case.scale
         assert trial.case.pose_deg == THREE_POINT
     assert {trial.case.scale for trial in rescaled([CENTRE])} == set(SCALES)
-    for trial in turned_on([CENTRE]):
+    for trial in with_whole_turns([CENTRE]):
         assert math.remainder(trial.case.pose_deg[2] - THREE_POINT[2], 360.0) == pytest.approx(0.0, abs=1e-6)
     assert min(trial.case.options.tie_tolerance for trial in with_tolerances([CENTRE])) == 1e-14
 
 
 def test_thinned_keeps_every_decade_of_the_pose() -> None:
-    kept = thinned(perturbations([CENTRE], 0), 13)
-    assert [trial.decade for trial in kept if trial.kind is Kind.POSE] == list(DECADES)
-    assert len(kept) == 13
+    chosen = thinned(perturbations([CENTRE], 0), 13)
+    assert [trial.decade for trial in chosen if trial.kind is Kind.POSE] == list(DECADES)
+    assert len(chosen) == 13
     assert len(thinned(perturbations([CENTRE], 0), 2)) == 2
 
 
@@ -97,8 +97,8 @@ def test_tallies_add_up_and_name_a_failure_once() -> None:
     one.fail(Fault.LAW, CENTRE, "a")
     one.fail(Fault.LAW, CENTRE, "b")
     other.fail(Fault.CLASS, CENTRE, "c")
-    one.see_change(-6, 1.0, 5.0, 0.0)
-    other.see_change(-6, 2.0, 4.0, 1.0)
+    one.record_change(-6, 1.0, 5.0, 0.0)
+    other.record_change(-6, 2.0, 4.0, 1.0)
     one.add(other)
     assert (one.trials, one.refused) == (7, 1)
     assert [failure.detail for failure in one.failures] == ["a", "c"]
@@ -108,7 +108,7 @@ def test_tallies_add_up_and_name_a_failure_once() -> None:
         part = RivalTally(flips_within=1, wrong=[Wrong(outcome, "here")])
         part.outcomes[outcome] += 2
         total.add(part)
-    assert (total.asked, total.flips_within, len(total.wrong)) == (4, 2, 2)
+    assert (total.case_count, total.flips_within, len(total.wrong)) == (4, 2, 2)
 
 
 def test_a_case_is_described_by_what_reproduces_it() -> None:
@@ -122,9 +122,9 @@ def test_decades_tunnel_and_the_safe_descent_does_not() -> None:
     for method, expected in ((SAFE, Outcome.RIGHT), (DECADES_DOWN, Outcome.HEIGHT)):
         height = first_height(method, TUNNEL).height
         assert height is not None
-        assert judged(exact, height, method.declared_error(PAIR)) is expected
-    assert judged(exact, None, 1.0) is Outcome.REFUSED
-    assert judged(None, exact, 1.0) is Outcome.NO_TRUTH
+        assert height_outcome(exact, height, method.declared_error(PAIR)) is expected
+    assert height_outcome(exact, None, 1.0) is Outcome.REFUSED
+    assert height_outcome(None, exact, 1.0) is Outcome.NO_TRUTH
 
 
 @pytest.mark.parametrize("axis", range(3))
@@ -159,35 +159,35 @@ def test_a_map_covers_every_pose_once_and_is_well_formed() -> None:
     assert named | {shade.meaning for shade in DECADE_MAP.shades} <= set(texts)
 
 
-def test_the_study_finds_the_hard_places_and_judges_every_pose(found: Findings) -> None:
+def test_the_study_finds_the_hard_places_and_classifies_every_pose(found: Findings) -> None:
     assert len(found.places) >= 8
     assert found.total.trials == sum(len(chunk.trials) for place in found.places for chunk in place.chunks())
     counted = found.total
-    followed = counted.kept + counted.replaced + counted.judged_alone + counted.without_centre
+    followed = counted.same_contacts + counted.other_contacts + counted.unfollowed + counted.without_centre
     assert followed + counted.refused == counted.trials
     assert sum(len(row.poses) for row in found.rows) == EXTENT.grid.pose_count
     outcomes = [one for row in found.descents for one in row.outcomes(0)]
     assert len(outcomes) == EXTENT.grid.pose_count
-    assert outcomes.count(Outcome.HEIGHT) == len(found.looks) > 0
+    assert outcomes.count(Outcome.HEIGHT) == len(found.rechecks) > 0
     (tallies,) = found.rivals.values()
-    assert sum(tally.asked for tally in tallies) == 2 * len(found.places)
-    assert found.traps.averaged_off > 0.05
-    assert found.traps.flush_met < found.traps.flush_pairs
+    assert sum(tally.case_count for tally in tallies) == 2 * len(found.places)
+    assert found.pitfalls.averaged_off > 0.05
+    assert found.pitfalls.flush_met < found.pitfalls.flush_pairs
 
 
-def test_a_second_look_tells_tunnelling_from_a_jump_that_meshes_have_elsewhere() -> None:
+def test_a_recheck_distinguishes_tunnelling_from_a_jump_that_meshes_have_elsewhere() -> None:
     exact = answered(TUNNEL.pose_deg).state.poses[0].translation[2]
-    told = first_height(DECADES_DOWN, TUNNEL).height
-    assert told is not None
-    look = second_look(EXACT, WrongHeight(DECADES_DOWN, TUNNEL, told, exact))
-    assert not look.beside_event
+    height = first_height(DECADES_DOWN, TUNNEL).height
+    assert height is not None
+    checked = recheck(EXACT, WrongHeight(DECADES_DOWN, TUNNEL, height, exact))
+    assert not checked.beside_event
     behind = Case(PAIR, (0.0, -4.0, 358.0))
-    told = first_height(SAFE, behind).height
-    assert told is not None
+    height = first_height(SAFE, behind).height
+    assert height is not None
     exact = answered(behind.pose_deg).state.poses[0].translation[2]
-    assert judged(exact, told, SAFE.declared_error(PAIR)) is Outcome.HEIGHT
-    look = second_look(EXACT, WrongHeight(SAFE, behind, told, exact))
-    assert look.finer is Outcome.RIGHT
+    assert height_outcome(exact, height, SAFE.declared_error(PAIR)) is Outcome.HEIGHT
+    checked = recheck(EXACT, WrongHeight(SAFE, behind, height, exact))
+    assert checked.finer is Outcome.RIGHT
 
 
 def test_the_page_says_what_was_found(found: Findings) -> None:

@@ -80,7 +80,7 @@ def check_success(call: Call[object], response: httpx2.Response) -> None:
 
 @contextmanager
 def client_errors(call: Call[object]) -> Iterator[None]:
-    """WriterLock what goes wrong on the way into errors of the client.
+    """Raise errors of the transport as errors of the client.
 
     Raises:
         ConnectionFailedError: the connection failed.

@@ -1,7 +1,7 @@
 """A library's rows in order, a batch at a time; each batch is read in its own transaction.
 
-Readers in between see no lock, and the database may go on: a published library does not change. One that is removed
-meanwhile is noticed, as the last batch is followed by a look at the library.
+Readers in between see no lock, and the database may change: a published library does not change. One that is removed
+meanwhile is noticed, as the library is checked after the last batch.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def exported_table(
 ) -> ExportedTable[StateDocument] | ExportedTable[IntervalRow] | ExportedTable[UndecidedPose]:
     """A table of a published library, its lengths multiplied by ``factor``.
 
-    Walking the batches raises NotFoundError where the library is removed meanwhile.
+    Iterating over the batches raises NotFoundError where the library is removed meanwhile.
     """
     match table:
         case TableName.STATES:

@@ -33,7 +33,7 @@ _HAS_FREE_CHUNKS = or_(
 
 
 def _holds_chunks_of(job_id: ColumnElement[int] | int) -> ColumnElement[bool]:
-    """Whether a worker holds a chunk of a job; looks at the worker's chunks, which are few, and not at the job's."""
+    """Whether a worker holds a chunk of a job; reads the worker's chunks, which are few, and not the job's."""
     held = exists().where(job_chunk.c.worker_id == job_worker.c.id, job_chunk.c.job_id == job_id)
     return held.correlate(job, job_worker)
 

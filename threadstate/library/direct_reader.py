@@ -1,4 +1,4 @@
-"""Reading what is asked for most with nothing between the statement and the database's driver."""
+"""Reads of the most frequent requests, executed directly by the database's driver."""
 
 from __future__ import annotations
 

@@ -181,7 +181,7 @@ def cut_formations(network: ConstraintNetwork, moves: Collection[Move] = ALL_MOV
     return tuple(network.node(key).formation for key in sorted(keys))
 
 
-def telling_formations(network: ConstraintNetwork) -> tuple[IdentifyingFormation, ...]:
+def identifying_formations(network: ConstraintNetwork) -> tuple[IdentifyingFormation, ...]:
     """The formations that identify an orientation, by orientation and then by falling cover."""
     found = [
         IdentifyingFormation(node.formation, node.orientations[0], node.cover_deg)

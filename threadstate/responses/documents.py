@@ -179,13 +179,13 @@ class OrientationWindowsDocument(FallsDocument):
 class FallsRangeDocument(_Document):
     """The range, least and most, of what the tilts within a tolerance give; null where none of them snaps.
 
-    It is that of the tilts that were looked at: between them falls may lie beyond it.
+    It is that of the tilts that were computed: between them falls may lie beyond it.
     """
 
     roll: float
     pitch: float
     tolerance: float = Field(description="of roll and of pitch, either way, in degrees")
-    tilts: int = Field(description="how many tilts were looked at, evenly spaced, the corners among them")
+    tilts: int = Field(description="how many tilts were computed, evenly spaced, the corners among them")
     snaps: int = Field(description="how many of them snap")
     steepest: Range = Field(description="the largest fall within 3 deg of phase, of all tilts")
     fall: Range | None = Field(description="the snap's whole fall")

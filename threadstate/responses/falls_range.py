@@ -78,7 +78,7 @@ def falls_range(
     """The range of the falls of ``tilts``, each computed by ``falls``; lengths in the unit of these.
 
     Phases that differ by a turn are taken next to each other. Between the tilts falls may be beyond the range: it is
-    that of what was looked at.
+    that of the tilts given.
     """
     found = [falls(*tilt) for tilt in tilts]
     snaps = [one.snap for one in found if one.snap is not None]

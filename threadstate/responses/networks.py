@@ -7,8 +7,8 @@ from threadstate.network.analysis import (
     cut_formations,
     dead_ends,
     following,
+    identifying_formations,
     strong_parts,
-    telling_formations,
     window_reach,
 )
 from threadstate.network.cells import Cell, CellMap
@@ -44,7 +44,7 @@ def summary_document(network: ConstraintNetwork, window_count: int) -> NetworkSu
         strong_parts=[len(part) for part in strong_parts(network)],
         dead_ends=[one.key for one in dead_ends(network)],
         cut_formations=[one.key for one in cut_formations(network)],
-        telling_formations=[one.formation.key for one in telling_formations(network)],
+        telling_formations=[one.formation.key for one in identifying_formations(network)],
     )
 
 

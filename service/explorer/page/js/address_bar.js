@@ -1,4 +1,4 @@
-// The view in the browser's address and history. What one goes to is a step that Back takes back; what one moves is not.
+// The view in the browser's address and history. A jump to another place is an entry of the history, a gradual change is not.
 
 import { fragmentOf, readFragment } from "./url_state.js";
 import { DEFAULTS } from "./view.js";
@@ -14,8 +14,8 @@ export function isStep(changed, how) {
   return how === "entry" || (how === null && STEPS.some((name) => changed.has(name)));
 }
 
-/** Keeps the address and a view the same; `remark` is told what of an address is not valid. Returns the present address. */
-export function keepAddress(view, remark) {
+/** Keeps the address and a view in step; `remark` is called with what is not valid in an address. Returns the present address. */
+export function syncAddress(view, remark) {
   let timer = null;
   let written = view.value;
   let last = { names: "", at: -Infinity };
@@ -35,7 +35,7 @@ export function keepAddress(view, remark) {
     const goesOn = names === last.names && performance.now() - last.at < ONE_STEP_MS;
     if (isStep(changed, how)) last = { names, at: performance.now() };
     if (isStep(changed, how) && !goesOn) {
-      // What was moved since the last step belongs to that one.
+      // Gradual changes since the last step belong to that one.
       if (timer !== null) history.replaceState(null, "", addressOf(written));
       clearTimeout(timer);
       timer = null;

@@ -1,8 +1,8 @@
-// The service's answers, each asked for once.
+// Requests to the service; each response is cached.
 
-import { takeEarly } from "./early.js";
+import { takePrefetched } from "./prefetch.js";
 
-const KEPT = 200;
+const CACHE_SIZE = 200;
 
 /** The service answered with a problem document. */
 export class ProblemError extends Error {
@@ -14,14 +14,14 @@ export class ProblemError extends Error {
 }
 
 /** The service did not answer. */
-export class LostError extends Error {}
+export class UnreachableError extends Error {}
 
-/** Asks one service; what a library's number stands in never changes, so its responses are cached. */
+/** Sends requests to one service. What a library's number refers to never changes, so its responses are cached. */
 export class Api {
-  #answers = new Map();
+  #cache = new Map();
   #key;
 
-  /** `key` is shown with every request; null: none. */
+  /** `key` is sent with every request; null: none. */
   constructor(key) {
     this.#key = key;
   }
@@ -30,7 +30,7 @@ export class Api {
     return this.#key !== null;
   }
 
-  /** Shows another key from now on. */
+  /** Sends another key from now on. */
   use(key) {
     this.#key = key;
   }
@@ -38,24 +38,24 @@ export class Api {
   /** The JSON at a path with these parameters; null and undefined ones are left out. */
   get(path, parameters = {}) {
     const address = addressOf(path, parameters);
-    const known = this.#answers.get(address);
-    if (known) return known;
-    const answer = this.#ask(address);
-    this.#answers.set(address, answer);
-    if (this.#answers.size > KEPT) this.#answers.delete(this.#answers.keys().next().value);
-    answer.catch(() => this.#answers.delete(address));
+    const cached = this.#cache.get(address);
+    if (cached) return cached;
+    const answer = this.#fetchJson(address);
+    this.#cache.set(address, answer);
+    if (this.#cache.size > CACHE_SIZE) this.#cache.delete(this.#cache.keys().next().value);
+    answer.catch(() => this.#cache.delete(address));
     return answer;
   }
 
-  /** The JSON at a path as it is now. */
-  getAnew(path) {
-    return this.#ask(path);
+  /** The JSON at a path, not from the cache. */
+  getFresh(path) {
+    return this.#fetchJson(path);
   }
 
   /** The states of poses, on the grid or not, by the exact solver with the pair and the tolerances of a library. */
   async solve(poses, library, unit) {
     const body = JSON.stringify({ library, poses });
-    const answer = await this.#ask(addressOf("/v1/solve", { unit }), {
+    const answer = await this.#fetchJson(addressOf("/v1/solve", { unit }), {
       method: "POST",
       headers: { "Content-Type": "application/json" },
       body,
@@ -65,20 +65,20 @@ export class Api {
 
   /** The bytes at a path. */
   async bytes(path) {
-    return (await this.#fetched(path)).arrayBuffer();
+    return (await this.#fetch(path)).arrayBuffer();
   }
 
-  async #ask(address, options = {}) {
-    return (await this.#fetched(address, options)).json();
+  async #fetchJson(address, options = {}) {
+    return (await this.#fetch(address, options)).json();
   }
 
-  async #fetched(address, options = {}) {
+  async #fetch(address, options = {}) {
     const headers = { ...options.headers, ...(this.hasKey && { Authorization: `Bearer ${this.#key}` }) };
     let response;
     try {
-      response = await ((options.method === undefined && takeEarly(address)) || fetch(address, { ...options, headers }));
+      response = await ((options.method === undefined && takePrefetched(address)) || fetch(address, { ...options, headers }));
     } catch (error) {
-      throw new LostError(`no answer from the service: ${error.message}`);
+      throw new UnreachableError(`no answer from the service: ${error.message}`);
     }
     if (!response.ok) throw new ProblemError(response.status, await response.json().catch(() => ({ title: response.statusText })));
     return response;

@@ -1,4 +1,4 @@
-// Says what is being computed where that takes longer than a moment.
+// Shows what is being computed where that takes longer than a moment.
 
 const MOMENT_MS = 350;
 
@@ -11,22 +11,22 @@ export class Busy {
     this.#show = show;
   }
 
-  /** Waits for a promise, and says so. */
+  /** Waits for a promise, and shows the text meanwhile. */
   async during(text, promise) {
     const own = Symbol(text);
     const timer = setTimeout(() => {
       this.#shown.set(own, text);
-      this.#tell();
+      this.#update();
     }, MOMENT_MS);
     try {
       return await promise;
     } finally {
       clearTimeout(timer);
-      if (this.#shown.delete(own)) this.#tell();
+      if (this.#shown.delete(own)) this.#update();
     }
   }
 
-  #tell() {
+  #update() {
     this.#show([...new Set(this.#shown.values())]);
   }
 }

@@ -1,4 +1,4 @@
-// Colours that the colour-blind can tell apart, too (classes after Okabe and Ito, numbers after cividis).
+// Colours that colour-blind readers can distinguish (classes after Okabe and Ito, numbers after cividis).
 
 export const CLASS_COLOURS = {
   stable_three_point: "#0072b2",
@@ -37,8 +37,8 @@ export function scaleColour(place) {
   return `#${mixed.map((part) => part.toString(16).padStart(2, "0")).join("")}`;
 }
 
-/** Black or white, whichever is read better on a colour "#rrggbb". */
-export function inkOn(colour) {
+/** Black or white, whichever has more contrast with a colour "#rrggbb". */
+export function textColourOn(colour) {
   const [red, green, blue] = [1, 3, 5].map((k) => linear(parseInt(colour.slice(k, k + 2), 16) / 255));
   const luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
   return luminance > 0.179 ? "#000000" : "#ffffff";

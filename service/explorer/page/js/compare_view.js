@@ -2,7 +2,7 @@
 
 import { wireTilt } from "./controls.js";
 import { byId, html } from "./html.js";
-import { angle, angleNumber, inTurn, length } from "./units.js";
+import { angle, angleNumber, wrapAngle, length } from "./units.js";
 
 const HEAD = ["", "falls from", "to", "by", "largest jump", "steepest 3 deg"];
 
@@ -54,7 +54,7 @@ function cells(history, unit) {
     const steepest = typeof history?.steepest === "number" ? length(history.steepest, unit) : "not known";
     return [html("td", { colspan: 4 }, "no snap"), html("td", {}, steepest)];
   }
-  const jump = snap.jump > 0 ? `${length(snap.jump, unit)} at ${angle(inTurn(snap.jump_at), 3)}` : "none";
-  const texts = [angle(inTurn(snap.from), 3), angle(inTurn(snap.to), 3), length(snap.fall, unit), jump, length(snap.steepest, unit)];
+  const jump = snap.jump > 0 ? `${length(snap.jump, unit)} at ${angle(wrapAngle(snap.jump_at), 3)}` : "none";
+  const texts = [angle(wrapAngle(snap.from), 3), angle(wrapAngle(snap.to), 3), length(snap.fall, unit), jump, length(snap.steepest, unit)];
   return texts.map((text) => html("td", {}, text));
 }

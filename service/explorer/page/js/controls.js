@@ -2,11 +2,11 @@
 
 import { TILT_LIMIT, TOLERANCE_LIMIT, gridText, steppedPhase, steppedTilt } from "./grid.js";
 import { byId, html } from "./html.js";
-import { say } from "./messages.js";
+import { showToast } from "./messages.js";
 import { QUANTITIES } from "./quantities.js";
-import { rememberUnit } from "./remembered.js";
+import { storePreferredUnit } from "./preferences.js";
 import { turned } from "./url_state.js";
-import { inTurn } from "./units.js";
+import { wrapAngle } from "./units.js";
 
 const CHOICES = ["unit", "theme", "quantity", "over", "nut"];
 const ELEMENTS = { nut: "nut-look" };
@@ -20,7 +20,7 @@ export function wireControls(view, gridOf) {
     const control = byId(ELEMENTS[name] ?? name);
     control.addEventListener("change", () => view.set({ [name]: control.value }));
   }
-  byId("unit").addEventListener("change", () => rememberUnit(byId("unit").value));
+  byId("unit").addEventListener("change", () => storePreferredUnit(byId("unit").value));
   byId("library").addEventListener("change", () => view.set({ library: Number(byId("library").value) }));
   wirePhase(view, gridOf);
   wireTolerance(view);
@@ -38,7 +38,7 @@ export function wireTilt(view, gridOf, name, field, steppers = []) {
       view.set({ [name]: value });
       return;
     }
-    say(`${field.dataset.name} is ${field.value || "no number"}; valid: ${-TILT_LIMIT} to ${TILT_LIMIT} deg`);
+    showToast(`${field.dataset.name} is ${field.value || "no number"}; valid: ${-TILT_LIMIT} to ${TILT_LIMIT} deg`);
     field.value = view.value[name];
   });
   field.addEventListener("keydown", (event) => {
@@ -57,12 +57,12 @@ function wirePhase(view, gridOf) {
   number.addEventListener("change", () => {
     const given = Number(number.value);
     if (number.value === "" || !Number.isFinite(given)) {
-      say("phase is no number; valid: an angle in deg");
+      showToast("phase is no number; valid: an angle in deg");
       number.value = view.value.phase;
       return;
     }
-    const phase = inTurn(given);
-    if (phase !== given) say(turned(given, phase));
+    const phase = wrapAngle(given);
+    if (phase !== given) showToast(turned(given, phase));
     view.set({ phase });
     number.value = phase;
   });
@@ -90,7 +90,7 @@ function wireTolerance(view) {
       view.set({ tolerance: value });
       return;
     }
-    say(`the tolerance is ${field.value || "no number"}; valid: above 0 to ${TOLERANCE_LIMIT} deg, or nothing`);
+    showToast(`the tolerance is ${field.value || "no number"}; valid: above 0 to ${TOLERANCE_LIMIT} deg, or nothing`);
     field.value = view.value.tolerance ?? "";
   });
 }

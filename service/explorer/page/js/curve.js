@@ -1,7 +1,7 @@
 // Depth against phase, and the intervals along it.
 
 import { restHeight } from "./resting.js";
-import { inTurn } from "./units.js";
+import { wrapAngle } from "./units.js";
 
 /** Between two phases nearer than this a step of the height by more than that part of the thread's pitch is a jump. */
 const JUMP_WITHIN_DEG = 1e-6;
@@ -60,7 +60,7 @@ export function intervalAt(intervals, phase) {
   for (const interval of intervals?.history.intervals ?? []) {
     for (const turns of [0, 360]) {
       if (interval.start <= phase + turns && phase + turns < interval.end) {
-        return { ...interval, inside: inTurn((interval.start + interval.end) / 2) };
+        return { ...interval, inside: wrapAngle((interval.start + interval.end) / 2) };
       }
     }
   }
@@ -81,8 +81,8 @@ export function nextFormations(intervals, phase) {
   return { ccw: next(1), cw: next(-1) };
 }
 
-/** Pieces [low, high] in which a stretch of phase, repeated every turn, is seen in the range from `from` over `span`. */
-export function seen(start, end, from, span) {
+/** Parts [low, high] of a stretch of phase, repeated every turn, that are visible in the range from `from` over `span`. */
+export function visibleParts(start, end, from, span) {
   const found = [];
   const first = Math.floor((from - end) / 360);
   for (let turns = first; start + turns * 360 < from + span; turns++) {

@@ -1,14 +1,14 @@
 // Depth against phase: curves, boundaries, the snap and the clearance window, measured poses, another curve beside, the cursor.
 
 import { CLASS_COLOURS, UNDECIDED_COLOUR } from "./colours.js";
-import { depthCurves, heightAt, intervalAt, seen } from "./curve.js";
+import { depthCurves, heightAt, intervalAt, visibleParts } from "./curve.js";
 import { jumpsOfSnap, snapText } from "./falls.js";
 import { restHeight } from "./resting.js";
 import { sizeOf } from "./size.js";
-import { picture, pointIn, put, svg } from "./svg.js";
+import { picture, pointIn, replaceContent, svg } from "./svg.js";
 import { className } from "./terms.js";
 import { angleTicks, decimalsOf, ticks } from "./ticks.js";
-import { angle, angleNumber, fixed, inTurn } from "./units.js";
+import { angle, angleNumber, fixed, wrapAngle } from "./units.js";
 import { wrapped } from "./wrap.js";
 
 const LEAST = { width: 320, height: 130 };
@@ -18,10 +18,10 @@ const LINE = 15;
 const BOTTOM = 38;
 const RIBBON = 12;
 const CLIP = "depth-clip";
-/** About how wide a letter is: lines of the key that do not fit beside each other are put below each other. */
+/** About how wide a letter is: lines of the legend that do not fit beside each other are put below each other. */
 const LETTER = 6.3;
 const BOLD_LETTER = 6.9;
-/** The mark before an entry of the key, with the room behind it. */
+/** The mark before an entry of the legend, with the room behind it. */
 const MARK = 27;
 /** How many steps of the phase a key with Shift goes. */
 const MANY_STEPS = 10;
@@ -52,8 +52,8 @@ export class DepthView {
     const curves = depthCurves(heights, library.pair.thread_pitch);
     const besideCurve = beside ? depthCurves(beside.heights, beside.library.pair.thread_pitch).first : [];
     const size = sizeOf(this.#frame, LEAST);
-    const keyLines = keyOf(intervals?.history ?? null, beside, view, size.width);
-    const scale = scaleOf([...curves.first, ...curves.rest, ...besideCurve], range, size, keyLines.length);
+    const legendLines = legendOf(intervals?.history ?? null, beside, view, size.width);
+    const scale = scaleOf([...curves.first, ...curves.rest, ...besideCurve], range, size, legendLines.length);
     this.#scale = scale;
     const root = picture(scale.width, scale.height, "Depth against phase", { class: "depth" });
     root.append(clip(scale));
@@ -64,14 +64,14 @@ export class DepthView {
     root.append(...curveLines(curves.rest, scale, "curve rest"), ...curveLines(besideCurve, scale, "curve beside"));
     root.append(...curveLines(curves.first, scale, "curve first"));
     root.append(...jumpMarks(intervals, scale));
-    root.append(...keyLines.flatMap((entries, line) => key(entries, LINE * line + 11)));
+    root.append(...legendLines.flatMap((entries, line) => legendLine(entries, LINE * line + 11)));
     root.append(...this.#poseMarks(measured ?? [], curves, view, scale));
     this.#cursor = svg("g", { class: "cursor" });
     root.append(this.#cursor);
     this.#root = root;
     this.#listen(root);
     this.#describe(view);
-    put(this.#frame, root);
+    replaceContent(this.#frame, root);
     if (focused) root.focus();
   }
 
@@ -80,7 +80,7 @@ export class DepthView {
     const scale = this.#scale;
     if (scale === null) return;
     const parts = [];
-    for (const [low] of seen(view.phase, view.phase, scale.from, scale.span)) {
+    for (const [low] of visibleParts(view.phase, view.phase, scale.from, scale.span)) {
       const x = scale.x(low);
       parts.push(svg("line", { x1: x, x2: x, y1: scale.plotTop, y2: scale.base + RIBBON + 4 }));
       const state = isOf(model.state, view) ? model.state.state : null;
@@ -90,20 +90,20 @@ export class DepthView {
         parts.push(svg("circle", { cx: x, cy: scale.y(state.poses[0].translation[2]), r: 4, class: "at-first" }));
       }
     }
-    put(this.#cursor, ...parts);
+    replaceContent(this.#cursor, ...parts);
     this.#describe(view);
   }
 
   /** The picture is a slider of the phase, so that keys move it as the pointer does. */
   #describe({ phase }) {
-    const told = { role: "slider", tabindex: 0, "aria-valuemin": 0, "aria-valuemax": 360, "aria-valuenow": phase };
+    const ariaValues = { role: "slider", tabindex: 0, "aria-valuemin": 0, "aria-valuemax": 360, "aria-valuenow": phase };
     const keys = "Arrow keys move the phase, with Shift further; plus and minus zoom, 0 shows the whole turn";
     const texts = { "aria-label": `Depth against phase. ${keys}`, "aria-valuetext": `phase ${angle(phase)}` };
-    for (const [name, value] of Object.entries({ ...told, ...texts })) this.#root.setAttribute(name, value);
+    for (const [name, value] of Object.entries({ ...ariaValues, ...texts })) this.#root.setAttribute(name, value);
   }
 
   #listen(root) {
-    const phaseAt = (event) => inTurn(this.#scale.phase(pointIn(root, event).x));
+    const phaseAt = (event) => wrapAngle(this.#scale.phase(pointIn(root, event).x));
     root.addEventListener("pointerdown", (event) => {
       if (event.button !== 0 || event.target.closest(".pose")) return;
       root.setPointerCapture(event.pointerId);
@@ -137,7 +137,7 @@ export class DepthView {
   #poseMarks(measured, curves, view, scale) {
     return measured.flatMap(({ pose, state }, k) => {
       const here = pose.roll === view.roll && pose.pitch === view.pitch;
-      return seen(pose.phase, pose.phase, scale.from, scale.span).map(([phase]) => {
+      return visibleParts(pose.phase, pose.phase, scale.from, scale.span).map(([phase]) => {
         const height = here ? (state?.poses[0].translation[2] ?? heightAt(curves.first, pose.phase)) : null;
         const [x, y] = [scale.x(phase), height === null ? scale.base - 6 : scale.y(height)];
         const mark = svg("g", { class: here ? "pose here" : "pose", "data-pose": k }, [
@@ -156,12 +156,12 @@ export function poseText({ roll, pitch, phase }) {
   return `roll ${angleNumber(roll)}, pitch ${angleNumber(pitch)}, phase ${angle(phase)}`;
 }
 
-/** What is to be said of a phase in one line. */
+/** The text about a phase, in one line. */
 export function depthReadout(model, view) {
   const interval = intervalAt(model.intervals, view.phase);
   if (interval === null) return "";
   const within = interval.in_window ? ", in the clearance window" : "";
-  const end = inTurn(interval.end);
+  const end = wrapAngle(interval.end);
   return `${className(interval.formation.class)} from ${angle(interval.start)} to ${angle(end)}${within}`;
 }
 
@@ -170,10 +170,10 @@ function isOf(state, view) {
 }
 
 /**
- * The lines of the key, each with entries {name, text, x}: beside each other where they fit. A text that is longer than the
+ * The lines of the legend, each with entries {name, text, x}: beside each other where they fit. A text that is longer than the
  * picture is wide goes on in the next line, without a mark.
  */
-function keyOf(history, beside, view, width) {
+function legendOf(history, beside, view, width) {
   const entries = [
     { name: "first", text: "first contact" },
     { name: "rest", text: "at rest" },
@@ -199,15 +199,15 @@ function keyOf(history, beside, view, width) {
   return lines;
 }
 
-function scaleOf(curves, { from, span }, { width, height }, keyLines) {
+function scaleOf(curves, { from, span }, { width, height }, legendLines) {
   const heights = curves.flat();
-  const inRange = heights.filter(({ phase }) => seen(phase, phase, from, span).length > 0).map((point) => point.height);
+  const inRange = heights.filter(({ phase }) => visibleParts(phase, phase, from, span).length > 0).map((point) => point.height);
   const shown = inRange.length > 1 ? inRange : heights.map((point) => point.height);
   const low = shown.length > 0 ? Math.min(...shown) : 0;
   const high = shown.length > 0 ? Math.max(...shown) : 1;
   const room = (high - low || Math.abs(high) || 1) * 0.08;
   const [bottom, top] = [low - room, high + room];
-  const [x0, x1, y0, y1] = [LEFT, width - RIGHT, height - BOTTOM, 9 + LINE * keyLines];
+  const [x0, x1, y0, y1] = [LEFT, width - RIGHT, height - BOTTOM, 9 + LINE * legendLines];
   return {
     width,
     height,
@@ -248,7 +248,7 @@ function axes(scale, unit) {
   for (const phase of phases) {
     const x = scale.x(phase);
     marks.push(svg("line", { x1: x, x2: x, y1: base + 2, y2: base + 7, class: "tick" }));
-    marks.push(svg("text", { x, y: base + 20, "text-anchor": "middle" }, angleNumber(inTurn(phase), decimalsOf(phases))));
+    marks.push(svg("text", { x, y: base + 20, "text-anchor": "middle" }, angleNumber(wrapAngle(phase), decimalsOf(phases))));
   }
   marks.push(svg("text", { x: LEFT - 14, y: base + 20, "text-anchor": "end", class: "title" }, "phase (deg)"));
   marks.push(svg("text", { x: LEFT - 7, y: 11, "text-anchor": "end", class: "title" }, `z (${unit})`));
@@ -271,7 +271,7 @@ function curveLines(runs, scale, name) {
 }
 
 function band(start, end, scale, name, text) {
-  return seen(start, end, scale.from, scale.span).map(([low, high]) =>
+  return visibleParts(start, end, scale.from, scale.span).map(([low, high]) =>
     svg("rect", { x: scale.x(low), width: Math.max(scale.x(high) - scale.x(low), 1), y: scale.plotTop, height: scale.base - scale.plotTop, class: name }, [
       svg("title", {}, text),
     ]),
@@ -290,7 +290,7 @@ function snapSpan(intervals, scale) {
 }
 
 function boundaryLines(intervals, scale) {
-  const places = (intervals?.history.boundaries ?? []).flatMap(({ phase }) => seen(phase, phase, scale.from, scale.span));
+  const places = (intervals?.history.boundaries ?? []).flatMap(({ phase }) => visibleParts(phase, phase, scale.from, scale.span));
   return places.map(([phase]) => {
     const x = scale.x(phase);
     return svg("line", { x1: x, x2: x, y1: scale.plotTop, y2: scale.base, class: "boundary" });
@@ -299,7 +299,7 @@ function boundaryLines(intervals, scale) {
 
 function ribbon(intervals, scale) {
   return (intervals?.history.intervals ?? []).flatMap((interval) =>
-    seen(interval.start, interval.end, scale.from, scale.span).map(([low, high]) => {
+    visibleParts(interval.start, interval.end, scale.from, scale.span).map(([low, high]) => {
       const colour = CLASS_COLOURS[interval.formation.class] ?? UNDECIDED_COLOUR;
       const width = Math.max(scale.x(high) - scale.x(low), 0.5);
       return svg("rect", { x: scale.x(low), width, y: scale.base + 2, height: RIBBON - 2, fill: colour }, [
@@ -312,14 +312,14 @@ function ribbon(intervals, scale) {
 function jumpMarks(intervals, scale) {
   if (!intervals) return [];
   return jumpsOfSnap(intervals.history).flatMap(({ phase, height_before: before, height_after: after }) =>
-    seen(phase, phase, scale.from, scale.span).map(([at]) =>
+    visibleParts(phase, phase, scale.from, scale.span).map(([at]) =>
       svg("line", { x1: scale.x(at), x2: scale.x(at), y1: scale.y(before), y2: scale.y(after), class: "snap-jump" }),
     ),
   );
 }
 
-/** A line of the key: each entry's mark and text, beside each other. */
-function key(entries, y) {
+/** A line of the legend: each entry's mark and text, beside each other. */
+function legendLine(entries, y) {
   return entries.flatMap(({ name, text, x, marked }) => {
     const words = svg("text", { x: x + MARK, y, class: name === "snap" ? "snap-text" : null }, text);
     if (!marked) return [words];

@@ -4,30 +4,30 @@
 export const STAGES = [1, 2, 3];
 
 /**
- * The sectors of one stage and one part ("bolt_region" or "nut_region") over the turn: {start, end, lane, lanes, region}
- * in degrees, where several contacts of the stage share the ring in lanes, the first outermost.
+ * The sectors of one stage and one part ("bolt_region" or "nut_region") over the turn: {start, end, subring, subrings, region}
+ * in degrees, where several contacts of the stage divide the ring into subrings, the first outermost.
  */
 export function sectors(intervals, stage, part) {
   const found = [];
   const open = [];
   for (const { start, end, formation } of intervals) {
     const contacts = formation.contacts.filter((contact) => contact.stage === stage);
-    const lanes = contacts.length;
-    contacts.forEach((contact, lane) => {
+    const subrings = contacts.length;
+    contacts.forEach((contact, subring) => {
       const region = contact[part];
-      const before = open[lane];
-      if (before && before.end === start && before.region === region && before.lanes === lanes) before.end = end;
-      else found.push((open[lane] = { start, end, lane, lanes, region }));
+      const before = open[subring];
+      if (before && before.end === start && before.region === region && before.subrings === subrings) before.end = end;
+      else found.push((open[subring] = { start, end, subring, subrings, region }));
     });
-    open.length = lanes;
+    open.length = subrings;
   }
   return found;
 }
 
-/** The radii [inner, outer] of a lane of a ring. */
-export function laneRadii(inner, outer, lane, lanes) {
-  const width = (outer - inner) / lanes;
-  return [outer - (lane + 1) * width, outer - lane * width];
+/** The radii [inner, outer] of a subring of a ring. */
+export function subringRadii(inner, outer, subring, subrings) {
+  const width = (outer - inner) / subrings;
+  return [outer - (subring + 1) * width, outer - subring * width];
 }
 
 /** The point of a picture at a phase and a radius about a centre; the phase grows counter-clockwise from the right. */

@@ -1,8 +1,8 @@
 // The regions in contact: a disk for each of the three contacts, with a ring for the nut and one for the bolt.
 
 import { REGION_COLOURS } from "./colours.js";
-import { STAGES, atPhase, laneRadii, phaseOf, sectorPath, sectors } from "./disks.js";
-import { picture, pointIn, put, svg } from "./svg.js";
+import { STAGES, atPhase, subringRadii, phaseOf, sectorPath, sectors } from "./disks.js";
+import { picture, pointIn, replaceContent, svg } from "./svg.js";
 import { REGIONS, shortRegion } from "./terms.js";
 
 const WIDTH = 396;
@@ -37,7 +37,7 @@ export class DisksView {
       root.append(this.#disk(intervals?.history.intervals ?? [], stage, centre));
     });
     root.append(...legend());
-    put(this.#frame, root);
+    replaceContent(this.#frame, root);
   }
 
   /** Moves the cursors to a phase, and says under each disk what touches there. */
@@ -50,7 +50,7 @@ export class DisksView {
       const contacts = interval?.formation.contacts.filter((contact) => contact.stage === stage) ?? [];
       const lines = contacts.map((one) => `${shortRegion(one.bolt_region)} on ${shortRegion(one.nut_region)}`);
       const shown = lines.length > 0 ? lines : ["none"];
-      put(group, ...shown.map((line, k) => svg("text", { x, y: y + EDGE + 32 + 14 * k, "text-anchor": "middle" }, line)));
+      replaceContent(group, ...shown.map((line, k) => svg("text", { x, y: y + EDGE + 32 + 14 * k, "text-anchor": "middle" }, line)));
     });
   }
 
@@ -59,8 +59,8 @@ export class DisksView {
     const group = svg("g", { class: "disk" }, svg("text", { x, y: y - EDGE - 24, "text-anchor": "middle", class: "name" }, NAMES[stage - 1]));
     for (const [part, [inner, outer]] of Object.entries(RINGS)) {
       group.append(svg("path", { d: sectorPath(centre, inner, outer, 0, 360), class: "empty" }));
-      for (const { start, end, lane, lanes, region } of sectors(intervals, stage, part)) {
-        const [low, high] = laneRadii(inner, outer, lane, lanes);
+      for (const { start, end, subring, subrings, region } of sectors(intervals, stage, part)) {
+        const [low, high] = subringRadii(inner, outer, subring, subrings);
         const path = svg("path", { d: sectorPath(centre, low, high, start, end), fill: REGION_COLOURS[region] });
         path.append(svg("title", {}, `${part === "nut_region" ? "nut" : "bolt"}: ${REGIONS[region]}`));
         group.append(path);

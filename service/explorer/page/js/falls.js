@@ -1,23 +1,23 @@
-// Where the bolt goes down along the phase: the snap of an orientation, in words and as places to go to.
+// Where the bolt goes down along the phase: the snap of an orientation, in words and as phases to go to.
 
-import { behind } from "./grid.js";
-import { angle, angleNumber, inTurn, length, shortLength } from "./units.js";
+import { justAfter } from "./grid.js";
+import { angle, angleNumber, wrapAngle, length, shortLength } from "./units.js";
 
 /** Over how many degrees the steepest fall is looked for. */
 export const STEEPEST_SPAN = 3;
 const SNAP_FROM = "5 % of the thread pitch";
 
-/** The phase just behind the steepest part of a snap. */
-export function behindSnap({ jump, jump_at: jumpAt, steepest_from: from }) {
-  return jump > 0 ? behind(jumpAt) : inTurn(from + STEEPEST_SPAN);
+/** The phase just after the steepest part of a snap. */
+export function afterSnap({ jump, jump_at: jumpAt, steepest_from: from }) {
+  return jump > 0 ? justAfter(jumpAt) : wrapAngle(from + STEEPEST_SPAN);
 }
 
 /** A snap in one line. */
 export function snapText(snap, unit) {
   const steep = snap.jump > 0
-    ? `of it ${shortLength(snap.jump, unit)} at ${angle(inTurn(snap.jump_at), 2)}`
-    : `of it ${shortLength(snap.steepest, unit)} within ${STEEPEST_SPAN} deg from ${angle(inTurn(snap.steepest_from), 2)}`;
-  return `snap: falls ${shortLength(snap.fall, unit)} ${unit} from ${angleNumber(inTurn(snap.from), 1)} to ${angle(inTurn(snap.to), 1)}, ${steep}`;
+    ? `of it ${shortLength(snap.jump, unit)} at ${angle(wrapAngle(snap.jump_at), 2)}`
+    : `of it ${shortLength(snap.steepest, unit)} within ${STEEPEST_SPAN} deg from ${angle(wrapAngle(snap.steepest_from), 2)}`;
+  return `snap: falls ${shortLength(snap.fall, unit)} ${unit} from ${angleNumber(wrapAngle(snap.from), 1)} to ${angle(wrapAngle(snap.to), 1)}, ${steep}`;
 }
 
 /** Why there is no snap to go to. */
@@ -37,9 +37,9 @@ export function jumpsOfSnap({ snap, descents }) {
 
 /** The middle of the main event of a history: of its snap, else of its first window; null where it has neither. */
 export function middleOfEvent(history) {
-  if (history?.snap) return inTurn((history.snap.from + history.snap.to) / 2);
+  if (history?.snap) return wrapAngle((history.snap.from + history.snap.to) / 2);
   const window = history?.windows?.[0];
-  return window ? inTurn((window.enter + window.leave) / 2) : null;
+  return window ? wrapAngle((window.enter + window.leave) / 2) : null;
 }
 
 /** What is found within a tolerance on the measured angles, in one line. */
@@ -47,7 +47,7 @@ export function toleranceText(falls, unit) {
   const within = `within ±${falls.tolerance} deg`;
   if (!falls.snaps) return `${within}: no snap at any of ${falls.tilts} tilts; the steepest ${STEEPEST_SPAN} deg fall ${rangeText(falls.steepest, unit)}`;
   const some = falls.snaps < falls.tilts ? ` at ${falls.snaps} of ${falls.tilts} tilts` : "";
-  const [from, to] = [falls.snap_from, falls.snap_to].map(([low, high]) => `${angleNumber(inTurn(low), 1)}–${angleNumber(inTurn(high), 1)}`);
+  const [from, to] = [falls.snap_from, falls.snap_to].map(([low, high]) => `${angleNumber(wrapAngle(low), 1)}–${angleNumber(wrapAngle(high), 1)}`);
   return `${within}: snaps${some}, falls ${rangeText(falls.fall, unit)}, from ${from} to ${to} deg`;
 }
 

@@ -2,7 +2,7 @@
 
 import { CLASS_COLOURS, UNDECIDED_COLOUR } from "./colours.js";
 import { groupsOf } from "./neighbours.js";
-import { picture, put, svg } from "./svg.js";
+import { picture, replaceContent, svg } from "./svg.js";
 import { className, shortRegion } from "./terms.js";
 import { percent } from "./units.js";
 import { wrapped } from "./wrap.js";
@@ -39,15 +39,15 @@ export class FollowsView {
       row.forEach((group, column) => root.append(...this.#group(group, 2 + column * (WIDTH / 2), y)));
       y += heights[k] + 8;
     });
-    put(this.#frame, root);
+    replaceContent(this.#frame, root);
   }
 
-  /** Says that there is nothing to be drawn. */
-  tell(text) {
+  /** Shows a text in place of the picture. */
+  showEmpty(text) {
     const line = document.createElement("p");
     line.className = "readout";
     line.textContent = text;
-    put(this.#frame, line);
+    replaceContent(this.#frame, line);
   }
 
   #group(group, x, y) {
@@ -82,7 +82,7 @@ export class FollowsView {
   }
 }
 
-/** What changes, short enough for a card: a change of class is told by the new one alone. */
+/** What changes, short enough for a card: of a change of class the new one alone is named. */
 export function changeText(change, stateClass) {
   const [first, ...rest] = change.split("; ");
   const name = className(stateClass);
@@ -90,7 +90,7 @@ export function changeText(change, stateClass) {
   return change || "the same contacts";
 }
 
-/** What is to be said below a group's cards, so that all its shares add up. */
+/** The text below a group's cards, so that all its shares add up. */
 export function notesOf({ move, shown, more, rest, unchanged }) {
   const turns = move === "ccw" || move === "cw";
   return [

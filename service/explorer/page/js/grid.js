@@ -1,6 +1,6 @@
-// The poses that a library holds, and those that can be asked for.
+// The poses that a library holds, and those that can be requested.
 
-import { inTurn } from "./units.js";
+import { wrapAngle } from "./units.js";
 
 /** Roll and pitch go to this either way, in degrees. */
 export const TILT_LIMIT = 10;
@@ -21,15 +21,15 @@ export function isOnGrid(grid, { roll, pitch }) {
 
 /** The phase of the grid nearest to a phase. */
 export function nearestPhase(grid, phase) {
-  return inTurn(multiple(Math.round(inTurn(phase) / grid.phase_step), grid.phase_step));
+  return wrapAngle(multiple(Math.round(wrapAngle(phase) / grid.phase_step), grid.phase_step));
 }
 
 /** The next phase of the grid in the sense of `steps`, so many steps on. */
 export function steppedPhase(grid, phase, steps) {
-  return inTurn(stepped(phase, grid.phase_step, steps));
+  return wrapAngle(stepped(phase, grid.phase_step, steps));
 }
 
-/** The next multiple of the grid's step of tilt in the sense of `steps`, so many steps on; within what can be asked for. */
+/** The next multiple of the grid's step of tilt in the sense of `steps`, so many steps on; within what can be requested. */
 export function steppedTilt(grid, tilt, steps) {
   return Math.min(Math.max(stepped(tilt, grid.tilt_step, steps), -TILT_LIMIT), TILT_LIMIT);
 }
@@ -40,9 +40,9 @@ export function nearestTilt(grid, tilt) {
   return multiple(Math.round(bounded / grid.tilt_step), grid.tilt_step);
 }
 
-/** A phase just behind another one, with six decimals: where a state changes no pose may be decided. */
-export function behind(phase) {
-  return inTurn((Math.ceil(phase * 1e6) + 1) / 1e6);
+/** A phase just after another one, with six decimals: exactly where a state changes the solver may decide no pose. */
+export function justAfter(phase) {
+  return wrapAngle((Math.ceil(phase * 1e6) + 1) / 1e6);
 }
 
 /** A grid in few words. */

@@ -30,10 +30,10 @@ export function wireHelp() {
   });
   document.documentElement.addEventListener("pointerleave", hide);
   document.addEventListener("pointerdown", hide);
-  // A finger has no other way to ask for it; what it chooses needs no help.
+  // Touch has no hover: there a press of the button shows the help.
   document.addEventListener("click", ({ target }) => {
-    const asked = target.closest?.("button.help, button.term");
-    if (asked) show(asked);
+    const pressed = target.closest?.("button.help, button.term");
+    if (pressed) show(pressed);
     else hide();
   });
   document.addEventListener("focusin", ({ target }) => {

@@ -1,12 +1,12 @@
 // Where a state with what was observed can be: the form that says what, and the orientations that remain.
 
 import { byId, html } from "./html.js";
-import { MOST_CONTACTS, nothingObserved, observationOf, observationText, remaining } from "./observed.js";
+import { MOST_CONTACTS, nothingObserved, observationOf, observationText, remaining } from "./observation.js";
 import { CLASSES, FEATURES, FLAGS, REGIONS } from "./terms.js";
-import { angleNumber, inTurn, percent } from "./units.js";
+import { angleNumber, wrapAngle, percent } from "./units.js";
 
 const MOST_SHOWN = 24;
-/** The ends of shorter stretches of phase are told apart by more decimals. */
+/** The ends of shorter stretches of phase are shown with more decimals. */
 const SHORT_STRETCH = 0.2;
 const CONTACTS = ["a contact", "another", "a third"];
 const ANY = ["", "any"];
@@ -116,7 +116,7 @@ export function summaryText({ share, undecided_share: undecided, orientations },
 function stretchesText(stretches) {
   const shown = stretches.slice(0, 3).map(({ start, end }) => {
     const decimals = end - start < SHORT_STRETCH ? 4 : 1;
-    return `${angleNumber(inTurn(start), decimals)}–${angleNumber(inTurn(end), decimals)}`;
+    return `${angleNumber(wrapAngle(start), decimals)}–${angleNumber(wrapAngle(end), decimals)}`;
   });
   const more = stretches.length > 3 ? ` and ${stretches.length - 3} more` : "";
   return `${shown.join(", ")}${more} deg`;

@@ -1,6 +1,6 @@
-// The page: what is chosen goes into the view, the model follows it, and the pictures are drawn of both.
+// The page: what is chosen goes into the view, the model loads its data, and the pictures are drawn from both.
 
-import { keepAddress } from "./address_bar.js";
+import { syncAddress } from "./address_bar.js";
 import { Api, ProblemError } from "./api.js";
 import { wireAxes } from "./axes.js";
 import { Busy } from "./busy.js";
@@ -8,11 +8,11 @@ import { showComparison } from "./compare_view.js";
 import { fitControls, showControls, showLibraries, wireControls } from "./controls.js";
 import { wireHelp } from "./help.js";
 import { byId } from "./html.js";
-import { forgetKey, keepKey, keptKey } from "./kept_key.js";
-import { KEY_WANTED, hideTrouble, progressOf, say, showBusy, showExplorer, showTrouble, troubleOf } from "./messages.js";
+import { forgetKey, storeKey, storedKey } from "./api_key.js";
+import { UNAUTHORIZED, hideErrorState, progressOf, showToast, showBusy, showExplorer, showErrorState, errorStateOf } from "./messages.js";
 import { Model } from "./model.js";
 import { Pictures } from "./pictures.js";
-import { rememberedUnit } from "./remembered.js";
+import { preferredUnit } from "./preferences.js";
 import { wireSaving } from "./saving.js";
 import { curlLine, pythonLines } from "./snippets.js";
 import { showTab, wireTabs } from "./tabs.js";
@@ -23,13 +23,13 @@ const RETRY_MS = 2000;
 const NOT_FOUND = 404;
 
 const linked = readFragment(location.hash);
-const api = new Api(keptKey());
-const view = new View({ unit: rememberedUnit(), ...linked.view });
-const model = new Model(api, new Busy(showBusy), came, failed);
+const api = new Api(storedKey());
+const view = new View({ unit: preferredUnit(), ...linked.view });
+const model = new Model(api, new Busy(showBusy), partArrived, partFailed);
 const pictures = new Pictures(api, model, view);
-let troubled = false;
+let inErrorState = false;
 
-async function begin() {
+async function start() {
   document.documentElement.dataset.theme = view.value.theme;
   await model.open(view.value);
   view.set({ library: model.library.id, unit: model.library.unit });
@@ -39,7 +39,7 @@ async function begin() {
   wireTabs(view);
   wireHelp();
   wireAxes();
-  wireCopying(keepAddress(view, (remarks) => say(remarks.join(". "))));
+  wireCopying(syncAddress(view, (remarks) => showToast(remarks.join(". "))));
   byId("forget-key").hidden = !api.hasKey;
   byId("forget-key").addEventListener("click", () => {
     forgetKey();
@@ -49,7 +49,7 @@ async function begin() {
   showControls(view.value);
   showTab(view.value);
   showExplorer();
-  if (linked.remarks.length > 0) say(linked.remarks.join(". "));
+  if (linked.remarks.length > 0) showToast(linked.remarks.join(". "));
   pictures.followSizes();
   view.follow((now, changed) => {
     showControls(now);
@@ -61,8 +61,8 @@ async function begin() {
   pictures.begin();
 }
 
-/** A part of the model has come. */
-function came(part) {
+/** Called with the name of a part of the model that has arrived. */
+function partArrived(part) {
   if (part === "library") fitControls(model.library.grid);
   if (part === "libraries") showLibraries(model.libraries, model.library);
   if (part === "state") model.followLibraries();
@@ -74,53 +74,53 @@ function came(part) {
   }
 }
 
-/** Says what is wrong, and tries again until it is not. */
-async function failed(error, part) {
+/** Shows what is wrong, and retries until it is not. */
+async function partFailed(error, part) {
   if (part === "library" && error instanceof ProblemError && error.status === NOT_FOUND) {
-    say(error.message);
+    showToast(error.message);
     view.set({ library: model.library.id }, "corrected");
     return;
   }
-  if (troubled) return;
-  troubled = true;
-  const asks = error instanceof ProblemError && error.status !== KEY_WANTED;
-  const trouble = troubleOf(error, asks ? await buildingNow() : [], model.library === null && view.value.library !== null);
-  showTrouble({ ...trouble, refused: api.hasKey });
-  if (trouble.kind === "fault") throw error;
-  if (trouble.kind === "key") takeKey();
-  else setTimeout(again, RETRY_MS);
+  if (inErrorState) return;
+  inErrorState = true;
+  const isOpen = error instanceof ProblemError && error.status !== UNAUTHORIZED;
+  const errorState = errorStateOf(error, isOpen ? await fetchProgress() : [], model.library === null && view.value.library !== null);
+  showErrorState({ ...errorState, refused: api.hasKey });
+  if (errorState.kind === "fault") throw error;
+  if (errorState.kind === "key") requestKey();
+  else setTimeout(retry, RETRY_MS);
 }
 
-/** Forgets a key that was refused, and goes on with the one that is given in the form. */
-function takeKey() {
+/** Removes a key that was refused, and continues with the one that is entered in the form. */
+function requestKey() {
   forgetKey();
   api.use(null);
   byId("key-form").onsubmit = (event) => {
     event.preventDefault();
     const key = byId("key").value.trim();
-    hideTrouble();
-    keepKey(key);
+    hideErrorState();
+    storeKey(key);
     api.use(key);
-    again();
+    retry();
   };
 }
 
-function again() {
-  troubled = false;
+function retry() {
+  inErrorState = false;
   if (model.library === null) {
-    begin().catch(failed);
+    start().catch(partFailed);
     return;
   }
-  api.getAnew("/healthz").then(() => {
+  api.getFresh("/healthz").then(() => {
     showExplorer();
     model.retry(view.value);
     pictures.begin();
-  }, failed);
+  }, partFailed);
 }
 
-async function buildingNow() {
+async function fetchProgress() {
   try {
-    const [{ building }, { jobs }] = await Promise.all([api.getAnew("/v1/building"), api.getAnew("/v1/jobs")]);
+    const [{ building }, { jobs }] = await Promise.all([api.getFresh("/v1/building"), api.getFresh("/v1/jobs")]);
     return progressOf(building, jobs);
   } catch {
     return [];
@@ -139,12 +139,12 @@ function wireCopying(address) {
       const content = text();
       try {
         await navigator.clipboard.writeText(content);
-        say(`${what} on the clipboard.`);
+        showToast(`${what} on the clipboard.`);
       } catch {
-        say(content);
+        showToast(content);
       }
     });
   }
 }
 
-begin().catch(failed);
+start().catch(partFailed);

@@ -1,10 +1,10 @@
 // The map of orientations.
 
-import { CLASS_COLOURS, inkOn, scaleColour } from "./colours.js";
+import { CLASS_COLOURS, textColourOn, scaleColour } from "./colours.js";
 import { isOnGrid, nearestTilt, tilts } from "./grid.js";
 import { QUANTITIES, needsSummaries } from "./quantities.js";
 import { sizeOf } from "./size.js";
-import { picture, put, svg } from "./svg.js";
+import { picture, replaceContent, svg } from "./svg.js";
 import { CLASSES, className } from "./terms.js";
 import { angle, angleNumber } from "./units.js";
 
@@ -20,19 +20,19 @@ const UNDECIDED_WIDTH = 84;
 const NONE = "–";
 const CROSS = 7;
 
-/** The picture in a frame; `choose` is called with roll and pitch, `tell` with a line about a cell, `goTo` with a measured pose. */
+/** The picture in a frame; `choose` is called with roll and pitch, `showText` with a line about a cell, `goTo` with a measured pose. */
 export class MapView {
   #frame;
   #choose;
-  #tell;
+  #showText;
   #goTo;
   /** What was drawn: the cells' values, where orientations lie, how large a square is, and the marks of the chosen state. */
   #drawn = null;
 
-  constructor(frame, { choose, tell, goTo }) {
+  constructor(frame, { choose, showText, goTo }) {
     this.#frame = frame;
     this.#choose = choose;
-    this.#tell = tell;
+    this.#showText = showText;
     this.#goTo = goTo;
   }
 
@@ -67,7 +67,7 @@ export class MapView {
     if (!onGrid) root.append(cross(placed(view)));
     root.append(...this.#poseMarks(model.measured ?? [], placed));
     cells.addEventListener("keydown", (event) => this.#step(event, angles, stop));
-    put(this.#frame, root);
+    replaceContent(this.#frame, root);
     if (focused) this.#frame.querySelector('.cell[tabindex="0"]')?.focus();
     this.#drawn = { values, placed, side, own };
     this.markState(model, view);
@@ -78,8 +78,8 @@ export class MapView {
     if (this.#drawn === null) return;
     const { values, placed, side, own } = this.#drawn;
     const onGrid = isOnGrid(model.library.grid, view);
-    put(own, ...(onGrid ? ownClass(model, view, placed(view), side) : []));
-    this.#tell(chosenText(model, view, values.get(keyOf(view.roll, view.pitch)), onGrid));
+    replaceContent(own, ...(onGrid ? ownClass(model, view, placed(view), side) : []));
+    this.#showText(chosenText(model, view, values.get(keyOf(view.roll, view.pitch)), onGrid));
   }
 
   #cell(cell, { roll, pitch, x, y, side }, range, { chosen, stop }) {
@@ -98,12 +98,12 @@ export class MapView {
     element.append(svg("rect", { ...box, fill: colour, class: colour === null ? "none" : null }));
     const letter = CLASSES[cell?.value]?.letter ?? (colour === null ? NONE : null);
     if (letter !== null && side > LETTERS_FROM) {
-      element.append(svg("text", { x: x + side / 2, y: y + side / 2 + 4, "text-anchor": "middle", fill: colour && inkOn(colour) }, letter));
+      element.append(svg("text", { x: x + side / 2, y: y + side / 2 + 4, "text-anchor": "middle", fill: colour && textColourOn(colour) }, letter));
     }
     const frame = { x: x + 2, y: y + 2, width: side - 4, height: side - 4 };
     if (chosen || stop) element.append(svg("rect", { ...frame, class: "frame-out" }), svg("rect", { ...frame, class: "frame-in" }));
     element.addEventListener("click", () => this.#choose(roll, pitch));
-    element.addEventListener("pointerenter", () => this.#tell(text));
+    element.addEventListener("pointerenter", () => this.#showText(text));
     return element;
   }
 
@@ -129,7 +129,7 @@ export class MapView {
   }
 }
 
-/** What each cell shows: by "roll pitch" its value, null where there is none, and a line that says it. */
+/** What each cell shows: by "roll pitch" its value, null where there is none, and a line of text. */
 export function mapValues(model, view) {
   const quantity = QUANTITIES[view.quantity];
   const overAll = needsSummaries(view);
@@ -266,7 +266,7 @@ function classLegend({ left, side }, top, gaps) {
     const x = first + LEGEND_PLACES[k];
     return [
       svg("rect", { x, y: top, width: 14, height: 14, fill: CLASS_COLOURS[key] }),
-      svg("text", { x: x + 7, y: top + 11, "text-anchor": "middle", fill: inkOn(CLASS_COLOURS[key]) }, letter),
+      svg("text", { x: x + 7, y: top + 11, "text-anchor": "middle", fill: textColourOn(CLASS_COLOURS[key]) }, letter),
       svg("text", { x: x + 19, y: top + 11 }, short),
     ];
   });

@@ -1,4 +1,4 @@
-// When what was first seen, for whoever measures: marks of the browser's own clock, from the start of the navigation.
+// Performance marks of when something was first painted, in the browser's own clock.
 
 const marked = new Set();
 

@@ -1,21 +1,21 @@
-// What the page says where there is nothing to explore: friendly, and with what to do.
+// What the page says where there is nothing to explore: what is wrong, and what to do.
 
-import { LostError, ProblemError } from "./api.js";
+import { UnreachableError, ProblemError } from "./api.js";
 import { byId, html } from "./html.js";
 
-/** The database is not there yet, or not as this service expects it; the problem says what mends it. */
+/** The database is not there yet, or not as this service expects it; the problem says how to fix it. */
 const UNAVAILABLE = 503;
 const NOT_FOUND = "urn:threadstate:problem:not-found";
-export const KEY_WANTED = 401;
-/** How long something said in passing is seen: so long, or as long as it takes to read. */
+export const UNAUTHORIZED = 401;
+/** How long a toast is shown: so long, or as long as it takes to read. */
 const LEAST_TOAST_MS = 4000;
 const LETTER_MS = 70;
 
 /**
- * What keeps the page from showing a library: {kind, detail, building}; `building` is what progressOf lists, `named`
+ * Why the page cannot show a library: {kind, detail, building}; `building` is what progressOf lists, `named`
  * whether the view names a library.
  */
-export function troubleOf(error, building, named) {
+export function errorStateOf(error, building, named) {
   return { kind: kindOf(error, building, named), detail: error.message, building };
 }
 
@@ -32,17 +32,17 @@ export function progressOf(building, jobs) {
 }
 
 function kindOf(error, building, named) {
-  if (error instanceof LostError) return "lost";
+  if (error instanceof UnreachableError) return "lost";
   if (!(error instanceof ProblemError)) return "fault";
-  if (error.status === KEY_WANTED) return "key";
+  if (error.status === UNAUTHORIZED) return "key";
   if (error.status === UNAVAILABLE) return "empty";
   if (error.type !== NOT_FOUND) return "fault";
   if (named) return "unknown";
   return building.length > 0 ? "building" : "empty";
 }
 
-/** What the service says, with its commands as such. */
-function said(detail) {
+/** The message of the service, with its commands as code. */
+function serviceMessage(detail) {
   const parts = detail.split("`").map((part, k) => (k % 2 === 1 ? html("code", {}, part) : part));
   return ["The service says: ", ...parts, "."];
 }
@@ -50,41 +50,41 @@ function said(detail) {
 const PAGES = {
   empty: ({ detail }) => [
     html("h2", {}, "There is no library to explore yet"),
-    html("p", {}, said(detail)),
-    html("p", {}, ["Compute one with ", html("code", {}, "threadstate rebuild"), "; this page goes on by itself when it is there."]),
+    html("p", {}, serviceMessage(detail)),
+    html("p", {}, ["Compute one with ", html("code", {}, "threadstate rebuild"), "; this page continues automatically when it is there."]),
   ],
   building: ({ building }) => [
-    html("h2", {}, building.every(({ waiting }) => waiting) ? "The library is asked for" : "The library is being computed"),
+    html("h2", {}, building.every(({ waiting }) => waiting) ? "The library is queued" : "The library is being computed"),
     ...building.map(({ designation, done, orientations, waiting }) =>
       html("div", {}, [
         html("p", {}, waiting ? [`${designation}: waits for a worker, `, html("code", {}, "threadstate worker")] : `${designation}: ${done} of ${orientations} orientations`),
         html("progress", { max: orientations, value: done, "aria-label": `progress of ${designation}` }),
       ]),
     ),
-    html("p", {}, "This page goes on by itself when it is there."),
+    html("p", {}, "This page continues automatically when it is there."),
   ],
   unknown: ({ detail }) => [
     html("h2", {}, "There is no such library here"),
-    html("p", {}, said(detail)),
+    html("p", {}, serviceMessage(detail)),
     html("p", {}, ["The link may belong to another service. See ", html("a", { href: "/" }, "the latest one"), "."]),
   ],
   key: ({ detail, refused }) => [
-    html("h2", {}, refused ? "This key is refused" : "This service asks for a key"),
-    html("p", {}, said(detail)),
+    html("h2", {}, refused ? "This key is refused" : "This service needs an API key"),
+    html("p", {}, serviceMessage(detail)),
     html("form", { id: "key-form" }, [
-      html("label", { for: "key" }, "key for reading "),
+      html("label", { for: "key" }, "API key "),
       html("input", { id: "key", type: "password", autocomplete: "off", spellcheck: "false", required: true, placeholder: "ts_…" }),
-      html("button", { type: "submit" }, "go on"),
+      html("button", { type: "submit" }, "continue"),
     ]),
     html("p", { class: "note" }, [
-      "Whoever runs the service makes one with ", html("code", {}, "threadstate key create"),
-      ". It stays in this tab until the tab is closed, and goes into a header, never into an address.",
+      "The operator of the service creates one with ", html("code", {}, "threadstate key create"),
+      ". It is stored in this tab until the tab is closed, and is sent in a header, never in an address.",
     ]),
   ],
   lost: () => [
     html("h2", {}, "The service does not answer"),
     html("p", {}, "It may have been stopped, or the network is down."),
-    html("p", {}, "This page tries again by itself, and keeps your view."),
+    html("p", {}, "This page retries automatically, and your view stays as it is."),
   ],
   fault: ({ detail }) => [
     html("h2", {}, "Something went wrong"),
@@ -93,39 +93,39 @@ const PAGES = {
   ],
 };
 
-/** Shows a trouble in place of the explorer; where it is shown already, nothing moves. */
-export function showTrouble(trouble) {
+/** Shows an error state in place of the explorer; where it is shown already, nothing changes. */
+export function showErrorState(errorState) {
   const frame = byId("message");
-  const told = JSON.stringify(trouble);
-  if (frame.dataset.told === told && !frame.hidden) return;
-  frame.dataset.told = told;
-  frame.replaceChildren(...PAGES[trouble.kind](trouble));
-  frame.dataset.kind = trouble.kind;
+  const shown = JSON.stringify(errorState);
+  if (frame.dataset.shown === shown && !frame.hidden) return;
+  frame.dataset.shown = shown;
+  frame.replaceChildren(...PAGES[errorState.kind](errorState));
+  frame.dataset.kind = errorState.kind;
   byId("explorer").hidden = true;
   frame.hidden = false;
   (frame.querySelector("input") ?? frame).focus();
 }
 
-/** Takes a trouble away, before it is known whether all is well. */
-export function hideTrouble() {
+/** Hides the error state, before the next attempt is known to succeed. */
+export function hideErrorState() {
   byId("message").hidden = true;
 }
 
 /** Shows the explorer again. */
 export function showExplorer() {
-  hideTrouble();
+  hideErrorState();
   byId("explorer").hidden = false;
 }
 
-/** Says something in passing, at the foot of the page. */
-export function say(text) {
+/** Shows a toast at the foot of the page. */
+export function showToast(text) {
   const toast = byId("toast");
   toast.textContent = text;
   clearTimeout(Number(toast.dataset.timer));
   toast.dataset.timer = setTimeout(() => (toast.textContent = ""), Math.max(LEAST_TOAST_MS, text.length * LETTER_MS));
 }
 
-/** Says what is being computed; nothing where nothing is. */
+/** Shows what is being computed; nothing where nothing is. */
 export function showBusy(texts) {
   byId("busy").hidden = texts.length === 0;
   byId("busy-text").textContent = texts.length === 0 ? "" : `${texts.join("; ")} …`;

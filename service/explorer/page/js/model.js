@@ -1,21 +1,21 @@
-// What the service says of the present view; whoever draws it is told of each part as it comes.
+// The data of the present view, fetched from the service; a callback reports each part as it arrives.
 
 import { ProblemError } from "./api.js";
 import { heightsOf } from "./curve.js";
+import { Debounce } from "./debounce.js";
 import { isOnGrid, nearestPhase } from "./grid.js";
-import { observationQuery } from "./observed.js";
-import { Pace } from "./pace.js";
+import { observationQuery } from "./observation.js";
 import { posesOfView } from "./poses.js";
 import { needsSummaries } from "./quantities.js";
-import { Rest } from "./rest.js";
+import { Throttle } from "./throttle.js";
 import { turnPath } from "./turn_path.js";
 
 const MAP_FIELDS = "roll,pitch,class,drop,embedment,pivot_offset,margins";
 const MAP_PAGE = 1000;
-/** The map follows a phase that moves, so often. */
+/** Milliseconds between requests of the map while the phase moves. */
 const MAP_MS = 300;
-/** What belongs to a formation is asked for when the phase has come to rest. */
-const REST_MS = 150;
+/** What belongs to a formation is requested once the phase has not moved for so many milliseconds. */
+const DEBOUNCE_MS = 150;
 const UNRESOLVED = 422;
 const NOT_FOUND = 404;
 /** The parts that belong to one library. */
@@ -24,7 +24,7 @@ const OF_LIBRARY = [
   "measured", "located",
 ];
 
-/** The parts of the model, each null until it has come. */
+/** The parts of the model, each null until it has arrived. */
 export class Model {
   library = null;
   /** All libraries, the latest first, and the number of the one that `latest` means. */
@@ -34,7 +34,7 @@ export class Model {
   windows = null;
   map = null;
   history = null;
-  /** Heights and intervals of the orientation: they come together, as where the picture begins follows from both. */
+  /** Heights and intervals of the orientation: they arrive together, as where the picture begins follows from both. */
   depth = null;
   state = null;
   node = null;
@@ -46,29 +46,29 @@ export class Model {
 
   #api;
   #busy;
-  #told;
-  #failed;
-  /** By part the key that is wanted, and the one whose answer is here. */
-  #wanted = new Map();
+  #onPart;
+  #onError;
+  /** By part the key that was requested last, and the key of the response that is stored. */
+  #requested = new Map();
   #arrived = new Map();
-  #mapPace = new Pace(MAP_MS);
-  #solvePace = new Pace(0);
-  #formationRest = new Rest(REST_MS);
+  #mapThrottle = new Throttle(MAP_MS);
+  #solveThrottle = new Throttle(0);
+  #formationDebounce = new Debounce(DEBOUNCE_MS);
 
-  /** `told` is called with the name of a part that has come, `failed` with an error and the part that it keeps away. */
-  constructor(api, busy, told, failed) {
+  /** `onPart` is called with the name of a part that has arrived, `onError` with an error and the part that is missing for it. */
+  constructor(api, busy, onPart, onError) {
     this.#api = api;
     this.#busy = busy;
-    this.#told = told;
-    this.#failed = failed;
+    this.#onPart = onPart;
+    this.#onError = onError;
   }
 
-  /** Heights along the phase; null until they have come. */
+  /** Heights along the phase; null until they have arrived. */
   get heights() {
     return this.depth?.heights ?? null;
   }
 
-  /** The intervals of the phase; null until they have come, and where the library has none. */
+  /** The intervals of the phase; null until they have arrived, and where the library has none. */
   get intervals() {
     return this.depth?.intervals ?? null;
   }
@@ -84,84 +84,84 @@ export class Model {
     this.library = await this.#api.get(`/v1/libraries/${id}`, { unit: view.unit });
   }
 
-  /** Asks for everything of a view that is not here yet. */
+  /** Requests everything of a view that is not loaded yet. */
   follow(view) {
     const { unit, library } = view;
     if (this.library.id !== library || this.library.unit !== unit) {
-      this.#want("library", `${library} ${unit}`, () => this.#api.get(`/v1/libraries/${library}`, { unit }));
+      this.#request("library", `${library} ${unit}`, () => this.#api.get(`/v1/libraries/${library}`, { unit }));
     }
     if (this.library.id !== library) return;
     const where = `${library} ${unit} ${view.roll} ${view.pitch}`;
-    if (needsSummaries(view)) this.#askForSummaries(unit);
-    this.#want("state", `${where} ${view.phase}`, () => this.#state(view), (answer, wanted) => answer !== null && wanted.startsWith(`${where} `));
-    this.#want("depth", where, () => this.#depth(view, this.library));
+    if (needsSummaries(view)) this.#requestSummaries(unit);
+    this.#request("state", `${where} ${view.phase}`, () => this.#state(view), (answer, requested) => answer !== null && requested.startsWith(`${where} `));
+    this.#request("depth", where, () => this.#depth(view, this.library));
     this.#followMap(view);
     this.#followTolerance(view);
     this.#followBeside(view);
-    this.#want("measured", `${library} ${unit} ${view.poses}`, () => this.#measured(view));
-    this.#want("located", `${library} ${view.observed}`, () => this.#located(view));
+    this.#request("measured", `${library} ${unit} ${view.poses}`, () => this.#measured(view));
+    this.#request("located", `${library} ${view.observed}`, () => this.#located(view));
   }
 
   #followMap({ phase, unit, library }) {
     const onGrid = nearestPhase(this.library.grid, phase);
     const key = `${library} ${unit} ${onGrid}`;
-    if (this.#wanted.get("map") === key) return;
-    this.#mapPace.run(() => this.#want("map", key, () => this.#map(onGrid, unit)));
+    if (this.#requested.get("map") === key) return;
+    this.#mapThrottle.run(() => this.#request("map", key, () => this.#map(onGrid, unit)));
   }
 
-  #askForSummaries(unit) {
+  #requestSummaries(unit) {
     const key = `${this.library.id} ${unit}`;
-    this.#want("orientations", key, async () => (await this.#api.get(`${this.root}/orientations`, { unit })).orientations);
-    this.#want("windows", key, () => this.#optional(this.#api.get(`${this.root}/windows`, { unit })));
+    this.#request("orientations", key, async () => (await this.#api.get(`${this.root}/orientations`, { unit })).orientations);
+    this.#request("windows", key, () => this.#optional(this.#api.get(`${this.root}/windows`, { unit })));
   }
 
-  /** Asks for the history of a view's orientation, whose states then need not be asked for one by one; off the grid there is none. */
+  /** Requests the history of a view's orientation, whose states then need not be requested one by one; off the grid there is none. */
   followHistory({ unit, library, roll, pitch }) {
     if (this.library.id !== library || !isOnGrid(this.library.grid, { roll, pitch })) return;
-    this.#want("history", `${library} ${unit} ${roll} ${pitch}`, () => this.#history({ unit, roll, pitch }));
+    this.#request("history", `${library} ${unit} ${roll} ${pitch}`, () => this.#history({ unit, roll, pitch }));
   }
 
-  /** Asks for all libraries, and which of them is the latest. */
+  /** Requests all libraries, and which of them is the latest. */
   followLibraries() {
-    this.#want("libraries", "all", async () => {
+    this.#request("libraries", "all", async () => {
       const [{ libraries }, latest] = await Promise.all([
-        this.#api.getAnew("/v1/libraries"),
-        this.#optional(this.#api.getAnew("/v1/libraries/latest")),
+        this.#api.getFresh("/v1/libraries"),
+        this.#optional(this.#api.getFresh("/v1/libraries/latest")),
       ]);
       return { all: libraries, latest: latest?.id ?? null };
     });
   }
 
-  /** Asks for a formation and its way to the window; both null where the pose has none. */
+  /** Requests a formation and its path to the window; both null where the pose has none. */
   followFormation(view, interval) {
-    this.#formationRest.after(() => this.#askForFormation(view, interval));
+    this.#formationDebounce.run(() => this.#requestFormation(view, interval));
   }
 
-  #askForFormation({ unit, library, roll, pitch, phase }, interval) {
+  #requestFormation({ unit, library, roll, pitch, phase }, interval) {
     if (this.library.id !== library) return;
     const key = interval?.formation.key ?? null;
     const onGrid = isOnGrid(this.library.grid, { roll, pitch });
-    this.#want("node", `${library} ${unit} ${key}`, async () =>
+    this.#request("node", `${library} ${unit} ${key}`, async () =>
       key === null ? null : this.#optional(this.#api.get(`${this.root}/network/formations/${key}`, { unit })),
     );
-    this.#want("path", `${library} ${unit} ${roll} ${pitch} ${interval?.start} ${onGrid ? "" : phase}`, async () => {
+    this.#request("path", `${library} ${unit} ${roll} ${pitch} ${interval?.start} ${onGrid ? "" : phase}`, async () => {
       if (key === null) return null;
       if (!onGrid) return { path: turnPath(this.intervals.history, phase) };
       return this.#optional(this.#api.get(`${this.root}/network/paths`, { from: key, roll, pitch, phase: interval.inside, unit }));
     });
   }
 
-  /** Asks for all formations of the network; null where the library has none. */
+  /** Requests all formations of the network; null where the library has none. */
   followNetwork() {
-    this.#want("formations", `${this.library.id}`, async () => (await this.#optional(this.#api.get(`${this.root}/network/formations`)))?.formations ?? null);
+    this.#request("formations", `${this.library.id}`, async () => (await this.#optional(this.#api.get(`${this.root}/network/formations`)))?.formations ?? null);
   }
 
   #followTolerance({ unit, library, roll, pitch, tolerance }) {
-    this.#want("falls", `${library} ${unit} ${roll} ${pitch} ${tolerance}`, async () => {
+    this.#request("falls", `${library} ${unit} ${roll} ${pitch} ${tolerance}`, async () => {
       if (tolerance === null) return null;
       try {
-        const asked = this.#api.get(`/v1/histories/${roll}/${pitch}/falls`, { library, tolerance, unit });
-        return (await this.#busy.during(`computing the falls within ±${tolerance} deg`, asked)).range;
+        const response = this.#api.get(`/v1/histories/${roll}/${pitch}/falls`, { library, tolerance, unit });
+        return (await this.#busy.during(`computing the falls within ±${tolerance} deg`, response)).range;
       } catch (error) {
         if (!(error instanceof ProblemError) || error.status >= 500) throw error;
         return { roll, pitch, tolerance, problem: error.message };
@@ -171,7 +171,7 @@ export class Model {
 
   #followBeside({ unit, beside_library: id, beside_roll: roll, beside_pitch: pitch }) {
     const chosen = [id, roll, pitch].every((value) => value !== null);
-    this.#want("beside", chosen ? `${id} ${unit} ${roll} ${pitch}` : "none", async () => {
+    this.#request("beside", chosen ? `${id} ${unit} ${roll} ${pitch}` : "none", async () => {
       if (!chosen) return null;
       const library = await this.#optional(this.#api.get(`/v1/libraries/${id}`, { unit }));
       if (library === null) return { library: null, id, roll, pitch };
@@ -181,42 +181,42 @@ export class Model {
     });
   }
 
-  /** Asks again for what has not come, after the service was lost. */
+  /** Requests again what is missing, after the service was unreachable. */
   retry(view) {
-    this.#wanted.clear();
+    this.#requested.clear();
     this.follow(view);
   }
 
-  /** An answer that comes when another one is wanted is left, unless that has not come and this `isWelcome` (answer, key wanted). */
-  async #want(part, key, ask, isWelcome = () => false) {
-    if (this.#wanted.get(part) === key) return;
-    this.#wanted.set(part, key);
+  /** A response that arrives after another key was requested is dropped, unless that one has not arrived and this one `isUsable` (response, key requested) until then. */
+  async #request(part, key, fetchPart, isUsable = () => false) {
+    if (this.#requested.get(part) === key) return;
+    this.#requested.set(part, key);
     try {
-      const answer = await ask();
-      const wanted = this.#wanted.get(part);
-      const late = wanted !== key;
-      if (late && (wanted === undefined || this.#arrived.get(part) === wanted || !isWelcome(answer, wanted))) return;
+      const answer = await fetchPart();
+      const requested = this.#requested.get(part);
+      const late = requested !== key;
+      if (late && (requested === undefined || this.#arrived.get(part) === requested || !isUsable(answer, requested))) return;
       this.#arrived.set(part, key);
-      if (part === "library" && answer.id !== this.library.id) this.#forget();
+      if (part === "library" && answer.id !== this.library.id) this.#clear();
       this[part] = answer;
-      this.#told(part);
+      this.#onPart(part);
     } catch (error) {
-      if (this.#wanted.get(part) !== key) return;
-      this.#wanted.delete(part);
-      this.#failed(error, part);
+      if (this.#requested.get(part) !== key) return;
+      this.#requested.delete(part);
+      this.#onError(error, part);
     }
   }
 
-  /** Forgets what belongs to the library that was shown. */
-  #forget() {
+  /** Clears what belongs to the library that was shown. */
+  #clear() {
     for (const part of OF_LIBRARY) {
       this[part] = null;
-      this.#wanted.delete(part);
+      this.#requested.delete(part);
       this.#arrived.delete(part);
     }
   }
 
-  /** Null where there is no such thing: a library by meshes has no histories, a formation may have no way. */
+  /** Null where the service says 404: a library by meshes has no histories, a formation may have no path. */
   async #optional(answer) {
     try {
       return await answer;
@@ -260,16 +260,16 @@ export class Model {
   }
 
   #computed(what, { roll, pitch, unit }, { id }) {
-    const asked = this.#api.get(`/v1/histories/${roll}/${pitch}/${what}`, { library: id, unit });
-    return this.#busy.during(`computing the history of roll ${roll}, pitch ${pitch} deg`, asked);
+    const response = this.#api.get(`/v1/histories/${roll}/${pitch}/${what}`, { library: id, unit });
+    return this.#busy.during(`computing the history of roll ${roll}, pitch ${pitch} deg`, response);
   }
 
-  /** From the history where that is here; the first state of an orientation does not wait for it. */
+  /** From the history where that is loaded; the first state of an orientation does not wait for it. */
   async #state({ library, roll, pitch, phase, unit }) {
     const pose = { roll, pitch, phase };
     if (!isOnGrid(this.library.grid, pose)) return this.#solvedState(pose, unit);
     const onGrid = nearestPhase(this.library.grid, phase) === phase;
-    if (this.#wanted.get("history") !== `${library} ${unit} ${roll} ${pitch}`) {
+    if (this.#requested.get("history") !== `${library} ${unit} ${roll} ${pitch}`) {
       return onGrid ? this.#storedState(pose, unit) : this.#solvedState(pose, unit);
     }
     const history = await this.#history({ unit, roll, pitch });
@@ -292,11 +292,11 @@ export class Model {
   }
 
   /**
-   * Solved with the pair and the tolerances of the library; of poses that come faster than that takes the last, and null for those
+   * Solved with the pair and the tolerances of the library; of poses that come faster than one is solved the last, and null for those
    * before it.
    */
   async #solvedState(pose, unit) {
-    const answers = await this.#solvePace.run(() => this.#solved([pose], unit));
+    const answers = await this.#solveThrottle.run(() => this.#solved([pose], unit));
     if (answers === undefined) return null;
     const [[state, reason]] = answers;
     return { pose, unit, state, reason, stored: false };

@@ -1,6 +1,6 @@
-// What leads to a formation and what follows it, in groups that a reader can take in.
+// What leads to a formation and what follows it, in groups.
 
-import { inTurn } from "./units.js";
+import { wrapAngle } from "./units.js";
 
 /** A smaller share is round-off of what a percentage shows. */
 const ROUNDED = 0.0005;
@@ -57,14 +57,14 @@ export function followed(node, pose, move, grid) {
 /** Orientations count far more than phase; a turn looks on in its own sense. */
 function distance({ roll, pitch, start, end }, target, move) {
   const tilts = Math.abs(roll - target.roll) + Math.abs(pitch - target.pitch);
-  const ahead = covers({ start, end }, target.phase) ? 0 : move === "cw" ? inTurn(target.phase - end) : inTurn(start - target.phase);
+  const ahead = covers({ start, end }, target.phase) ? 0 : move === "cw" ? wrapAngle(target.phase - end) : wrapAngle(start - target.phase);
   return tilts * 1000 + ahead;
 }
 
 function covers({ start, end }, phase) {
-  return inTurn(phase - start) < end - start;
+  return wrapAngle(phase - start) < end - start;
 }
 
 function middleOf({ start, end }) {
-  return inTurn((start + end) / 2);
+  return wrapAngle((start + end) / 2);
 }

@@ -1,8 +1,8 @@
 // All formations of the network: where one is, what may come next, and the way to the window.
 
 import { CLASS_COLOURS, UNDECIDED_COLOUR } from "./colours.js";
-import { bandsOf, passed } from "./overview.js";
-import { picture, put, svg } from "./svg.js";
+import { bandsOf, formationsAlong } from "./overview.js";
+import { picture, replaceContent, svg } from "./svg.js";
 import { CLASSES } from "./terms.js";
 import { percent } from "./units.js";
 
@@ -14,31 +14,31 @@ const MOST = Math.floor((WIDTH - LEFT) / STEP);
 const APART = 2.4;
 /** Sides of squares: the rarest formation's and the commonest's. */
 const [LEAST_SIDE, MOST_SIDE] = [6, 11.2];
-const KEY = 36;
+const LEGEND_HEIGHT = 36;
 const PLACES = [14, 92, 194];
 
-/** The picture in a frame; `choose` is called with the key of a formation, `tell` with a line about one. */
+/** The picture in a frame; `choose` is called with the key of a formation, `showText` with a line about one. */
 export class NetworkView {
   #frame;
   #choose;
-  #tell;
+  #showText;
   #places = new Map();
   #marks = null;
   #here = null;
   /** The square that Tab leads to. */
   #stop = null;
 
-  constructor(frame, choose, tell) {
+  constructor(frame, choose, showText) {
     this.#frame = frame;
     this.#choose = choose;
-    this.#tell = tell;
+    this.#showText = showText;
   }
 
   /** Draws all formations. */
   draw(formations) {
     const bands = bandsOf(formations, MOST);
     const lines = bands.reduce((sum, band) => sum + band.lines.length, 0);
-    const height = TOP + lines * STEP + bands.length * APART + KEY + 6;
+    const height = TOP + lines * STEP + bands.length * APART + LEGEND_HEIGHT + 6;
     const root = picture(WIDTH, height, "All formations of the network", { class: "network", role: "group" });
     const squares = svg("g", { role: "listbox", "aria-label": "formations by the turning to the window" });
     const greatest = Math.max(...formations.map(({ share }) => share));
@@ -54,9 +54,9 @@ export class NetworkView {
     }
     this.#marks = { links: svg("g", { class: "links" }), way: svg("g", { class: "way" }) };
     root.prepend(this.#marks.links);
-    root.append(squares, this.#marks.way, ...heading(), ...key(height - KEY + 8));
+    root.append(squares, this.#marks.way, ...heading(), ...legend(height - LEGEND_HEIGHT + 8));
     squares.addEventListener("keydown", (event) => this.#step(event));
-    put(this.#frame, root);
+    replaceContent(this.#frame, root);
   }
 
   /**
@@ -70,35 +70,35 @@ export class NetworkView {
     this.#here?.element.setAttribute("aria-selected", false);
     this.#here = this.#places.get(node?.formation.key) ?? this.#places.values().next().value ?? null;
     if (!ledAway) this.#stopAt(this.#here?.element ?? null);
-    put(this.#marks.links);
-    put(this.#marks.way);
+    replaceContent(this.#marks.links);
+    replaceContent(this.#marks.way);
     if (node === null || this.#here === null) return;
     this.#here.element.setAttribute("aria-selected", true);
-    put(this.#marks.links, ...this.#links(node));
-    put(this.#marks.way, ...this.#way(path));
+    replaceContent(this.#marks.links, ...this.#links(node));
+    replaceContent(this.#marks.way, ...this.#way(path));
     if (focused && !ledAway) this.#here.element.focus();
-    this.#tell(this.#here.formation.text);
+    this.#showText(this.#here.formation.text);
   }
 
-  /** Says that there is nothing to be drawn. */
-  tell(text) {
+  /** Shows a text in place of the network. */
+  showEmpty(text) {
     this.#marks = null;
-    put(this.#frame);
-    this.#tell(text);
+    replaceContent(this.#frame);
+    this.#showText(text);
   }
 
   #square(formation, x, y, greatest) {
     const { key: name, class: stateClass, share, text, orientations } = formation;
     const side = LEAST_SIDE + (MOST_SIDE - LEAST_SIDE) * Math.cbrt(share / greatest);
-    const told = `${text}; ${percent(share)} of all poses, at ${orientations} orientation${orientations === 1 ? "" : "s"}`;
-    const element = svg("g", { role: "option", class: "formation", tabindex: -1, "aria-selected": false, "aria-label": told, "data-key": name });
+    const label = `${text}; ${percent(share)} of all poses, at ${orientations} orientation${orientations === 1 ? "" : "s"}`;
+    const element = svg("g", { role: "option", class: "formation", tabindex: -1, "aria-selected": false, "aria-label": label, "data-key": name });
     element.append(
       svg("rect", { x: x - STEP / 2, y: y - STEP / 2, width: STEP, height: STEP, class: "reach", fill: "transparent" }),
       svg("rect", { x: x - side / 2, y: y - side / 2, width: side, height: side, rx: 1.5, fill: CLASS_COLOURS[stateClass] ?? UNDECIDED_COLOUR }),
     );
     element.addEventListener("click", () => this.#choose(name));
-    element.addEventListener("pointerenter", () => this.#tell(told));
-    element.addEventListener("focus", () => this.#tell(told));
+    element.addEventListener("pointerenter", () => this.#showText(label));
+    element.addEventListener("focus", () => this.#showText(label));
     this.#places.set(name, { x, y, element, formation });
     return element;
   }
@@ -115,7 +115,7 @@ export class NetworkView {
   }
 
   #way(path) {
-    const places = passed(path).map((name) => this.#places.get(name)).filter(Boolean);
+    const places = formationsAlong(path).map((name) => this.#places.get(name)).filter(Boolean);
     const points = places.map(({ x, y }) => `${x} ${y}`);
     const line = points.length > 1 ? [svg("path", { d: `M${points.join("L")}`, class: "outline" }), svg("path", { d: `M${points.join("L")}`, class: "line" })] : [];
     const { x, y } = this.#here;
@@ -165,7 +165,7 @@ function heading() {
   ];
 }
 
-function key(y) {
+function legend(y) {
   const entry = (x, at, name, text) => [
     svg("line", { x1: x, x2: x + 22, y1: at, y2: at, class: name, "stroke-width": 2 }),
     svg("text", { x: x + 27, y: at + 4 }, text),

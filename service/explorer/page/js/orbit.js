@@ -27,7 +27,7 @@ export function zoomed(camera, steps) {
 }
 
 /** The camera after a key, or null where the key means nothing. */
-export function keyed(camera, key) {
+export function cameraAfterKey(camera, key) {
   switch (key) {
     case "ArrowLeft": return turned(camera, -KEY_STEP, 0);
     case "ArrowRight": return turned(camera, KEY_STEP, 0);
@@ -41,7 +41,7 @@ export function keyed(camera, key) {
 }
 
 /** Where the camera stands about the origin, z up. */
-export function standpoint({ azimuth, elevation, distance }) {
+export function cameraPosition({ azimuth, elevation, distance }) {
   const [a, e] = [azimuth, elevation].map((degrees) => (degrees * Math.PI) / 180);
   return [distance * Math.cos(e) * Math.cos(a), distance * Math.cos(e) * Math.sin(a), distance * Math.sin(e)];
 }

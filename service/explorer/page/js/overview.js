@@ -22,8 +22,8 @@ export function bandsOf(formations, most) {
   }));
 }
 
-/** What a path passes, without what it passes twice in a row: keys of formations. */
-export function passed(path) {
+/** The keys of the formations along a path, without repeats in a row. */
+export function formationsAlong(path) {
   const keys = (path?.steps ?? []).map(({ formation }) => formation);
   return keys.filter((key, k) => key !== keys[k - 1]);
 }

@@ -1,9 +1,9 @@
 // The way from the present formation to the clearance window, step by step.
 
 import { CLASS_COLOURS, UNDECIDED_COLOUR } from "./colours.js";
-import { picture, put, svg } from "./svg.js";
+import { picture, replaceContent, svg } from "./svg.js";
 import { className } from "./terms.js";
-import { angle, angleNumber, inTurn } from "./units.js";
+import { angle, angleNumber, wrapAngle } from "./units.js";
 
 const WIDTH = 396;
 const PER_ROW = 6;
@@ -25,7 +25,7 @@ export function drawPath(frame, path, choose) {
     }
     root.append(stepBox(step, labels[k], x, y, k === 0, choose));
   });
-  put(frame, root);
+  replaceContent(frame, root);
 }
 
 /** The path in one line. */
@@ -33,12 +33,12 @@ export function pathText(path) {
   if (path === null) return "No counter-clockwise turn leads to a clearance window from here.";
   if (path.steps[0].in_window) return "Here the bolt is in the clearance window.";
   const count = path.transitions === 1 ? "1 transition" : `${path.transitions} transitions`;
-  return `${count}; the window begins at ${angle(inTurn(path.steps.at(-1).phase), 4)}`;
+  return `${count}; the window begins at ${angle(wrapAngle(path.steps.at(-1).phase), 4)}`;
 }
 
-/** What stands in the box of each step: the phase where it begins, with the decimals that tell it from its neighbours. */
+/** What stands in the box of each step: the phase where it begins, with the decimals that distinguish it from its neighbours. */
 export function stepLabels(steps) {
-  const written = (k, decimals) => angleNumber(inTurn(steps[k].phase), decimals);
+  const written = (k, decimals) => angleNumber(wrapAngle(steps[k].phase), decimals);
   return steps.map(({ in_window: within }, k) => {
     if (within) return "window";
     if (k === 0) return "here";
@@ -54,7 +54,7 @@ function placeOf(k) {
 
 function stepBox(step, text, x, y, first, choose) {
   const name = step.in_window ? "step window" : "step";
-  const label = `${text}: ${className(step.class)} from phase ${angle(inTurn(step.phase))}`;
+  const label = `${text}: ${className(step.class)} from phase ${angle(wrapAngle(step.phase))}`;
   const box = svg("g", { class: first ? `${name} first` : name, role: "button", tabindex: 0, "aria-label": label });
   box.append(svg("rect", { x, y, ...BOX, rx: 4, class: "box" }, svg("title", {}, step.text)));
   box.append(svg("rect", { x, y, width: 5, height: BOX.height, rx: 2, fill: CLASS_COLOURS[step.class] ?? UNDECIDED_COLOUR }));

@@ -4,14 +4,14 @@ import { CLASS_COLOURS } from "./colours.js";
 import { besideText, placeText, showComparison, showSnaps, wireComparison } from "./compare_view.js";
 import { intervalAt, nextFormations } from "./curve.js";
 import { DepthView, depthReadout } from "./depth_view.js";
-import { behindSnap, noSnapText, toleranceText } from "./falls.js";
-import { behind, isOnGrid, nearestPhase, steppedPhase } from "./grid.js";
+import { afterSnap, noSnapText, toleranceText } from "./falls.js";
+import { justAfter, isOnGrid, nearestPhase, steppedPhase } from "./grid.js";
 import { byId } from "./html.js";
 import { MapView, mapPhaseText } from "./map_view.js";
 import { markPainted } from "./marks.js";
-import { say } from "./messages.js";
+import { showToast } from "./messages.js";
 import { followed } from "./neighbours.js";
-import { remaining } from "./observed.js";
+import { remaining } from "./observation.js";
 import { firstCamera } from "./orbit.js";
 import { Player } from "./player.js";
 import { QUANTITIES, needsSummaries } from "./quantities.js";
@@ -25,10 +25,10 @@ import { WHOLE_TURN, aroundEvent, middleOf, rangeOf, zoomed } from "./zoom.js";
 const STAGES_PER_SECOND = 0.55;
 const PHASE_STEPS_PER_SECOND = 30;
 /** Where less motion is preferred: a picture a second, and stages whole. */
-const STILL_STEPS_PER_SECOND = 1;
-const UNITED = ["roll", "pitch"];
-const NO_NETWORK = "There is none: the library was computed by meshes, or the phase is undecided.";
-const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not know it. The way below is by turning alone.";
+const REDUCED_MOTION_STEPS_PER_SECOND = 1;
+const TILT_FIELDS = ["roll", "pitch"];
+const NO_NETWORK = "No network: the library was computed by meshes, or the phase is undecided.";
+const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not have it. The way below is by turning alone.";
 /** Parts of the model that are seen in the tabs behind the first one alone. */
 const TAB_PARTS = ["node", "path", "formations", "located", "measured"];
 const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
@@ -42,9 +42,9 @@ export class Pictures {
   #map;
   #depth;
   #player;
-  /** The views of the tabs behind the first one, null until they have been fetched, and what came meanwhile. */
+  /** The views of the tabs behind the first one, null until they have been fetched, and what arrived meanwhile. */
   #tabs = null;
-  #tabsAsked = false;
+  #tabsRequested = false;
   #missed = new Set();
   /** What the scene has the solids of: a library's number. */
   #solids = null;
@@ -57,7 +57,7 @@ export class Pictures {
     const goTo = ({ roll, pitch, phase }) => view.set({ roll, pitch, phase }, "entry");
     this.#map = new MapView(byId("map"), {
       choose: (roll, pitch) => view.set({ roll, pitch }),
-      tell: (text) => (byId("map-readout").textContent = text),
+      showText: (text) => (byId("map-readout").textContent = text),
       goTo,
     });
     this.#depth = new DepthView(byId("depth"), {
@@ -83,10 +83,10 @@ export class Pictures {
     this.#showTab();
   }
 
-  /** Fetches the views of the tabs behind the first one, and shows what came before they did. */
+  /** Fetches the views of the tabs behind the first one, and shows what arrived before. */
   async #beginTabs() {
-    if (this.#tabsAsked) return;
-    this.#tabsAsked = true;
+    if (this.#tabsRequested) return;
+    this.#tabsRequested = true;
     const { tabViews } = await import("./tab_views.js");
     const view = this.#view;
     this.#tabs = tabViews({
@@ -113,7 +113,7 @@ export class Pictures {
     }
   }
 
-  /** Draws what a part of the model that has come is seen in. */
+  /** Draws the pictures of a part of the model that has arrived. */
   redraw(part) {
     const view = this.#view.value;
     if (["map", "orientations", "windows", "library", "measured", "located"].includes(part)) this.#drawMap();
@@ -137,20 +137,20 @@ export class Pictures {
     if (["node", "path"].includes(part)) this.#markNetwork();
   }
 
-  /** Draws what parts of the view that have changed are seen in. */
+  /** Draws the pictures of the parts of the view that have changed. */
   follow(changed) {
     const has = (...names) => names.some((name) => changed.has(name));
     if (has("roll", "pitch", "quantity", "over", "tab")) this.#drawMap();
     if (has("from", "span")) this.#drawCurves();
     if (has(...BESIDE)) showComparison(this.#view.value);
     if (has("observed")) this.#tabs?.locate.show(this.#view.value.observed);
-    if (has(...UNITED, "phase")) this.#markLists();
-    if (has(...UNITED, "tolerance")) this.#showFalls();
+    if (has(...TILT_FIELDS, "phase")) this.#markLists();
+    if (has(...TILT_FIELDS, "tolerance")) this.#showFalls();
     if (has("phase")) this.#moveCursors();
-    if (has(...UNITED)) this.#showSnap();
+    if (has(...TILT_FIELDS)) this.#showSnap();
     if (has("stage", "nut", "azimuth", "elevation", "distance")) this.#drawScene();
     if (has("tab")) this.#showTab();
-    if (has(...UNITED, "stage") && !["stages", "phase"].includes(this.#player.playing)) this.#player.stop();
+    if (has(...TILT_FIELDS, "stage") && !["stages", "phase"].includes(this.#player.playing)) this.#player.stop();
   }
 
   #drawMap() {
@@ -198,7 +198,7 @@ export class Pictures {
     return tabs.includes(this.#view.value.tab);
   }
 
-  /** Draws what a tab holds that has come into sight. */
+  /** Draws what a tab holds that has become visible. */
   #showTab() {
     if (this.#isSeen("network")) this.#model.followNetwork();
     this.#drawCurves();
@@ -211,7 +211,7 @@ export class Pictures {
     this.#drawState();
   }
 
-  /** Draws what the tabs hold that ask: what remains of an observation, and measured poses. */
+  /** Draws the tabs with forms: what remains of an observation, and measured poses. */
   #drawLists() {
     const { value } = this.#view;
     this.#tabs?.locate.show(value.observed);
@@ -225,7 +225,7 @@ export class Pictures {
     this.#tabs?.poses.mark(this.#view.value);
   }
 
-  /** The orientations that an observation leaves, while it is looked at. */
+  /** The orientations that an observation leaves, while its tab is shown. */
   #remaining() {
     const { located } = this.#model;
     return this.#isSeen("locate") && located?.stretches ? remaining(located.stretches) : [];
@@ -241,7 +241,7 @@ export class Pictures {
     this.#view.set(factor === null ? WHOLE_TURN : zoomed(range, factor, middle ?? middleOf({ ...range, phase: value.phase })));
   }
 
-  /** Another orientation beside, where it has come and is the one that was chosen. */
+  /** The other orientation, where it has arrived and is the one that was chosen. */
   #beside() {
     const { beside, library } = this.#model;
     const { value } = this.#view;
@@ -265,7 +265,7 @@ export class Pictures {
   #showFalls() {
     const { falls } = this.#model;
     const { value } = this.#view;
-    const isChosen = falls !== null && [...UNITED, "tolerance"].every((name) => falls[name] === value[name]);
+    const isChosen = falls !== null && [...TILT_FIELDS, "tolerance"].every((name) => falls[name] === value[name]);
     byId("falls").hidden = value.tolerance === null;
     if (!isChosen) byId("falls").textContent = "";
     else byId("falls").textContent = falls.problem ? `Nothing is known within ±${value.tolerance} deg: ${falls.problem}` : toleranceText(falls, value.unit);
@@ -296,12 +296,12 @@ export class Pictures {
 
   #drawFollowing() {
     if (this.#model.node) this.#tabs?.follows.draw(this.#model.node.node, nextFormations(this.#intervals(), this.#view.value.phase));
-    else this.#tabs?.follows.tell(isOnGrid(this.#model.library.grid, this.#view.value) ? NO_NETWORK : NOT_IN_NETWORK);
+    else this.#tabs?.follows.showEmpty(isOnGrid(this.#model.library.grid, this.#view.value) ? NO_NETWORK : NOT_IN_NETWORK);
   }
 
   #drawNetwork() {
     const { formations } = this.#model;
-    if (formations === null) this.#tabs.network.tell(NO_NETWORK);
+    if (formations === null) this.#tabs.network.showEmpty(NO_NETWORK);
     else this.#tabs.network.draw(formations);
     this.#markNetwork();
   }
@@ -316,20 +316,20 @@ export class Pictures {
   #drawPath() {
     const path = this.#model.path?.path ?? null;
     this.#tabs?.showPath(path, this.#model.path !== null, ({ roll, pitch, phase }) =>
-      this.#view.set({ roll, pitch, phase: behind(phase) }, "entry"),
+      this.#view.set({ roll, pitch, phase: justAfter(phase) }, "entry"),
     );
   }
 
   /** The intervals where they belong to the heights that are drawn. */
   #intervals() {
     const { heights, intervals } = this.#model;
-    return UNITED.every((name) => intervals?.history[name] === heights?.[name]) ? intervals : null;
+    return TILT_FIELDS.every((name) => intervals?.history[name] === heights?.[name]) ? intervals : null;
   }
 
   /** The intervals where they belong to the orientation that was chosen. */
   #present() {
     const { intervals } = this.#model;
-    return UNITED.every((name) => intervals?.history[name] === this.#view.value[name]) ? intervals : null;
+    return TILT_FIELDS.every((name) => intervals?.history[name] === this.#view.value[name]) ? intervals : null;
   }
 
   async #followFormation(key, move) {
@@ -352,10 +352,10 @@ export class Pictures {
 
   #wireZoom() {
     const unless = (id, act) => byId(id).addEventListener("click", () => {
-      if (byId(id).getAttribute("aria-disabled") === "true") say(byId(id).dataset.help);
+      if (byId(id).getAttribute("aria-disabled") === "true") showToast(byId(id).dataset.help);
       else act(this.#present().history);
     });
-    unless("to-snap", ({ snap }) => this.#view.set({ phase: behindSnap(snap) }, "entry"));
+    unless("to-snap", ({ snap }) => this.#view.set({ phase: afterSnap(snap) }, "entry"));
     unless("zoom-window", (history) => this.#view.set(aroundEvent(history)));
     byId("zoom-in").addEventListener("click", () => this.#zoom(0.5, null));
     byId("zoom-out").addEventListener("click", () => this.#zoom(2, null));
@@ -377,7 +377,7 @@ export class Pictures {
     const last = this.#model.state?.state ? lastStage(this.#model.state.state) : 0;
     this.#player.play("stages", (seconds) => {
       const played = Math.min(seconds * STAGES_PER_SECOND, last);
-      const stage = prefersStillness() ? Math.floor(played) : played;
+      const stage = prefersReducedMotion() ? Math.floor(played) : played;
       const ended = stage >= last;
       this.#view.set({ stage: ended ? DEFAULTS.stage : stage });
       return !ended;
@@ -388,7 +388,7 @@ export class Pictures {
     const { grid } = this.#model.library;
     const first = this.#view.value.phase;
     this.#player.play("phase", (seconds) => {
-      const steps = Math.floor(seconds * (prefersStillness() ? STILL_STEPS_PER_SECOND : PHASE_STEPS_PER_SECOND));
+      const steps = Math.floor(seconds * (prefersReducedMotion() ? REDUCED_MOTION_STEPS_PER_SECOND : PHASE_STEPS_PER_SECOND));
       if (steps > 0) this.#view.set({ phase: steppedPhase(grid, first, steps) });
       return true;
     });
@@ -422,7 +422,7 @@ function nominalOf({ pair, unit, stored_unit: stored }) {
   return (pair.nominal_diameter * millimetres[unit]) / millimetres[stored];
 }
 
-function prefersStillness() {
+function prefersReducedMotion() {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 

@@ -1,13 +1,13 @@
 // Something that is played frame by frame until it ends or is stopped.
 
-/** Plays one thing at a time; `told` is called with the name of what plays, or null. */
+/** Plays one thing at a time; `onChange` is called with the name of what plays, or null. */
 export class Player {
   #frame = null;
   #playing = null;
-  #told;
+  #onChange;
 
-  constructor(told) {
-    this.#told = told;
+  constructor(onChange) {
+    this.#onChange = onChange;
   }
 
   get playing() {
@@ -18,7 +18,7 @@ export class Player {
   play(name, step) {
     this.stop();
     this.#playing = name;
-    this.#told(name);
+    this.#onChange(name);
     const begun = performance.now();
     const next = (now) => {
       if (step(Math.max(now - begun, 0) / 1000)) this.#frame = requestAnimationFrame(next);
@@ -31,6 +31,6 @@ export class Player {
     if (this.#playing === null) return;
     cancelAnimationFrame(this.#frame);
     this.#playing = null;
-    this.#told(null);
+    this.#onChange(null);
   }
 }

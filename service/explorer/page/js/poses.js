@@ -1,16 +1,16 @@
 // Measured poses: read from a table that was pasted or opened, and written into the link.
 
 import { TILT_LIMIT } from "./grid.js";
-import { inTurn, numberOf } from "./units.js";
+import { wrapAngle, parseDecimal } from "./units.js";
 
-/** How many poses are taken. */
+/** The most poses that are read. */
 export const MOST_POSES = 500;
 const ANGLES = ["roll", "pitch", "phase"];
 const SEPARATORS = /[\s,;]+/;
 
 /**
  * The poses of a table, {poses: [{roll, pitch, phase}], faults: [text]}: a pose a line, angles in degrees separated by commas,
- * semicolons, tabs or spaces. A first line with the names roll, pitch and phase says their order; lines beginning with # and
+ * semicolons, tabs or spaces. A first line with the names roll, pitch and phase gives their order; lines beginning with # and
  * columns that the names do not cover are left out. A phase is brought into the turn.
  */
 export function posesOf(text) {
@@ -26,8 +26,8 @@ export function posesOf(text) {
       faults.push(`line ${number}: ${fault}`);
       continue;
     }
-    const [roll, pitch, phase] = order.map((place) => numberOf(cells[place]) + 0);
-    poses.push({ roll, pitch, phase: inTurn(phase) });
+    const [roll, pitch, phase] = order.map((place) => parseDecimal(cells[place]) + 0);
+    poses.push({ roll, pitch, phase: wrapAngle(phase) });
   }
   if (poses.length > MOST_POSES) faults.push(`${poses.length} poses; the first ${MOST_POSES} are taken`);
   return { poses: poses.slice(0, MOST_POSES), faults };
@@ -38,7 +38,7 @@ export function posesText(poses) {
   return poses.map(({ roll, pitch, phase }) => `${roll},${pitch},${phase}`).join(";");
 }
 
-/** A text that says all that it seems to, or undefined. */
+/** The text if all of it is valid, or undefined. */
 export function checkedPoses(text) {
   const { poses, faults } = posesOf(text.replaceAll(";", "\n"));
   return faults.length === 0 ? posesText(poses) : undefined;
@@ -59,7 +59,7 @@ function poseFault(cells) {
   for (const [k, name] of ANGLES.entries()) {
     const text = cells[k];
     if (text === undefined) return `there is no ${name}; a line has roll, pitch and phase in deg`;
-    const value = numberOf(text);
+    const value = parseDecimal(text);
     const most = name === "phase" ? Infinity : TILT_LIMIT;
     if (!Number.isFinite(value)) return `${name} is ${text}; valid: a number`;
     if (Math.abs(value) > most) return `${name} is ${text}; valid: ${-TILT_LIMIT} to ${TILT_LIMIT} deg`;

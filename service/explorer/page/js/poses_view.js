@@ -2,7 +2,7 @@
 
 import { firstHeight } from "./curve.js";
 import { byId, html } from "./html.js";
-import { say } from "./messages.js";
+import { showToast } from "./messages.js";
 import { posesOf, posesText } from "./poses.js";
 import { restHeight } from "./resting.js";
 import { CLASSES } from "./terms.js";
@@ -22,14 +22,14 @@ export class PosesView {
     byId("poses-take").addEventListener("click", () => this.#read(byId("poses-text").value));
     byId("poses-clear").addEventListener("click", () => {
       byId("poses-text").value = "";
-      this.#tell([]);
+      this.#showFaults([]);
       take("");
     });
     byId("poses-file").addEventListener("change", async () => {
       const [file] = byId("poses-file").files;
       if (!file) return;
       if (file.size > LARGEST_FILE) {
-        say(`${file.name} is too large for a table of poses; valid: up to 1 MB`);
+        showToast(`${file.name} is too large for a table of poses; valid: up to 1 MB`);
         return;
       }
       byId("poses-text").value = await file.text();
@@ -78,11 +78,11 @@ export class PosesView {
 
   #read(text) {
     const { poses, faults } = posesOf(text);
-    this.#tell(poses.length === 0 && faults.length === 0 ? ["There is no pose; a line has roll, pitch and phase in deg."] : faults);
+    this.#showFaults(poses.length === 0 && faults.length === 0 ? ["There is no pose; a line has roll, pitch and phase in deg."] : faults);
     if (poses.length > 0) this.#take(posesText(poses));
   }
 
-  #tell(faults) {
+  #showFaults(faults) {
     const more = faults.length > MOST_FAULTS ? [`and ${faults.length - MOST_FAULTS} more`] : [];
     byId("poses-faults").replaceChildren(...[...faults.slice(0, MOST_FAULTS), ...more].map((fault) => html("li", {}, fault)));
   }

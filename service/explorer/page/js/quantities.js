@@ -84,7 +84,7 @@ export function stableShare(counts) {
   return all > 0 ? counts.stable_three_point / all : null;
 }
 
-/** Whether a map shows what is known of whole orientations only: over all phases, or a quantity that no state has. */
+/** Whether a map shows summaries of whole orientations: over all phases, or a quantity that no state has. */
 export function needsSummaries({ quantity, over }) {
   return over === "all" || !QUANTITIES[quantity].ofState;
 }

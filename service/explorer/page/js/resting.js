@@ -13,7 +13,7 @@ export function restHeight(state) {
 }
 
 /** Why a state does not rest, in words; null where it does. */
-export function restlessness(state) {
+export function whyNotAtRest(state) {
   if (rests(state)) return null;
   return state.class === UNSTABLE ? "ends unstable: does not rest" : "ends overlapping the nut: does not rest";
 }

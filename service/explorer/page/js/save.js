@@ -7,7 +7,7 @@ const STYLES = [
   "fill", "fill-opacity", "stroke", "stroke-width", "stroke-opacity", "stroke-dasharray", "stroke-linejoin",
   "font-family", "font-size", "font-weight", "opacity",
 ];
-const SHARPNESS = 2;
+const PIXEL_RATIO = 2;
 const MARGIN = 12;
 
 /** Hands a file to the browser. */
@@ -54,8 +54,8 @@ async function pngOf(element) {
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText(element))}`;
   await image.decode();
   const canvas = document.createElement("canvas");
-  canvas.width = image.width * SHARPNESS;
-  canvas.height = image.height * SHARPNESS;
+  canvas.width = image.width * PIXEL_RATIO;
+  canvas.height = image.height * PIXEL_RATIO;
   canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
   return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
 }

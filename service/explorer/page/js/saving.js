@@ -1,7 +1,7 @@
 // The buttons that save each panel's picture and table.
 
 import { html } from "./html.js";
-import { say } from "./messages.js";
+import { showToast } from "./messages.js";
 import { lastStage } from "./resting.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
 import { depthTable, followingTable, formationTable, intervalTable, mapTable, pathTable, poseTable, stateTable } from "./tables.js";
@@ -36,7 +36,7 @@ export function wireSaving(model, view, sceneOf) {
     const name = () => fileName(NAMES[panel], model, view.value);
     const button = (kind, save) => {
       const made = html("button", { type: "button", "data-kind": kind, "aria-label": `save ${NAMES[panel]} as ${kind}` }, kind);
-      made.addEventListener("click", () => Promise.resolve(save()).catch(() => say(`There is nothing to save as ${kind} yet.`)));
+      made.addEventListener("click", () => Promise.resolve(save()).catch(() => showToast(`There is nothing to save as ${kind} yet.`)));
       place.append(made);
     };
     const picture = () => document.querySelector(PICTURES[panel]);
@@ -49,7 +49,7 @@ export function wireSaving(model, view, sceneOf) {
   }
 }
 
-/** A name that tells library, orientation and phase. */
+/** A file name with library, orientation and phase. */
 function fileName(what, { library, state }, { roll, pitch, phase, stage }) {
   const staged = what === NAMES.scene && state?.state ? `_stage${Math.min(stage, lastStage(state.state)).toFixed(1)}` : "";
   return `${library.slug}_${what}_roll${roll}_pitch${pitch}_phase${phase}${staged}`;

@@ -5,7 +5,7 @@ import * as THREE from "../third-party/three.module.js";
 import { STAGE_COLOURS } from "./colours.js";
 import { meshesOf } from "./glb.js";
 import { poseAt } from "./motion.js";
-import { dragged, keyed, standpoint, zoomed } from "./orbit.js";
+import { dragged, cameraAfterKey, cameraPosition, zoomed } from "./orbit.js";
 import { lastStage } from "./resting.js";
 
 const FIELD_OF_VIEW_DEG = 30;
@@ -15,7 +15,7 @@ const GLASS = 0.28;
 const MARK_RADIUS = 0.014;
 const NORMAL_LENGTH = 0.16;
 const AXIS_REACH = 0.75;
-const SAVED_SHARPNESS = 2;
+const SAVED_PIXEL_RATIO = 2;
 const SLOW_MS = 50;
 /** How long the scene rests after a slow drawing, in times of what that took. */
 const REST = 2;
@@ -42,7 +42,7 @@ export class SceneView {
   #view = null;
   #frame = null;
   #rested = 0;
-  #told = "";
+  #description = "";
 
   constructor(frame, look) {
     this.#look = look;
@@ -74,10 +74,10 @@ export class SceneView {
     this.#draw();
   }
 
-  /** Shows a state (null: none) at the view's stage, from the view's camera; `told` says in words what is seen. */
-  show(state, view, threadPitch, nominal, told) {
+  /** Shows a state (null: none) at the view's stage, from the view's camera; `description` is the picture in words. */
+  show(state, view, threadPitch, nominal, description) {
     this.#view = view;
-    this.#told = told;
+    this.#description = description;
     this.#dressNut(view.nut);
     this.#bolt.visible = state !== null;
     this.#clearMarks();
@@ -92,9 +92,9 @@ export class SceneView {
   /** The picture as it is now, as a PNG, twice as sharp as it is seen. */
   async png() {
     const ratio = this.#renderer.getPixelRatio();
-    this.#renderer.setPixelRatio(SAVED_SHARPNESS * ratio);
+    this.#renderer.setPixelRatio(SAVED_PIXEL_RATIO * ratio);
     this.#drawNow();
-    // The bytes are asked for before the next drawing: the buffer does not outlive this task.
+    // The bytes are read before the next drawing: the buffer does not outlive this task.
     const saved = new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
     this.#renderer.setPixelRatio(ratio);
     this.#drawNow();
@@ -137,7 +137,7 @@ export class SceneView {
     if (second) this.#marks.add(pivotAxis(state.contacts[0].point, second.point, nominal));
   }
 
-  /** Draws once, with the next frame of the page, however often it is asked for until then. */
+  /** Draws once, with the next frame of the page, however often it is requested until then. */
   #draw() {
     this.#frame ??= requestAnimationFrame((now) => this.#drawPaced(now));
   }
@@ -159,13 +159,13 @@ export class SceneView {
     cancelAnimationFrame(this.#frame);
     this.#frame = null;
     if (this.#view === null) return;
-    const [x, y, z] = standpoint(this.#view);
+    const [x, y, z] = cameraPosition(this.#view);
     this.#camera.position.set(x + TARGET[0], y + TARGET[1], z + TARGET[2]);
     this.#camera.lookAt(...TARGET);
     const level = Math.hypot(x, y);
     this.#cut.normal.set(-x / level, -y / level, 0);
     this.#renderer.render(this.#scene, this.#camera);
-    this.canvas.setAttribute("aria-label", `Bolt and nut, ${this.#told}; arrow keys orbit, plus and minus zoom, 0 resets`);
+    this.canvas.setAttribute("aria-label", `Bolt and nut, ${this.#description}; arrow keys orbit, plus and minus zoom, 0 resets`);
   }
 
   #resize(frame) {
@@ -184,7 +184,7 @@ export class SceneView {
       if (canvas.hasPointerCapture(event.pointerId)) this.#look(dragged(this.#view, event.movementX, event.movementY));
     });
     canvas.addEventListener("keydown", (event) => {
-      const camera = keyed(this.#view, event.key);
+      const camera = cameraAfterKey(this.#view, event.key);
       if (camera === null) return;
       event.preventDefault();
       this.#look(camera);

@@ -1,7 +1,7 @@
 // Every number of a state.
 
 import { html } from "./html.js";
-import { rests, restlessness } from "./resting.js";
+import { rests, whyNotAtRest } from "./resting.js";
 import { CLASSES, FLAGS, REGIONS, TERMS, className } from "./terms.js";
 import { angle, length, lengthNumber, fixed } from "./units.js";
 
@@ -24,7 +24,7 @@ function summaryRows(state, pose, stored, unit) {
   const { margins } = state;
   return [
     ["pose", `roll ${angle(pose.roll)}, pitch ${angle(pose.pitch)}, phase ${angle(pose.phase)}`],
-    ["from", stored ? "the stored library" : "the exact solver, asked now"],
+    ["from", stored ? "the stored library" : "the exact solver, computed now"],
     ["class", `${className(state.class)}: ${CLASSES[state.class].help}`],
     ["flags", state.flags.map((flag) => FLAGS[flag]).join("; ") || "none"],
     ["first contact at", length(state.poses[0].translation[2], unit)],
@@ -40,7 +40,7 @@ function summaryRows(state, pose, stored, unit) {
 function restRows(state, unit) {
   const last = length(state.poses.at(-1).translation[2], unit);
   if (rests(state)) return [["at rest at", last]];
-  return [["at rest", restlessness(state)], ["where the procedure ended (no place of rest)", last]];
+  return [["at rest", whyNotAtRest(state)], ["where the procedure ended (no place of rest)", last]];
 }
 
 function poseCaption(state, k) {

@@ -17,8 +17,8 @@ export function picture(width, height, label, attributes = {}) {
   return svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": label, ...attributes });
 }
 
-/** Puts a picture in place of whatever is in the frame. */
-export function put(frame, ...elements) {
+/** Replaces the content of a frame. */
+export function replaceContent(frame, ...elements) {
   frame.replaceChildren(...elements);
 }
 

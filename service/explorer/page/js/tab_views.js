@@ -1,4 +1,4 @@
-// What the tabs behind the first one show: fetched once the first numbers are seen, or as soon as one is looked at.
+// What the tabs behind the first one show: fetched once the first numbers are seen, or as soon as one is opened.
 
 import { DisksView } from "./disks_view.js";
 import { FollowsView } from "./follows_view.js";
@@ -8,7 +8,7 @@ import { NetworkView } from "./network_view.js";
 import { drawPath, pathText } from "./path_view.js";
 import { PosesView } from "./poses_view.js";
 
-/** The views, which tell what was chosen: a phase, a pose, a formation and the move to it, an observation, or poses. */
+/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, or poses. */
 export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure }) {
   return {
     disks: new DisksView(byId("disks"), choosePhase),
@@ -20,8 +20,8 @@ export function tabViews({ choosePhase, choosePose, chooseFormation, observe, me
     ),
     locate: new LocateView(observe, choosePose),
     poses: new PosesView(measure, choosePose),
-    showPath: (path, told, chooseStep) => {
-      byId("path-text").textContent = told ? pathText(path) : "";
+    showPath: (path, isShown, chooseStep) => {
+      byId("path-text").textContent = isShown ? pathText(path) : "";
       byId("path").replaceChildren();
       if (path) drawPath(byId("path"), path, chooseStep);
     },

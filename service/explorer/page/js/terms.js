@@ -1,4 +1,4 @@
-// The field's words for what the service names in its answers.
+// Words for the names in the service's responses.
 
 export const CLASSES = {
   stable_three_point: { name: "stable three-point", short: "stable", letter: "S", help: "three contacts hold the bolt, or it lies flush" },
@@ -37,7 +37,7 @@ export const FLAGS = {
   flush: "flush: the bolt lies on a patch, not on points",
   tie: "tie: several contacts at once",
   balanced: "balanced: the origin lies on the pivot axis, both senses were followed",
-  grazing: "grazing: surfaces touch without crossing",
+  grazing: "grazing: the features that touch are nearly parallel",
   no_second: "no second contact within 45 deg",
   no_third: "no third contact within 45 deg",
 };
@@ -45,7 +45,7 @@ export const FLAGS = {
 /** Pairs of features that can touch, the bolt's first. */
 export const FEATURES = ["edge-edge", "edge-surface", "base-edge", "edge-thread", "thread-edge", "thread-thread", "flush"];
 
-/** What is meant by the names of a state's numbers. */
+/** The meaning of a state's numbers. */
 export const TERMS = {
   flags: "What is out of the ordinary about this state.",
   "first contact at": "Height of the bolt's origin above the nut's surface when it first touches.",

@@ -1,4 +1,4 @@
-// Numbers as a reader wants them.
+// Numbers, lengths and angles as text.
 
 const MINUS = "−";
 
@@ -6,7 +6,7 @@ const MINUS = "−";
 const LENGTH_DECIMALS = { in: 6, mm: 5 };
 /** Decimals of lengths in a sentence. */
 const SHORT_DECIMALS = { in: 4, mm: 3 };
-/** Round-off of a thread's lengths is some 1e-17: what is less than this is nothing. */
+/** Round-off of a thread's lengths is some 1e-17: what is less than this is shown as zero. */
 const ROUND_OFF = 1e-13;
 
 /** A number with so many decimals, with a true minus sign; "none" for null. */
@@ -61,12 +61,12 @@ function power(value) {
 }
 
 /** The number of a text in decimals; NaN of any other, also of what JavaScript would read (0x10, blanks). */
-export function numberOf(text) {
+export function parseDecimal(text) {
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
 }
 
-/** An angle brought to 0 <= angle < 360. */
-export function inTurn(degrees) {
+/** An angle wrapped to 0 <= angle < 360. */
+export function wrapAngle(degrees) {
   const rest = degrees % 360;
   return rest < 0 ? rest + 360 : rest + 0;
 }

@@ -1,14 +1,14 @@
 // The view as the fragment of an address, so that a link restores it exactly.
 
-import { checkedObservation } from "./observed.js";
+import { checkedObservation } from "./observation.js";
 import { checkedPoses } from "./poses.js";
 import { QUANTITIES } from "./quantities.js";
 import { TABS } from "./tabs.js";
 import { TILT_LIMIT, TOLERANCE_LIMIT } from "./grid.js";
-import { inTurn, numberOf } from "./units.js";
+import { wrapAngle, parseDecimal } from "./units.js";
 import { DEFAULTS } from "./view.js";
 
-const finite = (text) => (Number.isFinite(numberOf(text)) ? numberOf(text) + 0 : undefined);
+const finite = (text) => (Number.isFinite(parseDecimal(text)) ? parseDecimal(text) + 0 : undefined);
 const between = (low, high, unit = "") => ({
   read: (text) => (finite(text) >= low && finite(text) <= high ? finite(text) : undefined),
   valid: `${low} to ${high}${unit}`,
@@ -21,7 +21,7 @@ const READERS = {
   library: whole,
   roll: tilt,
   pitch: tilt,
-  phase: { read: (text) => (finite(text) === undefined ? undefined : inTurn(finite(text))), valid: "an angle in deg" },
+  phase: { read: (text) => (finite(text) === undefined ? undefined : wrapAngle(finite(text))), valid: "an angle in deg" },
   tolerance: {
     read: (text) => (finite(text) > 0 && finite(text) <= TOLERANCE_LIMIT ? finite(text) : undefined),
     valid: `above 0 to ${TOLERANCE_LIMIT} deg`,
@@ -74,7 +74,7 @@ export function readFragment(fragment) {
   return { view, remarks };
 }
 
-/** Says that a phase was brought into the turn. */
+/** A remark that a phase was wrapped into 0 to 360. */
 export function turned(given, value) {
   return `phase ${given} deg is ${value} deg within the turn`;
 }

@@ -1,6 +1,6 @@
-// What the page shows: one value that everything follows.
+// The state of the page: one value that everything is drawn from.
 
-/** What is shown where an address says nothing else. */
+/** The defaults, used where an address says nothing else. */
 export const DEFAULTS = Object.freeze({
   library: null,
   roll: 0,
@@ -25,11 +25,11 @@ export const DEFAULTS = Object.freeze({
   beside_pitch: null,
   /** Measured poses, as `poses.js` writes them. */
   poses: "",
-  /** What was observed of a state, as `observed.js` writes it. */
+  /** What was observed of a state, as `observation.js` writes it. */
   observed: "",
 });
 
-/** The present view, and who follows it. */
+/** The present view, and its listeners. */
 export class View {
   #value;
   #followers = [];
@@ -43,8 +43,8 @@ export class View {
   }
 
   /**
-   * Changes some of the view; followers hear of it where anything differs: the view, the names of what changed, and `how`
-   * it came about ("entry": a step of its own in the browser's history; "restored": the browser went back or forward; "corrected": what was asked for is not there).
+   * Changes some of the view; listeners are called where anything differs: the view, the names of what changed, and `how`
+   * it came about ("entry": a step of its own in the browser's history; "restored": the browser went back or forward; "corrected": what was requested does not exist).
    */
   set(changes, how = null) {
     const next = Object.freeze({ ...this.#value, ...changes });

@@ -1,6 +1,6 @@
 // Which phases the depth is drawn over.
 
-import { seen } from "./curve.js";
+import { visibleParts } from "./curve.js";
 import { middleOfEvent } from "./falls.js";
 
 const LEAST_SPAN = 1e-5;
@@ -27,7 +27,7 @@ export function zoomed({ from, span }, factor, middle) {
 
 /** The phase to zoom about: the cursor where it is seen, else the middle. */
 export function middleOf({ from, span, phase }) {
-  const [shown] = seen(phase, phase, from, span);
+  const [shown] = visibleParts(phase, phase, from, span);
   return shown ? shown[0] : from + span / 2;
 }
 

@@ -2,15 +2,15 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { Busy } from "../../service/explorer/page/js/busy.js";
-import { libraryAddress } from "../../service/explorer/page/js/early.js";
+import { libraryAddress } from "../../service/explorer/page/js/prefetch.js";
 import { libraryText } from "../../service/explorer/page/js/controls.js";
 import { summaryText } from "../../service/explorer/page/js/locate_view.js";
 import { mapPhaseText, mapValues } from "../../service/explorer/page/js/map_view.js";
-import { checkedObservation, observationOf, observationText, remaining } from "../../service/explorer/page/js/observed.js";
-import { Pace } from "../../service/explorer/page/js/pace.js";
+import { checkedObservation, observationOf, observationText, remaining } from "../../service/explorer/page/js/observation.js";
+import { Throttle } from "../../service/explorer/page/js/throttle.js";
 import { MOST_POSES, posesOf, posesOfView, posesText } from "../../service/explorer/page/js/poses.js";
 
-test("poses are read from tables as people have them", () => {
+test("poses are read from tables with any usual separator", () => {
   const expected = [{ roll: 2.5, pitch: -1.2, phase: 357 }, { roll: 0, pitch: -4, phase: 40 }];
   for (const table of [
     "2.5,-1.2,357\n0,-4,400\n",
@@ -59,15 +59,15 @@ test("what remains is listed by orientation, the most phase first, and its share
   assert.equal(summaryText({ share: 0, undecided_share: 0, orientations: 0 }, []), "Nothing in this library is like that.");
 });
 
-test("of what waits the last is done, and never two at once", async () => {
-  const pace = new Pace(0);
+test("of waiting calls the last is run, and never two at once", async () => {
+  const throttle = new Throttle(0);
   const begun = [];
   let finish = null;
-  const first = pace.run(() => {
+  const first = throttle.run(() => {
     begun.push(1);
     return new Promise((done) => (finish = done));
   });
-  const others = [2, 3].map((number) => pace.run(async () => begun.push(number)));
+  const others = [2, 3].map((number) => throttle.run(async () => begun.push(number)));
   assert.deepEqual(begun, [1]);
   finish("one");
   assert.equal(await first, "one");
@@ -76,32 +76,32 @@ test("of what waits the last is done, and never two at once", async () => {
   assert.deepEqual(begun, [1, 3]);
 });
 
-test("what fails keeps nothing from what comes after", async () => {
-  const pace = new Pace(0);
-  await assert.rejects(pace.run(() => Promise.reject(new Error("no"))), /no/);
-  assert.equal(await pace.run(async () => "yes"), "yes");
+test("a failure does not block later calls", async () => {
+  const throttle = new Throttle(0);
+  await assert.rejects(throttle.run(() => Promise.reject(new Error("no"))), /no/);
+  assert.equal(await throttle.run(async () => "yes"), "yes");
 });
 
-test("what takes a moment is not told of, what takes longer is until it ends", async () => {
-  const told = [];
-  const busy = new Busy((texts) => told.push(texts));
+test("what takes a moment is not shown, what takes longer is until it ends", async () => {
+  const shown = [];
+  const busy = new Busy((texts) => shown.push(texts));
   assert.equal(await busy.during("short", Promise.resolve(1)), 1);
-  assert.deepEqual(told, []);
+  assert.deepEqual(shown, []);
   let finish = null;
   const long = busy.during("long", new Promise((done) => (finish = done)));
-  while (told.length === 0) await new Promise((done) => setTimeout(done, 20));
+  while (shown.length === 0) await new Promise((done) => setTimeout(done, 20));
   finish();
   await long;
-  assert.deepEqual(told, [["long"], []]);
+  assert.deepEqual(shown, [["long"], []]);
 });
 
-test("a library is told by its number, thread, grid and method", () => {
+test("a library is named by its number, thread, grid and method", () => {
   const library = { id: 2, designation: "M6x1", grid: { tilt_max: 4, tilt_step: 2, phase_step: 5 }, method: "exact" };
   assert.equal(libraryText(library, true), "2 (latest): M6x1, ±4 by 2°, phase by 5°, exact");
   assert.equal(libraryText({ ...library, id: 1, method: "mesh" }, false), "1: M6x1, ±4 by 2°, phase by 5°, mesh");
 });
 
-test("the library of a link is asked for at the address at which the model asks for it", () => {
+test("the library of a link is prefetched at the address that the model requests", () => {
   assert.equal(libraryAddress("", null), "/v1/libraries/latest");
   assert.equal(libraryAddress("", "mm"), "/v1/libraries/latest?unit=mm");
   assert.equal(libraryAddress("#library=07&roll=1&unit=in", "mm"), "/v1/libraries/7?unit=in");

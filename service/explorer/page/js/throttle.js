@@ -1,7 +1,7 @@
-// What is asked for while something moves: one at a time, not too often, and the latest in the end.
+// Throttled calls: one at a time, not too often, and always the latest.
 
-/** Runs the things it is given, never two at once and none sooner than `ms` after the one before; of several that wait, the last. */
-export class Pace {
+/** Runs the async functions it is given, never two at once and none sooner than `ms` after the one before; of several that wait, the last. */
+export class Throttle {
   #ms;
   #running = false;
   #waiting = null;
@@ -12,11 +12,11 @@ export class Pace {
     this.#ms = ms;
   }
 
-  /** What the thing gives, or undefined where a later one took its place. */
-  run(thing) {
+  /** The result of the call, or undefined where a later one replaced it. */
+  run(call) {
     this.#waiting?.done(undefined);
     return new Promise((done, failed) => {
-      this.#waiting = { thing, done, failed };
+      this.#waiting = { call, done, failed };
       this.#next();
     });
   }
@@ -31,10 +31,10 @@ export class Pace {
       }, wait);
       return;
     }
-    const { thing, done, failed } = this.#waiting;
+    const { call, done, failed } = this.#waiting;
     this.#waiting = null;
     this.#running = true;
-    thing()
+    call()
       .then(done, failed)
       .finally(() => {
         this.#running = false;

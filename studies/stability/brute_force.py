@@ -1,8 +1,8 @@
-"""What the brute force says of two states where answers jump, and of states by themselves.
+"""Checks by the brute force: of two neighbouring states between which answers jump, and of single states.
 
 It knows nothing of the solver: first heights by columns, components by rays, lifts by samples (``oracle``). Its
 tolerances are inches on a 1/4-20. Beside a jump the two edges share a sliver a few thousandths of a degree wide, which
-samples all round step over: there columns are dense about one place.
+samples all round miss: there columns are dense about one place.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from oracle.overlap import excluded_rows, free_component
 from oracle.pose import pose_rotation
 from oracle.profile import Floats, bolt_profile, nut_profile
 from oracle.state_turns import Turn, earlier_appearance, turns_of
-from studies.stability.change import Answered, allowed, change_between, leading_contacts, pivot_lever
+from studies.stability.change import SolvedCase, allowed, change_between, leading_contacts, pivot_lever
 from threadstate.state.model import Contact, ContactState, Flag
 from threadstate.thread.pair import Pair
 
@@ -61,28 +61,28 @@ def first_height_near(pair: Pair, pose_deg: tuple[float, float, float], contact:
 HEIGHT_TOLERANCE_INCH = 1e-9
 LIFT_TOLERANCE_INCH = 1e-8
 """The brute force's lift is good to 1e-10 thread pitches where it is not zero, and a touch may be 1e-8 p deep."""
-PARTED_INCH = 1e-6
-"""A component that is deeper when it is first seen, to 1e-5 deg, has parted from an overlap and was not born."""
-LOOKS_DEG = (1e-3, 1e-2, 5e-2)
-"""How far behind the shorter turn the longer one is looked at."""
+SPLIT_INCH = 1e-6
+"""A component that is deeper when it is first seen, to 1e-5 deg, has split from an overlap and is no contact onset."""
+PROBES_DEG = (1e-3, 1e-2, 5e-2)
+"""How far after the end of the shorter turn the longer one is probed."""
 SHORT_OF_END_DEG = 1e-4
 LIMIT_DEG = 45.0
-MOST_LIFTS = 40
+MAX_LIFTS = 40
 STEPS = 14
-"""Instants of a turn at which it is looked at as a whole."""
+"""Instants of a turn at which all of it is sampled."""
 
 
 class Event(StrEnum):
     """What explains a jump between two poses that are next to each other."""
 
     FLAGGED = "flagged (tie, balanced, patch)"
-    FIRST_TAKEN_OVER = "first contact taken over at equal height"
+    FIRST_REPLACED = "another first contact at equal height"
     FIRST_LOST = "first contact lost (jump)"
-    LATER_TAKEN_OVER = "later contact taken over at equal turn"
-    LATER_LOST = "later contact born, lost or merged"
-    PARTED = "an overlap parts: not a birth by decision 1"
+    LATER_REPLACED = "another later contact at equal turn"
+    LATER_LOST = "later contact appears, vanishes or merges"
+    SPLIT = "an overlap splits: no contact onset by decision 1"
     BALANCED = "the origin passes over the pivot axis: the third turn changes its sense"
-    EMBEDMENT = "embedment jumps as the brute force says"
+    EMBEDMENT = "embedment jumps, confirmed by the brute force"
     STEEP = "steep, but continuous"
 
 
@@ -93,14 +93,14 @@ class Fault(StrEnum):
     MISSED_LATER = "an earlier second or third contact is missed"
     WRONG_EMBEDMENT = "embedment is not the least lift"
     LAW = "a law is broken"
-    UNEXPLAINED = "a jump that nothing explains"
+    UNEXPLAINED = "an unexplained jump"
     CLASS = "the class flips though its margins exceed the change"
 
 
-Verdict = Event | Fault
+Explanation = Event | Fault
 
 
-def explanation(one: Answered, other: Answered) -> Verdict:
+def explanation(one: SolvedCase, other: SolvedCase) -> Explanation:
     """Why the answers to two cases that are next to each other differ."""
     a, b = one.state, other.state
     height_allowed, rest_allowed = allowed(one.case, other.case)
@@ -116,7 +116,7 @@ def explanation(one: Answered, other: Answered) -> Verdict:
         return Event.FLAGGED
     slack = rest_allowed + 1e-7
     if math.dist(here[1].point, there[1].point) > slack:
-        return Event.FIRST_TAKEN_OVER
+        return Event.FIRST_REPLACED
     for stage, turn, turn_too in ((2, a.lambda_deg, b.lambda_deg), (3, a.mu_deg, b.mu_deg)):
         longer = one if (turn or LIMIT_DEG) > (turn_too or LIMIT_DEG) else other
         short_turn = min(turn or LIMIT_DEG, turn_too or LIMIT_DEG)
@@ -127,9 +127,9 @@ def explanation(one: Answered, other: Answered) -> Verdict:
         if turn is None or turn_too is None or math.radians(abs(turn - turn_too)) * one.case.reach > slack:
             return _later(longer, stage, short_turn)
         if (stage in here) != (stage in there):
-            return Event.LATER_TAKEN_OVER
+            return Event.LATER_REPLACED
         if stage in here and math.dist(here[stage].point, there[stage].point) > slack:
-            return Event.LATER_TAKEN_OVER
+            return Event.LATER_REPLACED
     change = change_between(one, other)
     if change is not None and change.number > slack:
         return Fault.WRONG_EMBEDMENT if wrong_embedment(one) or wrong_embedment(other) else Event.EMBEDMENT
@@ -142,65 +142,65 @@ def _passes_over(a: ContactState, b: ContactState, slack: float) -> bool:
     return lever is not None and lever_too is not None and lever * lever_too <= 0.0 and abs(lever) <= slack
 
 
-def _later(longer: Answered, stage: int, short_turn: float) -> Verdict:
-    """Why one turn goes on where its neighbour's ends: the brute force looks whether it goes past a component."""
+def _later(longer: SolvedCase, stage: int, short_turn: float) -> Explanation:
+    """Why one turn goes on where its neighbour's ends: the brute force checks whether it passes a component."""
     turn = turns_of(longer.case.pair, longer.state)[stage - 2]
     end = turn.end_deg(LIMIT_DEG)
-    looks = [short_turn + look for look in LOOKS_DEG] + [0.5 * (short_turn + end)]
-    if not any(_is_free(longer, turn, look) for look in looks if look < end - SHORT_OF_END_DEG):
+    probes = [short_turn + probe for probe in PROBES_DEG] + [0.5 * (short_turn + end)]
+    if not any(_is_free(longer, turn, probe) for probe in probes if probe < end - SHORT_OF_END_DEG):
         return Event.LATER_LOST
-    return Fault.MISSED_LATER if _goes_past_a_birth(longer, turn) else Event.PARTED
+    return Fault.MISSED_LATER if _passes_an_onset(longer, turn) else Event.SPLIT
 
 
-def _is_free(answered: Answered, turn: Turn, turn_deg: float) -> bool:
+def _is_free(solved: SolvedCase, turn: Turn, turn_deg: float) -> bool:
     rotation, translation = turn.pose_after(turn_deg)
     rotation = np.ascontiguousarray(rotation)
     excluded = excluded_rows(rotation, translation, turn.known)
-    pair = answered.case.pair
+    pair = solved.case.pair
     return free_component(rotation, translation, bolt_profile(pair), nut_profile(pair), excluded)[0] > 0.0
 
 
-def _goes_past_a_birth(answered: Answered, turn: Turn) -> bool:
-    seen = earlier_appearance(answered.case.pair, turn, LIMIT_DEG, STEPS)
-    return seen is not None and seen.depth < PARTED_INCH
+def _passes_an_onset(solved: SolvedCase, turn: Turn) -> bool:
+    seen = earlier_appearance(solved.case.pair, turn, LIMIT_DEG, STEPS)
+    return seen is not None and seen.depth < SPLIT_INCH
 
 
-def missed_first(answered: Answered) -> bool:
-    """Whether the bolt touches the nut before it has come down to the height told.
+def missed_first(solved: SolvedCase) -> bool:
+    """Whether the bolt touches the nut before it has come down to the reported height.
 
-    A height too great needs no look: the laws have the contact told lie in both solids there.
+    A height that is too great needs no check: the laws have the reported contact lie in both solids there.
     """
-    told = answered.state.poses[0].translation[2]
-    return first_height(answered.case.pair, *answered.case.pose_deg).height > told + HEIGHT_TOLERANCE_INCH
+    reported = solved.state.poses[0].translation[2]
+    return first_height(solved.case.pair, *solved.case.pose_deg).height > reported + HEIGHT_TOLERANCE_INCH
 
 
-def _missed_beside(lower: Answered, upper: Answered) -> bool:
+def _missed_beside(lower: SolvedCase, upper: SolvedCase) -> bool:
     """Whether the lower of two neighbours still touches where the upper one does, before it has come down."""
-    told = lower.state.poses[0].translation[2]
+    reported = lower.state.poses[0].translation[2]
     held = leading_contacts(upper.state)
     if 1 not in held:
         return False
-    return first_height_near(lower.case.pair, lower.case.pose_deg, held[1]) > told + HEIGHT_TOLERANCE_INCH
+    return first_height_near(lower.case.pair, lower.case.pose_deg, held[1]) > reported + HEIGHT_TOLERANCE_INCH
 
 
-def missed_later(answered: Answered) -> bool:
-    """Whether the second or the third turn goes past a birth."""
-    if not _turns(answered.state):
+def missed_later(solved: SolvedCase) -> bool:
+    """Whether the second or the third turn passes a contact onset."""
+    if not _turns(solved.state):
         return False
-    return any(_goes_past_a_birth(answered, turn) for turn in turns_of(answered.case.pair, answered.state))
+    return any(_passes_an_onset(solved, turn) for turn in turns_of(solved.case.pair, solved.state))
 
 
-def wrong_embedment(answered: Answered) -> str:
+def wrong_embedment(solved: SolvedCase) -> str:
     """What is wrong with the embedment, in words: it is not the least lift that frees the third pose; else empty.
 
     Beside the near-phase window the brute force's lift can creep on by its own resolution; it is followed no farther
-    than ``MOST_LIFTS`` of its steps, and an embedment beyond is not judged.
+    than ``MAX_LIFTS`` of its steps, and an embedment beyond is not checked.
     """
-    state = answered.state
+    state = solved.state
     if state.embedment is None or len(state.poses) < 3:
         return ""
     pose = state.poses[2]
-    lift, is_free = _lifted(answered.case.pair, np.array(pose.rotation), np.array(pose.translation))
+    lift, is_free = _lifted(solved.case.pair, np.array(pose.rotation), np.array(pose.translation))
     far = lift - state.embedment
     if abs(far) <= LIFT_TOLERANCE_INCH or (far < 0.0 and not is_free):
         return ""
@@ -212,7 +212,7 @@ def _lifted(pair: Pair, rotation: Floats, translation: Floats) -> tuple[float, b
     near = oracle_lift.NEAR * pair.thread_pitch
     bolt, nut = bolt_profile(pair), nut_profile(pair)
     lift = 0.0
-    for _ in range(MOST_LIFTS):
+    for _ in range(MAX_LIFTS):
         end = float(oracle_lift._greatest_end(lift, near, np.ascontiguousarray(rotation), translation, bolt, nut))
         if end <= lift + 1e-12:
             return lift, True

@@ -1,4 +1,4 @@
-"""What stored answers cost: every question on a library, asked of the service within this process."""
+"""Response times of stored data: every kind of request about a library, to the service within this process."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from service.logs import configure_logs
 from threadstate.library.grid import Grid
 from threadstate.settings import LogLevel, read_settings
 
-ASKED = 40
-"""How often each question is asked, about other orientations, phases and formations each time."""
+REPEATS = 40
+"""How often each kind of request is sent, for other orientations, phases and formations each time."""
 
 LIBRARY = "/v1/libraries/latest"
 OBSERVED = ("contact=1:crest:*:edge-edge", "contact=1:*:*:*&class=stable_three_point", "flag=flush")
@@ -26,13 +26,13 @@ PREPARED = "threadstate_prepared_in_full 1.0"
 TILTS = ("ccw", "ccw,roll%2B,roll-,pitch%2B,pitch-")
 
 
-class QuestionFailedError(Exception):
-    """An answer was not one; the text is its address and what came instead."""
+class RequestFailedError(Exception):
+    """A response without status 200; the message has its address, status and body."""
 
 
 @dataclass(frozen=True)
-class Question:
-    """Wall times in ms of one kind of question: the first time, then the median and the longest of the others."""
+class RequestTimes:
+    """Wall times in ms of one kind of request: the first time, then the median and the longest of the others."""
 
     name: str
     first_ms: float
@@ -40,11 +40,11 @@ class Question:
     longest_ms: float
 
 
-def answered(database: Path, grid: Grid) -> list[Question]:
-    """Every kind of stored question, put to the latest library of a SQLite file by a service that has prepared itself.
+def measured(database: Path, grid: Grid) -> list[RequestTimes]:
+    """The times of every kind of request to the latest library of a SQLite file, once the service has precomputed.
 
     Raises:
-        QuestionFailedError: an answer has another status than 200.
+        RequestFailedError: a response has another status than 200.
     """
     settings = replace(read_settings({}), database=f"sqlite:///{database}", data_dir=database.parent)
     configure_logs(settings.log, LogLevel.ERROR)
@@ -53,12 +53,12 @@ def answered(database: Path, grid: Grid) -> list[Question]:
             time.sleep(1.0)
         first = client.get(f"{LIBRARY}/histories/{grid.tilts_deg[0]}/{grid.tilts_deg[-1]}")
         if first.status_code != 200:
-            raise QuestionFailedError(f"{first.url}: {first.status_code} {first.text}")
-        return [_timed(client, name, make) for name, make in _questions(client, grid).items()]
+            raise RequestFailedError(f"{first.url}: {first.status_code} {first.text}")
+        return [_timed(client, name, make) for name, make in _requests(client, grid).items()]
 
 
-def _questions(client: TestClient, grid: Grid) -> dict[str, Callable[[], str]]:
-    """Addresses by the name of the question."""
+def _requests(client: TestClient, grid: Grid) -> dict[str, Callable[[], str]]:
+    """Addresses by the name of the kind of request."""
     chosen = np.random.default_rng(SEED)
     keys: list[str] = []
 
@@ -102,13 +102,13 @@ def _questions(client: TestClient, grid: Grid) -> dict[str, Callable[[], str]]:
     }
 
 
-def _timed(client: TestClient, name: str, make: Callable[[], str]) -> Question:
+def _timed(client: TestClient, name: str, make: Callable[[], str]) -> RequestTimes:
     times = []
-    for _ in range(ASKED):
+    for _ in range(REPEATS):
         address = make()
         start = time.perf_counter()
         answer = client.get(address)
         times.append(1e3 * (time.perf_counter() - start))
         if answer.status_code != 200:
-            raise QuestionFailedError(f"{address}: {answer.status_code} {answer.text}")
-    return Question(name, times[0], statistics.median(times[1:]), max(times[1:]))
+            raise RequestFailedError(f"{address}: {answer.status_code} {answer.text}")
+    return RequestTimes(name, times[0], statistics.median(times[1:]), max(times[1:]))

@@ -1,4 +1,4 @@
-// What was observed of a state, to be looked for in the library: as a form's fields, and as the query that asks for it.
+// What was observed of a state, to be searched for in the library: as a form's fields, and as a query.
 
 import { CLASSES, FEATURES, FLAGS, REGIONS } from "./terms.js";
 
@@ -51,12 +51,12 @@ export function observationOf(text) {
   };
 }
 
-/** A query that says all that it seems to, or undefined. */
+/** The query if all of it is valid, or undefined. */
 export function checkedObservation(text) {
   return observationText(observationOf(text)) === text ? text : undefined;
 }
 
-/** The parameters with which the service is asked. */
+/** The query parameters of the request. */
 export function observationQuery(text) {
   return Object.fromEntries(new URLSearchParams(text));
 }

@@ -1,4 +1,4 @@
-"""What a mesh method would say that took the collision library's pairs as they come."""
+"""What a mesh method would give that used the collision library's pairs unfiltered."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ SEED = 5
 
 
 @dataclass(frozen=True)
-class MeshTraps:
-    """What was seen.
+class MeshPitfalls:
+    """The numbers of the three pitfalls.
 
     ``averaged_off`` is how far, in inches, the mean of all midpoints at two contacts is from the nearer of them;
     ``clusters`` how many there are. ``flush_pairs`` triangles collide in a flush pose, ``flush_met`` of them in a
-    segment. ``types`` counts the pairs of all first contacts of a sample by how they meet, ``fooled`` those poses in
-    which a pair does not.
+    segment. ``types`` counts the pairs of all first contacts of a sample by how they meet; in
+    ``poses_without_contact`` of these poses one of the pairs does not meet.
     """
 
     clusters: int
@@ -43,11 +43,11 @@ class MeshTraps:
     flush_met: int
     poses: int
     types: Counter[Intersection]
-    fooled: int
+    poses_without_contact: int
 
 
-def mesh_traps(method: MeshStates, sample: int, pair: Pair) -> MeshTraps:
-    """The three traps, on the meshes of that method; so many poses of the sample."""
+def mesh_pitfalls(method: MeshStates, sample: int, pair: Pair) -> MeshPitfalls:
+    """The three pitfalls, on the meshes of that method; ``sample`` is the number of random poses."""
     bolt, nut = (part_solid(pair, part, method.options.tessellation) for part in Part)
     collider, connectivity = Collider(bolt, nut), Connectivity(bolt, nut)
 
@@ -62,7 +62,7 @@ def mesh_traps(method: MeshStates, sample: int, pair: Pair) -> MeshTraps:
     flush = _second_pose(method, pair, FLUSH_DEG)
     in_plane = [segment for cluster in met(flush) for segment in cluster_segments(cluster, bolt, nut, flush).types]
     types: Counter[Intersection] = Counter()
-    fooled = 0
+    poses_without_contact = 0
     poses = np.random.default_rng(SEED).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], (sample, 3))
     for roll, pitch, phase in poses.tolist():
         try:
@@ -73,9 +73,9 @@ def mesh_traps(method: MeshStates, sample: int, pair: Pair) -> MeshTraps:
             Intersection(kind) for one in found for kind in cluster_segments(one, bolt, nut, pose).types.tolist()
         )
         types.update(here)
-        fooled += bool(here[Intersection.IV] or here[Intersection.V])
+        poses_without_contact += bool(here[Intersection.IV] or here[Intersection.V])
     met_in_plane = sum(Intersection(kind) not in (Intersection.IV, Intersection.V) for kind in in_plane)
-    return MeshTraps(len(clusters), off, len(in_plane), met_in_plane, sample, types, fooled)
+    return MeshPitfalls(len(clusters), off, len(in_plane), met_in_plane, sample, types, poses_without_contact)
 
 
 def _second_pose(method: MeshStates, pair: Pair, pose_deg: tuple[float, float, float]) -> Floats:

@@ -1,26 +1,26 @@
-"""What is asked of both servers, and of the service alone."""
+"""The requests to both servers, and those to the service alone."""
 
 from __future__ import annotations
 
 from urllib.parse import urlencode
 
-from benchmarks.load.wrk import Question
+from benchmarks.load.wrk import RequestPattern
 from threadstate.library.tables import contact, stage_pose, state, state_flag
 
 TILTS, PHASES = (-4, 4), (0, 359)
 _LIBRARY = "/v1/libraries/latest"
 
-POSE = Question(f"{_LIBRARY}/states/%d/%d/%d", (TILTS, TILTS, PHASES))
-HISTORY = Question(f"{_LIBRARY}/histories/%d/%d", (TILTS, TILTS))
-HISTORY_FROM_ROWS = Question(f"{_LIBRARY}/histories/%d/%d?unit=mm", (TILTS, TILTS))
-ZIPPED_HISTORY = Question(HISTORY.path, HISTORY.ranges, (("Accept-Encoding", "gzip"),))
-INTERVALS = Question(f"{_LIBRARY}/histories/%d/%d/intervals", (TILTS, TILTS))
+POSE = RequestPattern(f"{_LIBRARY}/states/%d/%d/%d", (TILTS, TILTS, PHASES))
+HISTORY = RequestPattern(f"{_LIBRARY}/histories/%d/%d", (TILTS, TILTS))
+HISTORY_FROM_ROWS = RequestPattern(f"{_LIBRARY}/histories/%d/%d?unit=mm", (TILTS, TILTS))
+ZIPPED_HISTORY = RequestPattern(HISTORY.path, HISTORY.ranges, (("Accept-Encoding", "gzip"),))
+INTERVALS = RequestPattern(f"{_LIBRARY}/histories/%d/%d/intervals", (TILTS, TILTS))
 ONE_HISTORY = f"{_LIBRARY}/histories/4/-3"
 
 
-def not_modified(etag: str) -> Question:
-    """A history that the client has."""
-    return Question(ONE_HISTORY, headers=(("If-None-Match", etag),))
+def not_modified(etag: str) -> RequestPattern:
+    """A conditional request for a history that the client has."""
+    return RequestPattern(ONE_HISTORY, headers=(("If-None-Match", etag),))
 
 
 def _objects(table: str, columns: list[str], order: str) -> str:
@@ -56,7 +56,7 @@ def _by_sql(sql: str, *names: str) -> str:
     return f"/threadstate.json?{query}" + "".join(f"&{name}=%d" for name in names)
 
 
-POSE_BY_DATASETTE = Question(
+POSE_BY_DATASETTE = RequestPattern(
     _by_sql(f"{_OF_LATEST} AND s.phase_deg = :phase", "roll", "pitch", "phase"), (TILTS, TILTS, PHASES)
 )
-HISTORY_BY_DATASETTE = Question(_by_sql(f"{_OF_LATEST} ORDER BY s.ordinal", "roll", "pitch"), (TILTS, TILTS))
+HISTORY_BY_DATASETTE = RequestPattern(_by_sql(f"{_OF_LATEST} ORDER BY s.ordinal", "roll", "pitch"), (TILTS, TILTS))
