@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from oracle.statics.wrenches import Floats, Twist, Wrench
 
@@ -21,6 +22,8 @@ ROUND_OFF = 1e-12
 """A velocity is zero below this share of the twist's own size, a balance below this share of the forces in it."""
 POWER_ROUND_OFF = 1e-14
 """The load's power is positive above this share of what adds up to it."""
+PRESSING = 1e-12
+"""A ray presses on a contact where its normal part exceeds this share of its largest one."""
 EXCLUDED = 1e-9
 """A contact opens under a twist where its normal velocity exceeds this share of the twist's size."""
 
@@ -46,6 +49,11 @@ def imbalance(points: Floats, forces: Floats, load: Wrench | None) -> float:
     return float(np.hypot(np.linalg.norm(force), np.linalg.norm(moment) / extent)) / (total or 1.0)
 
 
+def pressing(normal: Floats) -> NDArray[np.bool_]:
+    """On which contacts a ray of these normal parts (k) presses: a part that is round-off beside the others is none."""
+    return np.asarray(normal > PRESSING * normal.max(initial=0.0))
+
+
 def forces_bound(
     points: Floats,
     normals: Floats,
@@ -62,8 +70,11 @@ def forces_bound(
     """
     free = np.zeros(len(points), dtype=bool)
     bound = 0.0
-    for number, ray in enumerate((*rays, forces)):
+    for number, given in enumerate((*rays, forces)):
         last = number == len(rays)
+        # Contacts that press already may be pulled at; elsewhere what does not press is round-off.
+        kept = free | pressing(np.einsum("ka,ka->k", normals, given)) | last
+        ray = np.where(kept[:, None], given, 0.0)
         if imbalance(points, ray, load if last else None) > ROUND_OFF:
             return math.inf
         normal = np.einsum("ka,ka->k", normals, ray)

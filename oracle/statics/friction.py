@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linprog
 
-from oracle.statics.certificates import POWER_ROUND_OFF, ROUND_OFF, forces_bound, norms, twist_bound
+from oracle.statics.certificates import POWER_ROUND_OFF, ROUND_OFF, forces_bound, norms, pressing, twist_bound
 from oracle.statics.cones import Cone, Pyramid, RoundCone
 from oracle.statics.wrenches import Contacts, Floats, Twist, Wrench
 
@@ -194,7 +194,7 @@ def _hold(maps: Floats, load: Floats, cone: Cone, floor: float, scale: float) ->
 
 def _hold_wedged(maps: Floats, load: Floats, cone: Cone, floor: float, scale: float, ray: Floats) -> _Found:
     """``_hold`` where the contacts on which ``ray`` presses carry any force."""
-    rest = ray[:, 0] <= 0.0
+    rest = ~pressing(ray[:, 0])
     carried, free = split(maps, ~rest)
     inner = _hold(np.einsum("qp,kqc->kpc", free, maps[rest]), free.T @ load, cone, floor, scale)
 

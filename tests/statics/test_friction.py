@@ -1,0 +1,96 @@
+"""Least frictions beside the witness, and the laws that they obey (forces, section 3)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from oracle.statics import friction as witness
+from oracle.statics.wrenches import Wrench
+from tests.statics.test_check_values import hold, wedge
+from threadstate.statics import _friction_kernel as fk
+
+pytestmark = pytest.mark.slow
+
+Floats = NDArray[np.float64]
+
+
+def scenes(count: int, contacts: int, seed: int) -> list[tuple[Floats, Floats, Floats]]:
+    """Random points, normals that mostly look up, and loads that mostly push down."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for _ in range(count):
+        points = rng.normal(size=(contacts, 3)) * [1.0, 1.0, 0.3]
+        normals = rng.normal(size=(contacts, 3)) * 0.6 + [0.0, 0.0, 1.0]
+        load = rng.normal(size=6) * 0.2 + [0.0, 0.0, 0.0, 0.0, 0.0, -1.0]
+        found.append((points, normals / np.linalg.norm(normals, axis=1)[:, np.newaxis], load))
+    return found
+
+
+def agree(ours: tuple[int, float, float], theirs: witness.FrictionBounds, tolerance: float) -> bool:
+    """Whether two pairs of bounds have a value in common, within a tolerance of the angle."""
+    if ours[0] == fk.NEVER or math.isinf(theirs.lower):
+        return ours[0] == fk.NEVER and math.isinf(theirs.lower)
+    upper = math.inf if theirs.upper is None else theirs.upper
+    return bool(
+        math.atan(ours[1]) <= math.atan(upper) + tolerance and math.atan(theirs.lower) <= math.atan(ours[2]) + tolerance
+    )
+
+
+@pytest.mark.parametrize(("contacts", "count"), [(2, 40), (3, 60), (4, 25), (6, 10)])
+def test_least_frictions_are_the_witnesses(contacts: int, count: int) -> None:
+    for points, normals, load in scenes(count, contacts, seed=contacts):
+        push = Wrench.of(load[3:], load[:3])
+        assert agree(wedge(points, normals)[:3], witness.wedge_friction(points, normals, 1.0), 1e-9)
+        assert agree(hold(load, points, normals), witness.hold_friction(points, normals, push, 1.0), 1e-7)
+
+
+def test_bounds_of_three_contacts_are_narrow() -> None:
+    """Nearly all to round-off; limits that are only approached, with forces that grow, to some parts in a billion."""
+    widths = []
+    for points, normals, load in scenes(600, 3, seed=7):
+        for status, lower, upper in (wedge(points, normals)[:3], hold(load, points, normals)):
+            assert status == fk.FOUND
+            assert 0.0 <= lower <= upper < math.inf
+            widths.append((upper - lower) / upper)
+    assert np.quantile(widths, 0.97) < 1e-10
+    assert max(widths) < 1e-7
+
+
+def test_forces_balance_and_lie_in_their_cones() -> None:
+    for points, normals, load in scenes(100, 3, seed=9):
+        _, _, upper = hold(load, points, normals)
+        forces = np.zeros(9)
+        needed = fk.least_forces(load, 1.2 * upper, points, normals, forces)
+        found = forces.reshape(3, 3)
+        assert needed <= 1.2 * upper * (1.0 + 1e-7)
+        assert np.abs(found.sum(axis=0) + load[3:]).max() < 1e-9 * max(1.0, np.abs(found).max())
+        assert np.abs(np.cross(points, found).sum(axis=0) + load[:3]).max() < 1e-9 * max(1.0, np.abs(found).max())
+
+
+def test_neither_order_nor_point_nor_size_of_the_load_matters() -> None:
+    rng = np.random.default_rng(3)
+    for points, normals, load in scenes(60, 3, seed=11):
+        given = hold(load, points, normals)[2]
+        order = rng.permutation(3)
+        shift = rng.normal(size=3)
+        moved = np.array([*(load[:3] - np.cross(shift, load[3:])), *load[3:]])
+        for again in (
+            hold(load, points[order], normals[order]),
+            hold(1e3 * load, points, normals),
+            hold(moved, points - shift, normals),
+        ):
+            assert math.atan(again[2]) == pytest.approx(math.atan(given), abs=1e-6)
+
+
+def test_mirrored_contacts_need_the_mirrored_loads_friction() -> None:
+    mirror = np.array([1.0, -1.0, 1.0])
+    for points, normals, load in scenes(60, 3, seed=13):
+        other = load * np.array([-1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
+        assert hold(other, points * mirror, normals * mirror)[2] == pytest.approx(
+            hold(load, points, normals)[2], rel=1e-6
+        )
+        assert wedge(points * mirror, normals * mirror)[2] == pytest.approx(wedge(points, normals)[2], rel=1e-9)

@@ -1,0 +1,244 @@
+"""The statics of a state under a load: what is supported, held or wedged (forces, section 3)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.errors import InvalidValueError
+from threadstate.state.model import ContactState, Vector
+from threadstate.statics import _friction_kernel as fk
+from threadstate.statics._effort_kernel import turn_effort
+from threadstate.statics._support_kernel import SPAN_TOLERANCE, depth_in_simplex, distance_to_rays, patch_margin
+from threadstate.statics.load import Load
+from threadstate.statics.touching import Touching, touching
+from threadstate.thread.pair import Pair
+
+Floats = NDArray[np.float64]
+
+
+class Verdict(StrEnum):
+    """What the bolt can do at a friction, quasi-statically."""
+
+    MOVES = "moves"
+    """No contact forces balance the load."""
+    CAN_STAY = "can_stay"
+    """Some do; others motions may be consistent as well."""
+    CAN_WEDGE = "can_wedge"
+    """Some do, and contacts can balance each other without any load."""
+    UNDECIDED = "undecided"
+    """The friction lies within the bounds of a least friction."""
+
+
+@dataclass(frozen=True, slots=True)
+class FrictionBounds:
+    """A least friction lies within these bounds, both certified; both infinite where no friction does it."""
+
+    lower: float
+    upper: float
+
+    @property
+    def value(self) -> float | None:
+        """The least friction, from above; None where no friction does it."""
+        return self.upper if self.upper < math.inf else None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactForce:
+    """The force on the bolt at a contact, in N: its normal part, and its tangential one in the nut's frame.
+
+    ``contact`` counts from 1: the state's contacts, then the hull of its patch.
+    """
+
+    contact: int
+    normal: float
+    tangential: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Statics:
+    """The statics of a state under a load (forces, section 3).
+
+    Attributes:
+        penetrating: whether the solids overlap in the last pose: no forces can be real there.
+        support_margin: distance of the load from the boundary of what is balanced without friction, moments over the nominal
+            radius about the bolt's origin; negative outside.
+        hold: the least friction at which contacts can balance the load.
+        wedge: the least friction at which contact forces can balance each other.
+        turn_effort_ccw, turn_effort_cw: torque over the push times the nominal radius at which the bolt begins to turn, held by a
+            rigid device; infinite where it is locked, None without a push on a contact.
+        forces: balancing forces of least largest normal part; empty where there are none.
+    """
+
+    load: Load
+    mu: float
+    penetrating: bool
+    support_margin: float
+    hold: FrictionBounds
+    wedge: FrictionBounds
+    turn_effort_ccw: float | None
+    turn_effort_cw: float | None
+    forces: tuple[ContactForce, ...]
+
+    @property
+    def supported(self) -> bool:
+        """Whether the contacts balance the load without friction."""
+        return self.support_margin >= 0.0
+
+    @property
+    def verdict(self) -> Verdict:
+        """What the bolt can do."""
+        if self.mu < self.hold.lower:
+            return Verdict.MOVES
+        if self.mu < self.hold.upper:
+            return Verdict.UNDECIDED
+        if self.mu < self.wedge.lower:
+            return Verdict.CAN_STAY
+        return Verdict.CAN_WEDGE if self.mu >= self.wedge.upper else Verdict.UNDECIDED
+
+
+def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: float = 0.0) -> Statics:
+    """The statics of a state under a load at a friction; see :class:`Statics`.
+
+    Raises:
+        InvalidValueError: ``mu`` is negative or not finite.
+        ParallelEdgesError: a contact has no certain normal.
+    """
+    if not 0.0 <= mu < math.inf:
+        raise InvalidValueError("mu", mu, "a finite number >= 0")
+    load = load or Load()
+    found = touching(pair, state)
+    radius = pair.nominal_diameter / 2.0
+    wrench = load.about(found.origin)
+    wrench[:3] /= radius
+    points = (found.points - found.origin) / radius
+    level = found.patch and not np.any(wrench[2:5])
+    margin = support_margin(wrench, points, found)
+    if margin >= 0.0:
+        hold = FrictionBounds(0.0, 0.0)
+        wedge, _, _ = wedge_friction(points, found)
+        forces: Floats = np.zeros(0)
+    elif level:
+        hold = wedge = FrictionBounds(math.inf, math.inf)
+    else:
+        wedge, wedge_forces, wedge_twist = wedge_friction(points, found)
+        hold = hold_friction(wrench, points, found, wedge, wedge_forces, wedge_twist)
+    return Statics(
+        load=load,
+        mu=mu,
+        penetrating=found.penetrating,
+        support_margin=margin,
+        hold=hold,
+        wedge=wedge,
+        turn_effort_ccw=_effort(wrench, points, found, radius, mu, 1.0),
+        turn_effort_cw=_effort(wrench, points, found, radius, mu, -1.0),
+        forces=_forces(wrench, points, found, mu) if mu >= hold.upper else (),
+    )
+
+
+def support_margin(wrench: Floats, points: Floats, found: Touching) -> float:
+    """The margin of a load (moment over r, force) about the bolt's origin; points over r from there."""
+    unit = wrench / np.linalg.norm(wrench)
+    if found.patch:
+        return float(patch_margin(unit, points[found.own :, :2]))
+    rays = np.hstack([np.cross(points, found.normals), found.normals])
+    distance = float(distance_to_rays(unit, rays))
+    if distance > SPAN_TOLERANCE:
+        return -distance
+    depth = float(depth_in_simplex(unit, rays))
+    # Dependent rays (a strip of flank): the distance from the sides of their cone is not told.
+    return max(depth, 0.0) if not math.isnan(depth) else 0.0
+
+
+def wedge_friction(points: Floats, found: Touching) -> tuple[FrictionBounds, Floats, Floats]:
+    """Bounds of the least friction that wedges, its forces (3 k) and its twist; contacts of one normal never wedge."""
+    forces, twist = np.zeros(3 * len(points)), np.zeros(6)
+    if found.patch:
+        return FrictionBounds(math.inf, math.inf), forces, twist
+    status, lower, upper = fk.wedge_friction(points, found.normals, forces, twist)
+    return _bounds(status, lower, upper), forces, twist
+
+
+def hold_friction(
+    wrench: Floats, points: Floats, found: Touching, wedge: FrictionBounds, wedge_forces: Floats, wedge_twist: Floats
+) -> FrictionBounds:
+    """Bounds of the least friction that holds a load; of a patch by the few points of its hull that matter."""
+    if found.patch:
+        bounds, _, _ = _patch_hold(wrench, points[found.own :])
+        return bounds
+    forces, twist = np.zeros(3 * len(points)), np.zeros(6)
+    found_bounds = fk.hold_friction(
+        wrench, points, found.normals, wedge.upper, wedge_forces, wedge_twist, forces, twist
+    )
+    return _bounds(*found_bounds)
+
+
+FIRST_POINTS = 6
+MOST_ADDITIONS = 40
+
+
+def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int], Floats]:
+    """Bounds for a level patch, and the points of its hull that carry the load at the upper one, with their forces.
+
+    The twist that proves the lower bound of some points is tried on the whole hull; points against which it fails are added
+    until none is left.
+    """
+    chosen = sorted({len(hull) * i // FIRST_POINTS for i in range(FIRST_POINTS)})
+    everywhere = np.tile([0.0, 0.0, 1.0], (len(hull), 1))
+    lower = 0.0
+    for _ in range(MOST_ADDITIONS):
+        forces, twist, none = np.zeros(3 * len(chosen)), np.zeros(6), np.zeros(3 * len(chosen))
+        status, low, upper = fk.hold_friction(
+            wrench, hull[chosen], everywhere[chosen], math.inf, none, np.zeros(6), forces, twist
+        )
+        bounds = _bounds(status, low, upper)
+        velocity = twist[3:] + np.cross(twist[:3], hull)
+        scale = np.abs(velocity).max()
+        across = np.hypot(velocity[:, 0], velocity[:, 1])
+        moving = across > 1e-12 * scale
+        ratio = np.where(moving, velocity[:, 2] / np.where(moving, across, 1.0), np.inf)
+        ratio[velocity[:, 2] < -1e-12 * scale] = -np.inf
+        worst = int(np.argmin(ratio))
+        if ratio[worst] >= bounds.lower * (1.0 - 1e-12) or worst in chosen:
+            return FrictionBounds(max(lower, min(float(ratio[worst]), bounds.lower)), bounds.upper), chosen, forces
+        lower = max(lower, float(ratio[worst]))
+        chosen = sorted({*chosen, worst})
+    return FrictionBounds(min(lower, bounds.upper), bounds.upper), chosen, forces
+
+
+def _bounds(status: int, lower: float, upper: float) -> FrictionBounds:
+    if status == fk.OPEN:
+        return FrictionBounds(0.0, math.inf)
+    return FrictionBounds(float(lower), float(upper))
+
+
+def _effort(wrench: Floats, points: Floats, found: Touching, radius: float, mu: float, sense: float) -> float | None:
+    """The torque over (push r), about the nut's axis, at which the bolt begins to turn; None without a push on a contact."""
+    push = -float(wrench[5])
+    if not push > 0.0:
+        return None
+    # About the nut's axis; x and y of the bolt's origin are not zero after the turns of the second and third stage.
+    shift = np.array([found.origin[0], found.origin[1], 0.0]) / radius
+    torque = float(wrench[2] + shift[0] * wrench[4] - shift[1] * wrench[3])
+    effort = float(turn_effort(push, torque, points + shift, found.normals, mu, sense))
+    return None if math.isnan(effort) else effort / push
+
+
+def _forces(wrench: Floats, points: Floats, found: Touching, mu: float) -> tuple[ContactForce, ...]:
+    """Balancing forces at ``mu`` of least largest normal part."""
+    chosen = list(range(len(points)))
+    if found.patch:
+        _, chosen, _ = _patch_hold(wrench, points[found.own :])
+        chosen = [found.own + i for i in chosen]
+    forces = np.zeros(3 * len(chosen))
+    fk.least_forces(wrench, mu, points[chosen], found.normals[chosen], forces)
+    rows = []
+    for number, force in zip(chosen, forces.reshape(-1, 3), strict=True):
+        normal = float(force @ found.normals[number])
+        x, y, z = (force - normal * found.normals[number]).tolist()
+        rows.append(ContactForce(number + 1, normal, (x, y, z)))
+    return tuple(rows)

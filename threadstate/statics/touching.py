@@ -1,0 +1,153 @@
+"""Where a state's solids touch in its last pose, and the normals there (forces, section 2).
+
+A state stores each contact in the pose of its stage. In the last pose an earlier contact is at the same point, which lies on
+the axes of the later turns, but the features have turned against each other and the normal with them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.contact._geometry_kernel import TWO_PI, edge_point
+from threadstate.errors import ThreadstateError
+from threadstate.state.model import Contact, ContactState, FeaturePair, Flag, StagePose
+from threadstate.statics import _patch_kernel as hk
+from threadstate.thread.pair import Pair
+
+Floats = NDArray[np.float64]
+
+PARALLEL_SINE = 1e-9
+"""Edges that cross at a smaller angle (its sine) in the last pose have no certain normal."""
+
+
+class ParallelEdgesError(ThreadstateError):
+    """Two edges are parallel where they touch in the last pose, so that no normal is certain there."""
+
+    def __init__(self, state: ContactState, number: int) -> None:
+        super().__init__(
+            f"Contact {number} of roll {state.roll_deg!r}, pitch {state.pitch_deg!r}, phase {state.phase_deg!r} deg"
+            " is of two edges that are parallel in the last pose: its normal is not certain."
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Touching:
+    """Contacts of a state's last pose, in the nut's frame, lengths in the pair's unit.
+
+    Attributes:
+        points: shape (k, 3), read-only; the state's own contacts first, then the hull of its patch.
+        normals: shape (k, 3), read-only; unit vectors from the nut into the bolt.
+        own: how many are the state's own contacts.
+        origin: the bolt's origin.
+        patch: whether they are a level patch, all normals up.
+        gap: how far the hull of the true patch may lie outside of the one of these points; 0 without a patch.
+        penetrating: whether the solids overlap in the last pose by more than the tolerance: no forces are real there.
+    """
+
+    points: Floats
+    normals: Floats
+    own: int
+    origin: tuple[float, float, float]
+    patch: bool
+    gap: float
+    penetrating: bool
+
+
+def touching(pair: Pair, state: ContactState) -> Touching:
+    """Where the solids touch in the last pose of a state.
+
+    Raises:
+        ParallelEdgesError: two edges are parallel where they touch.
+    """
+    last = state.poses[-1]
+    points = [contact.point for contact in state.contacts]
+    gap, patch = 0.0, False
+    if Flag.FLUSH in state.flags:
+        on_thread = last.translation[2] < 0.0
+        patch = not on_thread
+        normals = [contact.normal if on_thread else (0.0, 0.0, 1.0) for contact in state.contacts]
+        if not on_thread:
+            hull, gap = patch_hull(pair, last)
+            points += hull
+            normals += [(0.0, 0.0, 1.0)] * len(hull)
+    else:
+        normals = [_last_normal(pair, state, number) for number in range(len(state.contacts))]
+    return Touching(
+        points=_read_only(points),
+        normals=_read_only(normals),
+        own=len(state.contacts),
+        origin=last.translation,
+        patch=patch,
+        gap=gap,
+        penetrating=state.embedment_margin is not None and state.embedment_margin < 0.0,
+    )
+
+
+def _last_normal(pair: Pair, state: ContactState, number: int) -> tuple[float, float, float]:
+    """The unit normal of a contact in the last pose: the nut's, the bolt's turned, or across both edges."""
+    contact = state.contacts[number]
+    last = np.array(state.poses[-1].rotation)
+    if contact.features is FeaturePair.EDGE_EDGE:
+        return _across_edges(pair, state, contact, number, last)
+    if contact.features in (FeaturePair.BASE_EDGE, FeaturePair.THREAD_EDGE):
+        x, y, z = (last @ np.array(_stage_pose(state, contact).rotation).T @ np.array(contact.normal)).tolist()
+        return x, y, z
+    return contact.normal
+
+
+def _stage_pose(state: ContactState, contact: Contact) -> StagePose:
+    return state.poses[min(contact.stage, len(state.poses)) - 1]
+
+
+def _across_edges(
+    pair: Pair, state: ContactState, contact: Contact, number: int, last: Floats
+) -> tuple[float, float, float]:
+    _, _, dx, dy = edge_point(math.atan2(contact.point_bolt[1], contact.point_bolt[0]), pair.bolt.packed)
+    bolt = last @ np.array([dx, dy, 0.0])
+    _, _, dx, dy = edge_point(math.atan2(contact.point[1], contact.point[0]), pair.nut.packed)
+    nut = np.array([dx, dy, 0.0])
+    across = np.cross(bolt, nut)
+    size = float(np.linalg.norm(across))
+    if not size > PARALLEL_SINE * float(np.linalg.norm(bolt) * np.linalg.norm(nut)):
+        raise ParallelEdgesError(state, number + 1)
+    # The bolt's material lies on the side of its axis above the base, as in the pose of the contact's stage.
+    inward = np.array(state.poses[-1].translation) + last @ [0.0, 0.0, pair.thread_pitch / 2.0] - contact.point
+    if float(across @ inward) < 0.0:
+        size = -size
+    x, y, z = (across / size).tolist()
+    return x, y, z
+
+
+def patch_hull(pair: Pair, pose: StagePose) -> tuple[list[tuple[float, float, float]], float]:
+    """The convex hull, counter-clockwise, of the patch on which a flush bolt lies, and how far outside it the patch may reach.
+
+    Between two samples an arc of the bolt's outline leaves its chord by at most an eighth of the chord's length squared times
+    the outline's largest curvature.
+    """
+    placed = np.array([*np.ravel(pose.rotation), *pose.translation])
+    hull = np.empty((2 * hk.OUTLINE_SAMPLES + 1, 2))
+    count = hk.patch_hull(placed, pair.bolt.packed, pair.nut.packed, hull)
+    chord = TWO_PI / hk.OUTLINE_SAMPLES * pair.bolt.major_diameter / 2.0
+    return [(x, y, 0.0) for x, y in hull[:count].tolist()], _largest_curvature(pair) * chord * chord / 8.0
+
+
+def _largest_curvature(pair: Pair) -> float:
+    """A bound of the curvature of the bolt's outline ``r = f(-k theta)``, over the pair's length unit."""
+    k = pair.thread_pitch / TWO_PI
+    slope = k / math.tan(math.radians(pair.form.flank_half_angle_deg))
+    low = pair.bolt.minor_diameter / 2.0
+    high = pair.bolt.major_diameter / 2.0
+    secant = 1.0 / math.sin(math.radians(pair.form.flank_half_angle_deg))
+    radii = [radius for radius in (pair.bolt.minor_fillet_radius, pair.bolt.major_fillet_radius) if radius > 0.0]
+    second = max((k * k * secant**3 / radius for radius in radii), default=0.0)
+    return (high * high + 2.0 * slope * slope + high * second) / low**3
+
+
+def _read_only(rows: list[tuple[float, float, float]]) -> Floats:
+    array = np.array(rows, dtype=np.float64).reshape(-1, 3)
+    array.setflags(write=False)
+    return array
