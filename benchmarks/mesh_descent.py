@@ -89,13 +89,12 @@ def _descend(collides: Callable[[float], bool], free: float, step: float) -> flo
     return free
 
 
-def mesh_first_heights(pair: Pair, poses: ArrayLike, descent: Descent = SAFE) -> tuple[Floats, float]:
+def mesh_first_heights(meshes: MeshDescent, poses: ArrayLike, descent: Descent = SAFE) -> tuple[Floats, float]:
     """First heights (in) of poses, shape (n, 3) of roll, pitch, phase in degrees; and the seconds the descents took.
 
     Measured is the wall time of the descents alone, on one core: meshes and search trees are built before, as the exact
     method's kernels are compiled before. The contact's place is not computed, nor are the second and third contacts.
     """
-    meshes = MeshDescent(pair)
     rows = np.asarray(poses, dtype=np.float64).reshape(-1, 3)
     heights = np.empty(len(rows))
     start = time.perf_counter()
