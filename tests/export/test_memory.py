@@ -17,7 +17,7 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 pytestmark = pytest.mark.slow
 
 ALLOWED = {FileFormat.PARQUET: 8e6, FileFormat.CSV: 10e6, FileFormat.NDJSON: 12e6}
-"""Bytes: a tenth to a third more than writing takes, less than that and the file, a fifth of the documents of the states."""
+"""Bytes: a tenth to a third more than writing takes; less than it takes to hold the file, or the documents, whole."""
 
 PROGRAM = """
 import sys, tracemalloc
