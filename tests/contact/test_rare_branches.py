@@ -94,10 +94,11 @@ def solved(pose: PoseDeg) -> Floats:
         ((-1.5672177536613028e-09, -9.26655911387684e-10, 0.9229228656843453), 0),
         ((-0.3504938445628365, 0.43463619476944293, 2.105473731237989), 1),
         ((-0.4062703271374307, 0.48531345883764654, -0.890327516976404), 2),
+        ((1e-4, 5e-5, 0.0), 3),
     ],
 )
 def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pose: PoseDeg, poses: int) -> None:
-    """One for each stage: ``poses`` of them were certain."""
+    """One for each stage, and one for the embedment: ``poses`` of the three were found."""
     row = solved(pose)
     assert (row[record.O_STATUS], row[record.O_POSES]) == (stage.UNRESOLVED, poses)
     with pytest.raises(UnresolvedPoseError, match="before every box was excluded"):
@@ -131,6 +132,11 @@ def test_an_edge_that_lies_in_the_other_plane_is_undecided(height: float, outcom
     boxes, spare_boxes = stage.new_work()[:2]
     found, _ = edge_search.find_inside(motion, BOLT, NUT, np.empty(0), 0, 1e-12, 1e-11, boxes, spare_boxes)
     assert found == outcome
+
+
+def test_the_witness_of_an_edge_that_lies_in_the_other_plane_is_undecided() -> None:
+    outcome, until = lift.find_witness(pose_at((0.0, 0.0, 90.0), 0.0), 0.0, 1.0, BOLT, NUT, stage.new_work())
+    assert (outcome, until) == (edge_search.UNDECIDED, 0.0)
 
 
 # --- Onsets
@@ -307,7 +313,17 @@ def test_a_contact_of_the_base_on_the_nut_s_edge_is_recorded_by_the_rules() -> N
 
 
 @pytest.mark.parametrize(("inward", "counted"), [(1e-3, 0), (1e-9, 1)])
-def test_a_contact_of_the_base_counts_as_one_of_the_bolt_s_edge_only_beside_it(inward: float, counted: int) -> None:
+def test_a_contact_of_the_base_counts_as_one_of_the_bolt_s_edge_beside_it(inward: float, counted: int) -> None:
     pose, contact = base_on_edge(inward)
     azimuths = np.empty(2), np.empty(2)
     assert stage.set_contact_azimuths(contact[None, :], 1, pose, BOLT, NUT, *azimuths) == (counted, 1)
+
+
+@pytest.mark.parametrize(("outward", "counted"), [(1e-3, 0), (1e-9, 1)])
+def test_a_contact_with_the_surface_counts_as_one_of_the_nut_s_edge_beside_it(outward: float, counted: int) -> None:
+    azimuth = 2.0
+    r = radius(-P * azimuth / (2 * math.pi), nut_profile(PAIR)) + outward
+    contact = np.array([0.0, stage.EDGE_SURFACE, 1.0, azimuth, r * math.cos(azimuth), r * math.sin(azimuth), 0.0])
+    azimuths = np.empty(2), np.empty(2)
+    pose = pose_at((1.0, -2.0, 50.0), 0.0)
+    assert stage.set_contact_azimuths(contact[None, :], 1, pose, BOLT, NUT, *azimuths) == (1, counted)
