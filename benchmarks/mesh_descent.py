@@ -24,10 +24,9 @@ from numpy.typing import ArrayLike
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.frames import fixed_from_bolt
 from threadstate.mesh.part import part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Tessellation
 from threadstate.mesh.solid import Floats
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 TESSELLATION = Tessellation(2.6e-4, 0.5)
 """60,100 triangles for the bolt of 1/4-20 UNC and 62,828 for the nut."""
