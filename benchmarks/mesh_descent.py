@@ -24,10 +24,9 @@ from numpy.typing import ArrayLike
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.frames import fixed_from_bolt
 from threadstate.mesh.part import part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Tessellation
 from threadstate.mesh.solid import Floats
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 TESSELLATION = Tessellation(2.6e-4, 0.5)
 """60,100 triangles for the bolt of 1/4-20 UNC and 62,828 for the nut."""
@@ -89,13 +88,12 @@ def _descend(collides: Callable[[float], bool], free: float, step: float) -> flo
     return free
 
 
-def mesh_first_heights(pair: Pair, poses: ArrayLike, descent: Descent = SAFE) -> tuple[Floats, float]:
+def mesh_first_heights(meshes: MeshDescent, poses: ArrayLike, descent: Descent = SAFE) -> tuple[Floats, float]:
     """First heights (in) of poses, shape (n, 3) of roll, pitch, phase in degrees; and the seconds the descents took.
 
     Measured is the wall time of the descents alone, on one core: meshes and search trees are built before, as the exact
     method's kernels are compiled before. The contact's place is not computed, nor are the second and third contacts.
     """
-    meshes = MeshDescent(pair)
     rows = np.asarray(poses, dtype=np.float64).reshape(-1, 3)
     heights = np.empty(len(rows))
     start = time.perf_counter()

@@ -7,11 +7,13 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 from fastapi.testclient import TestClient
 
 from benchmarks.sample import SEED
+from service import warming
 from service.app import create_app
 from service.logs import configure_logs
 from threadstate.library.grid import Grid
@@ -48,9 +50,10 @@ def measured(database: Path, grid: Grid) -> list[RequestTimes]:
     """
     settings = replace(read_settings({}), database=f"sqlite:///{database}", data_dir=database.parent)
     configure_logs(settings.log, LogLevel.ERROR)
-    with TestClient(create_app(settings, serving=True)) as client:
+    # The pauses between steps are for requests, of which there are none until the last step is done.
+    with mock.patch.object(warming, "PAUSE_FACTOR", 0.0), TestClient(create_app(settings, serving=True)) as client:
         while PREPARED not in client.get("/metrics").text:
-            time.sleep(1.0)
+            time.sleep(0.1)
         first = client.get(f"{LIBRARY}/histories/{grid.tilts_deg[0]}/{grid.tilts_deg[-1]}")
         if first.status_code != 200:
             raise RequestFailedError(f"{first.url}: {first.status_code} {first.text}")

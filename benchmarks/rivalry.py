@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.mesh_descent import FASTER, SAFE, Descent, mesh_first_heights
+from benchmarks.mesh_descent import FASTER, SAFE, Descent, MeshDescent, mesh_first_heights
 from benchmarks.sample import Poses
 from threadstate.thread.pair import Pair
 
@@ -34,11 +34,12 @@ class Rival:
 
 def rivals(pair: Pair, poses: Poses, exact_heights: Poses, exact_seconds: float) -> list[Rival]:
     """Every descent on poses whose exact heights (in) are known and were found with the rest in ``exact_seconds``."""
-    return [_rival(pair, poses, exact_heights, exact_seconds, descent) for descent in (SAFE, *FASTER)]
+    meshes = MeshDescent(pair)
+    return [_rival(meshes, poses, exact_heights, exact_seconds, descent) for descent in (SAFE, *FASTER)]
 
 
-def _rival(pair: Pair, poses: Poses, exact_heights: Poses, exact_seconds: float, descent: Descent) -> Rival:
-    heights, seconds = mesh_first_heights(pair, poses, descent)
+def _rival(meshes: MeshDescent, poses: Poses, exact_heights: Poses, exact_seconds: float, descent: Descent) -> Rival:
+    heights, seconds = mesh_first_heights(meshes, poses, descent)
     difference = heights - exact_heights
     worst = int(np.argmax(np.abs(difference)))
     roll, pitch, phase = poses[worst].tolist()

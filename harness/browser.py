@@ -9,7 +9,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from selenium import webdriver
-from selenium.common.exceptions import TimeoutException
+from selenium.common.exceptions import StaleElementReferenceException, TimeoutException
 from selenium.webdriver.common.by import By
 from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.ui import WebDriverWait
@@ -70,6 +70,19 @@ class Explorer:
             "const [path, done] = arguments; fetch(path).then((answer) => answer.json()).then(done)", path
         )
 
+    def received(self, path: str) -> Any:
+        """The JSON that the page itself was sent from a path, since requests were last read."""
+        messages = [json.loads(entry["message"])["message"] for entry in self.chromium.get_log("performance")]
+        ended = {one["params"]["requestId"] for one in messages if one["method"] == "Network.loadingFinished"}
+        (request,) = (
+            one["params"]["requestId"]
+            for one in messages
+            if one["method"] == "Network.requestWillBeSent"
+            and one["params"]["request"]["url"] == self.address + path
+            and one["params"]["requestId"] in ended
+        )
+        return json.loads(self.chromium.execute_cdp_cmd("Network.getResponseBody", {"requestId": request})["body"])
+
     def one(self, selector: str) -> WebElement:
         """The element that a selector names, when it is there."""
         self.wait(lambda: bool(self.chromium.find_elements(By.CSS_SELECTOR, selector)), f"no {selector}")
@@ -80,10 +93,16 @@ class Explorer:
         return self.chromium.find_elements(By.CSS_SELECTOR, selector)
 
     def click(self, selector: str) -> None:
-        """Bring an element into view and click it."""
-        element = self.one(selector)
-        self.run("arguments[0].scrollIntoView({block: 'center'})", element)
-        element.click()
+        """Bring an element into view and click it; another of that selector if the page just replaced it."""
+        self.wait(lambda: self._is_clicked(self.one(selector)), f"{selector} is replaced again and again")
+
+    def _is_clicked(self, element: WebElement) -> bool:
+        try:
+            self.run("arguments[0].scrollIntoView({block: 'center'})", element)
+            element.click()
+        except StaleElementReferenceException:
+            return False
+        return True
 
     def text(self, selector: str) -> str:
         """The text of an element."""

@@ -6,10 +6,11 @@ from datetime import datetime
 
 from fastapi import APIRouter, Response
 from pydantic import BaseModel, Field
+from sqlalchemy import func, select
 
 from service.database import ReadConnection
-from threadstate.library.builds import library_builds
 from threadstate.library.solver_method import SolverMethod
+from threadstate.library.tables import chunk, library
 
 router = APIRouter(prefix="/v1/building", tags=["libraries"])
 
@@ -34,15 +35,21 @@ class BuildingList(BaseModel):
 def list_building(connection: ReadConnection, response: Response) -> BuildingList:
     """The progress of all unpublished libraries; abandoned ones stay in this list."""
     response.headers["Cache-Control"] = "no-store"
+    stored = select(func.count()).where(chunk.c.library_id == library.c.id).scalar_subquery()
+    query = (
+        select(library.c.designation, library.c.method, library.c.tilt_count, stored, library.c.created_at)
+        .where(library.c.published_at.is_(None))
+        .order_by(library.c.created_at.desc(), library.c.id.desc())
+    )
     return BuildingList(
         building=[
             BuildingDocument(
-                designation=one.designation,
-                method=one.method,
-                orientations=one.orientations,
-                done=one.done,
-                created_at=one.created_at,
+                designation=designation,
+                method=SolverMethod(method),
+                orientations=tilt_count**2,
+                done=done,
+                created_at=created_at,
             )
-            for one in library_builds(connection)
+            for designation, method, tilt_count, done, created_at in connection.execute(query)
         ]
     )

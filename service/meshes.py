@@ -11,9 +11,8 @@ from pydantic import TypeAdapter
 
 from service.libraries.requested import IdentifiedLibrary
 from service.representation import NOT_MODIFIED, zipped_representation
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 router = APIRouter(prefix="/v1/libraries/{id}/meshes", tags=["meshes"])
 

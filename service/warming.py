@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import time
+from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import count, islice
 
 from fastapi import FastAPI
 from fastapi.concurrency import run_in_threadpool
-from sqlalchemy import Engine
+from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.cache.library_names import LibraryNames
@@ -16,12 +18,14 @@ from service.network.cache import NetworkCache
 from threadstate.errors import NotFoundError
 from threadstate.library.named import LATEST
 from threadstate.library.read import LibraryRecord
-from threadstate.responses.precompute import precompute_steps
+from threadstate.responses.heights import stored_heights
+from threadstate.responses.library_network import LibraryNetwork
 
 STEPS_AT_START = 3
 """The first steps of the precomputation, which solve nothing; the others run one by one, with pauses."""
 PAUSE_FACTOR = 3.0
 """Each later step is followed by a pause of this many times its duration."""
+TILTS_A_STEP = 50
 
 
 class Warming:
@@ -73,3 +77,21 @@ def _run_step(engine: Engine, networks: NetworkCache, library: LibraryRecord, nu
     except (NotFoundError, SQLAlchemyError):
         return False
     return step is not None
+
+
+def precompute_steps(connection: Connection, network: LibraryNetwork) -> Iterator[Callable[[], object]]:
+    """Steps of a few seconds at most, after which a network has cached all that it can.
+
+    The steps come in the order in which the explorer needs their results; call them one by one, and stop at any time.
+    """
+    yield lambda: network.transitions
+    yield lambda: network.summary
+    yield lambda: network.formations
+    yield lambda: network.node_link
+    for number in range(network.cell_map.orientation_count):
+        yield partial(stored_heights, connection, network, *network.histories.tilt_deg(number))
+    yield lambda: network.dot
+    yield lambda: network.graphml
+    tilts = [one for one in network.transitions if not one.move.turns]
+    for start in range(0, len(tilts), TILTS_A_STEP):
+        yield partial(network.tilts.of, tilts[start : start + TILTS_A_STEP])

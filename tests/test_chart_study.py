@@ -44,14 +44,13 @@ from studies.chart.study import Study, limit_of_none, measured_study, true_state
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.frames import fixed_from_bolt
-from threadstate.mesh.options import MeshOptions
-from threadstate.mesh.part_name import Part
+from threadstate.mesh.options import MeshOptions, Scene
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.scene_name import Scene
 from threadstate.state.model import Contact, ContactState, FeaturePair, Flag
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.pair import Part
 
 pytestmark = pytest.mark.slow
 

@@ -21,9 +21,9 @@ from pathlib import Path
 import pytest
 
 from harness.databases import Databases
-from harness.running_service import running_service
 from tests.falls_page import falls_shown
 from tests.jobs.jobs import GRID, opened, work_off
+from tests.service_thread import service_thread
 from tests.stored_histories.history_library import SMALL_GRID, store_histories
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
@@ -82,7 +82,7 @@ def served(sqlite_databases: Databases, small_histories: list[SolvedHistory]) ->
     """The environment of scripts that find a service over the small library with histories."""
     database = sqlite_databases.migrated()
     store_histories(database, SMALL_GRID, small_histories)
-    with running_service(database) as address:
+    with service_thread(database) as address:
         yield _environment(address)
 
 
@@ -218,7 +218,7 @@ def test_what_is_refused_is_said_in_a_line(
 
 def test_a_library_is_asked_for_and_waited_for(sqlite_databases: Databases, repository_root: Path) -> None:
     database = sqlite_databases.migrated()
-    with writing(database) as engine, running_service(database) as address:
+    with writing(database) as engine, service_thread(database) as address:
         key = create_key(engine, "designer", Scope.WRITE)
 
         def work() -> None:

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.mesh_descent import FASTER, SAFE, Descent, mesh_first_heights
+from benchmarks.mesh_descent import FASTER, SAFE, Descent, MeshDescent, mesh_first_heights
 from oracle.first_height import first_height
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -12,10 +12,15 @@ pytestmark = pytest.mark.slow
 PAIR = quarter_twenty_unc()
 
 
+@pytest.fixture(scope="module")
+def meshes() -> MeshDescent:
+    return MeshDescent(PAIR)
+
+
 @pytest.mark.parametrize("descent", [SAFE, *FASTER])
-def test_mesh_heights_agree_with_the_brute_force(descent: Descent) -> None:
+def test_mesh_heights_agree_with_the_brute_force(meshes: MeshDescent, descent: Descent) -> None:
     poses = np.random.default_rng(20).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], (20, 3))
-    heights, seconds = mesh_first_heights(PAIR, poses, descent)
+    heights, seconds = mesh_first_heights(meshes, poses, descent)
     exact_inch = [first_height(PAIR, *(float(a) for a in pose)).height for pose in poses]
     assert seconds > 0.0
     # Fine meshes differ from the surfaces by up to 7e-5 in near a jump (method, section 6).

@@ -16,7 +16,7 @@ _njit: Any = njit
 
 
 def kernel(*, contract: bool = False, **options: object) -> Callable[[Callable[..., Any]], Any]:
-    """A decorator for kernels: compiled when first called, and kept on disk.
+    """A decorator for kernels: compiled when first called, and cached on disk.
 
     Args:
         contract: whether a product and a sum may be rounded once. For bounds and brackets, never for a result.

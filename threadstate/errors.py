@@ -53,7 +53,7 @@ class UnreadableDatabaseError(SchemaError):
     """The database's schema is unknown, as the database cannot be read."""
 
 
-SEARCH_ENDED = "the search ended before all its cells were closed"
+SEARCH_ENDED = "the search ended before every box was excluded"
 """Why the exact method leaves a pose undecided."""
 
 

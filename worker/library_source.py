@@ -10,10 +10,10 @@ from sqlalchemy import Connection
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.engine import reading
+from threadstate.library.identity import options_of, pair_of
 from threadstate.library.named import LATEST, named_library
 from threadstate.library.read import LibraryRecord
 from threadstate.library.schema import check_schema
-from threadstate.library.stored_inputs import library_options, library_pair
 from threadstate.numbers import number_text
 from threadstate.responses.library_network import LibraryNetwork, library_network
 from threadstate.settings import read_settings
@@ -117,4 +117,4 @@ def orientation_source(
         for name, value in (("roll", roll_deg), ("pitch", pitch_deg)):
             if value not in tilts:
                 print_status(f"computed: {name} {number_text(value)} is not on the grid of library {record.id}")
-        yield OrientationSource(library_pair(record), library_options(record), None)
+        yield OrientationSource(pair_of(record.pair), options_of(record.options), None)

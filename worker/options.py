@@ -10,9 +10,8 @@ import typer
 from threadstate import settings
 from threadstate.errors import InvalidValueError
 from threadstate.library.solver_method import SolverMethod
-from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
+from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Scene, Tangent
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.scene_name import Scene
 from threadstate.numbers import integer, number
 from threadstate.units import LengthUnit
 

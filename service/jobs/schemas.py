@@ -15,9 +15,8 @@ from threadstate.jobs.names import EventKind, JobState
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.solver_method import SolverMethod
-from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
+from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Scene, Tangent
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.scene_name import Scene
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
 

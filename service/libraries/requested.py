@@ -9,9 +9,9 @@ from fastapi import Depends, Path, Request
 
 from service.database import ReadConnection, engine_of
 from threadstate.errors import InvalidValueError
+from threadstate.library.identity import options_of, pair_of
 from threadstate.library.named import LATEST, named_library
 from threadstate.library.read import LibraryRecord
-from threadstate.library.stored_inputs import library_options, library_pair
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
 from threadstate.thread.pair import Pair
@@ -73,4 +73,4 @@ def solved_pair(request: Request, designation: str | None, library: int | str | 
         raise InvalidValueError("library", library, ONE_OF_BOTH)
     with engine_of(request).connect() as connection:
         record = identified_library(connection, str(library))
-    return SolvedPair(library_pair(record), library_options(record), record.id)
+    return SolvedPair(pair_of(record.pair), options_of(record.options), record.id)

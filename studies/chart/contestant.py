@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from threadstate.mesh.options import Descent, MeshOptions
+from threadstate.mesh.options import Descent, MeshOptions, Scene
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.scene_name import Scene
 from threadstate.state.options import SolveOptions
 
 TURN_LIMIT_DEG = 10.0

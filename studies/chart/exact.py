@@ -16,8 +16,8 @@ from threadstate.contact import _solve_kernel as sk
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
-from threadstate.thread.outline import outline_is_convex
 from threadstate.thread.pair import Pair
+from threadstate.thread.profile import outline_is_convex
 
 Pose = tuple[float, float, float]
 

@@ -13,14 +13,13 @@ from studies.chart.exact import Pose, proved_state, run_with_boxes
 from threadstate.errors import UnresolvedPoseError
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.curve_procedure import CurveProcedure
-from threadstate.mesh.part_name import Part
+from threadstate.mesh.options import Scene
 from threadstate.mesh.procedure import MeshProcedure
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solve import state_by
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 REPEATS = 5
 """How many times what takes a millisecond is timed; the least counts."""

@@ -21,8 +21,7 @@ from studies.chart.findings import (
     ratios,
 )
 from studies.chart.study import Measured, Study
-from threadstate.mesh.options import DEFAULT_SCENE
-from threadstate.mesh.scene_name import Scene
+from threadstate.mesh.options import DEFAULT_SCENE, Scene
 
 WIDTH = 118
 SERIES_OF_SCENE = {

@@ -22,16 +22,14 @@ from studies.chart.errors import Score, score
 from studies.chart.exact import Pose, proved_state
 from studies.chart.measure import Run, mesh_procedure, run
 from threadstate.errors import UnresolvedPoseError
-from threadstate.mesh.options import MeshOptions
-from threadstate.mesh.part_name import Part
+from threadstate.mesh.options import MeshOptions, Scene
 from threadstate.mesh.presets import Preset, Tessellation
 from threadstate.mesh.procedure import MeshProcedure
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solid import Floats
 from threadstate.state.model import ContactState
 from threadstate.thread.catalogue import quarter_twenty_unc
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 
 def true_states(pair: Pair, count: int) -> list[tuple[Pose, ContactState]]:

@@ -21,7 +21,7 @@ from studies.stability.descent_study import DESCENTS, DescentRow, Recheck, desce
 from studies.stability.events import Event, events_along, phase_line
 from studies.stability.grid_study import GridRow, grid_row
 from studies.stability.mesh_pitfalls import MeshPitfalls, mesh_pitfalls
-from studies.stability.place_study import study
+from studies.stability.place_study import Chunk, study
 from studies.stability.places import Place, lines, places, spread
 from studies.stability.rival_study import RivalChunk, RivalTally, study_rival, thinned
 from studies.stability.tally import Tally
@@ -98,6 +98,7 @@ class Extent:
     """How much is done: lines along which events are searched for, degrees of each, centres of a place, the grid.
 
     ``rivals`` and ``descents`` are slower methods, ``pitfall_poses`` poses whose colliding pairs are examined.
+    ``trials`` is the most of a centre; all of them where it is None.
     """
 
     lines: int
@@ -107,6 +108,12 @@ class Extent:
     rivals: tuple[RivalExtent, ...] = RIVALS
     descents: tuple[MeshStates, ...] = DESCENTS
     pitfall_poses: int = 200
+    trials: int | None = None
+
+    def chunks(self, place: Place) -> list[Chunk]:
+        """The work at a hard place."""
+        chunks = place.chunks()
+        return chunks if self.trials is None else [_thinned(chunk, self.trials) for chunk in chunks]
 
 
 @dataclass(frozen=True)
@@ -148,7 +155,7 @@ def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findi
         along = partial(_events, exact, extent.degrees)
         found = in_order(pool, along, lines(pair, extent.lines), progress, "searching for events")
         hard = places(pair, [event for events in found for event in events], extent.centres)
-        chunks = [chunk for place in hard for chunk in place.chunks()]
+        chunks = [chunk for place in hard for chunk in extent.chunks(place)]
         tallies = {place.name: Tally() for place in hard}
         results = in_order(pool, partial(study, exact), chunks, progress, "perturbing hard places")
         for chunk, tally in zip(chunks, results, strict=True):
@@ -187,6 +194,11 @@ def findings(exact: Method, pair: Pair, extent: Extent, processes: int) -> Findi
 
 def _events(method: Method, degrees: int, start: Case) -> list[Event]:
     return events_along(method, phase_line(start, degrees + 1))
+
+
+def _thinned(chunk: Chunk, most: int) -> Chunk:
+    of_centres = ([trial for trial in chunk.trials if trial.centre == i] for i in range(len(chunk.centres)))
+    return replace(chunk, trials=tuple(trial for trials in of_centres for trial in thinned(trials, most)))
 
 
 def _rival_chunks(rival: RivalExtent, place: Place) -> list[RivalChunk]:

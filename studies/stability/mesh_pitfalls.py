@@ -12,13 +12,12 @@ from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.clusters import Cluster, Connectivity
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.part import part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.segments import Intersection
 from threadstate.mesh.solid import Floats, Solid
 from threadstate.mesh.solve import mesh_procedure
 from threadstate.mesh.touch import cluster_segments
 from threadstate.state.model import ContactState, StagePose
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 AVERAGED_DEG = (-4.0, 0.0, 131.0)
 """Its second pose has two contacts, 0.2 in apart."""

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import pytest
 
 from harness.databases import Databases
-from harness.running_service import running_service
 from service.app import create_app
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
+from tests.service_thread import service_thread
 from tests.stored_histories.history_library import SMALL_GRID, store_histories
 from threadstate.client import Client
 from threadstate.history.model import SolvedHistory
@@ -38,7 +38,7 @@ def database(sqlite_databases: Databases, small_histories: list[SolvedHistory], 
 @pytest.fixture(scope="session")
 def address(database: str) -> Iterator[str]:
     """The address of a service over that database."""
-    with running_service(database) as address:
+    with service_thread(database) as address:
         yield address
 
 

@@ -12,10 +12,10 @@ import pytest
 from sqlalchemy import Engine
 
 from harness.databases import Databases
-from harness.running_service import running_service
 from tests.client.scripted_server import BREAK_OFF, answer, scripted_server
 from tests.client.test_failures import JOB, KEY
 from tests.jobs.jobs import GRID, opened, work_off
+from tests.service_thread import service_thread
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
 from threadstate.client import (
@@ -62,7 +62,7 @@ class Desk:
 @pytest.fixture
 def desk(sqlite_databases: Databases) -> Iterator[Desk]:
     database = sqlite_databases.migrated()
-    with writing(database) as engine, running_service(database) as address:
+    with writing(database) as engine, service_thread(database) as address:
         yield Desk(address, create_key(engine, "designer", Scope.WRITE), engine)
 
 

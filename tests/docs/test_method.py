@@ -1,4 +1,4 @@
-"""Every section of the method that code or docs refer to is a heading of docs/method.md."""
+"""Every section that code or docs refer to is a heading of docs/method.md or docs/forces.md."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ TEXTS = ("*.py", "*.js", "*.md", "*.toml")
 OF_THE_PAPER = ("docs/paper-claims.md", "studies/paper/")
 """Where a section is one of the paper unless the method is named."""
 
-OWNER = re.compile(r"\b(method|paper|RFC)\b", re.IGNORECASE)
+OWNERS = ("method", "forces")
+"""The pages that define quantities."""
+OWNER = re.compile(r"\b(method|forces|paper|RFC)\b", re.IGNORECASE)
 """Whose section it is: the last one that the sentence names before."""
 MENTION = re.compile(r"\bsections?\s+(\d+(?:\.\d+)*(?:\s*(?:,|and|to)\s*\d+(?:\.\d+)*)*)", re.IGNORECASE)
 
@@ -29,33 +31,36 @@ def sections_mentioned(text: str) -> Iterator[tuple[str, list[str]]]:
 def files(root: Path) -> list[Path]:
     """The texts that may refer to the method, this test and the page left out."""
     found = [path for folder in (*FOLDERS, "docs") for kind in TEXTS for path in (root / folder).rglob(kind)]
-    left_out = (Path(__file__).resolve(), root / "docs" / "method.md")
+    left_out = (Path(__file__).resolve(), *(root / "docs" / f"{owner}.md" for owner in OWNERS))
     return [root / "README.md", *sorted(path for path in found if path.resolve() not in left_out)]
 
 
 @pytest.fixture(scope="module")
-def headings(repository_root: Path) -> set[str]:
-    """The numbers of the page's sections."""
-    return set(re.findall(r"^## (\d+)\. ", (repository_root / "docs" / "method.md").read_text(), re.MULTILINE))
+def headings(repository_root: Path) -> dict[str, set[str]]:
+    """The numbers of each page's sections."""
+    pages = {owner: (repository_root / "docs" / f"{owner}.md").read_text() for owner in OWNERS}
+    return {owner: set(re.findall(r"^## (\d+)\. ", page, re.MULTILINE)) for owner, page in pages.items()}
 
 
-def test_sections_are_numbered_from_1(headings: set[str]) -> None:
-    assert headings == {str(number) for number in range(1, len(headings) + 1)}
+def test_sections_are_numbered_from_1(headings: dict[str, set[str]]) -> None:
+    for numbers in headings.values():
+        assert numbers == {str(number) for number in range(1, len(numbers) + 1)}
 
 
-def test_every_section_referred_to_is_there(repository_root: Path, headings: set[str]) -> None:
-    referred, missing, unowned = 0, [], []
+def test_every_section_referred_to_is_there(repository_root: Path, headings: dict[str, set[str]]) -> None:
+    referred, missing, unowned = dict.fromkeys(OWNERS, 0), [], []
     for path in files(repository_root):
         name = path.relative_to(repository_root).as_posix()
         for owner, numbers in sections_mentioned(path.read_text()):
-            if owner == "method":
-                referred += 1
-                missing += [f"{name}: method, section {number}" for number in numbers if number not in headings]
+            if owner in OWNERS:
+                referred[owner] += 1
+                missing += [f"{name}: {owner}, section {number}" for number in numbers if number not in headings[owner]]
             elif not owner and not name.startswith(OF_THE_PAPER):
                 unowned.append(f"{name}: section {', '.join(numbers)} of what?")
     assert missing == []
     assert unowned == []
-    assert referred > 40
+    assert referred["method"] > 40
+    assert referred["forces"] > 0
 
 
 @pytest.mark.parametrize(

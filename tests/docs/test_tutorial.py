@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from harness.databases import Databases
-from harness.running_service import running_service
 from scripts.shown_commands import ShownCommand, Terminal, abridged, saved_files, shown_commands, written_again
+from tests.service_thread import service_thread
 from threadstate.settings import DATABASE
 from worker.cli import run_command_line
 
@@ -51,7 +51,7 @@ def terminal(
         database = sqlite_databases.new()
         patch.setenv(DATABASE, database)
         assert run_command_line(["rebuild", *COARSE_GRID]) == 0
-        with running_service(database) as address:
+        with service_thread(database) as address:
             yield Terminal(address, tmp_path_factory.mktemp("saved"), saved_files(page))
 
 

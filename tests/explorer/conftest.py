@@ -7,7 +7,7 @@ from selenium import webdriver
 
 from harness.browser import Explorer, hosts_of, start_chromium
 from harness.databases import Databases
-from harness.running_service import running_service
+from tests.service_thread import service_thread
 from tests.stored_histories.history_library import histories_of_grid, store_histories
 from threadstate.library.grid import Grid
 
@@ -26,7 +26,7 @@ def library_database(sqlite_databases: Databases) -> str:
 @pytest.fixture(scope="session")
 def address(library_database: str) -> Iterator[str]:
     """The address of a running service over the real library."""
-    with running_service(library_database) as address:
+    with service_thread(library_database) as address:
         yield address
 
 

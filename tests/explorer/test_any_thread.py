@@ -10,10 +10,10 @@ from selenium import webdriver
 
 from harness.browser import Explorer, phase_of, resize
 from harness.databases import Databases
-from harness.running_service import running_service
 from tests.explorer.conftest import GRID
 from tests.explorer.test_explorer import MINUS, length_shown, shown_numbers, wait_for_scene
 from tests.service.own_library import OWN_PAIR, store_own_library
+from tests.service_thread import service_thread
 from tests.stored_histories.history_library import histories_of_grid, store_histories
 from threadstate.library.grid import Grid
 from threadstate.state.options import SolveOptions
@@ -30,7 +30,7 @@ def two_libraries(sqlite_databases: Databases) -> Iterator[str]:
     database = sqlite_databases.migrated()
     store_histories(database, GRID, histories_of_grid(GRID))
     assert store_own_library(database, Grid(4.0, 4.0, 10.0), SolveOptions()) == OWN
-    with running_service(database) as address:
+    with service_thread(database) as address:
         yield address
 
 
@@ -170,7 +170,7 @@ def test_back_and_forward_take_what_one_went_to_and_not_what_moved(page: Explore
 def test_a_tolerance_gives_the_range_of_the_falls(page: Explorer) -> None:
     page.choose("#tolerance", "0.1")
     page.wait_for_text("#falls", "within ±0.1 deg: snaps, falls")
-    found = page.fetched(f"/v1/histories/0/-4/falls?library={OWN}&tolerance=0.1")["range"]
+    found = page.received(f"/v1/histories/0/-4/falls?library={OWN}&tolerance=0.1&unit=mm")["range"]
     assert f"falls {found['fall'][0]:.3f} to {found['fall'][1]:.3f} mm" in page.text("#falls")
     page.choose("#tolerance", "")
     page.wait(lambda: not page.one("#falls").is_displayed(), "the range stays")
@@ -249,19 +249,21 @@ def test_the_axes_are_shown_and_put_away(page: Explorer) -> None:
     assert not page.one("#axes").is_displayed()
 
 
-@pytest.mark.parametrize("width", [390, 768])
-def test_nothing_is_wider_than_a_small_screen(page: Explorer, width: int) -> None:
-    resize(page.chromium, width, 844)
+def test_nothing_is_wider_than_a_small_screen(page: Explorer) -> None:
+    resize(page.chromium, 390, 844)
     try:
         page.open(
             f"/#library={OWN}&beside_library={UNC}&beside_roll=0&beside_pitch=-4&poses=2.5,-1.2,357&tolerance=0.1"
         )
         page.one("#depth path.beside")
+        page.wait_for_text("#falls", "within ±0.1 deg: snaps, falls")
         assert page.run("return document.querySelector('#beside-library').value") == str(UNC)
-        for tab in ("state", "regions", "follows", "network", "locate", "poses"):
-            page.click(f"#tab-{tab}")
-            assert (
-                page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth") <= 0
-            ), tab
+        for width in (390, 768):
+            resize(page.chromium, width, 844)
+            for tab in ("state", "regions", "follows", "network", "locate", "poses"):
+                page.click(f"#tab-{tab}")
+                assert (
+                    page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth") <= 0
+                ), (width, tab)
     finally:
         resize(page.chromium, 1280, 800)

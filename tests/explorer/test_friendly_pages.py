@@ -11,9 +11,9 @@ from selenium.webdriver.common.keys import Keys
 
 from harness.browser import Explorer
 from harness.databases import Databases
-from harness.running_service import running_service
 from tests.explorer.conftest import GRID
 from tests.explorer.test_accessibility import AXE, violations
+from tests.service_thread import service_thread
 from tests.stored_histories.history_library import histories_of_grid, rows_of, store_histories
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
@@ -37,7 +37,7 @@ def test_page_tells_of_no_library_then_of_its_progress_and_goes_on(
     chromium: webdriver.Chrome, sqlite_databases: Databases
 ) -> None:
     database = sqlite_databases.migrated()
-    with running_service(database) as address:
+    with service_thread(database) as address:
         explorer = Explorer(chromium, address)
         explorer.open()
         explorer.wait(lambda: kind_of(explorer) == "empty", "the page does not say that there is no library")
@@ -54,7 +54,7 @@ def test_page_tells_of_a_job_that_waits_for_a_worker(chromium: webdriver.Chrome,
     database = sqlite_databases.migrated()
     with writing(database) as engine:
         submit_job(engine, LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions()))
-    with running_service(database) as address:
+    with service_thread(database) as address:
         explorer = Explorer(chromium, address)
         explorer.open()
         explorer.wait_for_text("#message", "1/4-20 UNC: waits for a worker")
@@ -66,7 +66,7 @@ def test_page_asks_for_a_key_and_keeps_it_to_itself(chromium: webdriver.Chrome, 
     store_histories(database, GRID, histories_of_grid(GRID))
     with writing(database) as engine:
         key = create_key(engine, "page", Scope.READ)
-    with running_service(database, settings={READ_KEYS: "required"}) as address:
+    with service_thread(database, settings={READ_KEYS: "required"}) as address:
         explorer = Explorer(chromium, address)
         explorer.open("/#roll=4&pitch=4&phase=20")
         explorer.wait(lambda: kind_of(explorer) == "key", "the page does not ask for a key")
@@ -93,7 +93,7 @@ def test_axe_finds_nothing_serious_where_there_is_nothing_to_explore(
     chromium: webdriver.Chrome, sqlite_databases: Databases, repository_root: Path, theme: str
 ) -> None:
     database = sqlite_databases.migrated()
-    with running_service(database, settings={READ_KEYS: "required"}) as closed, running_service(database) as empty:
+    with service_thread(database, settings={READ_KEYS: "required"}) as closed, service_thread(database) as empty:
         for address, kind in ((closed, "key"), (empty, "empty")):
             explorer = Explorer(chromium, address)
             explorer.open(f"/#theme={theme}")
@@ -116,13 +116,13 @@ def build(database: str) -> Iterator[int]:
 
 
 def test_page_tells_of_a_lost_service_and_finds_it_again(chromium: webdriver.Chrome, library_database: str) -> None:
-    with running_service(library_database) as address:
+    with service_thread(library_database) as address:
         explorer = Explorer(chromium, address)
         explorer.open("/#roll=4&pitch=4&phase=20")
         explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg, phase 20 deg")
     explorer.choose("#phase", "33")
     explorer.wait(lambda: kind_of(explorer) == "lost", "the page does not say that the service is lost")
-    with running_service(library_database, port=int(address.rpartition(":")[2])):
+    with service_thread(library_database, port=int(address.rpartition(":")[2])):
         explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg, phase 33 deg")
         explorer.wait(lambda: kind_of(explorer) == "", "the page does not continue")
 

@@ -16,8 +16,8 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
 
-ALLOWED = 12e6
-"""Bytes: less than the file as text has, and a tenth of what the documents of the library's states take."""
+ALLOWED = {FileFormat.PARQUET: 8e6, FileFormat.CSV: 10e6, FileFormat.NDJSON: 12e6}
+"""Bytes: a tenth to a third more than writing takes; less than it takes to hold the file, or the documents, whole."""
 
 PROGRAM = """
 import sys, tracemalloc
@@ -41,9 +41,9 @@ with reading(sys.argv[1]) as engine:
 
 @pytest.fixture(scope="module")
 def big_database(sqlite_databases: Databases) -> str:
-    """A library of 10,800 made-up states."""
+    """A library of 5,400 made-up states."""
     database = sqlite_databases.migrated()
-    store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 0.3), made_up_states)
+    store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 0.6), made_up_states)
     return database
 
 
@@ -53,5 +53,5 @@ def test_memory_does_not_grow_with_the_library(big_database: str, file_format: F
         [sys.executable, "-c", PROGRAM, big_database, file_format], check=True, capture_output=True, text=True
     )
     written, peak = map(int, run.stdout.split())
-    assert file_format is FileFormat.PARQUET or written > ALLOWED
-    assert peak < ALLOWED
+    assert peak < ALLOWED[file_format]
+    assert peak + written > ALLOWED[file_format], "a file that is held as a whole would pass"

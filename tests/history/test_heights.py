@@ -10,7 +10,7 @@ from threadstate.history.descents import falls_of
 from threadstate.history.height_curve import height_curve
 from threadstate.history.heights import LEAST_DEG, Heights, heights_of
 from threadstate.history.model import Boundary, SolvedHistory
-from threadstate.state.rest import rests
+from threadstate.library.read import rests
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 

@@ -8,11 +8,11 @@ from threadstate.mesh.clusters import Connectivity, connected
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.frames import apply, fixed_from_bolt
 from threadstate.mesh.part import part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
 from threadstate.mesh.segments import Intersection
 from threadstate.mesh.solid import Ints, Solid
 from threadstate.mesh.touch import NoContactPointError, cluster_segments, touch
+from threadstate.thread.pair import Part
 
 
 def row_of_triangles(count: int) -> Solid:

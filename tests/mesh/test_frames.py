@@ -4,19 +4,15 @@ import math
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 from oracle.pose import pose_rotation, turn_about
 from threadstate.mesh.frames import (
     along,
     apply,
     axis_angles,
-    axis_angles_as_printed,
-    bolt_from_p0,
     fixed_from_bolt,
-    fixed_from_p0,
     inverse,
-    p0_from_bolt,
-    p0_from_fixed,
     rot_x,
     rot_y,
     rot_z,
@@ -27,6 +23,39 @@ from threadstate.mesh.solid import Floats
 
 RNG = np.random.default_rng(6)
 EXACT = 1e-13
+
+
+def axis_angles_as_printed(direction: ArrayLike) -> tuple[float, float]:
+    """The same with the acos of Eqs. 7, 9 and 11 as printed: wrong where y < 0, undefined along +-z.
+
+    Raises:
+        ValueError: the direction, of unit length, is along z.
+    """
+    x, _, z = (float(v) for v in np.asarray(direction, dtype=np.float64))
+    sine = math.sin(math.acos(z))
+    if sine == 0.0:
+        raise ValueError(f"direction {direction!r} is along z: Eq. 7 divides by 0")
+    return math.acos(max(-1.0, min(1.0, x / sine))), math.acos(z) - math.pi / 2.0
+
+
+def p0_from_fixed(T_p0_c0: Floats, T_c0_fixed: Floats) -> Floats:
+    """Eq. 13."""
+    return T_p0_c0 @ T_c0_fixed
+
+
+def p0_from_bolt(T_p0_c0: Floats, second_turn: float, T_c0_fixed: Floats, T_fixed_bolt: Floats) -> Floats:
+    """Eq. 14: bolt to P0 at the second contact; ``T_fixed_bolt`` is the pose of the first."""
+    return T_p0_c0 @ rot_x(second_turn) @ T_c0_fixed @ T_fixed_bolt
+
+
+def fixed_from_p0(T_p0_c0: Floats, T_c0_fixed: Floats) -> Floats:
+    """Eq. 16."""
+    return inverse(T_c0_fixed) @ inverse(T_p0_c0)
+
+
+def bolt_from_p0(third_turn: float, T_p0_c0: Floats, second_turn: float, T_c0_bolt: Floats) -> Floats:
+    """Eq. 17: P0 to bolt at the third contact; ``T_c0_bolt`` is that of the pose of the first (Eq. 8)."""
+    return inverse(T_c0_bolt) @ rot_x(-second_turn) @ inverse(T_p0_c0) @ rot_x(-third_turn)
 
 
 def unit(vector: Floats) -> Floats:

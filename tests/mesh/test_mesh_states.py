@@ -11,16 +11,15 @@ import pytest
 
 from tests.mesh.pairs import M6, UNC
 from threadstate.errors import InvalidValueError, MeshUndecidedError
-from threadstate.mesh.deviation import deviation
 from threadstate.mesh.options import Descent, FinalStep, MeshOptions, Tangent
 from threadstate.mesh.part import part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
+from threadstate.mesh.solid import deviation
 from threadstate.mesh.solve import mesh_procedure, solve_poses_by_mesh
 from threadstate.state.model import ContactState, FeaturePair, Flag, StateClass
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 pytestmark = pytest.mark.slow
 

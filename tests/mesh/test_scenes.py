@@ -10,21 +10,18 @@ import pytest
 
 from tests.mesh.pairs import PAIRS, UNC
 from threadstate.errors import MeshUndecidedError
-from threadstate.mesh.deviation import deviation
 from threadstate.mesh.edge_curve import EdgeCurve
 from threadstate.mesh.edge_zone import ZONE
 from threadstate.mesh.frames import fixed_from_bolt, inverse, trans
-from threadstate.mesh.options import Descent, MeshOptions
+from threadstate.mesh.options import Descent, MeshOptions, Scene
 from threadstate.mesh.part import cut_inradius
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset, Tessellation
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.scene_name import Scene
-from threadstate.mesh.solid import Face, Floats, Ints, Solid
+from threadstate.mesh.solid import Face, Floats, Ints, Solid, deviation
 from threadstate.mesh.solve import mesh_procedure, solve_poses_by_mesh
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 from threadstate.thread.profile import Profile
 
 pytestmark = pytest.mark.slow

@@ -12,15 +12,13 @@ from scipy.optimize import minimize
 from tests.mesh.pairs import M6, PAIRS, UNC
 from tests.thread.shapes import PROFILES
 from threadstate.errors import InvalidValueError
-from threadstate.mesh.deviation import deviation
 from threadstate.mesh.end_face import SIDES
 from threadstate.mesh.export import as_trimesh, mesh_report
 from threadstate.mesh.part import BORE, WALL, part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import LARGEST_CHORD, SMALLEST_CHORD, Preset, Tessellation
-from threadstate.mesh.solid import Face, Floats, Solid
+from threadstate.mesh.solid import Face, Floats, Solid, deviation
 from threadstate.mesh.thread_surface import profile_cuts, thread_surface
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 from threadstate.thread.profile import Profile
 
 ROUGH = (Preset.COARSE, Preset.PAPER, Preset.MEDIUM)

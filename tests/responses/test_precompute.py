@@ -7,9 +7,9 @@ from sqlalchemy import Connection
 
 import threadstate.responses.heights
 import threadstate.responses.transitions
+from service.warming import precompute_steps
 from threadstate.responses.heights import heights_document, stored_heights
 from threadstate.responses.library_network import LibraryNetwork
-from threadstate.responses.precompute import precompute_steps
 from threadstate.responses.transitions import transition_documents
 
 pytestmark = pytest.mark.slow

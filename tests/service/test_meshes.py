@@ -8,9 +8,9 @@ import trimesh
 from fastapi.testclient import TestClient
 
 from threadstate.mesh.part import part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.pair import Part
 
 pytestmark = pytest.mark.sqlite_alone
 

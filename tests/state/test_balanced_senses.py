@@ -12,7 +12,7 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
 from threadstate.contact._stage_kernel import RESOLVED, UNRESOLVED, earliest, new_work
 from threadstate.thread.catalogue import quarter_twenty_unc
-from threadstate.thread.outline import outline_is_convex
+from threadstate.thread.profile import outline_is_convex
 
 PAIR = quarter_twenty_unc()
 BALANCED_RAD = (math.radians(-9.26), math.radians(3.52), math.radians(1.936952337))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from oracle.first_height import first_height
 from oracle.lift import least_lift
 from threadstate.state.model import Flag
 from threadstate.state.options import SolveOptions
@@ -76,3 +77,25 @@ def test_a_third_contact_that_comes_with_the_second_has_its_embedment(pose: tupl
     lift = least_lift(PAIR, np.array(end.rotation), np.array(end.translation))
     assert lift > 1e-6
     assert state.embedment == pytest.approx(lift, abs=LIFT_TOLERANCE_INCH)
+
+
+THREE = [
+    (0.0009356254644120507, -0.0015889308040763594, -0.1484847635907487),
+    (0.00034094690857931976, -0.0006007942552865823, -2.1004545559649275),
+]
+"""Nearly level and in phase: three places are met within the wide tolerance in the first stage."""
+HEIGHT_TOLERANCE_INCH = 1e-9
+
+
+@pytest.mark.parametrize("pose", THREE)
+def test_three_first_contacts_that_tie_leave_nothing_to_turn(pose: tuple[float, float, float]) -> None:
+    state = solve_pose(PAIR, *pose, WIDE)
+    assert Flag.TIE in state.flags
+    assert (state.lambda_deg, state.mu_deg, state.drop) == (0.0, 0.0, 0.0)
+    assert state.poses[0] == state.poses[1] == state.poses[2]
+    assert {contact.stage for contact in state.contacts} == {1, 2, 3}
+    points = np.array([contact.point for contact in state.contacts])
+    apart = np.linalg.norm(points[:, None] - points[None, :], axis=2)[np.triu_indices(len(points), 1)]
+    assert apart.min() > 1e-6
+    height = first_height(PAIR, *pose).height
+    assert state.poses[0].translation[2] == pytest.approx(height, abs=HEIGHT_TOLERANCE_INCH)

@@ -15,9 +15,8 @@ from typer.main import get_command
 import threadstate
 from tests.worker.conftest import COMMAND, CommandLine
 from threadstate.errors import UnresolvedPoseError
-from threadstate.mesh.options import Descent, MeshOptions, Tangent
+from threadstate.mesh.options import Descent, MeshOptions, Scene, Tangent
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solve import solve_poses_by_mesh
 from threadstate.state.document import state_document
 from threadstate.state.model import ContactState

@@ -8,9 +8,9 @@ import trimesh
 
 from tests.worker.conftest import CommandLine
 from threadstate.mesh.export import ENDINGS, mesh_report
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Preset
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.pair import Part
 from worker.exit_codes import ExitCode
 
 pytestmark = pytest.mark.sqlite_alone

@@ -148,6 +148,7 @@ def entry_time(
                 if (rate + rate_growth) * span <= -0.9 * value:
                     move = max(move, span)
         else:
+            # A point on the axis of a turn stays where it is.
             return NEVER, NONE
         if certain:
             tau += move

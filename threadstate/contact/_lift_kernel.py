@@ -76,7 +76,8 @@ def inside_until(
 
     A solid is one thread pitch long. The point moves along a straight ``path``, forwards (``sign`` 1) or backwards
     (-1); ``since``, ``until`` and the result are distances from its start. A step ends where the bounds on the
-    derivatives of phi let the point leave; the search ends where one is shorter than a quarter of ``LEAST_GAP``.
+    derivatives of phi let the point leave; the search ends where one is shorter than a quarter of ``LEAST_GAP``, or
+    after ``MAX_STEPS``.
     """
     second_derivative = bounds[B_SECOND_DERIVATIVE]
     least_step = 0.25 * LEAST_GAP * profile[pk.P]
@@ -298,7 +299,8 @@ def lowest_free_contact(
 ) -> tuple[float, int]:
     """The lowest touch above ``lift`` over which the bolt is free, where overlaps are too thin for witnesses.
 
-    The least lift is one at which an overlap begins on the way down: each of those is examined.
+    The least lift is one at which an overlap begins on the way down: each of those is examined. Where one of them is
+    undecided the result is UNRESOLVED: no pose is known at which that happens.
     """
     near = LEAST_GAP * bolt[pk.P]
     least_step = last

@@ -218,12 +218,15 @@ def bracketed_onset(
     side = 0
     for _ in range(100):
         if after == before:
+            # Both are zero: the curve touches throughout, and no time is between.
             break
         tau = (early * after - late * before) / (after - before)
         if not early < tau < late:
+            # The bracket is as narrow as round-off lets it be.
             break
         found, kind, t = peak_of_minimum(low, high, tau, motion, curve_profile, solid_profile, path, jet)
         if not found:
+            # It has left the box in between.
             return False, kind, t, tau
         value = min(jet[J_G], jet[J_PHI])
         if value < 0.0:

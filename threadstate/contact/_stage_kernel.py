@@ -393,6 +393,7 @@ def earliest(
                 count,
                 out,
             )
+    # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best
     if count > 0:

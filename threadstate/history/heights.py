@@ -133,7 +133,7 @@ def _solved(pair: Pair, options: SolveOptions, poses_deg: Floats) -> list[Solved
 
 
 def _resting(pair: Pair, options: SolveOptions, records: Floats) -> NDArray[np.bool_]:
-    """Whether each record is of a state that rests, as ``threadstate.state.rest`` has it.
+    """Whether each record is of a state that rests, as :func:`threadstate.library.read.rests` has it.
 
     A third contact and no embedment are enough: a state with both is of one of the stable classes.
     """

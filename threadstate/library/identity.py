@@ -9,6 +9,8 @@ from functools import cache, cached_property
 from importlib.metadata import version
 from pathlib import Path
 
+from pydantic import TypeAdapter
+
 import threadstate
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
@@ -42,7 +44,7 @@ PHYSICS = (
 )
 """With those of histories, windows and falls: what is stored by the exact method."""
 MESH_PHYSICS = (*STATES, "mesh/*.py")
-NOT_PHYSICS = ("thread/catalogue.py", "state/rest.py", "history/heights.py")
+NOT_PHYSICS = ("thread/catalogue.py", "history/heights.py")
 """Files of these folders that no stored row is computed by: pairs, which are inputs, and what is read out of rows."""
 COMPUTING = ("llvmlite", "numba", "numpy")
 """Libraries whose code ends in the bits, by either method."""
@@ -90,6 +92,22 @@ class LibraryInputs:
     def sha256(self) -> str:
         """SHA-256, in hexadecimal, of pair, grid, method, options and code version."""
         return inputs_sha256(self.pair_json, self.grid, self.method, self.options_json, self.code_version)
+
+
+def pair_of(pair_json: str) -> Pair:
+    """The pair of its canonical JSON."""
+    return _adapter().validate_json(pair_json)
+
+
+def options_of(options_json: str) -> SolveOptions:
+    """The options that all solver methods share, of their canonical JSON."""
+    stored = json.loads(options_json)
+    return SolveOptions(**{field.name: stored[field.name] for field in fields(SolveOptions)})
+
+
+@cache
+def _adapter() -> TypeAdapter[Pair]:
+    return TypeAdapter(Pair)
 
 
 def inputs_sha256(pair_json: str, grid: Grid, method: SolverMethod, options_json: str, code_version: str) -> str:

@@ -16,7 +16,6 @@ from threadstate.library.solver_method import SolverMethod
 from threadstate.library.tables import contact, library, stage_pose, state, state_flag, undecided
 from threadstate.numbers import number_text
 from threadstate.state.model import ContactState, Flag, StateClass, UndecidedPose
-from threadstate.state.rest import rests
 from threadstate.units import LengthUnit
 
 LARGEST_ID = 2**31 - 1
@@ -120,6 +119,16 @@ def states_between(connection: Connection, library_id: int, first: int, last: in
     """The states with ordinals ``first`` to ``last``, both included, in order; an orientation is such a range."""
     states = _states(connection, library_id, lambda table: table.c.ordinal.between(first, last))
     return list(states.values())
+
+
+def rests(state_class: StateClass, embedment_margin: float | None) -> bool:
+    """Whether the bolt rests in the last pose of a state (method, section 8).
+
+    Only a stable or quasi-stable state rests whose embedment is within tolerance. The last pose of any other is where
+    the procedure ended: the bolt goes on from there, or its solid is in the nut's. ``embedment_margin`` is the distance
+    of the embedment from the tolerance; None: flush.
+    """
+    return state_class is not StateClass.UNSTABLE_TWO_POINT and (embedment_margin is None or embedment_margin >= 0.0)
 
 
 def heights_between(connection: Connection, library_id: int, first: int, last: int) -> dict[int, tuple[float, float]]:

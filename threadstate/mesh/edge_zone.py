@@ -8,8 +8,7 @@ import numpy as np
 
 from threadstate.mesh.end_face import end_face
 from threadstate.mesh.presets import LARGEST_CHORD, Tessellation
-from threadstate.mesh.solid import Face, Floats, Ints, Solid
-from threadstate.mesh.strip import strip
+from threadstate.mesh.solid import Face, Floats, Ints, Solid, strip
 from threadstate.mesh.thread_surface import ThreadSurface, profile_cuts, thread_surface
 from threadstate.thread.profile import Profile
 

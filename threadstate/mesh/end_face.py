@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from threadstate.mesh.solid import Floats, Ints
-from threadstate.mesh.strip import strip
+from threadstate.mesh.solid import Floats, Ints, strip
 
 SIDES = 16
 """Sides of the prism that the nut is cut from (the paper, section 4), and of the bolt's bore."""

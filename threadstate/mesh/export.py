@@ -9,13 +9,11 @@ from typing import cast
 import trimesh
 
 from threadstate.errors import InvalidValueError, ThreadstateError
-from threadstate.mesh.deviation import deviation
-from threadstate.mesh.part_name import Part
+from threadstate.mesh.options import Scene
 from threadstate.mesh.presets import Tessellation
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.scene_name import Scene
-from threadstate.mesh.solid import Face, Solid
-from threadstate.thread.pair import Pair
+from threadstate.mesh.solid import Face, Solid, deviation
+from threadstate.thread.pair import Pair, Part
 
 ENDINGS = ("stl", "ply", "glb")
 

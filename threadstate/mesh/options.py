@@ -8,7 +8,6 @@ from enum import StrEnum
 
 from threadstate.errors import InvalidValueError
 from threadstate.mesh.presets import Preset, Tessellation
-from threadstate.mesh.scene_name import Scene
 from threadstate.numbers import number_text
 
 
@@ -40,6 +39,19 @@ class Tangent(StrEnum):
     """The tangent of the edge curve in contact."""
     AZIMUTHAL = "azimuthal"
     """The azimuthal direction at the contact: the bolt's edge rolls into the nut at once."""
+
+
+class Scene(StrEnum):
+    """How much of bolt and nut is modelled, from the most to the least."""
+
+    FULL = "full"
+    """Both solids, closed."""
+    BAND = "band"
+    """What can be reached within 10 deg of tilt and 45 deg of turn: threads and cut ends, without what is behind."""
+    EDGES = "edges"
+    """That, with fine triangles along the two edge curves alone."""
+    CURVES = "curves"
+    """No triangles: points of the two edge curves, against the closed form of the other part."""
 
 
 DEFAULT_SCENE = Scene.BAND

@@ -8,11 +8,10 @@ from functools import lru_cache
 import numpy as np
 
 from threadstate.mesh.end_face import SIDES, end_face
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Tessellation
 from threadstate.mesh.solid import Face, Floats, Ints, Solid
 from threadstate.mesh.thread_surface import thread_surface
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 from threadstate.thread.profile import Profile
 
 BORE = 0.5

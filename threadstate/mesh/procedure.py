@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
@@ -15,19 +16,15 @@ from threadstate.contact import _stage_kernel as stage
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.clusters import Cluster, Connectivity, Neighbourhood, connected
 from threadstate.mesh.collision import Collider, Engine, TooManyPairsError
-from threadstate.mesh.deviation import deviation
-from threadstate.mesh.facing import closes_a_gap
 from threadstate.mesh.flush_patch import extreme_points
 from threadstate.mesh.frames import along, fixed_from_bolt, trans, turned
 from threadstate.mesh.options import Descent, MeshOptions, Tangent
-from threadstate.mesh.part_name import Part
-from threadstate.mesh.pivot import origin_moment
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.solid import Floats, Solid
+from threadstate.mesh.solid import Floats, Solid, deviation
 from threadstate.mesh.steps import Reached, approach, decades, march_and_halve, regress
-from threadstate.mesh.touch import NoContactPointError, Touch, touch, touches_beyond
+from threadstate.mesh.touch import NoContactPointError, Touch, closes_a_gap, touch, touches_beyond
 from threadstate.state.options import SolveOptions
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 FIRST_STEP = 0.2
 """First step of a descent in decades, in thread pitches: the paper's 0.01 in."""
@@ -368,3 +365,13 @@ def _pair_count(clusters: Clusters) -> int:
 def _flat(T_nut_bolt: Floats) -> Floats:
     """A pose as the kernels' twelve numbers: rotation by rows, translation."""
     return np.concatenate([T_nut_bolt[:3, :3].ravel(), T_nut_bolt[:3, 3]])
+
+
+def origin_moment(cp0: ArrayLike, cp1: ArrayLike, origin: ArrayLike) -> float:
+    """How fast the bolt's origin rises as the bolt turns about the unit axis from ``cp0`` to ``cp1``; a length.
+
+    All three are points of the nut's frame. Its reverse is the moment of a unit force along -z through the origin.
+    """
+    a, b, o = (np.asarray(point, dtype=np.float64) for point in (cp0, cp1, origin))
+    axis = (b - a) / np.linalg.norm(b - a)
+    return float(np.cross(axis, o - a)[2])

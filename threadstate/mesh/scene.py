@@ -7,13 +7,12 @@ from functools import lru_cache
 import numpy as np
 
 from threadstate.mesh.edge_zone import edge_zone_part
+from threadstate.mesh.options import Scene
 from threadstate.mesh.part import cut_inradius, part_size, part_solid
-from threadstate.mesh.part_name import Part
 from threadstate.mesh.presets import Tessellation
-from threadstate.mesh.scene_name import Scene
 from threadstate.mesh.solid import Face, Floats, Solid
 from threadstate.mesh.thread_surface import outline
-from threadstate.thread.pair import Pair
+from threadstate.thread.pair import Pair, Part
 
 
 @lru_cache(maxsize=8)

@@ -11,9 +11,8 @@ from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.errors import MeshUndecidedError
 from threadstate.mesh.agreement import disagreement, other_tessellation
 from threadstate.mesh.curve_procedure import CurveProcedure
-from threadstate.mesh.options import MeshOptions
+from threadstate.mesh.options import MeshOptions, Scene
 from threadstate.mesh.procedure import MeshProcedure
-from threadstate.mesh.scene_name import Scene
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions

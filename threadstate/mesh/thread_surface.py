@@ -14,8 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from threadstate.mesh.presets import Tessellation
-from threadstate.mesh.solid import Floats, Ints
-from threadstate.mesh.strip import strip
+from threadstate.mesh.solid import Floats, Ints, strip
 from threadstate.thread.profile import Profile
 
 FEWEST_AROUND, FEWEST_ON_FILLET = 16, 2

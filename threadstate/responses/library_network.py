@@ -9,8 +9,8 @@ from sqlalchemy import Connection
 
 from threadstate.errors import NotFoundError
 from threadstate.history.heights import Heights
+from threadstate.library.identity import options_of, pair_of
 from threadstate.library.read import LibraryRecord, not_on_the_grid
-from threadstate.library.stored_inputs import library_options, library_pair
 from threadstate.network.cells import CellMap
 from threadstate.network.export import dot, graphml, node_link_json
 from threadstate.network.graph import ConstraintNetwork, constraint_network
@@ -34,12 +34,12 @@ class LibraryNetwork:
     @cached_property
     def pair(self) -> Pair:
         """The pair of the library."""
-        return library_pair(self.library)
+        return pair_of(self.library.pair)
 
     @cached_property
     def options(self) -> SolveOptions:
         """The options of the library's solver."""
-        return library_options(self.library)
+        return options_of(self.library.options)
 
     @cached_property
     def cell_map(self) -> CellMap:

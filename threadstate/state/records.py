@@ -12,8 +12,8 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
 from threadstate.contact.level import solve_level
 from threadstate.state.options import SolveOptions
-from threadstate.thread.outline import outline_is_convex
 from threadstate.thread.pair import Pair
+from threadstate.thread.profile import outline_is_convex
 
 Floats = NDArray[np.float64]
 

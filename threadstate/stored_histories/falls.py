@@ -9,8 +9,8 @@ from sqlalchemy import Engine, insert, select, update
 from threadstate.library import history_tables as tables
 from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
+from threadstate.library.identity import options_of, pair_of
 from threadstate.library.stored_chunk import stored_chunk
-from threadstate.library.stored_inputs import options_of, pair_of
 from threadstate.library.tables import chunk, library
 
 

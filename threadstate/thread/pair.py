@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import cached_property
 
 from threadstate.errors import ImpossibleThreadError
@@ -11,6 +12,13 @@ from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.profile import Profile
 from threadstate.units import LengthUnit
+
+
+class Part(StrEnum):
+    """Which of the pair."""
+
+    BOLT = "bolt"
+    NUT = "nut"
 
 
 @dataclass(frozen=True)

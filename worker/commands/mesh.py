@@ -9,9 +9,9 @@ from typing import Annotated
 import typer
 
 from threadstate.errors import InvalidValueError
-from threadstate.mesh.part_name import Part
+from threadstate.mesh.options import Scene
 from threadstate.mesh.presets import Preset, Tessellation
-from threadstate.mesh.scene_name import Scene
+from threadstate.thread.pair import Part
 from worker.options import Dimensions, Json, PairName, UnitName, number_option
 from worker.output import print_json, print_line
 

@@ -13,9 +13,8 @@ from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.solver_method import SolverMethod
-from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Tangent
+from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Scene, Tangent
 from threadstate.mesh.presets import Preset
-from threadstate.mesh.scene_name import Scene
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 from worker.pairs.document import TABLES as TABLES_OF_PAIRS

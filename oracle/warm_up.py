@@ -1,0 +1,40 @@
+"""Compiles the oracle's loops into the cache, so that no test waits for it: ``python -m oracle.warm_up``."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from oracle.first_height import first_height
+from oracle.lift import least_lift
+from oracle.overlap import overlap_components
+from oracle.pose import pose_rotation
+from oracle.turn import contact_components_along_turn
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+POSE_DEG = (-4.0, 0.0, 131.0)
+BELOW_INCH = 1e-4
+
+
+def main() -> None:
+    """Ask each brute force about one pose."""
+    pair = quarter_twenty_unc()
+    rotation = pose_rotation(*POSE_DEG)
+    first = first_height(pair, *POSE_DEG)
+    inside = np.array([0.0, 0.0, first.height - BELOW_INCH])
+    least_lift(pair, rotation, inside)
+    overlap_components(pair, rotation, inside)
+    point = np.array(first.point)
+    contact_components_along_turn(
+        pair,
+        rotation,
+        np.array([0.0, 0.0, first.height]),
+        point,
+        np.array([0.0, 1.0, 0.0]),
+        1.0,
+        point.reshape(1, 3),
+        steps=2,
+    )
+
+
+if __name__ == "__main__":
+    main()
