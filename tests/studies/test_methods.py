@@ -52,7 +52,7 @@ def test_exact_method_refuses_one_pose_and_answers_its_neighbours() -> None:
     before, refused, after = ExactMethod().answers(cases)
     assert before == after == solve_pose(PAIR, *THREE_POINT)
     assert isinstance(refused, Refusal)
-    assert "closed" in refused.reason
+    assert "excluded" in refused.reason
 
 
 def test_mesh_refuses_a_level_bolt_in_phase_with_the_reason() -> None:
