@@ -31,6 +31,7 @@ from worker.commands.run import run
 from worker.commands.serve import serve
 from worker.commands.settings import settings
 from worker.commands.solve import solve
+from worker.commands.statics import statics
 from worker.commands.summary import summary
 from worker.commands.sweep import sweep
 from worker.commands.transitions import transitions
@@ -53,6 +54,7 @@ app = typer.Typer(
 
 COMMANDS = (
     solve,
+    statics,
     rebuild,
     sweep,
     libraries,

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import sys
 import textwrap
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from threadstate.numbers import number_text
 from threadstate.state.model import ContactState
 from threadstate.units import LengthUnit, scale_length
 from worker.output import print_line
+
+if TYPE_CHECKING:
+    from threadstate.statics.solve import Statics
 
 _GAP = "  "
 _INDENT = "      "
@@ -130,3 +135,39 @@ def print_contacts(state: ContactState, unit: LengthUnit, factor: float) -> None
             contact.features.value,
         )
     rows.print()
+
+
+def print_statics(statics: Statics, unit: LengthUnit, factor: float) -> None:
+    """What a load does to a state, a number a row, then the forces; lengths times ``factor``, in ``unit``."""
+    roll, pitch, phase = map(number_text, statics.pose_deg)
+    load = statics.load
+    rows = table("roll, pitch, phase (deg)", f"{roll}, {pitch}, {phase}")
+    rows.add_row("force (N)", _numbers(load.force))
+    rows.add_row(f"moment (N {unit})", _numbers([factor * number for number in load.moment]))
+    rows.add_row(f"about ({unit})", _numbers([factor * number for number in load.point or ()]))
+    rows.add_row("mu", number_text(statics.mu))
+    rows.add_row("verdict", f"{statics.verdict}{' (the solids overlap)' if statics.penetrating else ''}")
+    rows.add_row("support margin", f"{statics.support_margin:.6f}")
+    rows.add_row("holds from mu", _friction(statics.hold.value))
+    rows.add_row("wedges from mu", _friction(statics.wedge.value))
+    rows.add_row("turns counter-clockwise at", _effort(statics.turn_effort_ccw))
+    rows.add_row("turns clockwise at", _effort(statics.turn_effort_cw))
+    for force in statics.forces:
+        rows.add_row(
+            f"contact {force.contact} (N)", f"{force.normal:.6f} normal, {_numbers(force.tangential)} tangential"
+        )
+    rows.print()
+
+
+def _numbers(values: Sequence[float]) -> str:
+    return ", ".join(f"{value:.6g}" for value in values)
+
+
+def _friction(mu: float | None) -> str:
+    return "no friction does" if mu is None else f"{mu:.6f}"
+
+
+def _effort(effort: float | None) -> str:
+    if effort is None:
+        return "not pressed on a contact"
+    return "jams" if math.isinf(effort) else f"{effort:.6f} of push times radius"

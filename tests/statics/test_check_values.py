@@ -17,7 +17,8 @@ pytestmark = pytest.mark.slow
 
 Floats = NDArray[np.float64]
 
-PUSH = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0])
+TIPPING, _, TURNING, _, _, LIFT = np.eye(6)
+PUSH = -LIFT
 
 
 def units(rows: list[tuple[float, float, float]]) -> Floats:
@@ -41,7 +42,7 @@ def hold(load: Floats, points: Floats, normals: Floats) -> tuple[int, float, flo
 
 
 def round_about(tilt: float, radius: float = 1.0, lead: float = 0.0) -> tuple[Floats, Floats]:
-    """Three contacts about the z axis whose normals lean inwards by ``tilt`` and back along the circle by ``lead``, in rad."""
+    """Three contacts about the z axis whose normals lean inwards by ``tilt``, back along the circle by ``lead``."""
     azimuths = np.radians([0.0, 120.0, 240.0])
     outwards = np.column_stack([np.cos(azimuths), np.sin(azimuths), np.zeros(3)])
     along = np.column_stack([-np.sin(azimuths), np.cos(azimuths), np.zeros(3)])
@@ -59,7 +60,7 @@ def test_one_contact_balances_lines_through_it_alone_and_never_wedges() -> None:
     status, lower, upper = hold(load, points, normals)
     assert (status, lower) == (fk.FOUND, upper)
     assert upper == pytest.approx(math.tan(angle), abs=1e-12)
-    assert hold(load + [1e-6, 0.0, 0.0, 0.0, 0.0, 0.0], points, normals)[0] == fk.NEVER
+    assert hold(load + 1e-6 * TIPPING, points, normals)[0] == fk.NEVER
     assert hold(-load, points, normals)[0] == fk.NEVER
     assert wedge(points, normals)[0] == fk.NEVER
 
@@ -84,7 +85,7 @@ def test_peg_in_a_hole_on_two_points() -> None:
     peg, hole = 10.0, 10.4
     for tilt_deg in (2.0, 3.0, 4.0, 6.0):
         tilt = math.radians(tilt_deg)
-        # In the plane of the tilt: the peg's axis leans by the tilt, its low corner touches the wall x = -D/2, and the rim at
+        # In the plane of the tilt: the peg's axis leans, its low corner touches the wall x = -D/2, and the rim at
         # (D/2, 0) touches the peg's side; the corners are a diameter and a depth of the peg apart.
         side = np.array([math.cos(tilt), 0.0, -math.sin(tilt)])
         axis = np.array([math.sin(tilt), 0.0, math.cos(tilt)])
@@ -143,7 +144,7 @@ def test_three_contacts_round_about_hold_a_push_and_a_torque(torque: float) -> N
     points, normals = round_about(tilt, radius)
     across, down = torque / (3.0 * radius), 1.0 / 3.0
     expected = math.tan(math.asin(math.cos(tilt) * abs(across) / math.hypot(across, down)))
-    _, lower, upper = hold(PUSH + [0.0, 0.0, torque, 0.0, 0.0, 0.0], points, normals)
+    _, lower, upper = hold(PUSH + torque * TURNING, points, normals)
     assert lower == pytest.approx(expected, abs=1e-9)
     assert upper == pytest.approx(expected, abs=1e-9)
 

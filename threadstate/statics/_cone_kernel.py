@@ -3,10 +3,10 @@
     minimise c . x    subject to    s = h - G x in K
     maximise -h . z   subject to    G' z + c = 0, z in K
 
-K is a product of second-order cones, ``|s_1..| <= s_0``, of the given sizes; one of size 1 is the half-line. The method is
-Mehrotra's predictor and corrector with the scaling of Nesterov and Todd, as in L. Vandenberghe, *The CVXOPT linear and
-quadratic cone program solvers* (2010); it converges wherever both problems have interior points. What it returns is an
-approximation: callers make certificates of x and z by arithmetic of their own.
+K is a product of second-order cones, ``|s_1..| <= s_0``, of the given sizes; one of size 1 is the half-line. The
+method is Mehrotra's predictor and corrector with the scaling of Nesterov and Todd, as in L. Vandenberghe, *The
+CVXOPT linear and quadratic cone program solvers* (2010); it converges wherever both problems have interior points.
+What it returns is an approximation: callers make certificates of x and z by arithmetic of their own.
 """
 
 from __future__ import annotations
@@ -155,11 +155,7 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
 
     That is infinite where it could not begin.
 
-    Args:
-        c: shape (n).
-        g: shape (m, n), of rank n.
-        h: shape (m).
-        sizes: of the cones, their sum m.
+    ``c`` has shape (n), ``g`` (m, n) and rank n, ``h`` (m); the ``sizes`` of the cones sum to m.
     """
     m, n = g.shape
     s = np.empty(m)

@@ -1,7 +1,8 @@
 """The torque at which a held bolt begins to turn about the nut's axis (forces, section 3), in closed form.
 
-A rigid device takes every force across the axis and every moment across it; the bolt turns about the axis and moves along it
-as its contacts command. The push keeps the one on the nut that would be left last, and friction there opposes the slip.
+A rigid device takes every force across the axis and every moment across it; the bolt turns about the axis and moves
+along it as its contacts command. The push keeps the one on the nut that would be left last, and friction there
+opposes the slip.
 """
 
 from __future__ import annotations
@@ -41,15 +42,12 @@ def climb_limits(points: Array, normals: Array, sense: float) -> tuple[float, fl
 def turn_effort(push: float, torque: float, points: Array, normals: Array, mu: float, sense: float) -> float:
     """The torque in the sense of the turn at which a held bolt begins to turn.
 
-    Args:
-        push: the load's force along -z, positive.
-        torque: the load's moment about the nut's axis.
-        points, normals: of the contacts, of shape (k, 3).
-        sense: 1 counter-clockwise, -1 clockwise.
+    ``push`` is the load's force along -z, positive, ``torque`` its moment about the nut's axis; points and normals have
+    shape (k, 3); ``sense`` is 1 counter-clockwise, -1 clockwise.
 
     Returns:
-        Negative where it turns by itself; infinite where geometry or friction locks it; NaN where no contact faces the push.
-        Of contacts that climb alike the one that resists most decides.
+        Negative where it turns by itself; infinite where geometry or friction locks it; NaN where no contact faces the
+        push. Of contacts that climb alike the one that resists most decides.
     """
     low, high = climb_limits(points, normals, sense)
     if low == -math.inf:

@@ -51,7 +51,7 @@ def convex_hull(points: Array, hull: Array) -> int:
     Sorts the points by x. Returns how many are extreme.
     """
     n = points.shape[0]
-    order = np.argsort(points[:, 0] + 1e-9 * points[:, 1])
+    order = np.argsort(points[:, 0])
     count = 0
     for i in range(n):
         while count > 1 and not turns_left(hull[count - 2], hull[count - 1], points[order[i]]):
@@ -71,8 +71,8 @@ def convex_hull(points: Array, hull: Array) -> int:
 def patch_hull(pose: Array, bolt: Array, nut: Array, hull: Array) -> int:
     """The extreme points of the patch of a flush bolt, counter-clockwise, into ``hull`` (2 OUTLINE_SAMPLES + 1, 2).
 
-    The patch is what the bolt's base covers of the nut's surface; its hull is that of the arcs of the bolt's outline outside
-    the nut's, with their ends. Returns how many there are.
+    The patch is what the bolt's base covers of the nut's surface; its hull is that of the arcs of the bolt's outline
+    outside the nut's, with their ends. Returns how many there are.
     """
     points = np.empty((2 * OUTLINE_SAMPLES, 2))
     count = patch_points(pose, bolt, nut, points)

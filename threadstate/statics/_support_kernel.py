@@ -1,7 +1,7 @@
 """How far a load is from what contacts without friction balance (forces, section 3).
 
-The distance is that of the negative load, made of norm 1, from the boundary of the contacts' cone within the cone's span:
-positive inside, negative outside. Lengths are over the pair's nominal radius; wrenches are (moment, force).
+The distance is that of the negative load, made of norm 1, from the boundary of the contacts' cone within the cone's
+span: positive inside, negative outside. Lengths are over the pair's nominal radius; wrenches are (moment, force).
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.statics._cone_kernel import factor, solve_factored, solve_program
+from threadstate.statics._cone_kernel import factor, solve_factored
+from threadstate.statics._program_kernel import program_address, program_at
 
 Array = NDArray[np.float64]
 
@@ -20,9 +21,14 @@ SPAN_TOLERANCE = 1e-9
 """A load that is no farther from a cone lies in it: half the digits of a double, and beyond those of a contact."""
 
 
-@kernel()
 def distance_to_rays(load: Array, rays: Array) -> float:
     """The distance of ``-load`` from the cone of rays of shape (k, 6)."""
+    return float(distance_with(program_address(), load, rays))
+
+
+@kernel()
+def distance_with(program: int, load: Array, rays: Array) -> float:
+    """As :func:`distance_to_rays`, with the address of the compiled solver of cone programs."""
     k = rays.shape[0]
     g = np.zeros((7 + k, k + 1))
     h = np.zeros(7 + k)
@@ -39,7 +45,7 @@ def distance_to_rays(load: Array, rays: Array) -> float:
         g[7 + i, i] = -1.0
     x = np.zeros(k + 1)
     z = np.zeros(7 + k)
-    solve_program(c, g, h, sizes, x, z)
+    program_at(program)(c, g, h, sizes, x, z)
     distance = 0.0
     for m in range(6):
         left = load[m]
@@ -51,7 +57,7 @@ def distance_to_rays(load: Array, rays: Array) -> float:
 
 @kernel()
 def depth_in_simplex(load: Array, rays: Array) -> float:
-    """The distance of ``-load`` from the sides of the cone of independent rays that it lies in; NaN if they are dependent.
+    """The distance of ``-load`` from the sides of the cone of rays that it lies in; NaN if the rays are dependent.
 
     It is the least, over the rays, of the load's share of a ray times the ray's distance from the span of the others.
     """

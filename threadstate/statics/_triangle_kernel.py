@@ -1,8 +1,8 @@
 """Three contacts that are not on one line: when two of them wedge, when all do, and what follows for a load.
 
-Three forces that balance each other lie in the plane of their points, so that wedging is a question of the plane sectors in
-which that plane cuts the friction cones. Where two contacts wedge they carry any force without moment about the line
-between them, and the third has to balance that moment alone (forces, section 3).
+Three forces that balance each other lie in the plane of their points, so that wedging is a question of the plane
+sectors in which that plane cuts the friction cones. Where two contacts wedge they carry any force without moment
+about the line between them, and the third has to balance that moment alone (forces, section 3).
 """
 
 from __future__ import annotations
@@ -165,8 +165,8 @@ def sliding_twist(
 ) -> bool:
     """Sets a motion against which, at ``mu``, no contact works and the load does not either.
 
-    Contact i slides at the boundary of its cone under the force ``along`` it, j is at rest, and k moves within what its cone
-    withstands. Whether there is one.
+    Contact i slides at the boundary of its cone under the force ``along`` it, j is at rest, and k moves within what its
+    cone withstands. Returns whether there is one.
     """
     lever = points[i] - points[j]
     squared = inner(lever, lever)

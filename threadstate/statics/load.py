@@ -19,8 +19,8 @@ Vector = tuple[float, float, float]
 class Load:
     """A wrench on the bolt, in the nut's frame: force in N, moment in N times the pair's length unit.
 
-    ``point`` is the one about which the moment is given, a length in the pair's unit; None: the bolt's origin. The default is
-    a push of 1 N along -z through the bolt's origin.
+    ``point`` is the one about which the moment is given, a length in the pair's unit; None: the bolt's origin. The
+    default is a push of 1 N along -z through the bolt's origin.
 
     Raises:
         InvalidValueError: a vector is not three finite numbers, or both force and moment are zero.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -64,16 +64,19 @@ class Statics:
     """The statics of a state under a load (forces, section 3).
 
     Attributes:
+        pose_deg: roll, pitch and phase.
+        load: with the point about which its moment is taken.
         penetrating: whether the solids overlap in the last pose: no forces can be real there.
-        support_margin: distance of the load from the boundary of what is balanced without friction, moments over the nominal
-            radius about the bolt's origin; negative outside.
+        support_margin: distance of the load from the boundary of what is balanced without friction, moments over the
+            nominal radius about the bolt's origin; negative outside.
         hold: the least friction at which contacts can balance the load.
         wedge: the least friction at which contact forces can balance each other.
-        turn_effort_ccw, turn_effort_cw: torque over the push times the nominal radius at which the bolt begins to turn, held by a
-            rigid device; infinite where it is locked, None without a push on a contact.
+        turn_effort_ccw, turn_effort_cw: torque over the push times the nominal radius at which the bolt begins to turn,
+            held by a rigid device; infinite where it is locked, None without a push on a contact.
         forces: balancing forces of least largest normal part; empty where there are none.
     """
 
+    pose_deg: Vector
     load: Load
     mu: float
     penetrating: bool
@@ -106,10 +109,9 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
 
     Raises:
         InvalidValueError: ``mu`` is negative or not finite.
-        ParallelEdgesError: a contact has no certain normal.
+        UnresolvedPoseError: a contact has no certain normal.
     """
-    if not 0.0 <= mu < math.inf:
-        raise InvalidValueError("mu", mu, "a finite number >= 0")
+    checked_friction(mu)
     load = load or Load()
     found = touching(pair, state)
     radius = pair.nominal_diameter / 2.0
@@ -121,14 +123,14 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
     if margin >= 0.0:
         hold = FrictionBounds(0.0, 0.0)
         wedge, _, _ = wedge_friction(points, found)
-        forces: Floats = np.zeros(0)
     elif level:
         hold = wedge = FrictionBounds(math.inf, math.inf)
     else:
         wedge, wedge_forces, wedge_twist = wedge_friction(points, found)
         hold = hold_friction(wrench, points, found, wedge, wedge_forces, wedge_twist)
     return Statics(
-        load=load,
+        pose_deg=(state.roll_deg, state.pitch_deg, state.phase_deg),
+        load=replace(load, point=load.point or found.origin),
         mu=mu,
         penetrating=found.penetrating,
         support_margin=margin,
@@ -138,6 +140,16 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
         turn_effort_cw=_effort(wrench, points, found, radius, mu, -1.0),
         forces=_forces(wrench, points, found, mu) if mu >= hold.upper else (),
     )
+
+
+def checked_friction(mu: float) -> None:
+    """Check a coefficient of friction.
+
+    Raises:
+        InvalidValueError: it is negative or not finite.
+    """
+    if not 0.0 <= mu < math.inf:
+        raise InvalidValueError("mu", mu, "a finite number >= 0")
 
 
 def support_margin(wrench: Floats, points: Floats, found: Touching) -> float:
@@ -184,8 +196,8 @@ MOST_ADDITIONS = 40
 def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int], Floats]:
     """Bounds for a level patch, and the points of its hull that carry the load at the upper one, with their forces.
 
-    The twist that proves the lower bound of some points is tried on the whole hull; points against which it fails are added
-    until none is left.
+    The twist that proves the lower bound of some points is tried on the whole hull; points against which it fails are
+    added until none is left.
     """
     chosen = sorted({len(hull) * i // FIRST_POINTS for i in range(FIRST_POINTS)})
     everywhere = np.tile([0.0, 0.0, 1.0], (len(hull), 1))
@@ -217,7 +229,7 @@ def _bounds(status: int, lower: float, upper: float) -> FrictionBounds:
 
 
 def _effort(wrench: Floats, points: Floats, found: Touching, radius: float, mu: float, sense: float) -> float | None:
-    """The torque over (push r), about the nut's axis, at which the bolt begins to turn; None without a push on a contact."""
+    """The torque over (push r) at which the bolt begins to turn; None without a push on a contact."""
     push = -float(wrench[5])
     if not push > 0.0:
         return None

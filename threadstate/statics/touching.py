@@ -1,7 +1,7 @@
 """Where a state's solids touch in its last pose, and the normals there (forces, section 2).
 
-A state stores each contact in the pose of its stage. In the last pose an earlier contact is at the same point, which lies on
-the axes of the later turns, but the features have turned against each other and the normal with them.
+A state stores each contact in the pose of its stage. In the last pose an earlier contact is at the same point, which
+lies on the axes of the later turns, but the features have turned against each other and the normal with them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point
-from threadstate.errors import ThreadstateError
+from threadstate.errors import UnresolvedPoseError
 from threadstate.state.model import Contact, ContactState, FeaturePair, Flag, StagePose
 from threadstate.statics import _patch_kernel as hk
 from threadstate.thread.pair import Pair
@@ -22,16 +22,6 @@ Floats = NDArray[np.float64]
 
 PARALLEL_SINE = 1e-9
 """Edges that cross at a smaller angle (its sine) in the last pose have no certain normal."""
-
-
-class ParallelEdgesError(ThreadstateError):
-    """Two edges are parallel where they touch in the last pose, so that no normal is certain there."""
-
-    def __init__(self, state: ContactState, number: int) -> None:
-        super().__init__(
-            f"Contact {number} of roll {state.roll_deg!r}, pitch {state.pitch_deg!r}, phase {state.phase_deg!r} deg"
-            " is of two edges that are parallel in the last pose: its normal is not certain."
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +51,7 @@ def touching(pair: Pair, state: ContactState) -> Touching:
     """Where the solids touch in the last pose of a state.
 
     Raises:
-        ParallelEdgesError: two edges are parallel where they touch.
+        UnresolvedPoseError: two edges are parallel where they touch.
     """
     last = state.poses[-1]
     points = [contact.point for contact in state.contacts]
@@ -113,7 +103,12 @@ def _across_edges(
     across = np.cross(bolt, nut)
     size = float(np.linalg.norm(across))
     if not size > PARALLEL_SINE * float(np.linalg.norm(bolt) * np.linalg.norm(nut)):
-        raise ParallelEdgesError(state, number + 1)
+        raise UnresolvedPoseError(
+            state.roll_deg,
+            state.pitch_deg,
+            state.phase_deg,
+            f"the edges of contact {number + 1} are parallel in the last pose, which leaves its normal open",
+        )
     # The bolt's material lies on the side of its axis above the base, as in the pose of the contact's stage.
     inward = np.array(state.poses[-1].translation) + last @ [0.0, 0.0, pair.thread_pitch / 2.0] - contact.point
     if float(across @ inward) < 0.0:
@@ -123,10 +118,10 @@ def _across_edges(
 
 
 def patch_hull(pair: Pair, pose: StagePose) -> tuple[list[tuple[float, float, float]], float]:
-    """The convex hull, counter-clockwise, of the patch on which a flush bolt lies, and how far outside it the patch may reach.
+    """The hull, counter-clockwise, of the patch on which a flush bolt lies, and how far outside it the patch may reach.
 
-    Between two samples an arc of the bolt's outline leaves its chord by at most an eighth of the chord's length squared times
-    the outline's largest curvature.
+    Between two samples an arc of the bolt's outline leaves its chord by at most an eighth of the chord's length squared
+    times the outline's largest curvature.
     """
     placed = np.array([*np.ravel(pose.rotation), *pose.translation])
     hull = np.empty((2 * hk.OUTLINE_SAMPLES + 1, 2))

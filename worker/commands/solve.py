@@ -66,7 +66,7 @@ def solve(
       threadstate solve --roll 4 --pitch -3 --phase 185 --method mesh --preset fine --scene curves
       threadstate solve --roll 0 --pitch -4 --phase 350 --method mesh --descent decades
     """
-    wanted = _wanted(roll, pitch, phase, poses)
+    wanted = wanted_poses(roll, pitch, phase, poses)
     mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
     batch = BATCH if method is SolverMethod.EXACT else 1
 
@@ -97,9 +97,14 @@ def solve(
         print_contacts(states[0], shown, factor)
 
 
-def _wanted(
+def wanted_poses(
     roll: float | None, pitch: float | None, phase: float | None, poses: Path | None
 ) -> list[tuple[float, float, float]]:
+    """The one pose of three options, or those of a file.
+
+    Raises:
+        InvalidValueError: both or neither are given, or the file is not valid.
+    """
     if poses is not None:
         if not roll is pitch is phase is None:
             raise InvalidValueError("--poses", str(poses), "a file, or --roll, --pitch and --phase, not both")

@@ -1,0 +1,74 @@
+"""``threadstate statics``."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.worker.conftest import CommandLine
+
+pytestmark = pytest.mark.slow
+
+POSE = ("--roll", "1", "--pitch", "-2", "--phase", "10")
+
+
+def test_a_pose_is_one_object(command_line: CommandLine) -> None:
+    code, out, err = command_line.here("statics", *POSE, "--mu", "0.3", "--force", "0.1,0,-10", "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    assert list(found) == [
+        *("roll", "pitch", "phase", "load", "mu", "penetrating", "supported", "support_margin", "mu_hold", "mu_wedge"),
+        *("turn_effort_ccw", "turn_effort_cw", "forces", "verdict"),
+    ]
+    assert found["load"]["force"] == [0.1, 0.0, -10.0]
+    assert found["load"]["frame"] == "nut"
+    assert (found["mu"], found["verdict"], found["supported"]) == (0.3, "can_stay", False)
+    assert [force["contact"] for force in found["forces"]] == [1, 2, 3]
+
+
+def test_lengths_are_in_the_unit_that_is_asked_for(command_line: CommandLine) -> None:
+    load = ("--force", "0,0,-10", "--point", "1,2,3", "--unit", "mm")
+    found = json.loads(command_line.here("statics", *POSE, *load, "--moment", "2.54,0,0", "--json")[1])
+    inches = ("--force", "0,0,-10", "--point", ",".join(str(x / 25.4) for x in (1, 2, 3)), "--moment", "0.1,0,0")
+    same = json.loads(command_line.here("statics", *POSE, *inches, "--json")[1])
+    assert np.allclose(found["load"]["point"], [1.0, 2.0, 3.0])
+    assert np.allclose(found["load"]["moment"], [2.54, 0.0, 0.0])
+    assert found["mu_hold"] == pytest.approx(same["mu_hold"], rel=1e-9)
+    assert found["support_margin"] == pytest.approx(same["support_margin"], rel=1e-9)
+
+
+def test_poses_of_a_file_are_one_object_a_line(command_line: CommandLine, tmp_path: Path) -> None:
+    path = tmp_path / "poses.csv"
+    path.write_text("roll,pitch,phase\n4,0,185\n1,-2,10\n0,0,0\n")
+    lines = command_line.here("statics", "--poses", str(path), "--json")[1].splitlines()
+    found = [json.loads(line) for line in lines]
+    assert [one["roll"] for one in found] == [4.0, 1.0, 0.0]
+    flush = found[0]
+    assert (flush["mu_hold"], flush["mu_wedge"], flush["verdict"], flush["forces"]) == (None, None, "moves", [])
+
+
+def test_without_json_it_is_a_table(command_line: CommandLine) -> None:
+    code, out, _ = command_line.here("statics", *POSE)
+    assert code == 0
+    assert "holds from mu" in out
+    assert "contact 3 (N)" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--mu", "-0.1"), "mu is -0.1; valid: a finite number >= 0"),
+        (("--mu", "nan"), "mu"),
+        (("--force", "0,0,0"), "force is (0.0, 0.0, 0.0); valid: a force or a moment that is not zero"),
+        (("--force", "1,2"), "not three numbers"),
+        (("--point", "1,x,2"), "x"),
+        (("--moment", "inf,0,0"), "moment"),
+    ],
+)
+def test_bad_input_is_named(command_line: CommandLine, arguments: tuple[str, ...], message: str) -> None:
+    code, out, err = command_line.here("statics", *POSE, *arguments)
+    assert (code, out) == (2, "")
+    assert message in err

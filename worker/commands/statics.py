@@ -1,0 +1,83 @@
+"""``threadstate statics``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from worker.commands.solve import BATCH, wanted_poses
+from worker.options import Dimensions, Json, PairName, UnitName, number_option, vector_option
+from worker.output import print_json
+
+Vector = tuple[float, float, float]
+
+
+def statics(
+    roll: Annotated[float | None, number_option("--roll", metavar="DEG", help="Roll, -10 to 10.")] = None,
+    pitch: Annotated[float | None, number_option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")] = None,
+    phase: Annotated[float | None, number_option("--phase", metavar="DEG", help="Phase, any finite angle.")] = None,
+    poses: Annotated[
+        Path | None,
+        typer.Option("--poses", metavar="FILE", help="CSV file of poses, header roll,pitch,phase; /dev/stdin works."),
+    ] = None,
+    mu: Annotated[float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")] = 0.2,
+    force: Annotated[
+        Vector | None,
+        vector_option("--force", help="Force on the bolt in N, in the nut's frame.", show_default="0,0,-1"),
+    ] = None,
+    moment: Annotated[
+        Vector | None, vector_option("--moment", help="Moment on the bolt, in N times the unit.", show_default="0,0,0")
+    ] = None,
+    point: Annotated[
+        Vector | None,
+        vector_option("--point", help="The point about which the moment is taken.", show_default="the bolt's origin"),
+    ] = None,
+    pair: PairName = None,
+    dimension: Dimensions = None,
+    unit: UnitName = None,
+    as_json: Json = False,
+) -> None:
+    r"""Say what a load does to a contact state: whether it is held, wedged, or moves, and what turns the bolt.
+
+    With --json, one object a line in the order of the file.
+
+    \b
+    Examples:
+      threadstate statics --roll 1 --pitch -2 --phase 10
+      threadstate statics --roll 1 --pitch -2 --phase 10 --mu 0.15 --force 0,0,-10 --json
+      threadstate statics --roll 1 --pitch -2 --phase 10 --force 0.5,0,-10 --moment 0,0.1,0 --json
+      threadstate statics --poses poses.csv --mu 0.1 --json
+    """
+    wanted = wanted_poses(roll, pitch, phase, poses)
+
+    from threadstate.state.solve import solve_poses
+    from threadstate.statics.document import statics_document
+    from threadstate.statics.load import Load
+    from threadstate.statics.solve import checked_friction, statics_of
+    from threadstate.units import conversion_factor
+    from worker.pairs.selection import chosen_pair
+    from worker.tables import print_statics
+
+    threads = chosen_pair(pair, dimension or ())
+    shown = unit or threads.unit
+    factor = conversion_factor(threads.unit, shown)
+    checked_friction(mu)
+    load = Load(
+        force=force or (0.0, 0.0, -1.0),
+        moment=_in_the_pairs_unit(moment or (0.0, 0.0, 0.0), factor),
+        point=None if point is None else _in_the_pairs_unit(point, factor),
+    )
+    for start in range(0, len(wanted), BATCH):
+        for state in solve_poses(threads, wanted[start : start + BATCH]):
+            found = statics_of(threads, state, load, mu)
+            if as_json:
+                print_json(statics_document(found, factor))
+            else:
+                print_statics(found, shown, factor)
+
+
+def _in_the_pairs_unit(vector: Vector, factor: float) -> Vector:
+    x, y, z = vector
+    return x / factor, y / factor, z / factor
