@@ -157,9 +157,10 @@ $(VENV)/.kernels: $(SOURCES) $(VENV)/.project
 	$(BIN)/python -m threadstate.warm_up
 	@touch $@
 
-# The brute force that tests compare with: compiled once, before several of their processes would.
+# The brute force that tests compare with, and what else is compiled at its first use: once, before several of their
+# processes would.
 $(VENV)/.oracle: $(wildcard oracle/*.py) $(VENV)/.kernels $(VENV)/.dependencies
-	$(BIN)/python -m oracle.warm_up
+	$(BIN)/python -m threadstate.statics.compile & $(BIN)/python -m oracle.warm_up && wait $$!
 	@touch $@
 
 LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header

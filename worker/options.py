@@ -35,20 +35,6 @@ def integer_option(name: str, *, min: int | None = None, max: int | None = None,
     return typer.Option(name, parser=parse, min=min, max=max, **described)
 
 
-def vector_option(name: str, **described: Any) -> Any:
-    """An option that is three numbers, separated by commas; ``described`` as for ``typer.Option``."""
-
-    def parse(value: object) -> object:
-        if not isinstance(value, str):
-            return value
-        parts = value.split(",")
-        if len(parts) != 3:
-            _refuse(f"{value!r} is not three numbers, separated by commas")
-        return tuple(_parsed(number, part.strip()) for part in parts)
-
-    return typer.Option(name, parser=parse, metavar="X,Y,Z", **described)
-
-
 def _parsed(read: Callable[[str], float], value: Any) -> Any:
     """Parse a text; defaults, which are not texts, pass."""
     if not isinstance(value, str):
@@ -150,6 +136,19 @@ Port = Annotated[
         "--port", metavar="N", min=1, max=65535, help="Port to listen on.", show_default=f"{settings.PORT}, else 8000"
     ),
 ]
+
+
+def vector(name: str, text: str) -> tuple[float, float, float]:
+    """Three numbers, separated by commas.
+
+    Raises:
+        InvalidValueError: the text is anything else.
+    """
+    try:
+        x, y, z = (number(part.strip()) for part in text.split(","))
+    except ValueError:
+        raise InvalidValueError(name, text, "three numbers, separated by commas") from None
+    return x, y, z
 
 
 def chosen_scheduler(read: settings.Settings, scheduler: str | None, workers: int | None) -> str | None:

@@ -141,7 +141,8 @@ def print_statics(statics: Statics, unit: LengthUnit, factor: float) -> None:
     """What a load does to a state, a number a row, then the forces; lengths times ``factor``, in ``unit``."""
     roll, pitch, phase = map(number_text, statics.pose_deg)
     load = statics.load
-    rows = table("roll, pitch, phase (deg)", f"{roll}, {pitch}, {phase}")
+    rows = table("", "")
+    rows.add_row("roll, pitch, phase (deg)", f"{roll}, {pitch}, {phase}")
     rows.add_row("force (N)", _numbers(load.force))
     rows.add_row(f"moment (N {unit})", _numbers([factor * number for number in load.moment]))
     rows.add_row(f"about ({unit})", _numbers([factor * number for number in load.point or ()]))

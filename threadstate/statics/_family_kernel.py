@@ -90,7 +90,7 @@ def friction_program(mu: float, weights: Array, start: Array, basis: Array, gras
                 + z[3 * i + 1] * grasp.frames[i, 0, j]
                 + z[3 * i + 2] * grasp.frames[i, 1, j]
             )
-    return x[d] if gap < math.inf else math.inf
+    return float(x[d]) if gap < math.inf else math.inf
 
 
 @kernel()

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from worker.commands.solve import BATCH, wanted_poses
-from worker.options import Dimensions, Json, PairName, UnitName, number_option, vector_option
+from worker.options import Dimensions, Json, PairName, UnitName, number_option, vector
 from worker.output import print_json
 
 Vector = tuple[float, float, float]
@@ -24,15 +24,19 @@ def statics(
     ] = None,
     mu: Annotated[float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")] = 0.2,
     force: Annotated[
-        Vector | None,
-        vector_option("--force", help="Force on the bolt in N, in the nut's frame.", show_default="0,0,-1"),
-    ] = None,
+        str, typer.Option("--force", metavar="X,Y,Z", help="Force on the bolt in N, in the nut's frame.")
+    ] = "0,0,-1",
     moment: Annotated[
-        Vector | None, vector_option("--moment", help="Moment on the bolt, in N times the unit.", show_default="0,0,0")
-    ] = None,
+        str, typer.Option("--moment", metavar="X,Y,Z", help="Moment on the bolt, in N times the unit.")
+    ] = "0,0,0",
     point: Annotated[
-        Vector | None,
-        vector_option("--point", help="The point about which the moment is taken.", show_default="the bolt's origin"),
+        str | None,
+        typer.Option(
+            "--point",
+            metavar="X,Y,Z",
+            help="The point about which the moment is taken.",
+            show_default="the bolt's origin",
+        ),
     ] = None,
     pair: PairName = None,
     dimension: Dimensions = None,
@@ -65,9 +69,9 @@ def statics(
     factor = conversion_factor(threads.unit, shown)
     checked_friction(mu)
     load = Load(
-        force=force or (0.0, 0.0, -1.0),
-        moment=_in_the_pairs_unit(moment or (0.0, 0.0, 0.0), factor),
-        point=None if point is None else _in_the_pairs_unit(point, factor),
+        force=vector("--force", force),
+        moment=_in_the_pairs_unit(vector("--moment", moment), factor),
+        point=None if point is None else _in_the_pairs_unit(vector("--point", point), factor),
     )
     for start in range(0, len(wanted), BATCH):
         for state in solve_poses(threads, wanted[start : start + BATCH]):
@@ -78,6 +82,6 @@ def statics(
                 print_statics(found, shown, factor)
 
 
-def _in_the_pairs_unit(vector: Vector, factor: float) -> Vector:
-    x, y, z = vector
+def _in_the_pairs_unit(lengths: Vector, factor: float) -> Vector:
+    x, y, z = lengths
     return x / factor, y / factor, z / factor
