@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
 import typer
@@ -51,6 +52,14 @@ def _refuse(reason: str) -> NoReturn:
 
     raise PydanticCustomError("number", "{reason}", {"reason": reason})
 
+
+Roll = Annotated[float | None, number_option("--roll", metavar="DEG", help="Roll, -10 to 10.")]
+Pitch = Annotated[float | None, number_option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")]
+Phase = Annotated[float | None, number_option("--phase", metavar="DEG", help="Phase, any finite angle.")]
+Poses = Annotated[
+    Path | None,
+    typer.Option("--poses", metavar="FILE", help="CSV file of poses, header roll,pitch,phase; /dev/stdin works."),
+]
 
 Database = Annotated[
     str | None,

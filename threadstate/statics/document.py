@@ -40,8 +40,8 @@ class StaticsDocument(TypedDict):
     penetrating: Annotated[bool, Field(description="whether the solids overlap, so that no forces can be real")]
     supported: bool
     support_margin: float
-    mu_hold: Annotated[float | None, Field(description="null where no friction holds the load")]
-    mu_wedge: Annotated[float | None, Field(description="null where no friction wedges")]
+    mu_hold: Annotated[float | None, Field(description="null where no friction is known to hold the load")]
+    mu_wedge: Annotated[float | None, Field(description="null where no friction is known to wedge")]
     turn_effort_ccw: Annotated[float | None, Field(description="null where no torque turns the bolt that way")]
     turn_effort_cw: float | None
     forces: list[ContactForceDocument]

@@ -27,7 +27,7 @@ class Verdict(StrEnum):
     MOVES = "moves"
     """No contact forces balance the load."""
     CAN_STAY = "can_stay"
-    """Some do; others motions may be consistent as well."""
+    """Some do; other motions may be consistent as well."""
     CAN_WEDGE = "can_wedge"
     """Some do, and contacts can balance each other without any load."""
     UNDECIDED = "undecided"
@@ -36,14 +36,17 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class FrictionBounds:
-    """A least friction lies within these bounds, both certified; both infinite where no friction does it."""
+    """A least friction lies within these bounds; both infinite where no friction does it.
+
+    Where nothing was found and nothing proved they are zero and infinity.
+    """
 
     lower: float
     upper: float
 
     @property
     def value(self) -> float | None:
-        """The least friction, from above; None where no friction does it."""
+        """The least friction, from above; None where no friction does it or none was found."""
         return self.upper if self.upper < math.inf else None
 
 
@@ -117,17 +120,18 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
     radius = pair.nominal_diameter / 2.0
     wrench = load.about(found.origin)
     wrench[:3] /= radius
-    points = (found.points - found.origin) / radius
+    # Copies that can be written to: for others the kernels would be compiled again.
+    scaled = replace(found, points=(found.points - found.origin) / radius, normals=found.normals.copy())
     level = found.patch and not np.any(wrench[2:5])
-    margin = support_margin(wrench, points, found)
+    margin = support_margin(wrench, scaled)
     if margin >= 0.0:
         hold = FrictionBounds(0.0, 0.0)
-        wedge, _, _ = wedge_friction(points, found)
+        wedge, _, _ = wedge_friction(scaled)
     elif level:
         hold = wedge = FrictionBounds(math.inf, math.inf)
     else:
-        wedge, wedge_forces, wedge_twist = wedge_friction(points, found)
-        hold = hold_friction(wrench, points, found, wedge, wedge_forces, wedge_twist)
+        wedge, wedge_forces, wedge_twist = wedge_friction(scaled)
+        hold = hold_friction(wrench, scaled, wedge, wedge_forces, wedge_twist)
     return Statics(
         pose_deg=(state.roll_deg, state.pitch_deg, state.phase_deg),
         load=replace(load, point=load.point or found.origin),
@@ -136,9 +140,9 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
         support_margin=margin,
         hold=hold,
         wedge=wedge,
-        turn_effort_ccw=_effort(wrench, points, found, radius, mu, 1.0),
-        turn_effort_cw=_effort(wrench, points, found, radius, mu, -1.0),
-        forces=_forces(wrench, points, found, mu) if mu >= hold.upper else (),
+        turn_effort_ccw=_effort(wrench, scaled, radius, mu, 1.0),
+        turn_effort_cw=_effort(wrench, scaled, radius, mu, -1.0),
+        forces=_forces(wrench, scaled, mu) if mu >= hold.upper else (),
     )
 
 
@@ -152,49 +156,49 @@ def checked_friction(mu: float) -> None:
         raise InvalidValueError("mu", mu, "a finite number >= 0")
 
 
-def support_margin(wrench: Floats, points: Floats, found: Touching) -> float:
-    """The margin of a load (moment over r, force) about the bolt's origin; points over r from there."""
+def support_margin(wrench: Floats, scaled: Touching) -> float:
+    """The margin of a load (moment over r, force) about the bolt's origin; ``scaled`` has points over r from there."""
     unit = wrench / np.linalg.norm(wrench)
-    if found.patch:
-        return float(patch_margin(unit, points[found.own :, :2]))
-    rays = np.hstack([np.cross(points, found.normals), found.normals])
+    if scaled.patch:
+        return float(patch_margin(unit, scaled.points[scaled.own :, :2].copy()))
+    rays = np.hstack([np.cross(scaled.points, scaled.normals), scaled.normals])
     distance = float(distance_to_rays(unit, rays))
     if distance > SPAN_TOLERANCE:
         return -distance
     depth = float(depth_in_simplex(unit, rays))
-    # Dependent rays (a strip of flank): the distance from the sides of their cone is not told.
+    # Dependent rays (a strip of flank): the load is supported, how far from the sides of their cone is not computed.
     return max(depth, 0.0) if not math.isnan(depth) else 0.0
 
 
-def wedge_friction(points: Floats, found: Touching) -> tuple[FrictionBounds, Floats, Floats]:
+def wedge_friction(scaled: Touching) -> tuple[FrictionBounds, Floats, Floats]:
     """Bounds of the least friction that wedges, its forces (3 k) and its twist; contacts of one normal never wedge."""
-    forces, twist = np.zeros(3 * len(points)), np.zeros(6)
-    if found.patch:
+    forces, twist = np.zeros(scaled.points.size), np.zeros(6)
+    if scaled.patch:
         return FrictionBounds(math.inf, math.inf), forces, twist
-    status, lower, upper = fk.wedge_friction(points, found.normals, forces, twist)
+    status, lower, upper = fk.wedge_friction(scaled.points, scaled.normals, forces, twist)
     return _bounds(status, lower, upper), forces, twist
 
 
 def hold_friction(
-    wrench: Floats, points: Floats, found: Touching, wedge: FrictionBounds, wedge_forces: Floats, wedge_twist: Floats
+    wrench: Floats, scaled: Touching, wedge: FrictionBounds, wedge_forces: Floats, wedge_twist: Floats
 ) -> FrictionBounds:
     """Bounds of the least friction that holds a load; of a patch by the few points of its hull that matter."""
-    if found.patch:
-        bounds, _, _ = _patch_hold(wrench, points[found.own :])
-        return bounds
-    forces, twist = np.zeros(3 * len(points)), np.zeros(6)
-    found_bounds = fk.hold_friction(
-        wrench, points, found.normals, wedge.upper, wedge_forces, wedge_twist, forces, twist
+    if scaled.patch:
+        return _patch_hold(wrench, scaled.points[scaled.own :])[0]
+    forces, twist = np.zeros(scaled.points.size), np.zeros(6)
+    found = fk.hold_friction(
+        wrench, scaled.points, scaled.normals, wedge.upper, wedge_forces, wedge_twist, forces, twist
     )
-    return _bounds(*found_bounds)
+    return _bounds(*found)
 
 
 FIRST_POINTS = 6
+"""Points of a hull, spread evenly, that are tried first."""
 MOST_ADDITIONS = 40
 
 
-def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int], Floats]:
-    """Bounds for a level patch, and the points of its hull that carry the load at the upper one, with their forces.
+def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]]:
+    """Bounds for a level patch, and the points of its hull that carry the load at the upper one.
 
     The twist that proves the lower bound of some points is tried on the whole hull; points against which it fails are
     added until none is left.
@@ -216,10 +220,10 @@ def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]
         ratio[velocity[:, 2] < -1e-12 * scale] = -np.inf
         worst = int(np.argmin(ratio))
         if ratio[worst] >= bounds.lower * (1.0 - 1e-12) or worst in chosen:
-            return FrictionBounds(max(lower, min(float(ratio[worst]), bounds.lower)), bounds.upper), chosen, forces
+            return FrictionBounds(max(lower, min(float(ratio[worst]), bounds.lower)), bounds.upper), chosen
         lower = max(lower, float(ratio[worst]))
         chosen = sorted({*chosen, worst})
-    return FrictionBounds(min(lower, bounds.upper), bounds.upper), chosen, forces
+    return FrictionBounds(min(lower, bounds.upper), bounds.upper), chosen
 
 
 def _bounds(status: int, lower: float, upper: float) -> FrictionBounds:
@@ -228,29 +232,28 @@ def _bounds(status: int, lower: float, upper: float) -> FrictionBounds:
     return FrictionBounds(float(lower), float(upper))
 
 
-def _effort(wrench: Floats, points: Floats, found: Touching, radius: float, mu: float, sense: float) -> float | None:
+def _effort(wrench: Floats, scaled: Touching, radius: float, mu: float, sense: float) -> float | None:
     """The torque over (push r) at which the bolt begins to turn; None without a push on a contact."""
     push = -float(wrench[5])
     if not push > 0.0:
         return None
     # About the nut's axis; x and y of the bolt's origin are not zero after the turns of the second and third stage.
-    shift = np.array([found.origin[0], found.origin[1], 0.0]) / radius
+    shift = np.array([scaled.origin[0], scaled.origin[1], 0.0]) / radius
     torque = float(wrench[2] + shift[0] * wrench[4] - shift[1] * wrench[3])
-    effort = float(turn_effort(push, torque, points + shift, found.normals, mu, sense))
+    effort = float(turn_effort(push, torque, scaled.points + shift, scaled.normals, mu, sense))
     return None if math.isnan(effort) else effort / push
 
 
-def _forces(wrench: Floats, points: Floats, found: Touching, mu: float) -> tuple[ContactForce, ...]:
+def _forces(wrench: Floats, scaled: Touching, mu: float) -> tuple[ContactForce, ...]:
     """Balancing forces at ``mu`` of least largest normal part."""
-    chosen = list(range(len(points)))
-    if found.patch:
-        _, chosen, _ = _patch_hold(wrench, points[found.own :])
-        chosen = [found.own + i for i in chosen]
+    chosen = list(range(len(scaled.points)))
+    if scaled.patch:
+        chosen = [scaled.own + i for i in _patch_hold(wrench, scaled.points[scaled.own :])[1]]
     forces = np.zeros(3 * len(chosen))
-    fk.least_forces(wrench, mu, points[chosen], found.normals[chosen], forces)
+    fk.least_forces(wrench, mu, scaled.points[chosen], scaled.normals[chosen], forces)
     rows = []
     for number, force in zip(chosen, forces.reshape(-1, 3), strict=True):
-        normal = float(force @ found.normals[number])
-        x, y, z = (force - normal * found.normals[number]).tolist()
+        normal = float(force @ scaled.normals[number])
+        x, y, z = (force - normal * scaled.normals[number]).tolist()
         rows.append(ContactForce(number + 1, normal, (x, y, z)))
     return tuple(rows)

@@ -51,7 +51,7 @@ def touching(pair: Pair, state: ContactState) -> Touching:
     """Where the solids touch in the last pose of a state.
 
     Raises:
-        UnresolvedPoseError: two edges are parallel where they touch.
+        UnresolvedPoseError: two edges are parallel where they touch, or a patch is too narrow for its hull.
     """
     last = state.poses[-1]
     points = [contact.point for contact in state.contacts]
@@ -62,6 +62,9 @@ def touching(pair: Pair, state: ContactState) -> Touching:
         normals = [contact.normal if on_thread else (0.0, 0.0, 1.0) for contact in state.contacts]
         if not on_thread:
             hull, gap = patch_hull(pair, last)
+            if len(hull) < 3:
+                pose = state.roll_deg, state.pitch_deg, state.phase_deg
+                raise UnresolvedPoseError(*pose, "the patch on which the bolt lies is too narrow for its hull")
             points += hull
             normals += [(0.0, 0.0, 1.0)] * len(hull)
     else:

@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from threadstate.errors import InvalidValueError
 from threadstate.library.solver_method import SolverMethod
@@ -18,13 +15,16 @@ from worker.options import (
     Json,
     MethodName,
     PairName,
+    Phase,
+    Pitch,
+    Poses,
     PresetName,
+    Roll,
     SceneName,
     TangentName,
     Unchecked,
     UnitName,
     mesh_options,
-    number_option,
 )
 from worker.output import print_json
 
@@ -33,13 +33,10 @@ BATCH = 1024
 
 
 def solve(
-    roll: Annotated[float | None, number_option("--roll", metavar="DEG", help="Roll, -10 to 10.")] = None,
-    pitch: Annotated[float | None, number_option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")] = None,
-    phase: Annotated[float | None, number_option("--phase", metavar="DEG", help="Phase, any finite angle.")] = None,
-    poses: Annotated[
-        Path | None,
-        typer.Option("--poses", metavar="FILE", help="CSV file of poses, header roll,pitch,phase; /dev/stdin works."),
-    ] = None,
+    roll: Roll = None,
+    pitch: Pitch = None,
+    phase: Phase = None,
+    poses: Poses = None,
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,

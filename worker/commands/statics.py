@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from worker.commands.solve import BATCH, wanted_poses
-from worker.options import Dimensions, Json, PairName, UnitName, number_option, vector
+from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option, vector
 from worker.output import print_json
 
 Vector = tuple[float, float, float]
 
 
 def statics(
-    roll: Annotated[float | None, number_option("--roll", metavar="DEG", help="Roll, -10 to 10.")] = None,
-    pitch: Annotated[float | None, number_option("--pitch", metavar="DEG", help="Pitch, -10 to 10.")] = None,
-    phase: Annotated[float | None, number_option("--phase", metavar="DEG", help="Phase, any finite angle.")] = None,
-    poses: Annotated[
-        Path | None,
-        typer.Option("--poses", metavar="FILE", help="CSV file of poses, header roll,pitch,phase; /dev/stdin works."),
-    ] = None,
+    roll: Roll = None,
+    pitch: Pitch = None,
+    phase: Phase = None,
+    poses: Poses = None,
     mu: Annotated[float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")] = 0.2,
     force: Annotated[
         str, typer.Option("--force", metavar="X,Y,Z", help="Force on the bolt in N, in the nut's frame.")
