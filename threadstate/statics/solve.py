@@ -9,12 +9,11 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.errors import InvalidValueError
 from threadstate.state.model import ContactState, Vector
 from threadstate.statics import _friction_kernel as fk
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics._support_kernel import SPAN_TOLERANCE, depth_in_simplex, distance_to_rays, patch_margin
-from threadstate.statics.load import Load
+from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.touching import Touching, touching
 from threadstate.thread.pair import Pair
 
@@ -144,16 +143,6 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
         turn_effort_cw=_effort(wrench, scaled, radius, mu, -1.0),
         forces=_forces(wrench, scaled, mu) if mu >= hold.upper else (),
     )
-
-
-def checked_friction(mu: float) -> None:
-    """Check a coefficient of friction.
-
-    Raises:
-        InvalidValueError: it is negative or not finite.
-    """
-    if not 0.0 <= mu < math.inf:
-        raise InvalidValueError("mu", mu, "a finite number >= 0")
 
 
 def support_margin(wrench: Floats, scaled: Touching) -> float:

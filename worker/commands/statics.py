@@ -6,11 +6,11 @@ from typing import Annotated
 
 import typer
 
+from threadstate.numbers import three_numbers
+from threadstate.statics.load import DEFAULT_FRICTION, Load, checked_friction
 from worker.commands.solve import BATCH, wanted_poses
-from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option, vector
+from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
 from worker.output import print_json
-
-Vector = tuple[float, float, float]
 
 
 def statics(
@@ -18,7 +18,9 @@ def statics(
     pitch: Pitch = None,
     phase: Phase = None,
     poses: Poses = None,
-    mu: Annotated[float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")] = 0.2,
+    mu: Annotated[
+        float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")
+    ] = DEFAULT_FRICTION,
     force: Annotated[
         str, typer.Option("--force", metavar="X,Y,Z", help="Force on the bolt in N, in the nut's frame.")
     ] = "0,0,-1",
@@ -54,8 +56,7 @@ def statics(
 
     from threadstate.state.solve import solve_poses
     from threadstate.statics.document import statics_document
-    from threadstate.statics.load import Load
-    from threadstate.statics.solve import checked_friction, statics_of
+    from threadstate.statics.solve import statics_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
     from worker.tables import print_statics
@@ -65,10 +66,10 @@ def statics(
     factor = conversion_factor(threads.unit, shown)
     checked_friction(mu)
     load = Load(
-        force=vector("--force", force),
-        moment=_in_the_pairs_unit(vector("--moment", moment), factor),
-        point=None if point is None else _in_the_pairs_unit(vector("--point", point), factor),
-    )
+        force=three_numbers("--force", force),
+        moment=three_numbers("--moment", moment),
+        point=None if point is None else three_numbers("--point", point),
+    ).with_lengths_over(factor)
     for start in range(0, len(wanted), BATCH):
         for state in solve_poses(threads, wanted[start : start + BATCH]):
             found = statics_of(threads, state, load, mu)
@@ -76,8 +77,3 @@ def statics(
                 print_json(statics_document(found, factor))
             else:
                 print_statics(found, shown, factor)
-
-
-def _in_the_pairs_unit(lengths: Vector, factor: float) -> Vector:
-    x, y, z = lengths
-    return x / factor, y / factor, z / factor
