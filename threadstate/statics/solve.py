@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,22 +14,10 @@ from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics._support_kernel import SPAN_TOLERANCE, depth_in_simplex, distance_to_rays, patch_margin
 from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.touching import Touching, touching
+from threadstate.statics.verdict import Verdict
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
-
-
-class Verdict(StrEnum):
-    """What the bolt can do at a friction, quasi-statically."""
-
-    MOVES = "moves"
-    """No contact forces balance the load."""
-    CAN_STAY = "can_stay"
-    """Some do; other motions may be consistent as well."""
-    CAN_WEDGE = "can_wedge"
-    """Some do, and contacts can balance each other without any load."""
-    UNDECIDED = "undecided"
-    """The friction lies within the bounds of a least friction."""
 
 
 @dataclass(frozen=True, slots=True)
