@@ -160,7 +160,7 @@ $(VENV)/.kernels: $(SOURCES) $(VENV)/.project
 # The brute force that tests compare with, and what else is compiled at its first use: once, before several of their
 # processes would.
 $(VENV)/.oracle: $(wildcard oracle/*.py) $(VENV)/.kernels $(VENV)/.dependencies
-	$(BIN)/python -m threadstate.statics.compile & $(BIN)/python -m oracle.warm_up && wait $$!
+	$(BIN)/python -m oracle.warm_up
 	@touch $@
 
 LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header

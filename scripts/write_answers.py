@@ -11,6 +11,8 @@ from pathlib import Path
 
 from threadstate.state.document import StateDocument, state_document
 from threadstate.state.solve import solve_pose
+from threadstate.statics.rows import stored_statics
+from threadstate.statics.stored import library_state_document
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 ROOT = Path(__file__).parent.parent
@@ -20,8 +22,10 @@ SHOWN = re.compile(
     r"(?P<roll>[^/\s]+)/(?P<pitch>[^/\s]+)/(?P<phase>[^/\s]+)\n```.*?```json\n).*?(?P<end>\n```)",
     re.DOTALL,
 )
-EXAMPLES = {"state.json": (4.0, -3.0, 185.0), "solved_state.json": (1.0, -2.0, 10.5)}
-"""Files of ``service/examples`` and the poses (roll, pitch, phase in degrees) that they show."""
+PAIR = quarter_twenty_unc()
+EXAMPLES = Path("service/examples")
+LIBRARY_POSE_DEG, SOLVED_POSE_DEG = (4.0, -3.0, 185.0), (1.0, -2.0, 10.5)
+"""The poses (roll, pitch, phase) of the examples of the HTTP interface."""
 
 
 def main() -> None:
@@ -29,8 +33,13 @@ def main() -> None:
     for name in DOCUMENTS:
         path = ROOT / name
         path.write_text(SHOWN.sub(_shown_again, path.read_text()))
-    for name, pose in EXAMPLES.items():
-        (ROOT / "service" / "examples" / name).write_text(_broken_into_lines(_document(*pose)) + "\n")
+    stored = solve_pose(PAIR, *LIBRARY_POSE_DEG)
+    (statics,) = stored_statics(PAIR, [stored])
+    for name, document in (
+        ("state.json", library_state_document(stored, statics)),
+        ("solved_state.json", _document(*SOLVED_POSE_DEG)),
+    ):
+        (ROOT / EXAMPLES / name).write_text(_broken_into_lines(document) + "\n")
 
 
 def _shown_again(shown: re.Match[str]) -> str:
@@ -39,7 +48,7 @@ def _shown_again(shown: re.Match[str]) -> str:
 
 
 def _document(roll_deg: float, pitch_deg: float, phase_deg: float) -> StateDocument:
-    return state_document(solve_pose(quarter_twenty_unc(), roll_deg, pitch_deg, phase_deg))
+    return state_document(solve_pose(PAIR, roll_deg, pitch_deg, phase_deg))
 
 
 def _broken_into_lines(document: StateDocument) -> str:

@@ -36,6 +36,8 @@ INTEGER_TEXT = _written(integer, "int_parsing")
 """Validates a text that is parsed as an integer."""
 
 Tilt = Annotated[float, Ge(-TILT_LIMIT_DEG), Le(TILT_LIMIT_DEG), AllowInfNan(False), NUMBER_TEXT]
+Margin = Annotated[float, Ge(-1.0), Le(1.0), AllowInfNan(False), NUMBER_TEXT]
+Friction = Annotated[float, Ge(0.0), Le(1e6), AllowInfNan(False), NUMBER_TEXT]
 Phase = Annotated[float, Ge(0.0), Lt(360.0), AllowInfNan(False), NUMBER_TEXT]
 
 RollPath = Annotated[Tilt, Path(description="roll in degrees", examples=[4])]

@@ -14,6 +14,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
+from threadstate.statics.rows import statics_by_ordinal
 from worker.messages import Chunk
 
 
@@ -33,7 +34,8 @@ class PreparedChunks:
 @cache
 def prepared_chunk(grid: Grid, index: int) -> Chunk:
     """The chunk of an orientation of the 1/4-20 UNC library of a grid."""
-    rows = chunk_rows(grid.orientation(index), grid.first_ordinal(index), solve_poses(PAIR, grid.poses(index)))
+    states, first = solve_poses(PAIR, grid.poses(index)), grid.first_ordinal(index)
+    rows = chunk_rows(grid.orientation(index), first, states, statics_by_ordinal(PAIR, first, states))
     return Chunk(rows, rows_of(histories_of_grid(grid)[index]))
 
 

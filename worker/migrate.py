@@ -12,6 +12,7 @@ from threadstate.library.advisory_locks import WriterLock, take_lock
 from threadstate.library.schema import SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.library.states_json import fill_states_json, orientations_without_json
 from threadstate.stored_histories.falls import add_falls, orientations_without_falls
+from threadstate.stored_histories.statics import fill_statics, orientations_without_statics
 from worker.progress import with_progress
 
 
@@ -61,9 +62,12 @@ def _complete(engine: Engine) -> int:
         The number of orientations whose falls were added.
     """
     incomplete = orientations_without_falls(engine)
+    without_statics = orientations_without_statics(engine)
     without_json = orientations_without_json(engine)
     if incomplete:
         _exhaust(with_progress(add_falls(engine, incomplete), "descents", len(incomplete)))
+    if without_statics:
+        _exhaust(with_progress(fill_statics(engine, without_statics), "statics", len(without_statics)))
     if without_json:
         _exhaust(with_progress(fill_states_json(engine, without_json), "states as JSON", len(without_json)))
     return len(incomplete)

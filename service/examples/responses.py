@@ -5,20 +5,23 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from service.histories.endpoints import csv_table, history_columns
 from threadstate.state.document import StateDocument
+from threadstate.statics.stored import LibraryStateDocument
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 
 
-def _state(name: str) -> StateDocument:
-    document: StateDocument = json.loads(Path(__file__).with_name(name).read_text())
-    return document
+def _document(name: str) -> Any:
+    return json.loads(Path(__file__).with_name(name).read_text())
 
 
-STATE = _state("state.json")
+LIBRARY_STATE: LibraryStateDocument = _document("state.json")
 """The state of a pose of a library's grid, which comes to lie flush; lengths in inches."""
-SOLVED_STATE = _state("solved_state.json")
+STATE = {name: value for name, value in LIBRARY_STATE.items() if name != "statics"}
+"""The same without its statics."""
+SOLVED_STATE: StateDocument = _document("solved_state.json")
 """The state of a pose between those of a grid, three contacts one after another; lengths in inches."""
 
 _JSON = "application/json"
@@ -39,11 +42,16 @@ class Example:
 _STATES = "/v1/libraries/{id}/states"
 _HISTORY = "/v1/libraries/{id}/histories/{roll}/{pitch}"
 _ORIENTATION = {"library": 1, "unit": "in", "roll": STATE["roll"], "pitch": STATE["pitch"]}
-_COLUMNS = history_columns([STATE])
+_COLUMNS = history_columns([LIBRARY_STATE])
 
 EXAMPLES = (
     Example(
-        _STATES, "get", _JSON, "page", "The last page", {"library": 1, "unit": "in", "states": [STATE], "next": None}
+        _STATES,
+        "get",
+        _JSON,
+        "page",
+        "The last page",
+        {"library": 1, "unit": "in", "states": [LIBRARY_STATE], "next": None},
     ),
     Example(_STATES + "/{roll}/{pitch}/{phase}", "get", _JSON, "flush", "The bolt comes to lie flush", STATE),
     Example(

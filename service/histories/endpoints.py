@@ -20,14 +20,16 @@ from service.representation import CSV, JSON, NOT_MODIFIED, VARY_ACCEPT, json_re
 from service.undecided import UndecidedPhase
 from threadstate.export.column import Cell
 from threadstate.export.states import STAGES, state_columns
-from threadstate.library.read import not_on_the_grid, states_between
+from threadstate.library.read import not_on_the_grid
+from threadstate.library.statics import library_states_between
 from threadstate.state.document import StateDocument, state_document
+from threadstate.statics.stored import LibraryStateDocument, library_state_document
 from threadstate.units import LengthUnit, conversion_factor
 
 Columns = Mapping[str, tuple[Cell, ...]]
 
 
-def history_columns(states: Sequence[StateDocument]) -> Columns:
+def history_columns(states: Sequence[LibraryStateDocument]) -> Columns:
     """The states of an orientation as the columns that an export has of them, None where a state lacks one.
 
     Left out are roll and pitch, the number of contacts, and the stages and contacts that no state has.
@@ -118,13 +120,15 @@ def get_history(
         return representation(request, history_rows_json(connection, library, orientation), JSON, headers)
     factor = conversion_factor(library.length_unit, shown)
     first = grid.first_ordinal(orientation)
-    states = [
-        state_document(state, factor)
-        for state in states_between(connection, library.id, first, first + grid.phase_count - 1)
-    ]
-    if chosen is HistoryFormat.CSV:
-        return representation(request, csv_table(history_columns(states)), CSV, headers)
-    content = {"columns": history_columns(states)} if chosen is HistoryFormat.COLUMNS else {"states": states}
+    states = library_states_between(connection, library.id, first, first + grid.phase_count - 1)
+    content: dict[str, object]
+    if chosen is HistoryFormat.ROWS:
+        content = {"states": [state_document(state, factor) for state, _ in states]}
+    else:
+        columns = history_columns([library_state_document(*state, factor) for state in states])
+        if chosen is HistoryFormat.CSV:
+            return representation(request, csv_table(columns), CSV, headers)
+        content = {"columns": columns}
     answer = {
         "library": library.id,
         "unit": shown.value,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from typing import get_type_hints
 from urllib.parse import urlencode
 
 from fastapi import APIRouter, Request, Response
@@ -18,12 +19,16 @@ from service.states.query import decode_cursor, encode_cursor
 from service.states.repository import places
 from threadstate.library.pose import state_of_pose
 from threadstate.library.read import states_at
-from threadstate.state.document import StateDocument, state_document
+from threadstate.library.statics import statics_at
+from threadstate.state.document import StateDocument
 from threadstate.state.json import state_json
+from threadstate.statics.stored import LibraryStateDocument, library_state_document
 from threadstate.units import LengthUnit, conversion_factor
 
-ChosenFields = TypedDict("ChosenFields", StateDocument.__annotations__, total=False)  # type: ignore[misc]
-"""A contact state; with `fields` those of its fields alone."""
+ChosenFields = TypedDict(  # type: ignore[misc]
+    "ChosenFields", get_type_hints(LibraryStateDocument, include_extras=True), total=False
+)
+"""A contact state of a library; with `fields` those of its fields alone."""
 
 
 class StatePage(BaseModel):
@@ -59,9 +64,11 @@ def list_states(
     page = places(connection, library.id, which, sort, after, limit)
     shown = unit or library.length_unit
     factor = conversion_factor(library.length_unit, shown)
+    ordinals = [place.ordinal for place in page.places]
+    statics = statics_at(connection, library.id, ordinals)
     documents = (
-        state_document(state, factor)
-        for state in states_at(connection, library.id, [place.ordinal for place in page.places])
+        library_state_document(state, statics[ordinal], factor)
+        for ordinal, state in zip(ordinals, states_at(connection, library.id, ordinals), strict=True)
     )
     headers = {UNIT_HEADER: shown.value}
     following = None

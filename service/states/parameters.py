@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, get_type_hints
 
 from annotated_types import Ge, Le
 from fastapi import Depends, Query
 
-from service.quantities import INTEGER_TEXT, PhaseMaxQuery, PhaseMinQuery, PhaseQuery, PitchQuery, RollQuery
-from service.states.query import LONGEST_CURSOR, SORTS, Sort, StateFilter
+from service.quantities import (
+    INTEGER_TEXT,
+    Friction,
+    Margin,
+    PhaseMaxQuery,
+    PhaseMinQuery,
+    PhaseQuery,
+    PitchQuery,
+    RollQuery,
+)
+from service.states.query import LONGEST_CURSOR, SORTS, Range, Sort, StateFilter
 from threadstate.errors import InvalidValueError, UnknownNameError
-from threadstate.state.document import StateDocument
 from threadstate.state.model import Flag, StateClass
+from threadstate.statics.stored import MEANINGS, LibraryStateDocument
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS, Region
 
-FIELDS = tuple(StateDocument.__annotations__)
+FIELDS = tuple(get_type_hints(LibraryStateDocument))
 """The fields of a state, in order."""
 
 LARGEST_LIMIT = 1000
+_INFINITE = "where no friction does it, it counts as infinite"
 _LONGEST_FIELDS = len(",".join(FIELDS))
 
 
@@ -43,19 +53,54 @@ def state_filter(
         ),
     ] = None,
     flag: Annotated[Flag | None, Query(description="a flag of the state")] = None,
+    support_margin_min: Annotated[
+        Margin | None, Query(description=f"least {MEANINGS['support_margin']}; 0: supported without friction")
+    ] = None,
+    support_margin_max: Annotated[Margin | None, Query(description="greatest support margin")] = None,
+    mu_hold_min: Annotated[
+        Friction | None, Query(description=f"least value of the {MEANINGS['mu_hold']}; {_INFINITE}")
+    ] = None,
+    mu_hold_max: Annotated[
+        Friction | None, Query(description="greatest value of it: the load is held at this friction")
+    ] = None,
+    mu_wedge_min: Annotated[
+        Friction | None, Query(description=f"least value of the {MEANINGS['mu_wedge']}; {_INFINITE}")
+    ] = None,
+    mu_wedge_max: Annotated[
+        Friction | None, Query(description="greatest value of it: contacts can wedge at this friction")
+    ] = None,
 ) -> StateFilter:
     """The filter of the query parameters.
 
     Raises:
-        InvalidValueError: ``phase_min`` is above ``phase_max``.
+        InvalidValueError: a least value is above the greatest one.
         UnknownNameError: a region that this part does not have.
     """
-    if phase_min is not None and phase_max is not None and phase_min > phase_max:
-        raise InvalidValueError("phase_min", phase_min, f"at most phase_max, {phase_max!r}")
+    for name, least, greatest in (
+        ("phase", phase_min, phase_max),
+        ("support_margin", support_margin_min, support_margin_max),
+        ("mu_hold", mu_hold_min, mu_hold_max),
+        ("mu_wedge", mu_wedge_min, mu_wedge_max),
+    ):
+        if least is not None and greatest is not None and least > greatest:
+            raise InvalidValueError(f"{name}_min", least, f"at most {name}_max, {greatest!r}")
     for name, region, regions in (("bolt_region", bolt_region, BOLT_REGIONS), ("nut_region", nut_region, NUT_REGIONS)):
         if region is not None and region not in regions:
             raise UnknownNameError(name, region.value, ", ".join(regions))
-    return StateFilter(roll, pitch, phase, phase_min, phase_max, state_class, bolt_region, nut_region, flag)
+    return StateFilter(
+        roll,
+        pitch,
+        phase,
+        phase_min,
+        phase_max,
+        state_class,
+        bolt_region,
+        nut_region,
+        flag,
+        Range(support_margin_min, support_margin_max),
+        Range(mu_hold_min, mu_hold_max),
+        Range(mu_wedge_min, mu_wedge_max),
+    )
 
 
 def state_sort(

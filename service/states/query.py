@@ -13,7 +13,16 @@ from threadstate.errors import InvalidValueError
 from threadstate.library.grid import LARGEST_POSE_COUNT
 from threadstate.state.model import Flag, StateClass
 from threadstate.state.quantities import QUANTITIES
+from threadstate.statics.stored import NAMES as STATICS
 from threadstate.thread.regions import Region
+
+
+@dataclass(frozen=True)
+class Range:
+    """From the least to the greatest value, both included; None stands for no bound."""
+
+    least: float | None = None
+    greatest: float | None = None
 
 
 @dataclass(frozen=True)
@@ -29,9 +38,19 @@ class StateFilter:
     bolt_region: Region | None = None
     nut_region: Region | None = None
     flag: Flag | None = None
+    support_margin: Range = Range()
+    mu_hold: Range = Range()
+    mu_wedge: Range = Range()
 
 
-SORT_KEYS = ("roll", "pitch", "phase", "class", *(quantity.name for quantity in QUANTITIES if quantity.sortable))
+SORT_KEYS = (
+    "roll",
+    "pitch",
+    "phase",
+    "class",
+    *(quantity.name for quantity in QUANTITIES if quantity.sortable),
+    *STATICS,
+)
 """What states can be sorted by; ties, and ``roll``, are in the order of roll, pitch and phase."""
 
 

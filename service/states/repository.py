@@ -10,11 +10,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Column, ColumnElement, Connection, Select, Table, select, tuple_
+from sqlalchemy import Column, ColumnElement, Connection, Select, Table, and_, or_, select, tuple_
 
-from service.states.query import Place, Sort, StateFilter
+from service.states.query import Place, Range, Sort, StateFilter
 from threadstate.library.tables import contact, state, state_flag
 from threadstate.state.quantities import QUANTITIES
+from threadstate.statics.stored import NAMES as STATICS
 
 _COLUMN: dict[str, Column[Any]] = {
     "roll": state.c.ordinal,
@@ -22,6 +23,7 @@ _COLUMN: dict[str, Column[Any]] = {
     "phase": state.c.phase_deg,
     "class": state.c.state_class,
     **{quantity.name: state.c[quantity.attribute] for quantity in QUANTITIES if quantity.sortable},
+    **{name: state.c[name] for name in STATICS},
 }
 
 
@@ -99,6 +101,21 @@ def _conditions(library_id: int, which: StateFilter) -> Iterator[ColumnElement[b
         yield _among(library_id, contact, contact.c.nut_region == which.nut_region.value)
     if which.flag is not None:
         yield _among(library_id, state_flag, state_flag.c.flag == which.flag.value)
+    for name in STATICS:
+        yield from _in_range(state.c[name], getattr(which, name))
+
+
+def _in_range(column: Column[Any], values: Range) -> Iterator[ColumnElement[bool]]:
+    """A friction that is not known to exist counts as infinite."""
+    if values.least is not None:
+        known = column >= values.least
+        yield (
+            known
+            if column is state.c.support_margin
+            else or_(known, and_(column.is_(None), state.c.support_margin.is_not(None)))
+        )
+    if values.greatest is not None:
+        yield column <= values.greatest
 
 
 def _among(library_id: int, table: Table, condition: ColumnElement[bool]) -> ColumnElement[bool]:

@@ -28,8 +28,9 @@ from threadstate.client.models.answer import Answer
 CALLS = (jobs, libraries, network, states, statics)
 MODELS = (job_models, library_models, network_models, service_models, state_models, statics_models)
 RENAMED = {
-    name: f"{name}Document" for name in ("State", "Pose", "Contact", "Margins", "Statics", "Load", "ContactForce")
-}
+    name: f"{name}Document"
+    for name in ("State", "Pose", "Contact", "Margins", "StoredStatics", "Statics", "Load", "ContactForce")
+} | {"LibraryState": "ChosenFields"}
 """Models that go by a shorter name than the service's."""
 
 ARGUMENTS: dict[str, object] = {
@@ -155,7 +156,7 @@ def test_help_shows_what_a_method_takes_and_returns() -> None:
     signature = inspect.signature(Client("http://127.0.0.1").state)
     assert list(signature.parameters) == ["roll", "pitch", "phase", "library", "unit"]
     assert signature.return_annotation == "State"
-    assert inspect.signature(Client.states).return_annotation == "Items[State]"
+    assert inspect.signature(Client.states).return_annotation == "Items[LibraryState]"
     assert inspect.signature(AsyncClient.job).return_annotation == "AsyncJob"
     assert Client.state.__doc__ == states.state.__doc__
 
@@ -209,7 +210,8 @@ def test_models_are_what_the_service_describes(openapi: dict[str, Any], model: t
     event = EventDocument.model_json_schema()
     components = {**openapi["components"]["schemas"], **event["$defs"], "EventDocument": event}
     # The client never asks for some of a state's fields, so that none is missing.
-    components["ChosenFields"] = components["StateDocument"]
+    chosen = components["ChosenFields"]
+    components["ChosenFields"] = {**chosen, "required": list(chosen["properties"])}
     told = components[RENAMED.get(model.__name__, model.__name__)]
     read = model.model_json_schema(mode="serialization")
     expected = _expanded(told, components)

@@ -1,7 +1,8 @@
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import pytest
 from fastapi.testclient import TestClient
@@ -9,7 +10,7 @@ from sqlalchemy import Connection, Engine
 
 from harness.databases import Databases
 from service.app import create_app
-from tests.service.made_up_states import made_up_states
+from tests.service.made_up_states import made_up_states, made_up_statics
 from tests.service.own_library import store_own_library
 from threadstate.library.engine import reader_engine, writer_engine
 from threadstate.library.grid import Grid
@@ -20,10 +21,13 @@ from threadstate.mesh.options import MeshOptions
 from threadstate.settings import CACHE_MB, DATABASE, read_settings
 from threadstate.state.model import Answer, ContactState
 from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.statics.rows import statics_by_ordinal
+from threadstate.statics.stored import LibraryStateDocument, StoredStatics, library_state_document
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
 Solve = Callable[[Sequence[tuple[float, float, float]]], Sequence[Answer]]
+MakeStatics = Callable[[int, Sequence[Answer]], dict[int, StoredStatics | None]]
 
 
 @dataclass(frozen=True)
@@ -35,28 +39,42 @@ class StoredLibrary:
     pair: Pair
     grid: Grid
     states: tuple[ContactState, ...]
+    statics: Mapping[int, StoredStatics | None]
+
+    def documents(self) -> list[LibraryStateDocument]:
+        """The documents of its states, all of which are decided, in order."""
+        return [library_state_document(state, self.statics.get(i)) for i, state in enumerate(self.states)]
 
 
 def store_library(
-    database: str, pair: Pair, grid: Grid, solve: Solve, mesh: MeshOptions | None = None
+    database: str,
+    pair: Pair,
+    grid: Grid,
+    solve: Solve,
+    mesh: MeshOptions | None = None,
+    statics: MakeStatics = lambda _first, _answers: {},
 ) -> StoredLibrary:
     """Publish a library in a migrated database."""
     engine = writer_engine(database)
     library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions(), mesh))
     states: list[ContactState] = []
+    of_states: dict[int, StoredStatics | None] = {}
     for index in range(grid.orientation_count):
-        solved = solve(grid.poses(index))
-        write_chunk(engine, library_id, chunk_rows(grid.orientation(index), grid.first_ordinal(index), solved))
+        solved, first = solve(grid.poses(index)), grid.first_ordinal(index)
+        found = statics(first, solved)
+        write_chunk(engine, library_id, chunk_rows(grid.orientation(index), first, solved, found))
+        of_states |= found
         states += [answer for answer in solved if isinstance(answer, ContactState)]
     publish(engine, library_id, grid)
     engine.dispose()
-    return StoredLibrary(database, library_id, pair, grid, tuple(states))
+    return StoredLibrary(database, library_id, pair, grid, tuple(states), of_states)
 
 
 @pytest.fixture(scope="session")
 def made_up(databases: Databases) -> StoredLibrary:
     """A library of 108 made-up states, which have every class, flag, region and absence."""
-    return store_library(databases.migrated(), quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)
+    grid = Grid(1.0, 1.0, 30.0)
+    return store_library(databases.migrated(), quarter_twenty_unc(), grid, made_up_states, statics=made_up_statics)
 
 
 @pytest.fixture(scope="session")
@@ -64,7 +82,13 @@ def solved(databases: Databases) -> StoredLibrary:
     """A library of 90 states found by the exact solver: tilts of 0 and 4 deg, ten phases."""
     database = databases.migrated()
     pair = quarter_twenty_unc()
-    return store_library(database, pair, Grid(4.0, 4.0, 36.0), lambda poses: solve_poses(pair, poses))
+    return store_library(
+        database,
+        pair,
+        Grid(4.0, 4.0, 36.0),
+        lambda poses: solve_poses(pair, poses),
+        statics=partial(statics_by_ordinal, pair),
+    )
 
 
 @pytest.fixture(scope="session")

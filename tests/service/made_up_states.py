@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
-from threadstate.state.model import Contact, ContactState, FeaturePair, Flag, StagePose, StateClass, Vector
+from threadstate.state.model import Answer, Contact, ContactState, FeaturePair, Flag, StagePose, StateClass, Vector
+from threadstate.statics.stored import StoredStatics
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 
 
@@ -37,6 +38,16 @@ def made_up_state(roll_deg: float, pitch_deg: float, phase_deg: float) -> Contac
 def made_up_states(poses: Iterable[tuple[float, float, float]]) -> list[ContactState]:
     """A state for each pose."""
     return [made_up_state(*pose) for pose in poses]
+
+
+def made_up_statics(first: int, answers: Sequence[Answer]) -> dict[int, StoredStatics | None]:
+    """Statics that depend on the ordinal alone, ordinals beginning with ``first``; some are equal, some absent."""
+    return {ordinal: _statics(random.Random(ordinal)) for ordinal in range(first, first + len(answers))}
+
+
+def _statics(rng: random.Random) -> StoredStatics | None:
+    margin, hold, wedge = (rng.choice((0.25, rng.uniform(0.0, 0.5), None)) for _ in range(3))
+    return None if margin is None else StoredStatics(margin - 0.25, hold, wedge)
 
 
 def _pose(rng: random.Random) -> StagePose:

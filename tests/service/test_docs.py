@@ -24,6 +24,8 @@ from service.solve import SolveAnswer
 from service.states.endpoints import StatePage
 from threadstate.state.document import StateDocument, state_document
 from threadstate.state.solve import solve_pose
+from threadstate.statics.rows import stored_statics
+from threadstate.statics.stored import library_state_document
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.sqlite_alone
@@ -161,7 +163,12 @@ def test_answers_with_states_have_real_ones_as_examples(openapi: dict[str, Any])
         assert shown, path
         for state in shown:
             pose = (state["roll"], state["pitch"], state["phase"])
-            assert state == state_document(solve_pose(quarter_twenty_unc(), *pose))
+            solved = solve_pose(quarter_twenty_unc(), *pose)
+            (statics,) = stored_statics(quarter_twenty_unc(), [solved])
+            whole = library_state_document(solved, statics)
+            assert state == {name: value for name, value in whole.items() if name in state}
+            assert state.keys() >= state_document(solved).keys()
+            assert ("statics" in state) == (path == "/v1/libraries/{id}/states")
 
 
 def test_example_of_a_request_is_answered_by_the_example(client: TestClient, openapi: dict[str, Any]) -> None:

@@ -9,6 +9,8 @@ from fastapi.testclient import TestClient
 
 from tests.service.conftest import StoredLibrary
 from threadstate.state.document import state_document
+from threadstate.statics.stored import NAMES as STATICS
+from threadstate.statics.stored import cells
 
 pytestmark = pytest.mark.sqlite_alone
 
@@ -48,20 +50,24 @@ def test_history_has_all_phases_in_order(client: TestClient, made_up: StoredLibr
 
 
 @pytest.mark.parametrize("unit", ["in", "mm"])
-def test_three_formats_agree(client: TestClient, unit: str) -> None:
+def test_three_formats_agree(client: TestClient, made_up: StoredLibrary, unit: str) -> None:
     rows, columns, text = (
         client.get(HISTORY, params={"unit": unit, "format": name}) for name in ("rows", "columns", "csv")
     )
     table = columns.json()["columns"]
     names = list(table)
-    expected = [flat(state) for state in rows.json()["states"]]
+    first = made_up.grid.first_ordinal(made_up.grid.orientation_index(1.0, -1.0) or 0)
+    expected = [
+        flat(state) | dict(zip(STATICS, cells(made_up.statics[ordinal]), strict=True))
+        for ordinal, state in enumerate(rows.json()["states"], first)
+    ]
     assert set(names) == {name for row in expected for name in row}
     for i, row in enumerate(expected):
         assert {name: table[name][i] for name in names} == {name: row.get(name) for name in names}
     reader = csv.reader(io.StringIO(text.text))
     assert next(reader) == names
-    for row, cells in zip(expected, reader, strict=True):
-        assert cells == ["" if row.get(name) is None else str(row[name]) for name in names]
+    for row, texts in zip(expected, reader, strict=True):
+        assert texts == ["" if row.get(name) is None else str(row[name]) for name in names]
     assert (columns.json()["unit"], text.headers["Length-Unit"]) == (unit, unit)
 
 

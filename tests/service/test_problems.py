@@ -42,6 +42,7 @@ def test_valid_parameters_of_the_states_are_all_listed(client: TestClient) -> No
     (error,) = problem(client.get(STATES, params={"Roll": "1"}), 400).errors
     assert set(error.valid.split(", ")) == {
         *("roll", "pitch", "phase", "phase_min", "phase_max", "class", "bolt_region", "nut_region", "flag"),
+        *("support_margin_min", "support_margin_max", "mu_hold_min", "mu_hold_max", "mu_wedge_min", "mu_wedge_max"),
         *("fields", "sort", "limit", "cursor", "unit"),
     }
 

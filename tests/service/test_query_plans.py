@@ -31,6 +31,9 @@ INDEXED_COLUMN = {
     "drop": "drop",
     "embedment": "embedment",
     "pivot_offset": "pivot_offset",
+    "support_margin": "support_margin",
+    "mu_hold": "mu_hold",
+    "mu_wedge": "mu_wedge",
 }
 
 

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 from typing import Any
 
 import pytest
@@ -14,6 +15,8 @@ from service.states.query import SORTS, Sort
 from tests.service.conftest import StoredLibrary
 from threadstate.state.document import state_document
 from threadstate.state.model import ContactState, Flag, StateClass
+from threadstate.statics.stored import NAMES as STATICS
+from threadstate.statics.stored import StoredStatics
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 
 pytestmark = pytest.mark.sqlite_alone
@@ -34,11 +37,26 @@ filters = st.fixed_dictionaries(
         "bolt_region": st.sampled_from([name.value for name in BOLT_REGIONS]),
         "nut_region": st.sampled_from([name.value for name in NUT_REGIONS]),
         "flag": st.sampled_from([name.value for name in Flag]),
+        "support_margin_min": st.sampled_from([-0.25, 0.0, 0.1]),
+        "support_margin_max": st.sampled_from([0.1, 0.2]),
+        "mu_hold_min": st.sampled_from([0.0, 0.25]),
+        "mu_hold_max": st.sampled_from([0.25, 0.4]),
+        "mu_wedge_min": st.sampled_from([0.0, 0.25]),
+        "mu_wedge_max": st.sampled_from([0.25, 0.4]),
     },
 )
 
 
-def matches(state: ContactState, which: dict[str, Any]) -> bool:
+def in_range(which: dict[str, Any], name: str, statics: StoredStatics | None) -> bool:
+    """Whether a number of a state's statics lies in its range; a friction that does not exist is infinite."""
+    least, greatest = which.get(f"{name}_min", -math.inf), which.get(f"{name}_max", math.inf)
+    if statics is None:
+        return (least, greatest) == (-math.inf, math.inf)
+    value = getattr(statics, name)
+    return bool(least <= (math.inf if value is None else value) <= greatest)
+
+
+def matches(state: ContactState, statics: StoredStatics | None, which: dict[str, Any]) -> bool:
     """Whether a state fulfils a filter, said plainly."""
     document = state_document(state)
     return all(
@@ -51,11 +69,12 @@ def matches(state: ContactState, which: dict[str, Any]) -> bool:
             "bolt_region" not in which or which["bolt_region"] in [one["bolt_region"] for one in document["contacts"]],
             "nut_region" not in which or which["nut_region"] in [one["nut_region"] for one in document["contacts"]],
             "flag" not in which or which["flag"] in document["flags"],
+            *(in_range(which, name, statics) for name in STATICS),
         )
     )
 
 
-def sort_value(state: ContactState, key: str) -> tuple[bool, float | str]:
+def sort_value(state: ContactState, statics: StoredStatics | None, key: str) -> tuple[bool, float | str]:
     """What a state is sorted by before its pose; what is absent comes first."""
     value = {
         "roll": 0.0,
@@ -67,14 +86,17 @@ def sort_value(state: ContactState, key: str) -> tuple[bool, float | str]:
         "drop": state.drop,
         "embedment": state.embedment,
         "pivot_offset": state.pivot_offset,
+        **{name: getattr(statics, name, None) for name in STATICS},
     }[key]
     return value is not None, 0.0 if value is None else value
 
 
-def expected(library: StoredLibrary, which: dict[str, Any], sort: Sort) -> list[ContactState]:
-    """The states under a filter in an order, found by Python's own sorting."""
+def expected(library: StoredLibrary, which: dict[str, Any], sort: Sort) -> list[int]:
+    """The ordinals of the states under a filter in an order, found by Python's own sorting."""
+    states, statics = library.states, library.statics
     ascending = sorted(
-        (state for state in library.states if matches(state, which)), key=lambda state: sort_value(state, sort.key)
+        (ordinal for ordinal, state in enumerate(states) if matches(state, statics[ordinal], which)),
+        key=lambda ordinal: sort_value(states[ordinal], statics[ordinal], sort.key),
     )
     return ascending[::-1] if sort.descending else ascending
 
@@ -102,7 +124,8 @@ def test_pages_have_each_state_once_and_in_order(
     client: TestClient, made_up: StoredLibrary, which: dict[str, Any], sort: str, limit: int
 ) -> None:
     found = walk(client, {**which, "sort": sort, "limit": limit})
-    assert found == [state_document(state) for state in expected(made_up, which, SORTS[sort])]
+    documents = made_up.documents()
+    assert found == [documents[ordinal] for ordinal in expected(made_up, which, SORTS[sort])]
 
 
 @pytest.mark.slow
@@ -110,12 +133,12 @@ def test_pages_have_each_state_once_and_in_order(
 def test_pages_of_one_state_walk_through_all(client: TestClient, made_up: StoredLibrary, sort: str) -> None:
     found = walk(client, {"sort": sort, "limit": 1, "fields": "roll,pitch,phase"})
     poses = [{"roll": one.roll_deg, "pitch": one.pitch_deg, "phase": one.phase_deg} for one in made_up.states]
-    assert found == [poses[made_up.states.index(state)] for state in expected(made_up, {}, SORTS[sort])]
+    assert found == [poses[ordinal] for ordinal in expected(made_up, {}, SORTS[sort])]
 
 
 def test_default_order_is_that_of_the_pose(client: TestClient, made_up: StoredLibrary) -> None:
     found = client.get(STATES, params={"limit": 1000}).json()["states"]
-    assert found == [state_document(state) for state in made_up.states]
+    assert found == made_up.documents()
 
 
 def test_next_page_stays_with_its_library(client: TestClient, made_up: StoredLibrary) -> None:

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from threadstate.statics import _friction_kernel as fk
 from threadstate.statics._effort_kernel import turn_effort
-from threadstate.statics._support_kernel import depth_in_simplex, distance_to_rays, patch_margin
+from threadstate.statics._program_kernel import program_address
+from threadstate.statics._support_kernel import distance_by_faces, distance_by_program, patch_margin, support_margin
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
@@ -115,17 +116,19 @@ def test_three_contacts_on_a_plane_carry_every_push_within_their_triangle() -> N
         unit = load / np.linalg.norm(load)
         shares = np.linalg.solve(np.vstack([points[:, :2].T, np.ones(3)]), [x, y, 1.0])
         if shares.min() > 0.0:
-            assert distance_to_rays(unit, rays) < 1e-9
             sides = []
             for i in range(3):
                 a, b = np.delete(points, i, axis=0)[:, :2]
                 edge = np.cross([a[1], -a[0], 1.0], [b[1], -b[0], 1.0])
                 sides.append(abs(edge @ [y, -x, 1.0]) / np.linalg.norm(edge) / np.linalg.norm(load))
-            assert depth_in_simplex(unit, rays) == pytest.approx(min(sides), abs=1e-9)
-            assert patch_margin(unit, points[:, :2]) == pytest.approx(min(sides), abs=1e-9)
+            assert support_margin(load, points, normals) == pytest.approx(min(sides), abs=1e-9)
+            assert patch_margin(load, points[:, :2]) == pytest.approx(min(sides), abs=1e-9)
             assert hold(load, points, normals)[1:] == (0.0, 0.0)
         else:
-            assert patch_margin(unit, points[:, :2]) == pytest.approx(-distance_to_rays(unit, rays), abs=1e-8)
+            distance = distance_by_faces(unit, rays)
+            assert distance == pytest.approx(distance_by_program(program_address(), unit, rays), abs=1e-8)
+            assert support_margin(load, points, normals) == pytest.approx(-distance, abs=1e-14)
+            assert patch_margin(load, points[:, :2]) == pytest.approx(-distance, abs=1e-12)
             assert hold(load, points, normals)[0] == fk.NEVER
     assert wedge(points, normals)[0] == fk.NEVER
 

@@ -31,8 +31,8 @@ def columns_and_sources(kind: type[object], items: Sequence[object]) -> tuple[Co
     Raises:
         InvalidValueError: there are no columns for such items.
     """
-    if kind is State:
-        documents = [item.model_dump(by_alias=True) for item in items if isinstance(item, State)]
+    if issubclass(kind, State):
+        documents = [{"statics": None} | item.model_dump(by_alias=True) for item in items if isinstance(item, State)]
         most = max((len(document["contacts"]) for document in documents), default=0)
         return state_columns(max(LEAST_CONTACTS, most)), documents
     if kind not in COLUMNS:

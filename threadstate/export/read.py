@@ -19,10 +19,11 @@ from threadstate.export.intervals import LEAST_LABELS, IntervalRow, Labels, inte
 from threadstate.export.names import TableName
 from threadstate.export.states import LEAST_CONTACTS, UNDECIDED_COLUMNS, state_columns
 from threadstate.library.history_tables import formation, formation_contact, history_boundary, history_interval
-from threadstate.library.read import LibraryRecord, library_by_id, states_between, undecided_between
+from threadstate.library.read import LibraryRecord, library_by_id, undecided_between
+from threadstate.library.statics import library_states_between
 from threadstate.library.tables import contact
-from threadstate.state.document import StateDocument, state_document
 from threadstate.state.model import UndecidedPose
+from threadstate.statics.stored import LibraryStateDocument, library_state_document
 
 STATES_AT_ONCE = 512
 ORIENTATIONS_AT_ONCE = 16
@@ -47,7 +48,7 @@ class ExportedTable(Generic[Source]):
 
 def exported_table(
     engine: Engine, library: LibraryRecord, table: TableName, factor: float
-) -> ExportedTable[StateDocument] | ExportedTable[IntervalRow] | ExportedTable[UndecidedPose]:
+) -> ExportedTable[LibraryStateDocument] | ExportedTable[IntervalRow] | ExportedTable[UndecidedPose]:
     """A table of a published library, its lengths multiplied by ``factor``.
 
     Iterating over the batches raises NotFoundError where the library is removed meanwhile.
@@ -71,12 +72,12 @@ def _most_contacts(engine: Engine, table: Table, library_id: int) -> int:
 
 
 def _state_batches(
-    engine: Engine, library: LibraryRecord, columns: tuple[Column[StateDocument], ...], factor: float
+    engine: Engine, library: LibraryRecord, columns: tuple[Column[LibraryStateDocument], ...], factor: float
 ) -> Iterator[Rows]:
     for first in range(0, library.grid.pose_count, STATES_AT_ONCE):
         with engine.connect() as connection:
-            states = states_between(connection, library.id, first, first + STATES_AT_ONCE - 1)
-        yield [row_of(columns, state_document(state, factor)) for state in states]
+            states = library_states_between(connection, library.id, first, first + STATES_AT_ONCE - 1)
+        yield [row_of(columns, library_state_document(state, statics, factor)) for state, statics in states]
     _check_still_there(engine, library)
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from threadstate.export.column import Cell, Column, Unit, degrees, integer, length, number, words
-from threadstate.state.document import ContactDocument, StateDocument
+from threadstate.state.document import ContactDocument
 from threadstate.state.model import UndecidedPose
 from threadstate.state.quantities import QUANTITIES
+from threadstate.statics.stored import MEANINGS, LibraryStateDocument
+from threadstate.statics.stored import NAMES as STATICS
 
 STAGES = (1, 2, 3)
 LEAST_CONTACTS = 3
@@ -18,7 +20,7 @@ _TURNS = ("lambda", "mu")
 _MARGIN = "margin_"
 
 
-def state_columns(contacts: int) -> tuple[Column[StateDocument], ...]:
+def state_columns(contacts: int) -> tuple[Column[LibraryStateDocument], ...]:
     """The columns of states of which none has more than so many contacts."""
     return (
         degrees("roll", "roll of the pose", lambda state: state["roll"]),
@@ -30,13 +32,14 @@ def state_columns(contacts: int) -> tuple[Column[StateDocument], ...]:
             (length if quantity.is_length else degrees)(quantity.name, quantity.meaning, _quantity(quantity.name))
             for quantity in QUANTITIES
         ),
+        *(number(name, MEANINGS[name], _statics(name)) for name in STATICS),
         *(column for stage in STAGES for column in _pose_columns(stage)),
         integer("contacts", "how many contacts there are", lambda state: len(state["contacts"])),
         *(column for place in range(contacts) for column in _contact_columns(place)),
     )
 
 
-def _quantity(name: str) -> Callable[[StateDocument], Cell]:
+def _quantity(name: str) -> Callable[[LibraryStateDocument], Cell]:
     if name in _TURNS:
         place = _TURNS.index(name)
         return lambda state: state["turns"][place]
@@ -46,11 +49,15 @@ def _quantity(name: str) -> Callable[[StateDocument], Cell]:
     return lambda state: state[name]  # type: ignore[literal-required]
 
 
-def _pose_columns(stage: int) -> list[Column[StateDocument]]:
-    def rotation(i: int, j: int) -> Callable[[StateDocument], Cell]:
+def _statics(name: str) -> Callable[[LibraryStateDocument], Cell]:
+    return lambda state: None if state["statics"] is None else state["statics"][name]  # type: ignore[literal-required]
+
+
+def _pose_columns(stage: int) -> list[Column[LibraryStateDocument]]:
+    def rotation(i: int, j: int) -> Callable[[LibraryStateDocument], Cell]:
         return lambda state: state["poses"][stage - 1]["rotation"][i][j] if len(state["poses"]) >= stage else None
 
-    def translation(i: int) -> Callable[[StateDocument], Cell]:
+    def translation(i: int) -> Callable[[LibraryStateDocument], Cell]:
         return lambda state: state["poses"][stage - 1]["translation"][i] if len(state["poses"]) >= stage else None
 
     return [
@@ -66,11 +73,11 @@ def _pose_columns(stage: int) -> list[Column[StateDocument]]:
     ]
 
 
-def _contact_columns(place: int) -> list[Column[StateDocument]]:
-    def of(cell: Callable[[ContactDocument], Cell]) -> Callable[[StateDocument], Cell]:
+def _contact_columns(place: int) -> list[Column[LibraryStateDocument]]:
+    def of(cell: Callable[[ContactDocument], Cell]) -> Callable[[LibraryStateDocument], Cell]:
         return lambda state: cell(state["contacts"][place]) if len(state["contacts"]) > place else None
 
-    def vector(name: str, unit: Unit, meaning: str) -> list[Column[StateDocument]]:
+    def vector(name: str, unit: Unit, meaning: str) -> list[Column[LibraryStateDocument]]:
         make = length if unit is Unit.LENGTH else number
         return [make(f"{head}_{name}_{axis}", meaning, of(_component(name, i))) for i, axis in enumerate(_AXES)]
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
+from types import MappingProxyType
 from typing import Any
 
 import zstandard
@@ -28,6 +29,7 @@ from threadstate.state.model import (
     Vector,
 )
 from threadstate.state.quantities import QUANTITIES
+from threadstate.statics.stored import StoredStatics, cells
 from threadstate.thread.regions import Region
 
 _LEVEL = 1
@@ -62,8 +64,13 @@ class ChunkRows:
         return len(self.states) + len(self.undecided)
 
 
-def chunk_rows(orientation: Orientation, first_ordinal: int, answers: Sequence[Answer]) -> ChunkRows:
-    """The rows of the answers for an orientation's poses, which are given in order.
+def chunk_rows(
+    orientation: Orientation,
+    first_ordinal: int,
+    answers: Sequence[Answer],
+    statics: Mapping[int, StoredStatics | None] = MappingProxyType({}),
+) -> ChunkRows:
+    """The rows of the answers for an orientation's poses, which are given in order; the statics by ordinal.
 
     Raises:
         InvalidValueError: a number of a state is not finite.
@@ -87,6 +94,7 @@ def chunk_rows(orientation: Orientation, first_ordinal: int, answers: Sequence[A
                 state.phase_deg + 0.0,
                 state.state_class.value,
                 *map(_plain, _quantities_of(state)),
+                *cells(statics.get(ordinal)),
             )
         )
         for stage, pose in enumerate(state.poses, 1):
@@ -167,7 +175,7 @@ def states_from_rows(
             state_class=StateClass(values[3]),
             flags=tuple(flags_of.get(ordinal, ())),
             poses=tuple(poses_of.get(ordinal, ())),
-            **dict(zip(_ATTRIBUTES, values[4:], strict=True)),
+            **dict(zip(_ATTRIBUTES, values[4:], strict=False)),
             contacts=tuple(contacts_of.get(ordinal, ())),
         )
         for ordinal, *values in states

@@ -11,6 +11,7 @@ from threadstate.library import history_tables as tables
 from threadstate.library.grid import Grid
 from threadstate.library.read import states_between, undecided_between
 from threadstate.library.rows import ChunkRows, FormationRows, HistoryRows, Row, chunk_rows, content_sha256_of
+from threadstate.library.statics import statics_between
 from threadstate.state.model import Answer
 
 
@@ -34,7 +35,7 @@ def stored_chunk(connection: Connection, library_id: int, grid: Grid, index: int
         answer = poses.get(ordinal) or next(decided, None)
         if answer is not None:
             answers.append(answer)
-    rows = chunk_rows(grid.orientation(index), first, answers)
+    rows = chunk_rows(grid.orientation(index), first, answers, statics_between(connection, library_id, first, last))
     history = _history(connection, library_id, index)
     return StoredChunk(rows, history, content_sha256_of(rows, history))
 

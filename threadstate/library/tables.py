@@ -29,6 +29,7 @@ from sqlalchemy import (
 from threadstate.library.column_types import UtcDateTime, bytewise_string, bytewise_text
 from threadstate.state.model import FeaturePair, Flag, StateClass
 from threadstate.state.quantities import QUANTITIES
+from threadstate.statics.stored import NAMES as STATICS
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
 from threadstate.units import LengthUnit
 
@@ -127,6 +128,9 @@ state = Table(
     Column("phase_deg", Double, nullable=False),
     Column("state_class", bytewise_string(NAME_LENGTH), nullable=False),
     *(Column(quantity.attribute, Double) for quantity in QUANTITIES),
+    # Its statics under the default load. They follow from its contacts, and are no part of the content hash; null where
+    # an older threadstate wrote it, until `threadstate migrate` has filled them in.
+    *(Column(name, Double) for name in STATICS),
     # Serves: states in the default order (roll, pitch, phase) and the keyset that walks them; a history as a range.
     PrimaryKeyConstraint("library_id", "ordinal"),
     ForeignKeyConstraint(["library_id"], ["library.id"], ondelete="CASCADE"),
@@ -143,6 +147,8 @@ state = Table(
     Index(None, "library_id", "state_class", "ordinal"),
     # Serve: sort by that column, with the ordinal as the keyset's tie-breaker.
     *(Index(None, "library_id", quantity.attribute, "ordinal") for quantity in QUANTITIES if quantity.sortable),
+    # Serve: sort by that column, filters of its range.
+    *(Index(None, "library_id", name, "ordinal") for name in STATICS),
     sqlite_with_rowid=False,
 )
 """A contact state: its pose, turns, lengths, class and the distances of the class from its thresholds."""

@@ -22,8 +22,8 @@ Array = NDArray[np.float64]
 STAGES = 3
 """Number of poses in a record."""
 
-_FEATURES = tuple(FeaturePair)
-_FLAG_BITS = (
+FEATURES = tuple(FeaturePair)
+FLAG_BITS = (
     (rk.FLAG_FLUSH, Flag.FLUSH),
     (rk.FLAG_TIE, Flag.TIE),
     (rk.FLAG_BALANCED, Flag.BALANCED),
@@ -31,7 +31,7 @@ _FLAG_BITS = (
     (rk.FLAG_NO_SECOND, Flag.NO_SECOND),
     (rk.FLAG_NO_THIRD, Flag.NO_THIRD),
 )
-_FLAGS = tuple(tuple(flag for bit, flag in _FLAG_BITS if bits & bit) for bits in range(1 << len(_FLAG_BITS)))
+_FLAGS = tuple(tuple(flag for bit, flag in FLAG_BITS if bits & bit) for bits in range(1 << len(FLAG_BITS)))
 """The flags of a state by the sum of their bits."""
 
 
@@ -122,7 +122,7 @@ def _contacts(records: Array) -> list[tuple[Contact, ...]]:
         _vectors(found, rk.P_NORMAL),
         map(BOLT_REGIONS.__getitem__, _integers(found[:, rk.P_BOLT_REGION])),
         map(NUT_REGIONS.__getitem__, _integers(found[:, rk.P_NUT_REGION])),
-        map(_FEATURES.__getitem__, _integers(found[:, rk.P_PAIR])),
+        map(FEATURES.__getitem__, _integers(found[:, rk.P_PAIR])),
         found[:, rk.P_BOLT_MARGIN].tolist(),
         found[:, rk.P_NUT_MARGIN].tolist(),
     )

@@ -8,9 +8,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._pointer import Pointer
 from threadstate.statics._family_kernel import ROUND_OFF, friction_program, improved, narrowed, polish
 from threadstate.statics._grasp_kernel import (
     RANK_TOLERANCE,
@@ -45,7 +47,6 @@ BALANCE_TOLERANCE = 1e-9
 FOUND, NEVER, OPEN = range(3)
 
 
-@kernel()
 def wedge_with(program: int, points: Array, normals: Array, forces: Array, twist: Array) -> tuple[int, float, float]:
     """Bounds of the least friction at which forces at the contacts that are not all zero balance each other.
 
@@ -194,7 +195,6 @@ def limit_of_pairs(load: Array, points: Array, normals: Array, twist: Array) -> 
     return limit
 
 
-@kernel()
 def hold_with(
     program: int,
     load: Array,
@@ -358,9 +358,52 @@ def least_forces_with(program: int, load: Array, mu: float, points: Array, norma
     return needed
 
 
+_ROW, _TABLE = types.float64[::1], types.float64[:, ::1]
+_FOUND = types.Tuple((types.int64, types.float64, types.float64))
+WEDGE = Pointer(wedge_with, _FOUND(types.int64, _TABLE, _TABLE, _ROW, _ROW))
+HOLD = Pointer(hold_with, _FOUND(types.int64, _ROW, _TABLE, _TABLE, types.float64, _ROW, _ROW, _ROW, _ROW))
+wedge_at, hold_at = WEDGE.at, HOLD.at
+
+Searches = tuple[int, int, int]
+"""The addresses of the solver of cone programs, of :func:`wedge_with` and of :func:`hold_with`."""
+
+
+def search_addresses() -> Searches:
+    """The addresses in this process."""
+    return program_address(), WEDGE.address, HOLD.address
+
+
+@kernel()
+def wedge_by(
+    searches: Searches, points: Array, normals: Array, forces: Array, twist: Array
+) -> tuple[int, float, float]:
+    """As :func:`wedge_with`, at its address."""
+    found: tuple[int, float, float] = wedge_at(searches[1])(searches[0], points, normals, forces, twist)
+    return found
+
+
+@kernel()
+def hold_by(
+    searches: Searches,
+    load: Array,
+    points: Array,
+    normals: Array,
+    wedge: float,
+    wedge_forces: Array,
+    wedge_twist: Array,
+    forces: Array,
+    twist: Array,
+) -> tuple[int, float, float]:
+    """As :func:`hold_with`, at its address."""
+    found: tuple[int, float, float] = hold_at(searches[2])(
+        searches[0], load, points, normals, wedge, wedge_forces, wedge_twist, forces, twist
+    )
+    return found
+
+
 def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -> tuple[int, float, float]:
-    """As :func:`wedge_with`, with the compiled solver of cone programs."""
-    found: tuple[int, float, float] = wedge_with(program_address(), points, normals, forces, twist)
+    """As :func:`wedge_with`, with the addresses of this process."""
+    found: tuple[int, float, float] = wedge_by(search_addresses(), points, normals, forces, twist)
     return found
 
 
@@ -374,9 +417,9 @@ def hold_friction(
     forces: Array,
     twist: Array,
 ) -> tuple[int, float, float]:
-    """As :func:`hold_with`, with the compiled solver of cone programs."""
-    found: tuple[int, float, float] = hold_with(
-        program_address(), load, points, normals, wedge, wedge_forces, wedge_twist, forces, twist
+    """As :func:`hold_with`, with the addresses of this process."""
+    found: tuple[int, float, float] = hold_by(
+        search_addresses(), load, points, normals, wedge, wedge_forces, wedge_twist, forces, twist
     )
     return found
 

@@ -21,14 +21,84 @@ SPAN_TOLERANCE = 1e-9
 """A load that is no farther from a cone lies in it: half the digits of a double, and beyond those of a contact."""
 
 
-def distance_to_rays(load: Array, rays: Array) -> float:
-    """The distance of ``-load`` from the cone of rays of shape (k, 6)."""
-    return float(distance_with(program_address(), load, rays))
+FEW_RAYS = 4
+"""Up to so many rays each face of their cone is tried; the faces double with every ray."""
+
+
+def support_margin(load: Array, points: Array, normals: Array) -> float:
+    """As :func:`margin_with`, with the compiled solver of cone programs."""
+    return float(margin_with(program_address(), load, points, normals))
 
 
 @kernel()
-def distance_with(program: int, load: Array, rays: Array) -> float:
-    """As :func:`distance_to_rays`, with the address of the compiled solver of cone programs."""
+def margin_with(program: int, load: Array, points: Array, normals: Array) -> float:
+    """The margin of a load on contacts at points (k, 3) with normals (k, 3).
+
+    Dependent rays (a strip of flank): a load among them is supported, but how far it is from the sides of their cone is
+    not computed: 0.
+    """
+    k = points.shape[0]
+    rays = np.empty((k, 6))
+    unit = np.empty(6)
+    size = 0.0
+    for m in range(6):
+        size += load[m] * load[m]
+    for m in range(6):
+        unit[m] = load[m] / math.sqrt(size)
+    for i in range(k):
+        x, y, z = points[i, 0], points[i, 1], points[i, 2]
+        nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
+        rays[i, 0], rays[i, 1], rays[i, 2] = y * nz - z * ny, z * nx - x * nz, x * ny - y * nx
+        rays[i, 3], rays[i, 4], rays[i, 5] = nx, ny, nz
+    distance = distance_by_faces(unit, rays) if k <= FEW_RAYS else distance_by_program(program, unit, rays)
+    if distance > SPAN_TOLERANCE:
+        return -distance
+    depth = depth_in_simplex(unit, rays)
+    return max(depth, 0.0) if not math.isnan(depth) else 0.0
+
+
+@kernel()
+def distance_by_faces(load: Array, rays: Array) -> float:
+    """The distance of ``-load`` from the cone of rays (k, 6): the least of those from the faces it projects into."""
+    k = rays.shape[0]
+    least = 0.0
+    for m in range(6):
+        least += load[m] * load[m]
+    chosen = np.empty(k, np.intp)
+    for face in range(1, 1 << k):
+        count = 0
+        for i in range(k):
+            if face >> i & 1:
+                chosen[count] = i
+                count += 1
+        gram = np.empty((count, count))
+        shares = np.zeros(count)
+        for a in range(count):
+            for m in range(6):
+                shares[a] -= rays[chosen[a], m] * load[m]
+            for b in range(count):
+                gram[a, b] = 0.0
+                for m in range(6):
+                    gram[a, b] += rays[chosen[a], m] * rays[chosen[b], m]
+        # Of dependent rays fewer span the same face.
+        if not factor(gram):
+            continue
+        solve_factored(gram, shares)
+        if shares.min() < 0.0:
+            continue
+        squared = 0.0
+        for m in range(6):
+            left = load[m]
+            for a in range(count):
+                left += shares[a] * rays[chosen[a], m]
+            squared += left * left
+        least = min(least, squared)
+    return math.sqrt(least)
+
+
+@kernel()
+def distance_by_program(program: int, load: Array, rays: Array) -> float:
+    """As :func:`distance_by_faces`, for any number of rays, by the solver of cone programs at an address."""
     k = rays.shape[0]
     g = np.zeros((7 + k, k + 1))
     h = np.zeros(7 + k)
@@ -87,14 +157,18 @@ def depth_in_simplex(load: Array, rays: Array) -> float:
 
 @kernel()
 def patch_margin(load: Array, hull: Array) -> float:
-    """The margin of a load on a level patch, of norm 1, whose hull (n, 2) runs counter-clockwise.
+    """The margin of a load on a level patch whose hull (n, 2) runs counter-clockwise.
 
     The load's moments are about a point of the patch's plane, the hull's coordinates from there.
     """
     n = hull.shape[0]
     # The patch carries a push along z and its moments; each side of its cone holds two neighbours of the hull.
-    mx, my, fz = -load[0], -load[1], -load[5]
-    across = load[2] * load[2] + load[3] * load[3] + load[4] * load[4]
+    size = 0.0
+    for m in range(6):
+        size += load[m] * load[m]
+    size = math.sqrt(size)
+    mx, my, fz = -load[0] / size, -load[1] / size, -load[5] / size
+    across = (load[2] * load[2] + load[3] * load[3] + load[4] * load[4]) / (size * size)
     inside = math.inf
     for i in range(n):
         j = (i + 1) % n

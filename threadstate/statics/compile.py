@@ -1,32 +1,38 @@
-"""Compiles the kernels of the statics into the cache: ``python -m threadstate.statics.compile``."""
+"""Loads the kernels of the statics, compiling those that the cache lacks."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+
 import numpy as np
 
-from threadstate.statics import _friction_kernel as fk
+from threadstate.contact._record_kernel import RECORD_SIZE
+from threadstate.state.model import ContactState
 from threadstate.statics._effort_kernel import turn_effort
-from threadstate.statics._patch_kernel import OUTLINE_SAMPLES, patch_hull
-from threadstate.statics._support_kernel import depth_in_simplex, distance_to_rays, patch_margin
+from threadstate.statics._friction_kernel import least_forces
+from threadstate.statics.load import Load
+from threadstate.statics.rows import statics_rows, stored_statics
+from threadstate.statics.solve import statics_of
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.pair import Pair
 
 
-def load_kernels() -> None:
-    """Call each kernel that is called from Python, on three contacts of a plane and on a level patch."""
+def load_statics(pair: Pair, states: Sequence[ContactState]) -> None:
+    """Call each kernel that is called from Python: of the states one has three contacts, one lies on a patch."""
+    stored_statics(pair, states)
+    for state in states:
+        statics_of(pair, state, Load(force=(0.1, 0.0, -1.0)), 0.5)
+
+
+def compile_without_states() -> None:
+    """Compile what needs no solved state: rows of no states, and the forces on three contacts of a plane."""
+    statics_rows(quarter_twenty_unc(), np.empty((0, RECORD_SIZE)))
     points, normals = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
-    load, forces, twist = np.array([0.0, 0.0, 0.1, 0.0, 0.0, -1.0]), np.zeros(9), np.zeros(6)
-    _, _, wedge = fk.wedge_friction(points, normals, forces, twist)
-    fk.hold_friction(load, points, normals, wedge, np.zeros(9), np.zeros(6), forces, twist)
-    fk.least_forces(load, 1.0, points, normals, forces)
-    distance_to_rays(load, np.hstack([np.cross(points, normals), normals]))
-    depth_in_simplex(load, np.eye(3, 6))
+    least_forces(np.array([0.0, 0.0, 0.1, 0.0, 0.0, -1.0]), 1.0, points, normals, np.zeros(9))
     turn_effort(1.0, 0.0, points, normals, 0.1, 1.0)
-    pair = quarter_twenty_unc()
-    pose = np.array([*np.ravel(np.eye(3)), 0.0, 0.0, 0.0])
-    hull = np.empty((2 * OUTLINE_SAMPLES + 1, 2))
-    count = patch_hull(pose, pair.bolt.packed, pair.nut.packed, hull)
-    patch_margin(load, hull[:count])
 
 
-if __name__ == "__main__":
-    load_kernels()
+def statics_are_compiled() -> bool:
+    """Whether the cache contains the kernels."""
+    return any(Path(str(turn_effort.stats.cache_path)).glob("_effort_kernel.turn_effort-*.nbc"))

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from threadstate.state.model import ContactState, Vector
 from threadstate.statics import _friction_kernel as fk
+from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._effort_kernel import turn_effort
-from threadstate.statics._support_kernel import SPAN_TOLERANCE, depth_in_simplex, distance_to_rays, patch_margin
 from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.touching import Touching, touching
 from threadstate.statics.verdict import Verdict
@@ -108,64 +108,36 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
     wrench[:3] /= radius
     # Copies that can be written to: for others the kernels would be compiled again.
     scaled = replace(found, points=(found.points - found.origin) / radius, normals=found.normals.copy())
-    level = found.patch and not np.any(wrench[2:5])
-    margin = support_margin(wrench, scaled)
-    if margin >= 0.0:
-        hold = FrictionBounds(0.0, 0.0)
-        wedge, _, _ = wedge_friction(scaled)
-    elif level:
-        hold = wedge = FrictionBounds(math.inf, math.inf)
-    else:
-        wedge, wedge_forces, wedge_twist = wedge_friction(scaled)
-        hold = hold_friction(wrench, scaled, wedge, wedge_forces, wedge_twist)
+    numbers = _numbers(wrench, scaled)
+    hold = _hold(wrench, scaled, numbers)
     return Statics(
         pose_deg=(state.roll_deg, state.pitch_deg, state.phase_deg),
         load=replace(load, point=load.point or found.origin),
         mu=mu,
         penetrating=found.penetrating,
-        support_margin=margin,
+        support_margin=float(numbers[nk.N_MARGIN]),
         hold=hold,
-        wedge=wedge,
+        wedge=_bounds(numbers[nk.N_WEDGE :]),
         turn_effort_ccw=_effort(wrench, scaled, radius, mu, 1.0),
         turn_effort_cw=_effort(wrench, scaled, radius, mu, -1.0),
         forces=_forces(wrench, scaled, mu) if mu >= hold.upper else (),
     )
 
 
-def support_margin(wrench: Floats, scaled: Touching) -> float:
-    """The margin of a load (moment over r, force) about the bolt's origin; ``scaled`` has points over r from there."""
-    unit = wrench / np.linalg.norm(wrench)
+def _numbers(wrench: Floats, scaled: Touching) -> Floats:
+    """A row of numbers; ``scaled`` has points over r about the bolt's origin."""
+    numbers = np.zeros(nk.NUMBERS_SIZE)
     if scaled.patch:
-        return float(patch_margin(unit, scaled.points[scaled.own :, :2].copy()))
-    rays = np.hstack([np.cross(scaled.points, scaled.normals), scaled.normals])
-    distance = float(distance_to_rays(unit, rays))
-    if distance > SPAN_TOLERANCE:
-        return -distance
-    depth = float(depth_in_simplex(unit, rays))
-    # Dependent rays (a strip of flank): the load is supported, how far from the sides of their cone is not computed.
-    return max(depth, 0.0) if not math.isnan(depth) else 0.0
+        nk.patch_numbers(wrench, scaled.points[scaled.own :, :2].copy(), numbers)
+    else:
+        nk.contact_numbers(fk.search_addresses(), wrench, scaled.points, scaled.normals, numbers)
+    return numbers
 
 
-def wedge_friction(scaled: Touching) -> tuple[FrictionBounds, Floats, Floats]:
-    """Bounds of the least friction that wedges, its forces (3 k) and its twist; contacts of one normal never wedge."""
-    forces, twist = np.zeros(scaled.points.size), np.zeros(6)
-    if scaled.patch:
-        return FrictionBounds(math.inf, math.inf), forces, twist
-    status, lower, upper = fk.wedge_friction(scaled.points, scaled.normals, forces, twist)
-    return _bounds(status, lower, upper), forces, twist
-
-
-def hold_friction(
-    wrench: Floats, scaled: Touching, wedge: FrictionBounds, wedge_forces: Floats, wedge_twist: Floats
-) -> FrictionBounds:
-    """Bounds of the least friction that holds a load; of a patch by the few points of its hull that matter."""
-    if scaled.patch:
+def _hold(wrench: Floats, scaled: Touching, numbers: Floats) -> FrictionBounds:
+    if numbers[nk.N_STATUS] == nk.OPEN_PATCH:
         return _patch_hold(wrench, scaled.points[scaled.own :])[0]
-    forces, twist = np.zeros(scaled.points.size), np.zeros(6)
-    found = fk.hold_friction(
-        wrench, scaled.points, scaled.normals, wedge.upper, wedge_forces, wedge_twist, forces, twist
-    )
-    return _bounds(*found)
+    return _bounds(numbers[nk.N_HOLD :])
 
 
 FIRST_POINTS = 6
@@ -187,7 +159,7 @@ def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]
         status, low, upper = fk.hold_friction(
             wrench, hull[chosen], everywhere[chosen], math.inf, none, np.zeros(6), forces, twist
         )
-        bounds = _bounds(status, low, upper)
+        bounds = FrictionBounds(0.0, math.inf) if status == fk.OPEN else FrictionBounds(float(low), float(upper))
         velocity = twist[3:] + np.cross(twist[:3], hull)
         scale = np.abs(velocity).max()
         across = np.hypot(velocity[:, 0], velocity[:, 1])
@@ -202,10 +174,8 @@ def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]
     return FrictionBounds(min(lower, bounds.upper), bounds.upper), chosen
 
 
-def _bounds(status: int, lower: float, upper: float) -> FrictionBounds:
-    if status == fk.OPEN:
-        return FrictionBounds(0.0, math.inf)
-    return FrictionBounds(float(lower), float(upper))
+def _bounds(bounds: Floats) -> FrictionBounds:
+    return FrictionBounds(float(bounds[0]), float(bounds[1]))
 
 
 def _effort(wrench: Floats, scaled: Touching, radius: float, mu: float, sense: float) -> float | None:

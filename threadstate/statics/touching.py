@@ -12,16 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.contact._geometry_kernel import TWO_PI, edge_point
+from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.errors import UnresolvedPoseError
-from threadstate.state.model import Contact, ContactState, FeaturePair, Flag, StagePose
+from threadstate.state.encode import geometry_records
+from threadstate.state.model import ContactState, Flag, StagePose, Vector
 from threadstate.statics import _patch_kernel as hk
+from threadstate.statics._last_pose_kernel import set_contacts
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
-
-PARALLEL_SINE = 1e-9
-"""Edges that cross at a smaller angle (its sine) in the last pose have no certain normal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +67,7 @@ def touching(pair: Pair, state: ContactState) -> Touching:
             points += hull
             normals += [(0.0, 0.0, 1.0)] * len(hull)
     else:
-        normals = [_last_normal(pair, state, number) for number in range(len(state.contacts))]
+        normals = _last_normals(pair, state)
     return Touching(
         points=_read_only(points),
         normals=_read_only(normals),
@@ -80,44 +79,19 @@ def touching(pair: Pair, state: ContactState) -> Touching:
     )
 
 
-def _last_normal(pair: Pair, state: ContactState, number: int) -> tuple[float, float, float]:
-    """The unit normal of a contact in the last pose: the nut's, the bolt's turned, or across both edges."""
-    contact = state.contacts[number]
-    last = np.array(state.poses[-1].rotation)
-    if contact.features is FeaturePair.EDGE_EDGE:
-        return _across_edges(pair, state, contact, number, last)
-    if contact.features in (FeaturePair.BASE_EDGE, FeaturePair.THREAD_EDGE):
-        x, y, z = (last @ np.array(_stage_pose(state, contact).rotation).T @ np.array(contact.normal)).tolist()
-        return x, y, z
-    return contact.normal
-
-
-def _stage_pose(state: ContactState, contact: Contact) -> StagePose:
-    return state.poses[min(contact.stage, len(state.poses)) - 1]
-
-
-def _across_edges(
-    pair: Pair, state: ContactState, contact: Contact, number: int, last: Floats
-) -> tuple[float, float, float]:
-    _, _, dx, dy = edge_point(math.atan2(contact.point_bolt[1], contact.point_bolt[0]), pair.bolt.packed)
-    bolt = last @ np.array([dx, dy, 0.0])
-    _, _, dx, dy = edge_point(math.atan2(contact.point[1], contact.point[0]), pair.nut.packed)
-    nut = np.array([dx, dy, 0.0])
-    across = np.cross(bolt, nut)
-    size = float(np.linalg.norm(across))
-    if not size > PARALLEL_SINE * float(np.linalg.norm(bolt) * np.linalg.norm(nut)):
+def _last_normals(pair: Pair, state: ContactState) -> list[Vector]:
+    (record,) = geometry_records([state])
+    count = len(state.contacts)
+    points, normals = np.empty((count, 3)), np.empty((count, 3))
+    certain = set_contacts(record, pair.bolt.packed, pair.nut.packed, points, normals)
+    if certain < count:
         raise UnresolvedPoseError(
             state.roll_deg,
             state.pitch_deg,
             state.phase_deg,
-            f"the edges of contact {number + 1} are parallel in the last pose, which leaves its normal open",
+            f"the edges of contact {certain + 1} are parallel in the last pose, which leaves its normal open",
         )
-    # The bolt's material lies on the side of its axis above the base, as in the pose of the contact's stage.
-    inward = np.array(state.poses[-1].translation) + last @ [0.0, 0.0, pair.thread_pitch / 2.0] - contact.point
-    if float(across @ inward) < 0.0:
-        size = -size
-    x, y, z = (across / size).tolist()
-    return x, y, z
+    return [(x, y, z) for x, y, z in normals.tolist()]
 
 
 def patch_hull(pair: Pair, pose: StagePose) -> tuple[list[tuple[float, float, float]], float]:

@@ -19,6 +19,7 @@ from threadstate.state.decode import decoded_answers
 from threadstate.state.model import Answer, UndecidedPose
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
+from threadstate.statics.rows import statics_by_ordinal
 from threadstate.stored_histories.mapping import history_rows
 from threadstate.thread.pair import Pair
 
@@ -56,10 +57,12 @@ def computed_rows(inputs: LibraryInputs, index: int) -> tuple[ChunkRows, History
     orientation, poses = grid.orientation(index), grid.poses(index)
     first = grid.first_ordinal(index)
     if inputs.mesh is not None:
-        return chunk_rows(orientation, first, mesh_answers(pair, inputs.options, inputs.mesh, poses)), None
+        answers = mesh_answers(pair, inputs.options, inputs.mesh, poses)
+        return chunk_rows(orientation, first, answers, statics_by_ordinal(pair, first, answers)), None
     store = RecordStore(pair, inputs.options)
     answers = exact_answers(pair, inputs.options, poses, store)
     tilt = (orientation.roll_deg, orientation.pitch_deg)
     (history,) = histories_of(pair, [tilt], inputs.options, store=store)
     falls = falls_of(height_curve(pair, *tilt, inputs.options, store), pair.thread_pitch)
-    return chunk_rows(orientation, first, answers), history_rows(history, windows_of(pair, history), falls)
+    rows = chunk_rows(orientation, first, answers, statics_by_ordinal(pair, first, answers))
+    return rows, history_rows(history, windows_of(pair, history), falls)

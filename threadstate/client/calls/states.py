@@ -8,6 +8,7 @@ from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, get, g
 from threadstate.client.models.states import (
     HistoryColumns,
     HistoryRows,
+    LibraryState,
     SolveAnswer,
     State,
     StatePage,
@@ -38,10 +39,16 @@ def states(
     bolt_region: str | None = None,
     nut_region: str | None = None,
     flag: str | None = None,
+    support_margin_min: float | None = None,
+    support_margin_max: float | None = None,
+    mu_hold_min: float | None = None,
+    mu_hold_max: float | None = None,
+    mu_wedge_min: float | None = None,
+    mu_wedge_max: float | None = None,
     sort: str | None = None,
     limit: int = LARGEST_PAGE,
     unit: str | None = None,
-) -> PagedCall[State]:
+) -> PagedCall[LibraryState]:
     """The states of a library for which all filters hold, in the order ``sort``; ``limit`` is the size of a page."""
     filters = {
         "roll": roll,
@@ -53,9 +60,15 @@ def states(
         "bolt_region": bolt_region,
         "nut_region": nut_region,
         "flag": flag,
+        "support_margin_min": support_margin_min,
+        "support_margin_max": support_margin_max,
+        "mu_hold_min": mu_hold_min,
+        "mu_hold_max": mu_hold_max,
+        "mu_wedge_min": mu_wedge_min,
+        "mu_wedge_max": mu_wedge_max,
     }
     first = get(library_path(library, "states"), StatePage, **filters, sort=sort, limit=limit, unit=unit)
-    return PagedCall(first, State)
+    return PagedCall(first, LibraryState)
 
 
 def undecided(*, library: LibraryName = LATEST, limit: int = LARGEST_PAGE) -> PagedCall[UndecidedDocument]:

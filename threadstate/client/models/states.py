@@ -64,16 +64,33 @@ class State(Answer):
     margins: Margins
 
 
+class StoredStatics(Answer):
+    """The statics of a library's state under a push of 1 N along -z through the bolt's origin.
+
+    A friction is None where none is known to do it.
+    """
+
+    support_margin: float
+    mu_hold: float | None
+    mu_wedge: float | None
+
+
+class LibraryState(State):
+    """A contact state of a library with its statics, None where a contact has no certain normal."""
+
+    statics: StoredStatics | None
+
+
 class StatePage(Answer):
     """One page of states."""
 
     library: int
     unit: LengthUnit
-    states: tuple[State, ...]
+    states: tuple[LibraryState, ...]
     next: str | None
 
     @property
-    def items(self) -> tuple[State, ...]:
+    def items(self) -> tuple[LibraryState, ...]:
         """The states."""
         return self.states
 

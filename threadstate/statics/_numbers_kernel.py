@@ -1,0 +1,97 @@
+"""The numbers of states under loads: their margin and least frictions, for many states at once (forces, section 3)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._record_kernel import FLAG_FLUSH, O_CONTACTS, O_FLAGS, O_POSE, O_POSES
+from threadstate.statics._friction_kernel import OPEN, Searches, hold_by, wedge_by
+from threadstate.statics._last_pose_kernel import set_contacts
+from threadstate.statics._patch_kernel import OUTLINE_SAMPLES, patch_hull
+from threadstate.statics._support_kernel import margin_with, patch_margin
+
+Array = NDArray[np.float64]
+
+# A row of numbers: what became of the state, the margin, and the bounds of both least frictions.
+N_STATUS, N_MARGIN, N_HOLD, N_WEDGE = 0, 1, 2, 4
+NUMBERS_SIZE = 6
+
+# What became of it: all numbers found; a patch whose holding friction is open; no hull; a contact without a normal.
+DONE, OPEN_PATCH, NO_HULL, NO_NORMAL = range(4)
+
+
+@kernel()
+def set_bounds(status: int, lower: float, upper: float, bounds: Array) -> None:
+    """Sets two bounds of a least friction; zero and infinity where nothing was found and nothing proved."""
+    bounds[0] = 0.0 if status == OPEN else lower
+    bounds[1] = math.inf if status == OPEN else upper
+
+
+@kernel()
+def contact_numbers(searches: Searches, load: Array, points: Array, normals: Array, numbers: Array) -> None:
+    """Sets the margin and the bounds of both least frictions of contacts at points (k, 3) with normals (k, 3)."""
+    k = points.shape[0]
+    forces, twist = np.zeros(3 * k), np.zeros(6)
+    status, lower, upper = wedge_by(searches, points, normals, forces, twist)
+    set_bounds(status, lower, upper, numbers[N_WEDGE:])
+    numbers[N_MARGIN] = margin_with(searches[0], load, points, normals)
+    if numbers[N_MARGIN] >= 0.0:
+        numbers[N_HOLD], numbers[N_HOLD + 1] = 0.0, 0.0
+        return
+    found, moved = np.zeros(3 * k), np.zeros(6)
+    status, lower, upper = hold_by(searches, load, points, normals, upper, forces, twist, found, moved)
+    set_bounds(status, lower, upper, numbers[N_HOLD:])
+
+
+@kernel()
+def patch_numbers(load: Array, hull: Array, numbers: Array) -> None:
+    """Sets the numbers of a level patch with that hull (n, 2); it never wedges.
+
+    Outside of what the patch balances without friction, and without a force across or a moment about the axis, no
+    friction helps. Else the holding friction is left open.
+    """
+    numbers[N_WEDGE], numbers[N_WEDGE + 1] = math.inf, math.inf
+    numbers[N_MARGIN] = patch_margin(load, hull)
+    numbers[N_HOLD], numbers[N_HOLD + 1] = 0.0, 0.0
+    if numbers[N_MARGIN] < 0.0:
+        numbers[N_HOLD], numbers[N_HOLD + 1] = math.inf, math.inf
+        if load[2] != 0.0 or load[3] != 0.0 or load[4] != 0.0:
+            numbers[N_STATUS] = OPEN_PATCH
+
+
+@kernel(nogil=True)
+def statics_rows(
+    searches: Searches, records: Array, loads: Array, radius: float, bolt: Array, nut: Array, rows: Array
+) -> None:
+    """Sets the rows (n, NUMBERS_SIZE) of decided records under loads (n, 6) about each bolt's origin.
+
+    Moments of the loads are over ``radius``.
+    """
+    hull = np.empty((2 * OUTLINE_SAMPLES + 1, 2))
+    for i in range(records.shape[0]):
+        record, row, load = records[i], rows[i], loads[i]
+        row[:] = math.nan
+        row[N_STATUS] = DONE
+        poses = int(record[O_POSES])
+        last = record[O_POSE + 12 * (poses - 1) : O_POSE + 12 * poses]
+        if int(record[O_FLAGS]) & FLAG_FLUSH and not last[11] < 0.0:
+            count = patch_hull(last, bolt, nut, hull)
+            if count < 3:
+                row[N_STATUS] = NO_HULL
+                continue
+            for m in range(count):
+                for j in range(2):
+                    hull[m, j] = (hull[m, j] - last[9 + j]) / radius
+            patch_numbers(load, hull[:count], row)
+            continue
+        k = int(record[O_CONTACTS])
+        points, normals = np.empty((k, 3)), np.empty((k, 3))
+        if set_contacts(record, bolt, nut, points, normals) < k:
+            row[N_STATUS] = NO_NORMAL
+            continue
+        points /= radius
+        contact_numbers(searches, load, points, normals, row)
