@@ -37,7 +37,7 @@ class StaticsRequest(SolveRequest):
     model_config = ConfigDict(
         json_schema_extra={
             "examples": [
-                {"poses": [{"roll": 1, "pitch": -2, "phase": 10.5}], "loads": [{"force": [0.1, 0, -10], "mu": 1.5}]}
+                {"poses": [{"roll": 2, "pitch": 0, "phase": 345}], "loads": [{"force": [0.1, 0, -10], "mu": 0.25}]}
             ],
             **NOT_BOTH,
         },

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from fastapi.testclient import TestClient
+from pydantic import TypeAdapter
 
 from service.libraries.requested import SolvedPair
 from service.statics.endpoints import MOST_COMBINATIONS
@@ -14,7 +15,7 @@ from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
 from tests.service.test_problems import problem
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.solve import solve_pose
-from threadstate.statics.document import statics_document
+from threadstate.statics.document import StaticsDocument, statics_document
 from threadstate.statics.load import LARGEST_NUMBER, Load
 from threadstate.statics.solve import statics_of
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -59,6 +60,8 @@ def test_a_stored_state_is_answered_as_on_the_command_line(
     capsys.readouterr()
     assert run_command_line(["statics", *angles, *options, "--json"]) == 0
     assert response.json() == json.loads(capsys.readouterr().out)
+    shape = TypeAdapter(StaticsDocument)
+    assert shape.dump_python(shape.validate_python(response.json()), mode="json") == response.json()
 
 
 def test_a_patch_bears_a_push_over_it_and_an_overlap_is_flagged(solved_client: TestClient) -> None:
