@@ -9,7 +9,8 @@ from pydantic import Field
 from typing_extensions import TypedDict
 
 from threadstate.state.document import VectorDocument
-from threadstate.statics.solve import Statics, Verdict
+from threadstate.statics.solve import Statics
+from threadstate.statics.verdict import Verdict
 
 
 class LoadDocument(TypedDict):

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from worker.commands.solve import BATCH, wanted_poses
-from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option, vector
+from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, chosen_load
+from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
 from worker.output import print_json
-
-Vector = tuple[float, float, float]
 
 
 def statics(
@@ -19,21 +16,9 @@ def statics(
     phase: Phase = None,
     poses: Poses = None,
     mu: Annotated[float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")] = 0.2,
-    force: Annotated[
-        str, typer.Option("--force", metavar="X,Y,Z", help="Force on the bolt in N, in the nut's frame.")
-    ] = "0,0,-1",
-    moment: Annotated[
-        str, typer.Option("--moment", metavar="X,Y,Z", help="Moment on the bolt, in N times the unit.")
-    ] = "0,0,0",
-    point: Annotated[
-        str | None,
-        typer.Option(
-            "--point",
-            metavar="X,Y,Z",
-            help="The point about which the moment is taken.",
-            show_default="the bolt's origin",
-        ),
-    ] = None,
+    force: Force = PUSH,
+    moment: Moment = NO_MOMENT,
+    point: Point = None,
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,
@@ -54,7 +39,6 @@ def statics(
 
     from threadstate.state.solve import solve_poses
     from threadstate.statics.document import statics_document
-    from threadstate.statics.load import Load
     from threadstate.statics.solve import checked_friction, statics_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
@@ -64,11 +48,7 @@ def statics(
     shown = unit or threads.unit
     factor = conversion_factor(threads.unit, shown)
     checked_friction(mu)
-    load = Load(
-        force=vector("--force", force),
-        moment=_in_the_pairs_unit(vector("--moment", moment), factor),
-        point=None if point is None else _in_the_pairs_unit(vector("--point", point), factor),
-    )
+    load = chosen_load(force, moment, point, factor)
     for start in range(0, len(wanted), BATCH):
         for state in solve_poses(threads, wanted[start : start + BATCH]):
             found = statics_of(threads, state, load, mu)
@@ -76,8 +56,3 @@ def statics(
                 print_json(statics_document(found, factor))
             else:
                 print_statics(found, shown, factor)
-
-
-def _in_the_pairs_unit(lengths: Vector, factor: float) -> Vector:
-    x, y, z = lengths
-    return x / factor, y / factor, z / factor
