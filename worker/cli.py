@@ -18,6 +18,7 @@ from worker.commands.copy import copy
 from worker.commands.export import export
 from worker.commands.formation import formation
 from worker.commands.heights import heights
+from worker.commands.held import held
 from worker.commands.history import history
 from worker.commands.key import key
 from worker.commands.libraries import libraries
@@ -59,6 +60,7 @@ COMMANDS = (
     sweep,
     libraries,
     summary,
+    held,
     history,
     heights,
     windows,

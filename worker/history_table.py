@@ -12,6 +12,8 @@ from threadstate.responses.documents import (
     FallsDocument,
     FallsRangeDocument,
     HeightsDocument,
+    HeldDocument,
+    LoadedSummaryDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
@@ -165,6 +167,7 @@ def print_transitions(transitions: Sequence[TransitionDocument], unit: LengthUni
         "from",
         "to",
         f"height changes by ({unit})",
+        *(["under the load"] if any(one.mark is not None for one in transitions) else []),
         "what changes",
         words_last=True,
     )
@@ -179,6 +182,7 @@ def print_transitions(transitions: Sequence[TransitionDocument], unit: LengthUni
             one.source.formation,
             one.target.formation,
             length(None if before is None or after is None else after - before, unit, signed=True),
+            *([] if one.mark is None else [one.mark.value]),
             one.text,
         )
     rows.print()
@@ -198,6 +202,22 @@ def print_summary(summary: NetworkSummaryDocument) -> None:
         ("formations of one orientation", len(summary.telling_formations)),
     ):
         print_line(f"{name:<32}{value:>8}")
+
+
+def print_loaded_summary(summary: LoadedSummaryDocument) -> None:
+    """What a load does in a network, a line each."""
+    for mark, share in summary.shares.items():
+        print_line(f"{mark:<32}{100.0 * share:>7.2f} %")
+    print_line(f"{'dead ends, counter-clockwise':<32}{len(summary.dead_ends):>8}")
+
+
+def print_held(held: HeldDocument) -> None:
+    """What a load does along the phase at a friction: one row a stretch."""
+    print_line(f"roll {number_text(held.roll)}, pitch {number_text(held.pitch)} deg, mu {number_text(held.mu)}")
+    rows = table("phase", "to", "verdict")
+    for one in held.stretches:
+        rows.add_row(phase(one.start), interval_end(one.start, one.end), one.verdict.value)
+    rows.print()
 
 
 def print_node(node: NodeDocument) -> None:

@@ -40,6 +40,7 @@ STATES = (
     "statics/load.py",
     "statics/rows.py",
     "statics/stored.py",
+    "statics/verdict.py",
     "library/fingerprint.py",
     "library/grid.py",
     "library/rows.py",

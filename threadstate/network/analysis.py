@@ -13,6 +13,7 @@ from threadstate.network.cells import CIRCLE_DEG, Cell, CellMap
 from threadstate.network.formation import Formation
 from threadstate.network.graph import ConstraintNetwork
 from threadstate.network.moves import ALL_MOVES, SNAP_SEARCH, Move, in_order
+from threadstate.statics.verdict import Verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,18 +110,25 @@ def _turning_to_window(cells: tuple[Cell, ...]) -> list[float | None]:
     return found
 
 
-def dead_ends(network: ConstraintNetwork, moves: Collection[Move] = SNAP_SEARCH) -> tuple[Formation, ...]:
+def dead_ends(
+    network: ConstraintNetwork,
+    moves: Collection[Move] = SNAP_SEARCH,
+    loaded: CellMap | None = None,
+    avoid: frozenset[Verdict] = frozenset(),
+) -> tuple[Formation, ...]:
     """The formations from which the window is not reached: from no phase of any occurrence, by any number of the moves.
 
-    A turn passes every phase of its orientation, a tilt leads to the orientation beside it at the same phase.
+    A turn passes every phase of its orientation, a tilt leads to the orientation beside it at the same phase. With
+    ``loaded``, the network's cells under a load, no move leaves a cell whose verdict is in ``avoid``.
 
     Raises:
         InvalidValueError: no moves.
     """
-    cell_map = network.cell_map
+    cell_map = loaded or network.cell_map
     numbers = _cells_by_phase(cell_map)
     in_window = np.array([cell.in_window for cell in cell_map.all_cells])
-    reaching = _reaching(in_window[numbers], len(cell_map.tilts_deg), in_order(moves))
+    left = np.array([cell.verdict not in avoid for cell in cell_map.all_cells])
+    reaching = _reaching(in_window[numbers], left[numbers], len(cell_map.tilts_deg), in_order(moves))
     found = set(np.unique(numbers[reaching]).tolist())
     escaping = {cell.formation.key for number, cell in enumerate(cell_map.all_cells) if number in found}
     return tuple(formation for formation in cell_map.formations if formation.key not in escaping)
@@ -140,24 +148,40 @@ def _cells_by_phase(cell_map: CellMap) -> NDArray[np.intp]:
     return np.array(rows)
 
 
-def _reaching(window: NDArray[np.bool_], tilt_count: int, moves: tuple[Move, ...]) -> NDArray[np.bool_]:
-    """Where the window is reached from: ``window`` is of shape (orientations, stretches), and so is the result."""
+def _reaching(
+    window: NDArray[np.bool_], left: NDArray[np.bool_], tilt_count: int, moves: tuple[Move, ...]
+) -> NDArray[np.bool_]:
+    """Where the window is reached from: ``window`` is of shape (orientations, stretches), and so is the result.
+
+    ``left``, of the same shape, says what a move can leave.
+    """
     reaching = window.reshape(tilt_count, tilt_count, -1).copy()
+    can_leave = left.reshape(reaching.shape)
+    every, low, high = slice(None), slice(None, -1), slice(1, None)
     target_and_source = {
-        Move.ROLL_UP: (reaching[1:], reaching[:-1]),
-        Move.ROLL_DOWN: (reaching[:-1], reaching[1:]),
-        Move.PITCH_UP: (reaching[:, 1:], reaching[:, :-1]),
-        Move.PITCH_DOWN: (reaching[:, :-1], reaching[:, 1:]),
+        Move.ROLL_UP: ((high, every), (low, every)),
+        Move.ROLL_DOWN: ((low, every), (high, every)),
+        Move.PITCH_UP: ((every, high), (every, low)),
+        Move.PITCH_DOWN: ((every, low), (every, high)),
     }
     count = -1
     while count != (count := int(reaching.sum())):
         for move in moves:
             if move.turns:
-                reaching |= reaching.any(axis=2, keepdims=True)
+                _turned(reaching, can_leave, 1 if move is Move.COUNTER_CLOCKWISE else -1)
             else:
                 target, source = target_and_source[move]
-                source |= target
+                reaching[source] |= reaching[target] & can_leave[source]
     return reaching.reshape(window.shape)
+
+
+def _turned(reaching: NDArray[np.bool_], can_leave: NDArray[np.bool_], ahead: int) -> None:
+    """Adds the stretches from which a turn leads to one that reaches; ``ahead`` is where the next one is."""
+    stretches = reaching.shape[2]
+    # Twice round: past phase 0 the turn goes on.
+    for i in range(2 * stretches):
+        here = (-i if ahead > 0 else i) % stretches
+        reaching[:, :, here] |= can_leave[:, :, here] & reaching[:, :, (here + ahead) % stretches]
 
 
 def strong_parts(network: ConstraintNetwork, moves: Collection[Move] = ALL_MOVES) -> tuple[tuple[Formation, ...], ...]:

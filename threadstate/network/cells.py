@@ -14,6 +14,7 @@ from threadstate.network.formation import Formation
 from threadstate.network.moves import Move
 from threadstate.numbers import number_text
 from threadstate.state.model import Flag
+from threadstate.statics.verdict import Verdict
 
 CIRCLE_DEG = 360.0
 
@@ -28,7 +29,8 @@ class Cell:
     ``orientation`` is the orientation's number, ``position`` the cell's place (from 0) in its orientation, in order of
     phase. The cell is [``start_deg``, ``end_deg``), with ``start_deg`` in [0, 360) and ``end_deg`` above 360 where it
     holds phase 0. ``margin`` is the smallest margin of class and regions half way, a length; None where undecided.
-    ``in_window`` says whether the bolt has fallen into the clearance window there.
+    ``in_window`` says whether the bolt has fallen into the clearance window there. ``verdict`` is what a load does at a
+    friction, None where cells are not those of a load.
     """
 
     orientation: int
@@ -39,6 +41,7 @@ class Cell:
     flags: tuple[Flag, ...]
     margin: float | None
     in_window: bool
+    verdict: Verdict | None = None
 
     @property
     def width_deg(self) -> float:

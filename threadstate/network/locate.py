@@ -11,6 +11,7 @@ from threadstate.history.labels import ContactLabels
 from threadstate.network.cells import CIRCLE_DEG, Cell, CellMap
 from threadstate.network.formation import Formation
 from threadstate.state.model import FeaturePair, Flag, StateClass
+from threadstate.statics.verdict import Verdict
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS, Region
 
 
@@ -52,7 +53,7 @@ class Observation:
     """What was observed of a state; None, and what is not named, is not observed.
 
     Every one of ``contacts`` is another contact of the state: the first ones in its order if ``ordered``, else any.
-    ``flags`` are all set, others may be as well.
+    ``flags`` are all set, others may be as well. ``verdict`` is that of cells of a load.
 
     Raises:
         InvalidValueError: a number of contacts that is negative or less than the contacts that are described.
@@ -63,6 +64,7 @@ class Observation:
     flags: frozenset[Flag] = frozenset()
     contacts: tuple[ContactObservation, ...] = ()
     ordered: bool = False
+    verdict: Verdict | None = None
 
     def __post_init__(self) -> None:
         if self.contact_count is not None and self.contact_count < len(self.contacts):
@@ -73,6 +75,7 @@ class Observation:
         formation = cell.formation
         return (
             formation.state_class is not None
+            and self.verdict in (None, cell.verdict)
             and self.state_class in (None, formation.state_class)
             and self.contact_count in (None, len(formation.contacts))
             and self.flags.issubset(cell.flags)

@@ -12,6 +12,7 @@ from threadstate.network.cells import CIRCLE_DEG, Cell, CellMap
 from threadstate.network.formation import Formation
 from threadstate.network.moves import SNAP_SEARCH, Move, in_order
 from threadstate.network.search import Label, Objective, Search, known_margin
+from threadstate.statics.verdict import Verdict
 
 TURNING_LIMIT_DEG = 720.0
 
@@ -58,13 +59,15 @@ def best_path(
     orientation: int | None = None,
     phase_deg: float | None = None,
     limit_deg: float = TURNING_LIMIT_DEG,
+    avoid: frozenset[Verdict] = frozenset(),
 ) -> Path | None:
     """The best path to the window from any occurrence of a formation; None if no path keeps to the limit.
 
     The bolt turns counter-clockwise and never back; a tilt, where ``moves`` allow it, is made at any phase at which
     both cells hold, and costs no turning. Without ``phase_deg`` a path begins at the start of a cell: its turning is
     the most that is needed from anywhere in it; cells in the window are no start then, unless there are no others.
-    Without ``orientation`` all occurrences compete. Why no path is better: :class:`threadstate.network.search.Search`.
+    Without ``orientation`` all occurrences compete. Of cells of a load none is left whose verdict is in ``avoid``.
+    Why no path is better: :class:`threadstate.network.search.Search`.
 
     Raises:
         InvalidValueError: moves that are empty, turn clockwise or do not turn at all; a formation that does not hold
@@ -78,7 +81,7 @@ def best_path(
     if not (math.isfinite(limit_deg) and limit_deg >= 0.0):
         raise InvalidValueError("limit", limit_deg, "a finite number of degrees, at least 0")
     tilts = frozenset(move for move in moves if not move.turns)
-    search = Search(cell_map, objective, tilts, limit_deg)
+    search = Search(cell_map, objective, tilts, limit_deg, avoid)
     for cell, phase in _starts(cell_map, formation, orientation, phase_deg):
         search.begin(cell, phase)
     last = search.run()

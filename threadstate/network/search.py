@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from threadstate.network.cells import CIRCLE_DEG, Cell, CellMap
 from threadstate.network.moves import Move
+from threadstate.statics.verdict import Verdict
 
 
 class Objective(StrEnum):
@@ -45,7 +46,7 @@ class Label(NamedTuple):
 
 
 class Search:
-    """A label-setting search, exact in both criteria of its objective.
+    """A label-setting search, exact in both criteria of its objective. No move leaves a cell whose verdict is avoided.
 
     A label is a way to a cell c: its cost (transitions, or minus the worst margin), the phase x at which c is entered,
     and b, the turning less x, so that c is left at a phase y >= x after a turning of b + y. Every step leaves cost and
@@ -65,12 +66,20 @@ class Search:
     the same, and what remains of the rule is that a label has to enter c after less turning than those before it.
     """
 
-    def __init__(self, cell_map: CellMap, objective: Objective, tilts: frozenset[Move], limit_deg: float) -> None:
+    def __init__(
+        self,
+        cell_map: CellMap,
+        objective: Objective,
+        tilts: frozenset[Move],
+        limit_deg: float,
+        avoid: frozenset[Verdict] = frozenset(),
+    ) -> None:
         self._cells = cell_map.all_cells
         self._cell_map = cell_map
         self._objective = objective
         self._tilts = tilts
         self._limit_deg = limit_deg
+        self._avoid = avoid
         self._heap: list[tuple[float, float, int, int, Label]] = []
         self._pushed = 0
         self._best = (float("inf"), float("inf"))
@@ -93,7 +102,8 @@ class Search:
             settled = self._settled[number]
             if not any(c <= cost and b <= base and x <= phase for c, b, x in settled):
                 settled.append((cost, base, phase))
-                self._follow(label)
+                if self._cells[number].verdict not in self._avoid:
+                    self._follow(label)
         return None
 
     def _follow(self, label: Label) -> None:

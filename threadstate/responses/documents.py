@@ -9,8 +9,10 @@ from __future__ import annotations
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 
 from threadstate.network.changes import ChangeKind
+from threadstate.network.loaded import Mark
 from threadstate.network.moves import Move
 from threadstate.state.model import FeaturePair, Flag, StateClass
+from threadstate.statics.verdict import Verdict
 from threadstate.thread.regions import Region
 
 Vector = tuple[float, float, float]
@@ -234,6 +236,25 @@ class TransitionDocument(_Document):
     last_height: Sides
     changes: list[ContactChangeDocument]
     text: str = Field(description="what changes, in words; empty where no label does")
+    mark: Mark | None = Field(default=None, description="what a load does where it begins; null without a load")
+
+
+class VerdictStretchDocument(_Document):
+    """Phases of an orientation at which a load does the same."""
+
+    start: float
+    end: float = Field(description="above 360 where phase 0 lies between")
+    verdict: Verdict
+    start_uncertainty: float = Field(description="width of what encloses the start; 0 where an interval begins there")
+
+
+class HeldDocument(_Document):
+    """What a load does along the phase of an orientation, at a coefficient of friction."""
+
+    roll: float
+    pitch: float
+    mu: float
+    stretches: list[VerdictStretchDocument]
 
 
 class FollowingDocument(_Document):
@@ -345,6 +366,17 @@ class LocationDocument(_Document):
     orientations: int
     formations: list[LocatedFormationDocument] = Field(description="the most frequent first")
     stretches: list[StretchDocument]
+
+
+class LoadedSummaryDocument(_Document):
+    """What a load does in a network, at a coefficient of friction."""
+
+    mu: float
+    shares: dict[Mark, float] = Field(description="of all phases of all orientations, by mark")
+    dead_ends: list[str] = Field(
+        description="keys of formations from which turning counter-clockwise meets no window, none that is to be "
+        "avoided being left"
+    )
 
 
 class NetworkSummaryDocument(_Document):

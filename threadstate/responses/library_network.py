@@ -16,12 +16,17 @@ from threadstate.network.export import dot, graphml, node_link_json
 from threadstate.network.graph import ConstraintNetwork, constraint_network
 from threadstate.network.transitions import Transition, transitions
 from threadstate.responses.documents import FormationSummaryDocument, NetworkSummaryDocument
+from threadstate.responses.loaded_network import LoadedNetwork
 from threadstate.responses.networks import formation_summaries, summary_document
 from threadstate.responses.transitions import TiltChanges
 from threadstate.state.options import SolveOptions
+from threadstate.statics.load import Load
 from threadstate.stored_histories.mapping import stored_histories
 from threadstate.stored_histories.model import StoredHistories
 from threadstate.thread.pair import Pair
+
+LOADED_KEPT = 4
+"""Networks under a load that are kept of a library."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +95,18 @@ class LibraryNetwork:
     def dot(self) -> bytes:
         """The network in Graphviz's language."""
         return dot(self.network).encode()
+
+    def under(self, load: Load, mu: float) -> LoadedNetwork:
+        """The network under a load at a friction; the last few are kept."""
+        if (load, mu) not in self._loaded:
+            while len(self._loaded) >= LOADED_KEPT:
+                del self._loaded[next(iter(self._loaded))]
+            self._loaded[load, mu] = LoadedNetwork(self.network, self.pair, self.options, load, mu)
+        return self._loaded[load, mu]
+
+    @cached_property
+    def _loaded(self) -> dict[tuple[Load, float], LoadedNetwork]:
+        return {}
 
     def orientation(self, roll_deg: float, pitch_deg: float) -> int:
         """The number of an orientation.

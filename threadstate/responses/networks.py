@@ -14,11 +14,13 @@ from threadstate.network.analysis import (
 from threadstate.network.cells import Cell, CellMap
 from threadstate.network.changes import difference
 from threadstate.network.graph import ConstraintNetwork
+from threadstate.network.loaded import Mark, mark_of
 from threadstate.network.locate import Location
 from threadstate.network.paths import Path
 from threadstate.responses.documents import (
     FollowingDocument,
     FormationSummaryDocument,
+    LoadedSummaryDocument,
     LocatedFormationDocument,
     LocationDocument,
     NetworkSummaryDocument,
@@ -30,6 +32,7 @@ from threadstate.responses.documents import (
     StretchDocument,
 )
 from threadstate.responses.formations import formation_document
+from threadstate.statics.verdict import Verdict
 from threadstate.units import scale_length
 
 
@@ -45,6 +48,21 @@ def summary_document(network: ConstraintNetwork, window_count: int) -> NetworkSu
         dead_ends=[one.key for one in dead_ends(network)],
         cut_formations=[one.key for one in cut_formations(network)],
         telling_formations=[one.formation.key for one in identifying_formations(network)],
+    )
+
+
+def loaded_summary_document(
+    network: ConstraintNetwork, loaded: CellMap, mu: float, avoid: frozenset[Verdict]
+) -> LoadedSummaryDocument:
+    """The parts of all phases by mark, and the dead ends where no move leaves a cell whose verdict is in ``avoid``."""
+    widths = dict.fromkeys(Mark, 0.0)
+    for cell in loaded.all_cells:
+        if cell.verdict is not None:
+            widths[mark_of(cell.verdict)] += cell.width_deg
+    return LoadedSummaryDocument(
+        mu=mu,
+        shares={mark: width / loaded.total_deg for mark, width in widths.items()},
+        dead_ends=[one.key for one in dead_ends(network, loaded=loaded, avoid=avoid)],
     )
 
 

@@ -7,11 +7,15 @@ from dataclasses import dataclass
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.network import transitions as filters
 from threadstate.network.changes import ChangeKind
+from threadstate.network.loaded import Mark, mark_of
 from threadstate.network.locate import ContactObservation
 from threadstate.network.moves import Move
 from threadstate.network.transitions import Transition
+from threadstate.numbers import number
 from threadstate.responses.library_network import LibraryNetwork
 from threadstate.state.model import FeaturePair, StateClass
+from threadstate.statics.load import checked_friction
+from threadstate.statics.verdict import Verdict
 from threadstate.thread.regions import Region
 
 
@@ -26,6 +30,36 @@ def parse_moves(text: str) -> frozenset[Move]:
         if name not in tuple(Move):
             raise UnknownNameError("moves", name, ", ".join(Move))
     return frozenset(Move(name) for name in names)
+
+
+def parse_marks(text: str) -> frozenset[Verdict]:
+    """The verdicts of marks by their names, separated by commas; none for an empty text.
+
+    Raises:
+        UnknownNameError: a name is not that of a mark.
+    """
+    names = text.split(",") if text else []
+    for name in names:
+        if name not in tuple(Mark):
+            raise UnknownNameError("avoid", name, ", ".join(Mark))
+    return frozenset(verdict for verdict in Verdict if mark_of(verdict) in names)
+
+
+def parse_frictions(text: str) -> tuple[float, ...]:
+    """Coefficients of friction, separated by commas.
+
+    Raises:
+        InvalidValueError: one is not a number, negative or not finite.
+    """
+    found = []
+    for part in text.split(","):
+        try:
+            mu = number(part.strip())
+        except ValueError:
+            raise InvalidValueError("mu", part, "finite numbers >= 0, separated by commas") from None
+        checked_friction(mu)
+        found.append(mu)
+    return tuple(found)
 
 
 def parse_contact_observations(text: str) -> tuple[ContactObservation, ...]:

@@ -14,6 +14,7 @@ from threadstate.network.moves import Move
 from threadstate.network.transitions import Transition
 from threadstate.responses.documents import ContactChangeDocument, PlaceDocument, Sides, TransitionDocument
 from threadstate.responses.formations import change_documents
+from threadstate.responses.loaded_network import LoadedNetwork
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
@@ -23,13 +24,22 @@ from threadstate.units import scale_pair
 
 
 def transition_documents(
-    found: Sequence[Transition], histories: StoredHistories, tilts: TiltChanges, factor: float
+    found: Sequence[Transition],
+    histories: StoredHistories,
+    tilts: TiltChanges,
+    factor: float,
+    loaded: LoadedNetwork | None = None,
 ) -> list[TransitionDocument]:
-    """The documents of transitions, lengths multiplied by ``factor``."""
+    """The documents of transitions, lengths multiplied by ``factor``; with ``loaded`` each has its mark."""
     tilted = iter(tilts.of([one for one in found if not one.move.turns]))
-    return [
+    documents = [
         _turn(one, histories, factor) if one.move.turns else _tilt(one, histories, next(tilted), factor)
         for one in found
+    ]
+    if loaded is None:
+        return documents
+    return [
+        document.model_copy(update={"mark": loaded.mark(one)}) for document, one in zip(documents, found, strict=True)
     ]
 
 

@@ -14,26 +14,10 @@ from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.touching import Touching, touching
-from threadstate.statics.verdict import Verdict
+from threadstate.statics.verdict import FrictionBounds, Verdict, verdict_at
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class FrictionBounds:
-    """A least friction lies within these bounds; both infinite where no friction does it.
-
-    Where nothing was found and nothing proved they are zero and infinity.
-    """
-
-    lower: float
-    upper: float
-
-    @property
-    def value(self) -> float | None:
-        """The least friction, from above; None where no friction does it or none was found."""
-        return self.upper if self.upper < math.inf else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,13 +68,7 @@ class Statics:
     @property
     def verdict(self) -> Verdict:
         """What the bolt can do."""
-        if self.mu < self.hold.lower:
-            return Verdict.MOVES
-        if self.mu < self.hold.upper:
-            return Verdict.UNDECIDED
-        if self.mu < self.wedge.lower:
-            return Verdict.CAN_STAY
-        return Verdict.CAN_WEDGE if self.mu >= self.wedge.upper else Verdict.UNDECIDED
+        return verdict_at(self.mu, self.hold, self.wedge)
 
 
 def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: float = 0.0) -> Statics:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from threadstate.numbers import three_numbers
-from threadstate.statics.load import DEFAULT_FRICTION, Load, checked_friction
+from threadstate.statics.load import DEFAULT_FRICTION, checked_friction
 from worker.commands.solve import BATCH, wanted_poses
+from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, chosen_load
 from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
 from worker.output import print_json
 
@@ -21,21 +19,9 @@ def statics(
     mu: Annotated[
         float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")
     ] = DEFAULT_FRICTION,
-    force: Annotated[
-        str, typer.Option("--force", metavar="X,Y,Z", help="Force on the bolt in N, in the nut's frame.")
-    ] = "0,0,-1",
-    moment: Annotated[
-        str, typer.Option("--moment", metavar="X,Y,Z", help="Moment on the bolt, in N times the unit.")
-    ] = "0,0,0",
-    point: Annotated[
-        str | None,
-        typer.Option(
-            "--point",
-            metavar="X,Y,Z",
-            help="The point about which the moment is taken.",
-            show_default="the bolt's origin",
-        ),
-    ] = None,
+    force: Force = PUSH,
+    moment: Moment = NO_MOMENT,
+    point: Point = None,
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,
@@ -65,11 +51,7 @@ def statics(
     shown = unit or threads.unit
     factor = conversion_factor(threads.unit, shown)
     checked_friction(mu)
-    load = Load(
-        force=three_numbers("--force", force),
-        moment=three_numbers("--moment", moment),
-        point=None if point is None else three_numbers("--point", point),
-    ).with_lengths_over(factor)
+    load = chosen_load(force, moment, point, factor)
     for start in range(0, len(wanted), BATCH):
         for state in solve_poses(threads, wanted[start : start + BATCH]):
             found = statics_of(threads, state, load, mu)

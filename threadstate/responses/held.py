@@ -1,0 +1,31 @@
+"""Where along the phase the contacts can hold a load or wedge, as a document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from threadstate.responses.documents import HeldDocument, VerdictStretchDocument
+from threadstate.statics.stretches import LoadedOrientation
+
+
+def held_document(solved: LoadedOrientation, intervals: Sequence[tuple[float, float]], mu: float) -> HeldDocument:
+    """The stretches of an orientation at a friction; those that touch and have the same verdict are joined."""
+    joined: list[VerdictStretchDocument] = []
+    for of_interval in solved.stretches(intervals, mu):
+        for one in of_interval:
+            if joined and joined[-1].verdict is one.verdict:
+                joined[-1] = joined[-1].model_copy(update={"end": one.end_deg})
+            else:
+                joined.append(
+                    VerdictStretchDocument(
+                        start=one.start_deg,
+                        end=one.end_deg,
+                        verdict=one.verdict,
+                        start_uncertainty=one.uncertainty_deg,
+                    )
+                )
+    if len(joined) > 1 and joined[0].verdict is joined[-1].verdict:
+        first = joined.pop(0)
+        joined[-1] = joined[-1].model_copy(update={"end": first.end + 360.0})
+    roll, pitch = solved.tilt_deg
+    return HeldDocument(roll=roll, pitch=pitch, mu=mu, stretches=joined)
