@@ -15,6 +15,7 @@ from threadstate.units import LengthUnit, scale_length
 from worker.output import print_line
 
 if TYPE_CHECKING:
+    from threadstate.statics.document import ReactionDocument
     from threadstate.statics.solve import Statics
 
 _GAP = "  "
@@ -172,3 +173,9 @@ def _effort(effort: float | None) -> str:
     if effort is None:
         return "not pressed on a contact"
     return "jams" if math.isinf(effort) else f"{effort:.6f} of push times radius"
+
+
+def print_reaction(reaction: ReactionDocument, unit: LengthUnit) -> None:
+    """The least wrench that must be added to the load."""
+    force, moment = _numbers(reaction["force"]), _numbers(reaction["moment"])
+    print_line(f"a hand must add {reaction['size']:.6g} N: force {force} N, moment {moment} N {unit}")

@@ -9,6 +9,7 @@ from pydantic import Field
 from typing_extensions import TypedDict
 
 from threadstate.state.document import VectorDocument
+from threadstate.statics.reaction import Reaction
 from threadstate.statics.solve import Statics
 from threadstate.statics.verdict import Verdict
 
@@ -47,6 +48,25 @@ class StaticsDocument(TypedDict):
     turn_effort_cw: float | None
     forces: list[ContactForceDocument]
     verdict: Verdict
+
+
+class ReactionDocument(TypedDict):
+    """The least wrench on the bolt that must be added to the load, about the bolt's origin, in the nut's frame."""
+
+    force: Annotated[VectorDocument, Field(description="in N")]
+    moment: Annotated[VectorDocument, Field(description="in N times the unit of length")]
+    size: Annotated[float, Field(description="its norm in N, moments over the nominal radius; 0 where none is needed")]
+    least_size: Annotated[float, Field(description="no wrench of a smaller size will do")]
+
+
+def reaction_document(reaction: Reaction, length_factor: float = 1.0) -> ReactionDocument:
+    """The least reaction as an object, lengths times a factor from the pair's unit."""
+    return ReactionDocument(
+        force=list(reaction.force),
+        moment=[length_factor * number for number in reaction.moment],
+        size=reaction.size,
+        least_size=reaction.least_size,
+    )
 
 
 def statics_document(statics: Statics, length_factor: float = 1.0) -> StaticsDocument:

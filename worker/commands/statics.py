@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
+import typer
+
 from threadstate.statics.load import DEFAULT_FRICTION, checked_friction
 from worker.commands.solve import BATCH, wanted_poses
 from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, chosen_load
@@ -22,6 +24,10 @@ def statics(
     force: Force = PUSH,
     moment: Moment = NO_MOMENT,
     point: Point = None,
+    reaction: Annotated[
+        bool,
+        typer.Option("--reaction", help="Add the least wrench that a hand must supply to hold it.", show_default=False),
+    ] = False,
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,
@@ -36,16 +42,18 @@ def statics(
       threadstate statics --roll 1 --pitch -2 --phase 10
       threadstate statics --roll 1 --pitch -2 --phase 10 --mu 0.15 --force 0,0,-10 --json
       threadstate statics --roll 1 --pitch -2 --phase 10 --force 0.5,0,-10 --moment 0,0.1,0 --json
+      threadstate statics --roll 1 --pitch -2 --phase 10 --mu 0.1 --reaction
       threadstate statics --poses poses.csv --mu 0.1 --json
     """
     wanted = wanted_poses(roll, pitch, phase, poses)
 
     from threadstate.state.solve import solve_poses
-    from threadstate.statics.document import statics_document
+    from threadstate.statics.document import reaction_document, statics_document
+    from threadstate.statics.reaction import reaction_of
     from threadstate.statics.solve import statics_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
-    from worker.tables import print_statics
+    from worker.tables import print_reaction, print_statics
 
     threads = chosen_pair(pair, dimension or ())
     shown = unit or threads.unit
@@ -55,7 +63,11 @@ def statics(
     for start in range(0, len(wanted), BATCH):
         for state in solve_poses(threads, wanted[start : start + BATCH]):
             found = statics_of(threads, state, load, mu)
+            needed = reaction_document(reaction_of(threads, state, load, mu), factor) if reaction else None
             if as_json:
-                print_json(statics_document(found, factor))
+                document = statics_document(found, factor)
+                print_json(document if needed is None else {**document, "reaction": needed})
             else:
                 print_statics(found, shown, factor)
+                if needed is not None:
+                    print_reaction(needed, shown)
