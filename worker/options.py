@@ -160,6 +160,16 @@ def vector(name: str, text: str) -> tuple[float, float, float]:
     return x, y, z
 
 
+def lengths(name: str, text: str, factor: float) -> tuple[float, float, float]:
+    """Three numbers of a length's unit over ``factor``: in the unit of the pair.
+
+    Raises:
+        InvalidValueError: the text is anything else.
+    """
+    x, y, z = vector(name, text)
+    return x / factor, y / factor, z / factor
+
+
 def chosen_scheduler(read: settings.Settings, scheduler: str | None, workers: int | None) -> str | None:
     """The scheduler whose workers compute; None: processes here do, as where their number is an option.
 

@@ -10,7 +10,8 @@ from numba import cfunc, config, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from threadstate.statics._cone_kernel import solve_program
+from threadstate._compile import kernel
+from threadstate.statics._cone_kernel import Array, Integers, solve_program
 
 Program = Callable[..., float]
 """``solve_program`` of ``_cone_kernel``, as kernels are given it."""
@@ -48,3 +49,9 @@ def _interpreted(_: int) -> Program:
 
 program_at: Any = _interpreted if _IS_INTERPRETED else _program_at
 """What kernels call: the :data:`Program` at :func:`program_address`."""
+
+
+@kernel()
+def solve_with(program: int, c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Array) -> float:
+    """As ``solve_program``, with the program at an address."""
+    return float(program_at(program)(c, g, h, sizes, x, z))

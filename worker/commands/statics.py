@@ -7,10 +7,20 @@ from typing import Annotated
 import typer
 
 from worker.commands.solve import BATCH, wanted_poses
-from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option, vector
+from worker.options import (
+    Dimensions,
+    Json,
+    PairName,
+    Phase,
+    Pitch,
+    Poses,
+    Roll,
+    UnitName,
+    lengths,
+    number_option,
+    vector,
+)
 from worker.output import print_json
-
-Vector = tuple[float, float, float]
 
 
 def statics(
@@ -66,8 +76,8 @@ def statics(
     checked_friction(mu)
     load = Load(
         force=vector("--force", force),
-        moment=_in_the_pairs_unit(vector("--moment", moment), factor),
-        point=None if point is None else _in_the_pairs_unit(vector("--point", point), factor),
+        moment=lengths("--moment", moment, factor),
+        point=None if point is None else lengths("--point", point, factor),
     )
     for start in range(0, len(wanted), BATCH):
         for state in solve_poses(threads, wanted[start : start + BATCH]):
@@ -76,8 +86,3 @@ def statics(
                 print_json(statics_document(found, factor))
             else:
                 print_statics(found, shown, factor)
-
-
-def _in_the_pairs_unit(lengths: Vector, factor: float) -> Vector:
-    x, y, z = lengths
-    return x / factor, y / factor, z / factor
