@@ -7,6 +7,7 @@ import numpy as np
 from threadstate.statics import _friction_kernel as fk
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics._patch_kernel import OUTLINE_SAMPLES, patch_hull
+from threadstate.statics._program_kernel import program_address, solve_with
 from threadstate.statics._support_kernel import depth_in_simplex, distance_to_rays, patch_margin
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -21,6 +22,7 @@ def load_kernels() -> None:
     distance_to_rays(load, np.hstack([np.cross(points, normals), normals]))
     depth_in_simplex(load, np.eye(3, 6))
     turn_effort(1.0, 0.0, points, normals, 0.1, 1.0)
+    solve_with(program_address(), np.zeros(1), -np.eye(1), np.ones(1), np.ones(1, np.intp), np.zeros(1), np.zeros(1))
     pair = quarter_twenty_unc()
     pose = np.array([*np.ravel(np.eye(3)), 0.0, 0.0, 0.0])
     hull = np.empty((2 * OUTLINE_SAMPLES + 1, 2))

@@ -20,7 +20,7 @@ from threadstate.statics.cone_reduction import (
 
 FLAT = 1e-10
 """Part of a slice's size by which a straight edge may leave the line between its ends."""
-ROUND_OFF = 1e-13
+ROUND_OFF = 1e-12
 """Part of a slice's size that supports leave open where programs end well."""
 WELL_ENDED = 1e-8
 """Part of a slice's size that a support may leave open before other programs are tried."""

@@ -287,20 +287,19 @@ class _Scene:
     def frictions(self, edge: SliceEdge, sticking: frozenset[int]) -> dict[int, Floats | None]:
         """By contact that carries a force on an edge the direction of friction; zero without friction, None at rest."""
         velocities = edge.motion[3:] + np.cross(edge.motion[:3], self.arms)
-        fastest = float(np.linalg.norm(velocities, axis=1).max())
-        largest = max((edge.forces.get(i, 0.0) for i in range(len(self.arms))), default=0.0)
+        speeds = np.sqrt((velocities * velocities).sum(axis=1))
+        forces = np.array([edge.forces.get(i, 0.0) for i in range(len(self.arms))])
+        least = ACTIVE * forces.max()
+        forces[list(sticking)] = math.inf
         found: dict[int, Floats | None] = {}
-        for i, (velocity, normal) in enumerate(zip(velocities, self.normals, strict=True)):
-            if i not in sticking and edge.forces.get(i, 0.0) <= ACTIVE * largest:
-                continue
-            across = velocity - (velocity @ normal) * normal
-            speed = float(np.linalg.norm(across))
+        for i in np.flatnonzero(forces > least).tolist():
             if self.mu == 0.0:
                 found[i] = np.zeros(3)
-            elif np.linalg.norm(velocity) <= ACTIVE * fastest:
+            elif speeds[i] <= ACTIVE * speeds.max():
                 found[i] = None
             else:
-                found[i] = -across / speed
+                across = velocities[i] - (velocities[i] @ self.normals[i]) * self.normals[i]
+                found[i] = -across / math.hypot(*across)
         return found
 
     def side(self, contact: int, friction: Floats) -> Side:

@@ -25,7 +25,7 @@ LEFT, RIGHT, TOP, BOTTOM = 64, 24, 78, 46
 ROW_HEIGHT = 20
 MOST_ROWS = 12
 """Pieces, the longest, that the legend names."""
-LEAST_LETTER_PX = 24.0
+LEAST_LETTER_PX = 16.0
 """Shorter pieces have no letter."""
 COLOURS = 6
 LEAST_STEP_PX = 0.7
