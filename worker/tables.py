@@ -16,6 +16,7 @@ from worker.output import print_line
 
 if TYPE_CHECKING:
     from threadstate.statics.document import ReactionDocument
+    from threadstate.statics.jamming_document import JammingDocument
     from threadstate.statics.solve import Statics
 
 _GAP = "  "
@@ -158,6 +159,34 @@ def print_statics(statics: Statics, unit: LengthUnit, factor: float) -> None:
         rows.add_row(
             f"contact {force.contact} (N)", f"{force.normal:.6f} normal, {_numbers(force.tangential)} tangential"
         )
+    rows.print()
+
+
+def print_jamming(document: JammingDocument) -> None:
+    """A jamming diagram: what it is, then a piece of its boundary a row."""
+    from threadstate.statics.jamming_document import contacts_text, piece_text
+
+    rows = table("", "")
+    rows.add_row("roll, pitch, phase (deg)", _numbers([document["roll"], document["pitch"], document["phase"]]))
+    rows.add_row("mu", number_text(document["mu"]))
+    rows.add_row("axes, over the push", ", ".join(document["axes"]))
+    rows.add_row("diagram", f"{document['kind']}{' (the solids overlap)' if document['penetrating'] else ''}")
+    if document["wedged"]:
+        rows.add_row("can wedge", contacts_text(document["wedged"]))
+    if document["window"] is not None:
+        rows.add_row("seen to", f"±{_numbers(document['window'][:1])}, ±{_numbers(document['window'][1:])}")
+    for ray in document["rays"]:
+        rows.add_row("without an end along", _numbers(ray))
+    rows.add_row("gap", f"{document['gap']:.1e}")
+    for piece in document["pieces"]:
+        if not piece["window"]:
+            start, end = (document["vertices"][piece[name]] for name in ("first", "last"))
+            how = (
+                ""
+                if document["dimension"] != 2
+                else f" {'straight' if piece['straight'] else 'curved'} to {_numbers(end)}"
+            )
+            rows.add_row(_numbers(start) + how, piece_text(document, piece))
     rows.print()
 
 
