@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.statics._grasp_kernel import (
+    RANK_TOLERANCE,
     Grasp,
     contact_velocities,
     friction_of,
@@ -21,6 +22,7 @@ from threadstate.statics._grasp_kernel import (
     normal_part,
     tangential_part,
     twist_of,
+    without_friction,
     withstands,
 )
 from threadstate.statics._program_kernel import program_at
@@ -91,6 +93,51 @@ def friction_program(mu: float, weights: Array, start: Array, basis: Array, gras
                 + z[3 * i + 2] * grasp.frames[i, 1, j]
             )
     return float(x[d]) if gap < math.inf else math.inf
+
+
+@kernel()
+def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
+    """As :func:`friction_program` for contacts that carry any tangential force: the least pull that one of them needs.
+
+    Internal forces that change no normal force say nothing there and are left out: the program has no others.
+    """
+    k = grasp.normals.shape[0]
+    d = basis.shape[0]
+    left = basis.copy()
+    parts = np.empty((d, k))
+    for j in range(d):
+        for i in range(k):
+            parts[j, i] = normal_part(left[j], grasp, i)
+    count = 0
+    largest = 0.0
+    # Gram and Schmidt on the normal parts, the longest first.
+    while count < d:
+        at, size = count, 0.0
+        for j in range(count, d):
+            squared = 0.0
+            for i in range(k):
+                squared += parts[j, i] * parts[j, i]
+            if squared > size:
+                at, size = j, squared
+        size = math.sqrt(size)
+        if count == 0:
+            largest = size
+        if size <= RANK_TOLERANCE * max(largest, 1.0):
+            break
+        for i in range(k):
+            parts[count, i], parts[at, i] = parts[at, i] / size, parts[count, i]
+        for i in range(3 * k):
+            left[count, i], left[at, i] = left[at, i] / size, left[count, i]
+        for j in range(count + 1, d):
+            along = 0.0
+            for i in range(k):
+                along += parts[count, i] * parts[j, i]
+            for i in range(k):
+                parts[j, i] -= along * parts[count, i]
+            for i in range(3 * k):
+                left[j, i] -= along * left[count, i]
+        count += 1
+    return float(friction_program(1.0, np.ones(k), start, left[:count], without_friction(grasp), solution))
 
 
 @kernel()

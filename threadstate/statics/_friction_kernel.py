@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate._pointer import Pointer
-from threadstate.statics._family_kernel import ROUND_OFF, friction_program, improved, narrowed, polish
+from threadstate.statics._family_kernel import (
+    ROUND_OFF,
+    friction_program,
+    improved,
+    least_pull,
+    narrowed,
+    polish,
+)
 from threadstate.statics._grasp_kernel import (
     RANK_TOLERANCE,
     balancing_forces,
@@ -26,7 +33,6 @@ from threadstate.statics._grasp_kernel import (
     normal_part,
     tangential_part,
     twist_of,
-    without_friction,
 )
 from threadstate.statics._program_kernel import program_address, program_at
 from threadstate.statics._triangle_kernel import (
@@ -40,6 +46,8 @@ from threadstate.statics._triangle_kernel import (
 
 Array = NDArray[np.float64]
 
+PULL = 1e-12
+"""Contacts that would have to pull by more, over the load, cannot balance it at any friction."""
 BALANCE_TOLERANCE = 1e-9
 """Part of a load (moments over r) that contact forces may leave unbalanced."""
 
@@ -123,10 +131,10 @@ def wedge_with(program: int, points: Array, normals: Array, forces: Array, twist
         if mu < math.inf:
             break
     if mu == math.inf:
-        least = friction_program(1.0, weights, start, rest, without_friction(grasp), solution)
+        least = least_pull(start, rest, grasp, solution)
         mu = friction_of(solution[0], grasp)
         if mu == math.inf:
-            return (NEVER if least > 1e-12 else OPEN), math.inf, math.inf
+            return (NEVER if PULL < least < math.inf else OPEN), math.inf, math.inf
     mu = improved(mu, start, rest, grasp, solution)
     if mu < pair:
         for i in range(3 * k):
@@ -286,11 +294,11 @@ def hold_with(
             if mu < math.inf:
                 break
     if mu == math.inf:
-        least = friction_program(1.0, weights, start, basis, without_friction(grasp), solution)
+        least = least_pull(start, basis, grasp, solution)
         mu = friction_of(solution[0], grasp)
         if mu == math.inf:
             twist_of(solution[1], grasp, twist)
-            return (NEVER if least > 0.0 else OPEN), math.inf, math.inf
+            return (NEVER if PULL < least < math.inf else OPEN), math.inf, math.inf
     mu = improved(mu, start, basis, grasp, solution)
     for i in range(3 * k):
         forces[i] = solution[0, i] * size
