@@ -20,14 +20,21 @@ def page(
     snaps: Sequence[BeforeSnap],
 ) -> str:
     """The page in Markdown."""
-    return "\n".join([*_verdicts(counts, apart), *_classes(states), *_reactions(reactions), *_snaps(snaps)]) + "\n"
+    return (
+        "\n".join([*_verdicts(counts, apart, states), *_classes(states), *_reactions(reactions), *_snaps(snaps)]) + "\n"
+    )
 
 
 def _row(*cells: object) -> str:
     return f"| {' | '.join(str(cell) for cell in cells)} |"
 
 
-def _verdicts(counts: Sequence[VerdictCounts], apart: Sequence[VerdictCounts]) -> list[str]:
+def _verdicts(
+    counts: Sequence[VerdictCounts], apart: Sequence[VerdictCounts], states: Sequence[PushedState]
+) -> list[str]:
+    supported = sum(one.margin >= 0.0 for one in states)
+    steep = sum(counts[-1].mu < one.hold < math.inf for one in states)
+    never = sum(one.hold == math.inf for one in states)
     lines = [
         "# What a push does to the contact states",
         "",
@@ -49,8 +56,9 @@ def _verdicts(counts: Sequence[VerdictCounts], apart: Sequence[VerdictCounts]) -
     return [
         *lines,
         "",
-        "No state is supported without friction, and none wedges at these frictions. More friction than 0.2 hardly",
-        "holds more states: what 0.2 does not hold tips, whatever the friction.",
+        f"{supported:,} states are supported without friction. From {counts[-2].mu:g} to {counts[-1].mu:g}",
+        f"friction gains {counts[-1].can_stay - counts[-2].can_stay:,} states; {steep:,} more hold from some",
+        f"friction above that, and {never:,} at none.",
         "",
         "![Least friction that holds](statics/hold.svg)",
         "",
@@ -97,12 +105,9 @@ def _classes(states: Sequence[PushedState]) -> list[str]:
         "",
         "The paper's classes are geometry: where the bolt's origin lies beside the pivot axis, and how far it sinks.",
         "Under a push they say something else. The patch of a flush bolt is a crescent on one side of the nut's hole.",
-        "It carries a push only within its hull, and in no state of the library does the hull reach the bolt's axis:",
-        f"the nearest misses it by a support margin of {nearest:.4f}. The push tips the bolt into the hole, and since",
-        "all normals of a patch are parallel no friction helps (the five flush states that some friction holds lie on",
-        f"a strip of flank). What the paper calls quasi-stable holds at {MU:g} in every case. A stable state with",
-        "three contacts does in half of the cases: its median lies there. An unstable state holds at all only with a",
-        "third contact.",
+        "It carries a push only within its hull: the margin that comes nearest to carrying it, or carries it most, is",
+        f"{nearest:.4f}. Outside, the push tips the bolt into the hole, and since all normals of a patch are parallel",
+        "no friction helps. What a strip of flank carries counts as flush, too.",
         "",
     ]
 
@@ -126,16 +131,17 @@ def _reactions(reactions: dict[str, list[float]]) -> list[str]:
 
 def _snaps(snaps: Sequence[BeforeSnap]) -> list[str]:
     held = [one for one in snaps if one.statics.hold.upper <= MU]
+    tipping = sum(one.statics.hold.value is None for one in snaps)
     flush = sum(one.state_class == "flush" for one in snaps)
     lines = [
         "## Just before the snap: which orientations hold the bolt?",
         "",
         f"A designer asks: at mu {MU:g} and under a push of 10 N, which of the 81 orientations hold the bolt just",
         f"before the snap, and what frees them? {len(snaps)} of the 81 snap when the bolt is turned counter-clockwise.",
-        f"{flush} of them lie flush there, and tip whatever the friction. {len(held)} can hold the push, each barely:",
-        f"their least friction is just below {MU:g}, and a force sideways of some thousandths of the push, in the",
-        "right direction, frees them. So does a lubricant, and so does turning on: the torque for it is in the last",
-        "column, over push times nominal radius.",
+        f"{flush} of them lie flush there, {tipping} tip whatever the friction, and {len(held)} can hold the push. A",
+        "force sideways frees these, of the size and in the direction that the table says; so does a friction below",
+        "the least one, and so does turning on: the torque for it is in the last column, over push times nominal",
+        "radius.",
         "",
         _row(
             "roll",

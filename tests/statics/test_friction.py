@@ -11,7 +11,11 @@ from numpy.typing import NDArray
 from oracle.statics import friction as witness
 from oracle.statics.wrenches import Wrench
 from tests.statics.test_check_values import hold, wedge
+from threadstate.state.solve import solve_pose
 from threadstate.statics import _friction_kernel as fk
+from threadstate.statics.load import Load
+from threadstate.statics.solve import statics_of
+from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
 
@@ -94,3 +98,15 @@ def test_mirrored_contacts_need_the_mirrored_loads_friction() -> None:
             hold(load, points, normals)[2], rel=1e-6
         )
         assert wedge(points * mirror, normals * mirror)[2] == pytest.approx(wedge(points, normals)[2], rel=1e-9)
+
+
+@pytest.mark.parametrize("across", [0.02, 0.103, 0.3])
+def test_a_patch_holds_a_load_near_its_rim_by_the_friction_that_its_slope_asks_for(across: float) -> None:
+    """The push acts within the hull, but outside of that of the few points that are tried first."""
+    pair = quarter_twenty_unc()
+    radius = pair.nominal_diameter / 2.0
+    load = Load(force=(across, 0.0, -1.0), moment=(0.0, -0.8024 * radius, 0.0))
+    hold = statics_of(pair, solve_pose(pair, 4.0, 0.0, 185.0), load).hold
+    assert hold.lower <= across * (1.0 + 1e-12)
+    assert hold.upper >= across * (1.0 - 1e-12)
+    assert hold.upper - hold.lower < 1e-7

@@ -22,7 +22,6 @@ from threadstate.statics._grasp_kernel import (
     normal_part,
     tangential_part,
     twist_of,
-    without_friction,
     withstands,
 )
 from threadstate.statics._program_kernel import program_at
@@ -97,9 +96,13 @@ def friction_program(mu: float, weights: Array, start: Array, basis: Array, gras
 
 @kernel()
 def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
-    """As :func:`friction_program` for contacts that carry any tangential force: the least pull that one of them needs.
+    """The least pull that a contact needs where contacts carry any tangential force, over all forces of the family.
 
-    Internal forces that change no normal force say nothing there and are left out: the program has no others.
+    Internal forces that change no normal force are left out, since they would leave the program without a unique
+    solution. ``solution`` is filled in as by :func:`friction_program`.
+
+    Returns:
+        The pull: normal forces that only press exist where it is not positive; infinite if the program was not solved.
     """
     k = grasp.normals.shape[0]
     d = basis.shape[0]
@@ -125,9 +128,11 @@ def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> flo
         if size <= RANK_TOLERANCE * max(largest, 1.0):
             break
         for i in range(k):
-            parts[count, i], parts[at, i] = parts[at, i] / size, parts[count, i]
+            parts[count, i], parts[at, i] = parts[at, i], parts[count, i]
+            parts[count, i] /= size
         for i in range(3 * k):
-            left[count, i], left[at, i] = left[at, i] / size, left[count, i]
+            left[count, i], left[at, i] = left[at, i], left[count, i]
+            left[count, i] /= size
         for j in range(count + 1, d):
             along = 0.0
             for i in range(k):
@@ -137,7 +142,29 @@ def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> flo
             for i in range(3 * k):
                 left[j, i] -= along * left[count, i]
         count += 1
-    return float(friction_program(1.0, np.ones(k), start, left[:count], without_friction(grasp), solution))
+    c = np.zeros(count + 1)
+    c[count] = 1.0
+    g = np.zeros((k + 1, count + 1))
+    h = np.zeros(k + 1)
+    x = np.zeros(count + 1)
+    z = np.zeros(k + 1)
+    per = 1.0 / FORCE_LIMIT
+    h[k] = 1.0
+    for i in range(k):
+        h[i] = normal_part(start, grasp, i)
+        h[k] -= h[i] * per
+        g[i, count] = -1.0
+        for j in range(count):
+            n = normal_part(left[j], grasp, i)
+            g[i, j] = -n
+            g[k, j] += n * per
+    gap = program_at(grasp.program)(c, g, h, np.ones(k + 1, np.intp), x, z)
+    for i in range(3 * k):
+        solution[0, i] = start[i]
+        for j in range(count):
+            solution[0, i] += x[j] * left[j, i]
+        solution[1, i] = z[i // 3] * grasp.normals[i // 3, i % 3]
+    return float(x[count]) if gap < math.inf else math.inf
 
 
 @kernel()

@@ -158,22 +158,6 @@ def new_grasp(points: Array, normals: Array, program: int) -> Grasp:
 
 
 @kernel()
-def without_friction(grasp: Grasp) -> Grasp:
-    """A grasp in which no force counts as tangential."""
-    none = np.zeros_like(grasp.frames)
-    return Grasp(
-        grasp.normals,
-        none,
-        grasp.matrix,
-        grasp.reflections,
-        grasp.upper,
-        grasp.order,
-        grasp.rank,
-        grasp.program,
-    )
-
-
-@kernel()
 def reflect(grasp: Grasp, vector: Array) -> None:
     """Multiplies by Q, in place."""
     for j in range(grasp.rank - 1, -1, -1):

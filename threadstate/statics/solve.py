@@ -143,8 +143,10 @@ def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]
         across = np.hypot(velocity[:, 0], velocity[:, 1])
         moving = across > 1e-12 * scale
         ratio = np.where(moving, velocity[:, 2] / np.where(moving, across, 1.0), np.inf)
-        ratio[velocity[:, 2] < -1e-12 * scale] = -np.inf
-        worst = int(np.argmin(ratio))
+        pressed = velocity[:, 2] < -1e-12 * scale
+        ratio[pressed] = -np.inf
+        # Where the motion presses into the nut no friction lets it: the deepest first.
+        worst = int(np.argmin(velocity[:, 2] if pressed.any() else ratio))
         if ratio[worst] >= bounds.lower * (1.0 - 1e-12) or worst in chosen:
             return FrictionBounds(max(lower, min(float(ratio[worst]), bounds.lower)), bounds.upper), chosen
         lower = max(lower, float(ratio[worst]))
