@@ -41,10 +41,8 @@ def boundary_step(point: Array, direction: Array, start: int, size: int) -> floa
     root = b * b - a * c
     if a >= 0.0 and d0 >= 0.0:
         return math.inf
-    if root < 0.0:
-        return math.inf
-    # The smallest positive root of a t^2 + 2 b t + c, with c > 0.
-    bottom = math.sqrt(root) - b
+    # The smallest positive root of a t^2 + 2 b t + c, with c > 0; two that coincide may seem to be none by round-off.
+    bottom = math.sqrt(max(root, 0.0)) - b
     return c / bottom if bottom > 0.0 else math.inf
 
 
