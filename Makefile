@@ -9,6 +9,7 @@
 # make paper      put the paper's statements to the test, write docs/paper-claims.md
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
+# make statics    what a push does to the states, docs/statics.md and its maps
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
 # make client     make the blocking client of the asynchronous one
 # make designer   write the answers in docs/tutorial.md and the page of falls and windows; pins 1/4-20 UNC
@@ -30,7 +31,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test check bench client load paper chart stability docs lock designer histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test check bench client load paper chart stability docs lock designer statics histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -63,6 +64,7 @@ check: $(VENV)/.project $(VENV)/.dependencies node_modules/.installed
 
 bench: setup
 	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks.statics
 
 load: setup $(VENV)-load/.dependencies
 	$(BIN)/python -m benchmarks.load --datasette $(VENV)-load/bin/python --write docs/load.md
@@ -75,6 +77,9 @@ chart: setup
 
 stability: setup
 	$(BIN)/python -m studies.stability
+
+statics: setup
+	$(BIN)/python -m studies.statics
 
 histories: setup
 	$(BIN)/python -m studies.history

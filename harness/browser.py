@@ -9,7 +9,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from selenium import webdriver
-from selenium.common.exceptions import StaleElementReferenceException, TimeoutException
+from selenium.common.exceptions import ElementNotInteractableException, StaleElementReferenceException, TimeoutException
 from selenium.webdriver.common.by import By
 from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.ui import WebDriverWait
@@ -22,6 +22,8 @@ ARGUMENTS = (
     "--no-first-run",
     "--enable-unsafe-swiftshader",
     "--force-color-profile=srgb",
+    # Pages that were left would be held ready for Back, each with its solids, in a process of its own.
+    "--disable-features=BackForwardCache",
 )
 WAIT_S = 20.0
 SCRIPT_S = 120.0
@@ -48,6 +50,31 @@ def resize(chromium: webdriver.Chrome, width: int, height: int) -> None:
     chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
 
 
+RESET = """
+const shown = document.querySelector('#explorer:not([hidden])');
+const isOfOneFormation = document.querySelector('#follows .card, #path .step, #network .formation') !== null;
+if (location.origin !== arguments[0] || !shown || !window.opened || isOfOneFormation) return false;
+for (const one of document.querySelectorAll('#play-stages, #play-phase')) {
+  if (one.getAttribute('aria-pressed') === 'true') one.click();
+}
+document.querySelector('#axes').close();
+document.querySelector('#toast').textContent = '';
+document.activeElement.blur();
+history.pushState(null, '', window.opened.view);
+dispatchEvent(new PopStateEvent('popstate'));
+return true;
+"""
+"""Sets the view that the page was opened with, as Back does; whether the page is one that can.
+
+What follows a formation stays as it is until its tab is opened again: a page that has shown it is loaded again.
+"""
+SHOWN = (
+    "['#state', '#depth', '#map', '#map-readout', '#map-phase'].map((one) => document.querySelector(one).textContent)"
+)
+REMEMBER = f"window.opened = {{view: location.hash, shown: {SHOWN}.join()}}"
+IS_RESET = f"return location.hash === window.opened.view && {SHOWN}.join() === window.opened.shown"
+
+
 class Explorer:
     """The explorer's page in a browser."""
 
@@ -59,6 +86,17 @@ class Explorer:
         """Reload the page at that path or fragment."""
         self.chromium.get("about:blank")
         self.chromium.get(self.address + path)
+
+    def reset(self) -> None:
+        """Bring the explorer to the view that it opens with; load it only where no page is open that can be reset."""
+        self.chromium.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": 0, "y": 0})
+        if not self.run(RESET, self.address):
+            self.open()
+            self.wait_for_text("#state", "roll")
+            self.wait_for_text("#depth", "snap: falls")
+            self.wait_for_text("#map-phase", "at phase")
+            self.run(REMEMBER)
+        self.wait(lambda: bool(self.run(IS_RESET)), "the page does not show the view that it was opened with")
 
     def run(self, script: str, *arguments: object) -> Any:
         """What a script returns."""
@@ -103,6 +141,18 @@ class Explorer:
         except StaleElementReferenceException:
             return False
         return True
+
+    def press(self, selector: str, key: str) -> None:
+        """Press a key at an element, as soon as the page shows one of that selector that can have the focus."""
+
+        def is_pressed() -> bool:
+            try:
+                self.one(selector).send_keys(key)
+            except (ElementNotInteractableException, StaleElementReferenceException):
+                return False
+            return True
+
+        self.wait(is_pressed, f"{selector} takes no key")
 
     def text(self, selector: str) -> str:
         """The text of an element."""

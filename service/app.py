@@ -28,6 +28,7 @@ import service.network.endpoints
 import service.orientations
 import service.solve
 import service.states.endpoints
+import service.statics.endpoints
 import service.undecided
 import threadstate
 from service.cache.library_names import LibraryNames
@@ -64,8 +65,8 @@ CANCEL_S = 1.0
 """How long background tasks are waited for at the end."""
 NO_TELEMETRY = TelemetryConfig(tracing=False, metrics=False, logs=False)
 """FastAPI's default checks at every request whether OpenTelemetry is configured."""
-LARGEST_BODY_BYTES = 256 * 1024
-"""Room for 1,000 poses with all the digits that a double has."""
+LARGEST_BODY_BYTES = 512 * 1024
+"""Room for 1,000 poses, or as many loads, with all the digits that a double has."""
 
 _log = logging.getLogger(__name__)
 
@@ -138,6 +139,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.libraries.endpoints,
         service.builds,
         service.states.endpoints,
+        service.statics.endpoints,
         service.orientations,
         service.histories.endpoints,
         service.undecided,

@@ -22,10 +22,13 @@ LARGEST_POSE_COUNT = 1000
 LARGEST_PHASE_DEG = 36000.0
 
 _FORBID = ConfigDict(extra="forbid", strict=True)
-_BOTH: dict[str, Any] = {
-    "required": ["designation", "library"],
-    "properties": {"designation": {"type": "string"}, "library": {"type": ["integer", "string"]}},
+NOT_BOTH: dict[str, Any] = {
+    "not": {
+        "required": ["designation", "library"],
+        "properties": {"designation": {"type": "string"}, "library": {"type": ["integer", "string"]}},
+    }
 }
+"""Of a designation and a library; for the OpenAPI document."""
 
 
 class PoseToSolve(BaseModel):
@@ -45,7 +48,7 @@ class SolveRequest(BaseModel):
         **_FORBID,
         json_schema_extra={
             "examples": [{"poses": [{"roll": 1, "pitch": -2, "phase": 10.5}]}],
-            "not": _BOTH,
+            **NOT_BOTH,
         },
     )
 

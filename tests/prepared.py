@@ -8,6 +8,8 @@ from functools import cache
 
 import pytest
 
+import worker.jobs.serve
+import worker.rebuild
 from tests.stored_histories.history_library import PAIR, histories_of_grid, rows_of
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -48,5 +50,6 @@ def use_prepared_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
         assert scheduler is None
         yield PreparedChunks(inputs.grid)
 
-    monkeypatch.setattr("worker.rebuild.chunk_source", prepared)
-    monkeypatch.setattr("worker.jobs.serve.chunk_source", prepared)
+    # As objects: imported only here, the second would take over the first one's replacement for good.
+    monkeypatch.setattr(worker.rebuild, "chunk_source", prepared)
+    monkeypatch.setattr(worker.jobs.serve, "chunk_source", prepared)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import re
 
+from threadstate.errors import InvalidValueError
+
 _NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _INTEGER = re.compile(r"[+-]?[0-9]{1,18}")
 
@@ -35,3 +37,16 @@ def integer(text: str) -> int:
     if not _INTEGER.fullmatch(text):
         raise ValueError(f"{text!r} is not a whole number such as 12")
     return int(text)
+
+
+def three_numbers(name: str, text: str) -> tuple[float, float, float]:
+    """The numbers of a text that has three, separated by commas; ``name`` is what they are.
+
+    Raises:
+        InvalidValueError: the text is anything else.
+    """
+    try:
+        x, y, z = (number(part.strip()) for part in text.split(","))
+    except ValueError:
+        raise InvalidValueError(name, text, "three numbers, separated by commas") from None
+    return x, y, z

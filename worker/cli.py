@@ -20,6 +20,7 @@ from worker.commands.formation import formation
 from worker.commands.heights import heights
 from worker.commands.held import held
 from worker.commands.history import history
+from worker.commands.jamming import jamming
 from worker.commands.key import key
 from worker.commands.libraries import libraries
 from worker.commands.locate import locate
@@ -56,6 +57,7 @@ app = typer.Typer(
 COMMANDS = (
     solve,
     statics,
+    jamming,
     rebuild,
     sweep,
     libraries,

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from worker.options import number_option, vector
-
-if TYPE_CHECKING:
-    from threadstate.statics.load import Load
+from threadstate.numbers import three_numbers
+from threadstate.statics.load import Load
+from worker.options import number_option
 
 Force = Annotated[str, typer.Option("--force", metavar="X,Y,Z", help="Force on the bolt in N, in the nut's frame.")]
 Moment = Annotated[str, typer.Option("--moment", metavar="X,Y,Z", help="Moment on the bolt, in N times the unit.")]
@@ -46,14 +45,8 @@ def chosen_load(force: str, moment: str, point: str | None, factor: float) -> Lo
     Raises:
         InvalidValueError: a text is not three numbers, or the load is zero.
     """
-    from threadstate.statics.load import Load
-
-    def in_the_pairs_unit(lengths: tuple[float, float, float]) -> tuple[float, float, float]:
-        x, y, z = lengths
-        return x / factor, y / factor, z / factor
-
     return Load(
-        force=vector("--force", force),
-        moment=in_the_pairs_unit(vector("--moment", moment)),
-        point=None if point is None else in_the_pairs_unit(vector("--point", point)),
-    )
+        force=three_numbers("--force", force),
+        moment=three_numbers("--moment", moment),
+        point=None if point is None else three_numbers("--point", point),
+    ).with_lengths_over(factor)

@@ -147,19 +147,6 @@ Port = Annotated[
 ]
 
 
-def vector(name: str, text: str) -> tuple[float, float, float]:
-    """Three numbers, separated by commas.
-
-    Raises:
-        InvalidValueError: the text is anything else.
-    """
-    try:
-        x, y, z = (number(part.strip()) for part in text.split(","))
-    except ValueError:
-        raise InvalidValueError(name, text, "three numbers, separated by commas") from None
-    return x, y, z
-
-
 def chosen_scheduler(read: settings.Settings, scheduler: str | None, workers: int | None) -> str | None:
     """The scheduler whose workers compute; None: processes here do, as where their number is an option.
 

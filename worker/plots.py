@@ -26,14 +26,14 @@ _DOTS_PER_INCH = 150
 _FIRST, _REST, _WINDOW, _NONE = "#1f5fa8", "#b3541e", "#dfe9d8", "#c8c8c8"
 
 
-def check_plot_file(path: Path) -> None:
-    """Check that a plot can be written to a file of this name.
+def check_plot_file(path: Path, endings: Sequence[str] = ENDINGS) -> None:
+    """Check that a plot can be written to a file of this name, with one of these endings.
 
     Raises:
         InvalidValueError: another ending, or a folder that does not exist.
     """
-    if path.suffix.lower() not in ENDINGS:
-        raise InvalidValueError("--plot", str(path), f"a name that ends in {' or '.join(ENDINGS)}")
+    if path.suffix.lower() not in endings:
+        raise InvalidValueError("--plot", str(path), f"a name that ends in {' or '.join(endings)}")
     if not path.absolute().parent.is_dir():
         raise InvalidValueError("--plot", str(path), "a file in a folder that exists")
 

@@ -16,6 +16,7 @@ from worker.output import print_line
 
 if TYPE_CHECKING:
     from threadstate.statics.extras import Extras
+    from threadstate.statics.jamming_document import JammingDocument
     from threadstate.statics.solve import Statics
 
 _GAP = "  "
@@ -171,7 +172,7 @@ def _add_extras(rows: Table, extras: Extras, unit: LengthUnit, factor: float) ->
         reaction = extras.reaction
         rows.add_row("reaction, force (N)", _numbers(reaction.force))
         rows.add_row(f"reaction, moment (N {unit})", _numbers([factor * number for number in reaction.moment]))
-        rows.add_row("reaction, size (N)", f"{reaction.size:.6f}, at least {reaction.lower:.6f}")
+        rows.add_row("reaction, size (N)", f"{reaction.size:.6f}, at least {reaction.least_size:.6f}")
     if extras.forces_range is not None:
         dimension = extras.forces_range.internal_dimension
         rows.add_row("internal forces", "of a patch" if dimension is None else f"{dimension} dimensions")
@@ -184,6 +185,34 @@ def _add_extras(rows: Table, extras: Extras, unit: LengthUnit, factor: float) ->
             angular = _numbers([number / factor for number in mode.angular])
             twist = f", turns {angular} and moves {_numbers(mode.linear)}, margin {mode.margin:.2g}"
         rows.add_row(f"mode, {mode.status}", f"{', '.join(mode.contacts)}{twist}")
+
+
+def print_jamming(document: JammingDocument) -> None:
+    """A jamming diagram: what it is, then a piece of its boundary a row."""
+    from threadstate.statics.jamming_document import contacts_text, piece_text
+
+    rows = table("", "")
+    rows.add_row("roll, pitch, phase (deg)", _numbers([document["roll"], document["pitch"], document["phase"]]))
+    rows.add_row("mu", number_text(document["mu"]))
+    rows.add_row("axes, over the push", ", ".join(document["axes"]))
+    rows.add_row("diagram", f"{document['kind']}{' (the solids overlap)' if document['penetrating'] else ''}")
+    if document["wedged"]:
+        rows.add_row("can wedge", contacts_text(document["wedged"]))
+    if document["window"] is not None:
+        rows.add_row("seen to", f"±{_numbers(document['window'][:1])}, ±{_numbers(document['window'][1:])}")
+    for ray in document["rays"]:
+        rows.add_row("without an end along", _numbers(ray))
+    rows.add_row("gap", f"{document['gap']:.1e}")
+    for piece in document["pieces"]:
+        if not piece["window"]:
+            start, end = (document["vertices"][piece[name]] for name in ("first", "last"))
+            how = (
+                ""
+                if document["dimension"] != 2
+                else f" {'straight' if piece['straight'] else 'curved'} to {_numbers(end)}"
+            )
+            rows.add_row(_numbers(start) + how, piece_text(document, piece))
+    rows.print()
 
 
 def _numbers(values: Sequence[float]) -> str:

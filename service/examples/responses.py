@@ -1,4 +1,6 @@
-"""The examples of the OpenAPI document. Two real states; ``make docs`` computes them again, a test compares."""
+"""The examples of the OpenAPI document. Two real states and real statics; ``make docs`` computes them again, a test
+compares.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +11,7 @@ from typing import Any
 
 from service.histories.endpoints import csv_table, history_columns
 from threadstate.state.document import StateDocument
+from threadstate.statics.document import StaticsDocument
 from threadstate.statics.stored import LibraryStateDocument
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 
@@ -23,6 +26,8 @@ STATE = {name: value for name, value in LIBRARY_STATE.items() if name != "static
 """The same without its statics."""
 SOLVED_STATE: StateDocument = _document("solved_state.json")
 """The state of a pose between those of a grid, three contacts one after another; lengths in inches."""
+STATICS: StaticsDocument = _document("statics.json")
+"""What a force does to the state of a pose of a library's grid, three contacts that hold it; lengths in inches."""
 
 _JSON = "application/json"
 
@@ -71,6 +76,15 @@ EXAMPLES = (
         {**_ORIENTATION, "columns": {name: list(cells) for name, cells in _COLUMNS.items()}, "undecided": []},
     ),
     Example(_HISTORY, "get", "text/csv", "csv", "A table, cut off after the first state", csv_table(_COLUMNS).decode()),
+    Example(_STATES + "/{roll}/{pitch}/{phase}/statics", "get", _JSON, "held", "Three contacts hold the load", STATICS),
+    Example(
+        "/v1/statics",
+        "post",
+        _JSON,
+        "held",
+        "One pose under one load",
+        {"designation": DEFAULT_DESIGNATION, "library": None, "unit": "in", "statics": [STATICS]},
+    ),
     Example(
         "/v1/solve",
         "post",

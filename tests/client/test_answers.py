@@ -92,6 +92,8 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "history_columns": {"roll": 0, "pitch": -3},
         "history_csv": {"roll": 0, "pitch": -3},
         "solve": {"poses": [(0.5, 0.5, 0.5)]},
+        "statics": {"roll": 0, "pitch": -3, "phase": 180, "force": (1, 0, -10), "unit": "mm"},
+        "solve_statics": {"poses": [(0.5, 0.5, 0.5)], "loads": [{"mu": 0.5}, {}]},
         "intervals": {"roll": 0, "pitch": -3},
         "heights": {"roll": 0, "pitch": -3},
         "computed_intervals": {"roll": 1.5, "pitch": 0},

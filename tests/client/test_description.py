@@ -16,19 +16,21 @@ from service.jobs.schemas import EventDocument
 from tests.test_architecture import modules_loaded_by
 from threadstate.client import AsyncClient, Client
 from threadstate.client.call import Call, PagedCall
-from threadstate.client.calls import jobs, libraries, network, states
+from threadstate.client.calls import jobs, libraries, network, states, statics
 from threadstate.client.models import jobs as job_models
 from threadstate.client.models import libraries as library_models
 from threadstate.client.models import network as network_models
 from threadstate.client.models import service as service_models
 from threadstate.client.models import states as state_models
+from threadstate.client.models import statics as statics_models
 from threadstate.client.models.answer import Answer
 
-CALLS = (jobs, libraries, network, states)
-MODELS = (job_models, library_models, network_models, service_models, state_models)
-RENAMED = {name: f"{name}Document" for name in ("State", "Pose", "Contact", "Margins", "StoredStatics")} | {
-    "LibraryState": "ChosenFields"
-}
+CALLS = (jobs, libraries, network, states, statics)
+MODELS = (job_models, library_models, network_models, service_models, state_models, statics_models)
+RENAMED = {
+    name: f"{name}Document"
+    for name in ("State", "Pose", "Contact", "Margins", "StoredStatics", "Statics", "Load", "ContactForce")
+} | {"LibraryState": "ChosenFields"}
 """Models that go by a shorter name than the service's."""
 
 ARGUMENTS: dict[str, object] = {
@@ -52,6 +54,11 @@ ARGUMENTS: dict[str, object] = {
     "contacts": 3,
     "ordered": True,
     "limit": 10,
+    "mu": 0.1,
+    "force": (0.0, 0.0, -10.0),
+    "moment": (0.0, 0.5, 0.0),
+    "point": (0.0, 0.0, 0.1),
+    "loads": [{"force": (0.0, 0.0, -10.0), "moment": (0.0, 0.5, 0.0), "point": (0.0, 0.0, 0.1), "mu": 0.1}],
 }
 """A value for every argument that is no text."""
 
@@ -108,16 +115,28 @@ def test_a_method_asks_for_all_that_can_be_asked_and_for_nothing_else(
 
 
 def test_a_body_has_all_that_the_service_knows(openapi: dict[str, Any]) -> None:
-    for function, schema in ((jobs.ask, "JobRequest"), (states.solve, "SolveRequest")):
+    schemas = openapi["components"]["schemas"]
+    for function, schema in (
+        (jobs.ask, "JobRequest"),
+        (states.solve, "SolveRequest"),
+        (statics.solve_statics, "StaticsRequest"),
+    ):
         body = _described(function).body
         assert body is not None
-        assert set(json.loads(body)) == set(openapi["components"]["schemas"][schema]["properties"])
+        assert set(json.loads(body)) == set(schemas[schema]["properties"])
+    assert set(statics.LoadToBear.__annotations__) == set(schemas["LoadToBear"]["properties"])
+    assert schemas["StaticsRequest"]["properties"]["loads"]["maxItems"] == statics.MOST_COMBINATIONS
 
 
 def test_requests_that_write_are_those_that_may_be_repeated(openapi: dict[str, Any]) -> None:
     """A new one has to be thought about: the same job asked for, or cancelled, twice is the same as once."""
     writing = {(path, method) for path, methods in openapi["paths"].items() for method in methods if method != "get"}
-    assert writing == {("/v1/jobs", "post"), ("/v1/jobs/{id}", "delete"), ("/v1/solve", "post")}
+    assert writing == {
+        ("/v1/jobs", "post"),
+        ("/v1/jobs/{id}", "delete"),
+        ("/v1/solve", "post"),
+        ("/v1/statics", "post"),
+    }
 
 
 def test_both_clients_have_the_same_methods() -> None:

@@ -16,6 +16,7 @@ from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.document import StateDocument
 from threadstate.state.model import FeaturePair, Flag, StateClass
+from threadstate.statics.verdict import Verdict
 from threadstate.thread.regions import Region
 
 OTHER_STANDARDS = ("Problem", "ProblemItem", "Health", "Readiness", "NodeLinkNetwork")
@@ -79,7 +80,7 @@ def test_every_field_of_an_answer_is_a_term(known: set[str]) -> None:
     assert sorted(fields - known) == []
 
 
-@pytest.mark.parametrize("names", [StateClass, Flag, FeaturePair, Region, Move, ChangeKind])
+@pytest.mark.parametrize("names", [StateClass, Flag, FeaturePair, Region, Move, ChangeKind, Verdict])
 def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]) -> None:
     assert sorted({name.value for name in names} - known) == []
 

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
 from selenium import webdriver
@@ -38,15 +39,37 @@ def chromium() -> Iterator[webdriver.Chrome]:
     chromium.quit()
 
 
+class OpenPage:
+    """The page that tests share: the next one finds its view reset, or the page loaded again if a test has failed."""
+
+    def __init__(self, chromium: webdriver.Chrome) -> None:
+        self._chromium = chromium
+        self._failed = 0
+
+    @contextmanager
+    def explorer(self, address: str, session: pytest.Session) -> Iterator[Explorer]:
+        """The explorer of a service; nothing may be complained of and nobody else asked, whatever a test does."""
+        explorer = Explorer(self._chromium, address)
+        if session.testsfailed != self._failed:
+            self._chromium.get("about:blank")
+            self._failed = session.testsfailed
+        explorer.reset()
+        explorer.complaints()
+        explorer.addresses_asked()
+        yield explorer
+        explorer.run("localStorage.clear()")
+        assert explorer.complaints() == []
+        assert hosts_of(explorer.addresses_asked()) <= {address.removeprefix("http://")}
+
+
+@pytest.fixture(scope="session")
+def open_page(chromium: webdriver.Chrome) -> OpenPage:
+    """The one page of the browser."""
+    return OpenPage(chromium)
+
+
 @pytest.fixture
-def explorer(chromium: webdriver.Chrome, address: str) -> Iterator[Explorer]:
-    """The explorer; nothing may be complained of and nobody else asked, whatever a test does."""
-    explorer = Explorer(chromium, address)
-    explorer.open()
-    explorer.one("#map .cell")
-    explorer.complaints()
-    explorer.addresses_asked()
-    yield explorer
-    explorer.run("localStorage.clear()")
-    assert explorer.complaints() == []
-    assert hosts_of(explorer.addresses_asked()) <= {address.removeprefix("http://")}
+def explorer(open_page: OpenPage, address: str, request: pytest.FixtureRequest) -> Iterator[Explorer]:
+    """The explorer over the real library."""
+    with open_page.explorer(address, request.session) as explorer:
+        yield explorer

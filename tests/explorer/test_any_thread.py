@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from selenium import webdriver
 
 from harness.browser import Explorer, phase_of, resize
 from harness.databases import Databases
-from tests.explorer.conftest import GRID
+from tests.explorer.conftest import GRID, OpenPage
 from tests.explorer.test_explorer import MINUS, length_shown, shown_numbers, wait_for_scene
 from tests.service.own_library import OWN_PAIR, store_own_library
 from tests.service_thread import service_thread
@@ -35,15 +34,10 @@ def two_libraries(sqlite_databases: Databases) -> Iterator[str]:
 
 
 @pytest.fixture
-def page(chromium: webdriver.Chrome, two_libraries: str) -> Iterator[Explorer]:
-    """The explorer over both; nothing may be complained of, whatever a test does."""
-    page = Explorer(chromium, two_libraries)
-    page.open()
-    page.one("#depth .curve")
-    page.complaints()
-    yield page
-    page.run("localStorage.clear()")
-    assert page.complaints() == []
+def page(open_page: OpenPage, two_libraries: str, request: pytest.FixtureRequest) -> Iterator[Explorer]:
+    """The explorer over both."""
+    with open_page.explorer(two_libraries, request.session) as page:
+        yield page
 
 
 def wait_for_pose(page: Explorer, roll: float, pitch: float, phase: float) -> None:
@@ -167,15 +161,6 @@ def test_back_and_forward_take_what_one_went_to_and_not_what_moved(page: Explore
     assert page.run("return document.querySelector('#roll').value") == "4"
 
 
-def test_a_tolerance_gives_the_range_of_the_falls(page: Explorer) -> None:
-    page.choose("#tolerance", "0.1")
-    page.wait_for_text("#falls", "within ±0.1 deg: snaps, falls")
-    found = page.received(f"/v1/histories/0/-4/falls?library={OWN}&tolerance=0.1&unit=mm")["range"]
-    assert f"falls {found['fall'][0]:.3f} to {found['fall'][1]:.3f} mm" in page.text("#falls")
-    page.choose("#tolerance", "")
-    page.wait(lambda: not page.one("#falls").is_displayed(), "the range stays")
-
-
 def test_another_library_is_shown_beside(page: Explorer) -> None:
     page.click("#compare")
     page.choose("#beside-library", str(UNC))
@@ -249,14 +234,16 @@ def test_the_axes_are_shown_and_put_away(page: Explorer) -> None:
     assert not page.one("#axes").is_displayed()
 
 
-def test_nothing_is_wider_than_a_small_screen(page: Explorer) -> None:
+def test_a_tolerance_gives_the_range_of_the_falls_and_nothing_is_wider_than_a_small_screen(page: Explorer) -> None:
     resize(page.chromium, 390, 844)
     try:
-        page.open(
-            f"/#library={OWN}&beside_library={UNC}&beside_roll=0&beside_pitch=-4&poses=2.5,-1.2,357&tolerance=0.1"
-        )
+        page.open(f"/#library={OWN}&beside_library={UNC}&beside_roll=0&beside_pitch=-4&poses=2.5,-1.2,357")
         page.one("#depth path.beside")
+        page.choose("#tolerance", "0.1")
         page.wait_for_text("#falls", "within ±0.1 deg: snaps, falls")
+        found = page.received(f"/v1/histories/0/-4/falls?library={OWN}&tolerance=0.1&unit=mm")["range"]
+        assert f"falls {found['fall'][0]:.3f} to {found['fall'][1]:.3f} mm" in page.text("#falls")
+        wait_for_address(page, "tolerance=0.1")
         assert page.run("return document.querySelector('#beside-library').value") == str(UNC)
         for width in (390, 768):
             resize(page.chromium, width, 844)
@@ -265,5 +252,7 @@ def test_nothing_is_wider_than_a_small_screen(page: Explorer) -> None:
                 assert (
                     page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth") <= 0
                 ), (width, tab)
+        page.choose("#tolerance", "")
+        page.wait(lambda: not page.one("#falls").is_displayed(), "the range stays")
     finally:
         resize(page.chromium, 1280, 800)

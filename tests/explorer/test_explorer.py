@@ -173,6 +173,7 @@ def test_map_shows_each_quantity_with_its_values(explorer: Explorer) -> None:
 
 
 def test_history_is_fetched_once_and_while_the_phase_moves_the_map_alone_at_its_pace(explorer: Explorer) -> None:
+    explorer.open()
     explorer.click('#map .cell[data-roll="4"][data-pitch="4"]')
     explorer.wait_for_text("#state", "roll 4 deg, pitch 4 deg")
     history = f"{explorer.address}/v1/libraries/1/histories/4/4?unit=in"

@@ -18,40 +18,57 @@ const outlined = [at, ...at.querySelectorAll('.box, .frame-in, .reach')].some((o
   const drawn = one !== at && parseFloat(strokeWidth) >= 2 && stroke !== 'none';
   return drawn || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2);
 });
-return { index: all.indexOf(at), name: at.id || at.outerHTML.slice(0, 80), visible: outlined };
+const within = at.closest(arguments[0]) !== null;
+return { index: all.indexOf(at), within, name: at.id || at.outerHTML.slice(0, 80), visible: outlined };
 """
-"""Which element has the focus, and whether that is seen."""
+"""Which element has the focus, whether it is within a selector, and whether that is seen."""
 
 
-@pytest.mark.parametrize("tab", ["state", "regions", "follows", "network", "locate", "poses"])
-def test_keyboard_reaches_everything_and_its_focus_is_seen(explorer: Explorer, tab: str) -> None:
-    explorer.click(f"#tab-{tab}")
-    explorer.one(f"#panel-{tab} :is(svg, table, select, textarea)")
+INTERACTIVE = """
+return [...document.querySelectorAll('a, button, select, input, textarea, [tabindex="0"]')]
+  .filter((one) => !one.disabled && one.tabIndex >= 0 && one.checkVisibility() && one.closest(arguments[0])).length
+"""
+"""How many elements within a selector can have the focus."""
+BEFORE_PANEL = "#tabs [tabindex='0']"
+
+
+def test_keyboard_reaches_everything_and_its_focus_is_seen(explorer: Explorer) -> None:
+    explorer.one("#panel-state table")
     explorer.one("#scene canvas")
-    interactive = explorer.run(
-        "return [...document.querySelectorAll('a, button, select, input, textarea, [tabindex=\"0\"]')]"
-        ".filter((one) => !one.disabled && one.tabIndex >= 0 && one.checkVisibility()).length"
-    )
     explorer.run("document.activeElement.blur(); document.body.tabIndex = -1; document.body.focus()")
     explorer.run("document.body.removeAttribute('tabindex')")
+    check_all_are_reached(explorer, "body")
+
+
+@pytest.mark.parametrize("tab", ["regions", "follows", "network", "locate", "poses"])
+def test_keyboard_reaches_everything_in_a_tab(explorer: Explorer, tab: str) -> None:
+    explorer.click(f"#tab-{tab}")
+    explorer.one(f"#panel-{tab} :is(svg, table, select, textarea)")
+    explorer.run("document.querySelector(arguments[0]).focus()", BEFORE_PANEL)
+    check_all_are_reached(explorer, f"#panel-{tab}")
+
+
+def check_all_are_reached(explorer: Explorer, within: str) -> None:
+    """The next tabs, as many as there are elements within, lead to each of them, and it is seen."""
+    interactive = explorer.run(INTERACTIVE, within)
     seen = []
     for _ in range(interactive):
         ActionChains(explorer.chromium).send_keys(Keys.TAB).perform()
-        seen.append(explorer.run(FOCUSED))
+        seen.append(explorer.run(FOCUSED, within))
     assert [one["name"] for one in seen if not one["visible"]] == []
-    assert len({one["index"] for one in seen}) == interactive
+    assert len({one["index"] for one in seen if one["within"]}) == interactive
 
 
 def test_keys_choose_and_follow(explorer: Explorer) -> None:
-    explorer.one('#map .cell[aria-selected="true"]').send_keys(Keys.ARROW_UP)
+    explorer.press('#map .cell[aria-selected="true"]', Keys.ARROW_UP)
     explorer.wait_for_text("#state", "roll 0 deg, pitch 0 deg")
     focused = explorer.chromium.switch_to.active_element
     assert (focused.get_attribute("data-roll"), focused.get_attribute("data-pitch")) == ("0", "0")
     explorer.click("#tab-follows")
-    explorer.one('#follows .card[data-move="ccw"]').send_keys(Keys.ENTER)
+    explorer.press('#follows .card[data-move="ccw"]', Keys.ENTER)
     explorer.wait(lambda: phase_of(explorer) != 10, "Enter does not follow")
     explorer.click("#tab-network")
-    explorer.one('#network .formation[aria-selected="true"]').send_keys(Keys.ARROW_DOWN)
+    explorer.press('#network .formation[aria-selected="true"]', Keys.ARROW_DOWN)
     key = explorer.chromium.switch_to.active_element.get_attribute("data-key")
     explorer.chromium.switch_to.active_element.send_keys(Keys.ENTER)
     explorer.wait(

@@ -18,10 +18,10 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.jobs.serve import WorkerOptions
 
-GRID = Grid(tilt_max_deg=6.0, tilt_step_deg=6.0, phase_step_deg=30.0)
+GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=30.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
 SERVING = WorkerOptions(processes=1, scheduler=None, lease_s=20.0, heartbeat_file=None)
-GRID_OPTIONS = ("--tilt-max", "6", "--tilt-step", "6", "--phase-step", "30")
+GRID_OPTIONS = ("--tilt-max", "3", "--tilt-step", "3", "--phase-step", "30")
 
 
 class Unwatched:

@@ -17,7 +17,7 @@ from worker.rebuild import RebuildResult, rebuild
 
 pytestmark = pytest.mark.slow
 
-GRIDS = [Grid(6.0, 6.0, step) for step in (30.0, 45.0, 60.0)]
+GRIDS = [Grid(3.0, 3.0, step) for step in (30.0, 45.0, 60.0)]
 EACH = 2
 
 

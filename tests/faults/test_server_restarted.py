@@ -59,8 +59,8 @@ def test_the_service_says_so_and_recovers(server: PostgresqlServer, database: st
     headers = {"Authorization": f"Bearer {key}"}
     reads = (
         "/v1/libraries",
-        "/v1/libraries/latest/states/6/6/30",
-        "/v1/libraries/latest/histories/0/6",
+        "/v1/libraries/latest/states/3/3/30",
+        "/v1/libraries/latest/histories/0/3",
         "/v1/jobs",
         "/readyz",
     )

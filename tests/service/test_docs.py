@@ -15,6 +15,7 @@ from jsonschema import Draft202012Validator
 from pydantic import TypeAdapter
 
 from service.docs.endpoints import ASSETS, PACKAGE
+from service.examples.responses import STATICS
 from service.explorer.endpoints import THIRD_PARTY
 from service.histories.endpoints import HistoryColumns, HistoryRows
 from service.libraries.endpoints import LibraryDetail, LibraryList
@@ -171,10 +172,25 @@ def test_answers_with_states_have_real_ones_as_examples(openapi: dict[str, Any])
             assert ("statics" in state) == (path == "/v1/libraries/{id}/states")
 
 
-def test_example_of_a_request_is_answered_by_the_example(client: TestClient, openapi: dict[str, Any]) -> None:
-    ((_, request),) = with_examples(openapi["components"]["schemas"]["SolveRequest"])
-    content = openapi["paths"]["/v1/solve"]["post"]["responses"]["200"]["content"]["application/json"]
-    assert client.post("/v1/solve", json=request).json() == content["examples"]["solved"]["value"]
+def nearly(document: Any) -> Any:
+    """Equal to a document whose numbers differ in their last digits, as sums of NumPy do from machine to machine."""
+    if isinstance(document, dict):
+        return {name: nearly(value) for name, value in document.items()}
+    if isinstance(document, list):
+        return [nearly(value) for value in document]
+    return pytest.approx(document, rel=1e-9, abs=1e-12) if isinstance(document, float) else document
+
+
+@pytest.mark.parametrize(
+    ("path", "schema", "name"),
+    [("/v1/solve", "SolveRequest", "solved"), ("/v1/statics", "StaticsRequest", "held")],
+)
+def test_example_of_a_request_is_answered_by_the_example(
+    client: TestClient, openapi: dict[str, Any], path: str, schema: str, name: str
+) -> None:
+    ((_, request),) = with_examples(openapi["components"]["schemas"][schema])
+    content = openapi["paths"][path]["post"]["responses"]["200"]["content"]["application/json"]
+    assert nearly(content["examples"][name]["value"]) == client.post(path, json=request).json()
 
 
 def test_every_operation_documents_its_problems_and_no_other_errors(openapi: dict[str, Any]) -> None:
@@ -229,3 +245,13 @@ def test_states_shown_in_the_documentation_are_real(repository_root: Path) -> No
     for roll, pitch, phase, answer in shown:
         state = solve_pose(quarter_twenty_unc(), float(roll), float(pitch), float(phase))
         assert json.loads(answer) == state_document(state)
+
+
+def test_statics_shown_in_the_documentation_are_those_of_the_example(repository_root: Path) -> None:
+    """Which are computed: they answer the example of a request."""
+    query = r"curl '127\.0\.0\.1:8000/v1/libraries/latest/states/(\S+)/statics\?mu=(\S+)&force=(\S+)'"
+    text = (repository_root / "docs" / "api.md").read_text()
+    ((pose, mu, force, answer),) = re.findall(query + r"\n```.*?```json\n(.*?)\n```", text, re.DOTALL)
+    assert json.loads(answer) == STATICS
+    assert [float(angle) for angle in pose.split("/")] == [STATICS["roll"], STATICS["pitch"], STATICS["phase"]]
+    assert (float(mu), json.loads(f"[{force}]")) == (STATICS["mu"], STATICS["load"]["force"])

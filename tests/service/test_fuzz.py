@@ -15,7 +15,7 @@ pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 NAMES = (
     *("roll", "pitch", "phase", "phase_min", "phase_max", "class", "bolt_region", "nut_region", "flag"),
-    *("fields", "sort", "limit", "cursor", "unit", "format"),
+    *("fields", "sort", "limit", "cursor", "unit", "format", "mu", "force", "moment", "point"),
 )
 ODD = (
     "",
@@ -50,6 +50,7 @@ resources = st.one_of(
     st.tuples(st.just("v1"), st.just("libraries"), text, st.just("states")),
     st.tuples(*map(st.just, ("v1", "libraries", "latest", "states"))),
     st.tuples(*map(st.just, ("v1", "libraries", "latest", "states")), text, text, text),
+    st.tuples(*map(st.just, ("v1", "libraries", "latest", "states", "0", "0", "30", "statics"))),
     st.tuples(*map(st.just, ("v1", "libraries", "1", "histories")), text, text),
     st.tuples(st.just("v1"), st.just("jobs"), text),
     st.tuples(st.just("v1"), st.just("jobs"), text, st.just("events")),
@@ -61,9 +62,15 @@ json_values = st.recursive(
 )
 odd_numbers = st.one_of(st.floats(), st.integers(-(10**400), 10**400), st.text(max_size=5), st.none())
 odd_poses = st.dictionaries(st.sampled_from(("roll", "pitch", "phase", "yaw")), odd_numbers)
+odd_loads = st.dictionaries(
+    st.sampled_from(("force", "moment", "point", "mu")), st.one_of(odd_numbers, st.lists(odd_numbers, max_size=3))
+)
 bodies = st.one_of(
     json_values,
-    st.fixed_dictionaries({"poses": st.lists(odd_poses, max_size=3)}, optional={"designation": st.text(max_size=9)}),
+    st.fixed_dictionaries(
+        {"poses": st.lists(odd_poses, max_size=3)},
+        optional={"designation": st.text(max_size=9), "loads": st.lists(odd_loads, max_size=2)},
+    ),
 )
 
 
@@ -97,10 +104,10 @@ def test_no_bytes_in_a_query_fail(client: TestClient, raw: bytes) -> None:
 
 
 @settings(max_examples=300)
-@given(body=bodies)
-def test_no_json_body_fails(client: TestClient, body: object) -> None:
+@given(path=st.sampled_from(("/v1/solve", "/v1/statics")), body=bodies)
+def test_no_json_body_fails(client: TestClient, path: str, body: object) -> None:
     headers = {"Content-Type": "application/json"}
-    check(client.post("/v1/solve", content=json.dumps(body), headers=headers))
+    check(client.post(path, content=json.dumps(body), headers=headers))
 
 
 @given(content=st.binary(max_size=100), media_type=st.sampled_from(("application/json", "text/plain", "x", "")))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import json
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
 from urllib.parse import quote
@@ -42,6 +44,8 @@ ODD_IN_ADDRESSES = (
     *("nan", "-Infinity", "1e400", "-0.0", "1_0", "%D9%A3", "9" * 400, "2147483648", "9223372036854775808", "-1", "+1"),
     *("'%20OR%201=1--", "%25", ",", ":::", "%5B%5D", "x" * 3000),
 )
+SHARE = 4
+"""Of the odd values, one in so many is asked of a parameter again."""
 ANGLES = ("1_0", "-1", "+1")
 """Of these, what is an angle that a whole history can be solved for, each time anew."""
 ODD_HEADERS: tuple[dict[str, str], ...] = (
@@ -127,11 +131,16 @@ def address(path: str, **values: str) -> str:
 
 
 def test_no_odd_value_of_any_parameter_fails(client: TestClient) -> None:
+    met: Counter[str] = Counter()
     asked = 0
     for path, method, operation in described(client):
         for parameter in operation.get("parameters", ()):
             name = parameter["name"]
-            for odd in ODD_IN_ADDRESSES:
+            kind = json.dumps([name, parameter["in"], parameter["schema"]])
+            # A parameter of many paths is read by the same code: all values at the first of them, some at each other.
+            values = ODD_IN_ADDRESSES[met[kind] % SHARE :: SHARE] if met[kind] else ODD_IN_ADDRESSES
+            met[kind] += 1
+            for odd in values:
                 if odd in ANGLES and path.startswith("/v1/histories"):
                     continue
                 if parameter["in"] == "path":
@@ -139,7 +148,8 @@ def test_no_odd_value_of_any_parameter_fails(client: TestClient) -> None:
                 elif parameter["in"] == "query":
                     check(client.request(method, f"{address(path)}?{quote(name)}={odd}"))
                 asked += 1
-    assert asked > 2500
+    assert len(met) > 40
+    assert asked > 1000
 
 
 def test_no_method_and_no_header_fails(client: TestClient) -> None:

@@ -32,6 +32,7 @@ SOLVING = [
     "/v1/histories/1/1/falls",
     "/v1/libraries/1/histories/1/1/heights",
     "/v1/libraries/1/transitions",
+    "/v1/libraries/1/states/0/0/30/statics",
 ]
 COMPILING = """
 import pathlib, sys, time
@@ -67,7 +68,8 @@ def test_what_solves_is_refused_while_kernels_are_compiled(
     compiling: TestClient, tmp_path: Path, caplog: pytest.LogCaptureFixture, request: pytest.FixtureRequest
 ) -> None:
     assert compiling.get("/readyz").json()["kernels"] == "compiling"
-    for response in (compiling.post("/v1/solve", json=SOLVE), *(compiling.get(path) for path in SOLVING)):
+    loaded = compiling.post("/v1/statics", json={**SOLVE, "loads": [{}]})
+    for response in (compiling.post("/v1/solve", json=SOLVE), loaded, *(compiling.get(path) for path in SOLVING)):
         refused = problem(response, 503)
         assert refused.type.endswith(":kernels-compiling")
         assert "are being compiled" in refused.detail

@@ -59,16 +59,18 @@ def rows_of(history: SolvedHistory, pair: Pair = PAIR, options: SolveOptions | N
 
 
 @cache
-def content_of(grid: Grid) -> str:
+def content_of(grid: Grid, options: SolveOptions | None = None) -> str:
     """The content hash of the library of a grid, computed orientation by orientation without any database."""
 
     def computed() -> str:
-        chunks = [solve_poses(PAIR, grid.poses(index)) for index in range(grid.orientation_count)]
-        rows = [rows_of(history).content_sha256 for history in histories_of_grid(grid)]
+        orientations = [(roll, pitch) for roll in grid.tilts_deg for pitch in grid.tilts_deg]
+        histories = histories_of_grid(grid) if options is None else histories_of(PAIR, orientations, options)
+        chunks = [solve_poses(PAIR, grid.poses(index), options) for index in range(grid.orientation_count)]
+        rows = [rows_of(history, PAIR, options).content_sha256 for history in histories]
         pairs = zip(chunks, rows, strict=True)
         return library_sha256([chunk_sha256(answers_sha256(answers), history) for answers, history in pairs])
 
-    return computed_once(f"content of {grid}", computed)
+    return computed_once(f"content of {grid} {options}", computed)
 
 
 def store_histories(database: str, grid: Grid, histories: Sequence[SolvedHistory]) -> None:

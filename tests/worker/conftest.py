@@ -13,15 +13,18 @@ from harness.databases import Databases
 from tests.stored_histories.history_library import content_of
 from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE
+from threadstate.state.options import SolveOptions
 from worker.cli import run_command_line
 
 COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
 """The command line as its console script starts it."""
 
-GRID = Grid(tilt_max_deg=6.0, tilt_step_deg=6.0, phase_step_deg=15.0)
-"""9 orientations of 24 phases; of steep ones, whose histories take least to find."""
-SMALL_GRID = ["--tilt-max", "6", "--tilt-step", "6", "--phase-step", "15"]
+GRID = Grid(tilt_max_deg=3.0, tilt_step_deg=3.0, phase_step_deg=15.0)
+"""9 orientations of 24 phases, the tilts of all small libraries: their histories are computed once in a run."""
+SMALL_GRID = ["--tilt-max", "3", "--tilt-step", "3", "--phase-step", "15"]
 """The same on the command line."""
+SHORT_TURNS = SolveOptions(turn_limit_deg=3.0)
+"""With these the histories of the grid take a third of the time: for tests of who computes, and not of what."""
 ONE_ORIENTATION = ["--tilt-max", "0", "--phase-step", "15"]
 """The level one, in 24 phases."""
 
@@ -65,6 +68,12 @@ class CommandLine:
 def expected_content() -> str:
     """The content hash of the small library, computed without any database or process of its own."""
     return content_of(GRID)
+
+
+@pytest.fixture(scope="session")
+def content_with_short_turns() -> str:
+    """The content hash of the small library whose turns end early, computed likewise."""
+    return content_of(GRID, SHORT_TURNS)
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import random
 import signal
@@ -18,7 +17,8 @@ import pytest
 from sqlalchemy import Engine, select
 
 from harness.databases import Databases
-from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
+from tests.faults.conftest import Unwatched
+from tests.worker.conftest import GRID, SHORT_TURNS, CommandLine
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.queue import cancel, events_after, job_by_id, submit_job
@@ -30,10 +30,13 @@ from threadstate.library.tables import chunk, state
 from threadstate.settings import HEARTBEAT_FILE, LEASE_S
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.rebuild import rebuild
 
 pytestmark = pytest.mark.slow
 
-INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SHORT_TURNS)
+LONG_INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+"""What is not finished before it is stopped."""
 TIMEOUT_S = 120.0
 
 
@@ -101,16 +104,16 @@ def _check_whole(jobs: Jobs, expected_content: str) -> None:
 
 
 @pytest.mark.postgresql_alone
-def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, expected_content: str) -> None:
+def test_two_workers_compute_what_a_rebuild_does(jobs: Jobs, content_with_short_turns: str) -> None:
     submit_job(jobs.engine, INPUTS)
     with jobs.start() as one, jobs.start() as other:
         _end(one, other)
-    _check_whole(jobs, expected_content)
+    _check_whole(jobs, content_with_short_turns)
     assert beats(jobs.engine) == {}
 
 
 @pytest.mark.postgresql_alone
-def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_content: str) -> None:
+def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, content_with_short_turns: str) -> None:
     moments = random.Random(20060128)
     submit_job(jobs.engine, INPUTS)
     for _ in range(2):
@@ -123,11 +126,11 @@ def test_killed_workers_leave_their_chunks_to_others(jobs: Jobs, expected_conten
         assert jobs.published() == [] or jobs.job().state is JobState.DONE
     with jobs.start() as last:
         _end(last)
-    _check_whole(jobs, expected_content)
+    _check_whole(jobs, content_with_short_turns)
 
 
 @pytest.mark.sqlite_alone
-def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs, expected_content: str) -> None:
+def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs, content_with_short_turns: str) -> None:
     submit_job(jobs.engine, INPUTS)
     with jobs.start() as asleep:
         _wait_for(lambda: jobs.job().lease_count > 0)
@@ -137,12 +140,12 @@ def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs,
             _wait_for(lambda: sleeping not in beats(jobs.engine))
             os.kill(asleep.pid, signal.SIGCONT)
             _end(other, asleep)
-    _check_whole(jobs, expected_content)
+    _check_whole(jobs, content_with_short_turns)
 
 
 @pytest.mark.sqlite_alone
 def test_told_to_stop_a_worker_leaves_at_once(jobs: Jobs) -> None:
-    submit_job(jobs.engine, INPUTS)
+    submit_job(jobs.engine, LONG_INPUTS)
     with jobs.start() as worker:
         _wait_for(lambda: jobs.committed() > 0)
         worker.terminate()
@@ -176,7 +179,7 @@ def test_a_worker_touches_its_heartbeat_file_while_the_database_takes_its_beats(
 
 @pytest.mark.sqlite_alone
 def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
-    asked = submit_job(jobs.engine, INPUTS)
+    asked = submit_job(jobs.engine, LONG_INPUTS)
     with jobs.start() as worker:
         _wait_for(lambda: jobs.committed() > 0)
         cancel(jobs.engine, asked.id)
@@ -186,11 +189,10 @@ def test_a_cancelled_job_is_left_alone(jobs: Jobs) -> None:
 
 
 @pytest.mark.sqlite_alone
-def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, expected_content: str) -> None:
+def test_a_job_and_a_rebuild_at_once_make_one_library(jobs: Jobs, content_with_short_turns: str) -> None:
     submit_job(jobs.engine, INPUTS)
-    database = ("--database", jobs.command_line.database)
     with jobs.start() as worker:
-        rebuilt = json.loads(jobs.command_line.out("rebuild", *SMALL_GRID, *database, "--json"))
+        rebuilt = rebuild(jobs.engine, INPUTS, 1, Unwatched())
         _end(worker)
-    assert rebuilt["content_sha256"] == expected_content
-    _check_whole(jobs, expected_content)
+    assert rebuilt.content_sha256 == content_with_short_turns
+    _check_whole(jobs, content_with_short_turns)

@@ -138,7 +138,7 @@ def test_what_cannot_be_written_is_said_before_anything_is_computed(
 @pytest.mark.slow
 def test_heights_draws_beside_what_it_prints(command_line: CommandLine, tmp_path: Path) -> None:
     path = tmp_path / "heights.svg"
-    arguments = ("heights", "--roll", "6", "--pitch", "-6", "--unit", "mm", "--json")
+    arguments = ("heights", "--roll", "3", "--pitch", "-3", "--unit", "mm", "--json")
     assert command_line.here(*arguments, "--plot", str(path)) == command_line.here(*arguments)
     assert "height of the bolt (mm)" in _words(path)
     assert "first contact" in _words(path)

@@ -14,7 +14,7 @@ from threadstate.network.transitions import Transition
 from threadstate.numbers import number
 from threadstate.responses.library_network import LibraryNetwork
 from threadstate.state.model import FeaturePair, StateClass
-from threadstate.statics.solve import checked_friction
+from threadstate.statics.load import checked_friction
 from threadstate.statics.verdict import Verdict
 from threadstate.thread.regions import Region
 

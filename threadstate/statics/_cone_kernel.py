@@ -38,11 +38,12 @@ def boundary_step(point: Array, direction: Array, start: int, size: int) -> floa
         a -= direction[i] * direction[i]
         b -= point[i] * direction[i]
         c -= point[i] * point[i]
-    root = b * b - a * c
     if a >= 0.0 and d0 >= 0.0:
         return math.inf
-    # The smallest positive root of a t^2 + 2 b t + c, with c > 0; two that coincide may seem to be none by round-off.
-    bottom = math.sqrt(max(root, 0.0)) - b
+    # Negative by round-off alone: both roots are one where point and direction lie along the cone's axis.
+    root = max(b * b - a * c, 0.0)
+    # The smallest positive root of a t^2 + 2 b t + c, with c > 0.
+    bottom = math.sqrt(root) - b
     return c / bottom if bottom > 0.0 else math.inf
 
 

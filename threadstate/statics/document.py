@@ -13,6 +13,7 @@ from threadstate.state.document import VectorDocument
 from threadstate.state.model import Vector
 from threadstate.statics.extras import Extra, Extras
 from threadstate.statics.modes import ContactMode, ModeStatus, Motion
+from threadstate.statics.reaction import Reaction
 from threadstate.statics.solve import ContactForce, Statics
 from threadstate.statics.verdict import Verdict
 
@@ -54,14 +55,12 @@ class StaticsDocument(TypedDict):
 
 
 class ReactionDocument(TypedDict):
-    """The least wrench on the bolt that must be added to the load so that the contacts balance it."""
+    """The least wrench on the bolt that must be added to the load, about the bolt's origin, in the nut's frame."""
 
     force: Annotated[VectorDocument, Field(description="in N")]
     moment: Annotated[VectorDocument, Field(description="in N times the unit of length")]
-    point: Annotated[VectorDocument, Field(description="about which the moment is taken: the bolt's origin")]
-    frame: Literal["nut"]
-    size: Annotated[float, Field(description="of the wrench in N, moments over the nominal radius")]
-    size_lower: Annotated[float, Field(description="a bound from below of the least size")]
+    size: Annotated[float, Field(description="its norm in N, moments over the nominal radius; 0 where none is needed")]
+    least_size: Annotated[float, Field(description="no wrench of a smaller size will do")]
 
 
 class NormalRangeDocument(TypedDict):
@@ -107,6 +106,16 @@ class ExtrasDocument(TypedDict):
     modes: NotRequired[Annotated[list[ModeDocument] | None, Field(description="null on a patch")]]
 
 
+def reaction_document(reaction: Reaction, length_factor: float = 1.0) -> ReactionDocument:
+    """The least reaction as an object, lengths times a factor from the pair's unit."""
+    return ReactionDocument(
+        force=list(reaction.force),
+        moment=[length_factor * number for number in reaction.moment],
+        size=reaction.size,
+        least_size=reaction.least_size,
+    )
+
+
 def statics_document(statics: Statics, length_factor: float = 1.0) -> StaticsDocument:
     """The statics of a state as an object, lengths times a factor from the pair's unit."""
     load = statics.load
@@ -138,15 +147,7 @@ def extras_document(extras: Extras, length_factor: float = 1.0) -> ExtrasDocumen
     """What was requested beside the statics of a state, lengths times a factor from the pair's unit."""
     document = ExtrasDocument()
     if extras.reaction is not None:
-        reaction = extras.reaction
-        document["reaction"] = ReactionDocument(
-            force=list(reaction.force),
-            moment=_times(length_factor, reaction.moment),
-            point=_times(length_factor, reaction.point),
-            frame="nut",
-            size=reaction.size,
-            size_lower=reaction.lower,
-        )
+        document["reaction"] = reaction_document(extras.reaction, length_factor)
     if extras.forces_range is not None:
         document["forces_range"] = [
             NormalRangeDocument(

@@ -10,7 +10,7 @@ from threadstate.errors import UnknownNameError
 from threadstate.state.model import ContactState, Vector
 from threadstate.statics.modes import ContactMode, modes_are_enumerated, modes_of
 from threadstate.statics.ranges import ForcesRange, forces_range_of
-from threadstate.statics.reaction import Reaction, reaction_of
+from threadstate.statics.reaction import Reaction, reaction_in
 from threadstate.statics.scene import scene_of
 from threadstate.statics.solve import Statics
 from threadstate.thread.pair import Pair
@@ -63,7 +63,7 @@ def extras_of(pair: Pair, state: ContactState, statics: Statics, requested: Coll
     return Extras(
         requested=frozenset(requested),
         origin=scene.contacts.origin,
-        reaction=reaction_of(scene, statics.mu, held=held) if Extra.REACTION in requested else None,
+        reaction=reaction_in(scene, statics.mu, held=held) if Extra.REACTION in requested else None,
         forces_range=forces_range_of(scene, statics.mu, held=held) if Extra.FORCES_RANGE in requested else None,
         modes=modes_of(scene, statics.mu) if has_modes else None,
     )

@@ -1,7 +1,7 @@
 """Contact modes: every way in which contacts can open, stick or slide under a load (forces, section 3).
 
-The bolt moves as if in a viscous medium whose metric is that of section 5: with the load w, contact forces and the
-metric's M, its twist is the inverse of M times their sum. With friction several motions, or rest and motion, may
+The bolt moves as if in a viscous medium with the metric of forces, section 5: its twist is the metric's inverse times
+the sum of the load and the contacts' wrenches. With friction several motions, or rest and motion, may
 satisfy Coulomb's law at every contact: all of them are found. Where contacts slide, their directions are the zeros of
 trigonometric polynomials, the rest follows by linear algebra.
 """
@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import ContactState, Flag, Vector
-from threadstate.statics.load import Load
+from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.scene import Scene, scene_of
-from threadstate.statics.solve import ContactForce, checked_friction
+from threadstate.statics.solve import ContactForce
 from threadstate.statics.torus_roots import common_zeros, padded, times_cosine, times_sine
 from threadstate.statics.wrench_cone import (
     RANK_TOLERANCE,

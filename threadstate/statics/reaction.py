@@ -1,4 +1,4 @@
-"""The least wrench that a hand must add to a load so that the contacts balance it (forces, section 3)."""
+"""What a hand must supply to keep a state: the least wrench that must be added to a load (forces, section 3)."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.state.model import Vector
-from threadstate.statics.scene import Scene
+from threadstate.state.model import ContactState, Vector
+from threadstate.statics.load import Load
+from threadstate.statics.scene import Scene, scene_of
+from threadstate.statics.solve import statics_of
 from threadstate.statics.wrench_cone import (
     Divided,
     balanced_by_wedging,
@@ -20,39 +22,48 @@ from threadstate.statics.wrench_cone import (
     slacks,
     solved_program,
 )
+from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class Reaction:
-    """A wrench on the bolt that must be added to a load at least, in the nut's frame.
+    """The least wrench on the bolt that must be added to a load, in the nut's frame.
 
     Attributes:
         force: in N.
-        moment: about ``point``, in N times the pair's unit of length.
-        point: the bolt's origin.
-        size: of the wrench in N, moments over the nominal radius; contact forces within their cones balance load
-            and wrench. Where contacts wedge it is approached by ever greater forces.
-        lower: a bound of the size from below: a twist that no contact withstands proves it.
+        moment: about the bolt's origin, in N times the pair's length unit.
+        size: its norm in N, moments over the nominal radius; 0 where the contacts balance the load alone. Where some
+            wedge it is approached by ever greater forces.
+        least_size: no wrench of a smaller size will do: a twist that no contact withstands proves it.
     """
 
     force: Vector
     moment: Vector
-    point: Vector
     size: float
-    lower: float
+    least_size: float
 
 
-def reaction_of(scene: Scene, mu: float, *, held: bool) -> Reaction:
-    """The reaction to the load of a scene at a friction; zero where the contacts are known to hold it."""
-    wrench, lower = np.zeros(6), 0.0
+def reaction_of(pair: Pair, state: ContactState, load: Load | None = None, mu: float = 0.0) -> Reaction:
+    """The least wrench that must be added to a load so that the contacts of a state balance it at a friction.
+
+    Raises:
+        InvalidValueError: ``mu`` is negative or not finite.
+        UnresolvedPoseError: a contact has no certain normal.
+    """
+    held = mu >= statics_of(pair, state, load, mu).hold.upper
+    return reaction_in(scene_of(pair, state, load or Load()), mu, held=held)
+
+
+def reaction_in(scene: Scene, mu: float, *, held: bool) -> Reaction:
+    """The reaction to the load of a scene; zero where the contacts are known to hold it."""
+    wrench, least = np.zeros(6), 0.0
     if not held:
-        maps = contact_maps(scene.points, scene.normals, mu)
-        lower, wrench = least_wrench(maps, scene.load)
+        least, wrench = least_wrench(contact_maps(scene.points, scene.normals, mu), scene.load)
     mx, my, mz = (wrench[:3] * scene.radius + 0.0).tolist()
     fx, fy, fz = (wrench[3:] + 0.0).tolist()
-    return Reaction((fx, fy, fz), (mx, my, mz), scene.contacts.origin, float(np.linalg.norm(wrench)), lower)
+    return Reaction((fx, fy, fz), (mx, my, mz), float(np.linalg.norm(wrench)), least)
 
 
 def least_wrench(maps: Floats, load: Floats) -> tuple[float, Floats]:

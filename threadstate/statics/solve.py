@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.errors import InvalidValueError
 from threadstate.state.model import ContactState, Vector
 from threadstate.statics import _friction_kernel as fk
 from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._effort_kernel import turn_effort
-from threadstate.statics.load import Load
+from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.scene import scene_of
 from threadstate.statics.touching import Touching
 from threadstate.statics.verdict import FrictionBounds, Verdict, verdict_at
@@ -98,16 +97,6 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
         turn_effort_cw=_effort(wrench, scaled, radius, mu, -1.0),
         forces=_forces(wrench, scaled, mu) if mu >= hold.upper else (),
     )
-
-
-def checked_friction(mu: float) -> None:
-    """Check a coefficient of friction.
-
-    Raises:
-        InvalidValueError: it is negative or not finite.
-    """
-    if not 0.0 <= mu < math.inf:
-        raise InvalidValueError("mu", mu, "a finite number >= 0")
 
 
 def _numbers(wrench: Floats, scaled: Touching) -> Floats:

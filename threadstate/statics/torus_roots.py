@@ -69,10 +69,10 @@ def _widened(along: list[Floats], axis: int) -> Floats:
 
 
 def common_zeros(equations: list[Floats], signs: list[Floats]) -> Zeros:
-    """The common zeros of equations at which no two of the signs' polynomials have opposite signs.
+    """The common zeros of equations, but for those at which two polynomials of ``signs`` have opposite signs.
 
-    There are at least as many equations as angles. A polynomial that is zero everywhere leaves the search incomplete,
-    as do zeros that are not isolated.
+    Of these some may be among what is found. There are at least as many equations as angles. A polynomial that is zero
+    everywhere leaves the search incomplete, as do zeros that are not isolated.
     """
     return _Search(equations, signs).run()
 
@@ -135,12 +135,18 @@ class _Search:
 
     def _not_excluded(self, middles: Floats, half: float) -> Floats:
         values, gradients = self._values(middles)
-        spread = half * np.abs(gradients).sum(axis=2) + 0.5 * half * half * self._bends.sum(axis=(1, 2)) + ROUND_OFF
+        curved = 0.5 * half * half * self._bends.sum(axis=(1, 2)) + ROUND_OFF
+        spread = half * np.abs(gradients).sum(axis=2) + curved
         low, high = values - spread, values + spread
         n = self._equations
         may = ((low[:, :n] <= 0.0) & (high[:, :n] >= 0.0)).all(axis=1)
         may &= (high[:, n:] >= 0.0).all(axis=1) | (low[:, n:] <= 0.0).all(axis=1)
-        return np.asarray(middles[may])
+        middles, values, gradients = middles[may], values[may, :n], gradients[may, :n]
+        # Solved for the angles, all equations together: how far a zero lies from the middle at least.
+        inverse = np.linalg.pinv(gradients)
+        unsolved = np.abs(np.eye(self._angles) - inverse @ gradients).sum(axis=2)
+        step = np.abs(np.einsum("nij,nj->ni", inverse, values)) - np.abs(inverse) @ curved[:n] - half * unsolved
+        return np.asarray(middles[(step <= half).all(axis=1)])
 
     def _known(self, middles: Floats, half: float) -> NDArray[np.bool_]:
         """Which boxes lie in one about a zero that is the only one there."""

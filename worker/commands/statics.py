@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from threadstate.statics.load import DEFAULT_FRICTION, checked_friction
 from worker.commands.solve import BATCH, wanted_poses
 from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, chosen_load
 from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
@@ -17,7 +18,9 @@ def statics(
     pitch: Pitch = None,
     phase: Phase = None,
     poses: Poses = None,
-    mu: Annotated[float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")] = 0.2,
+    mu: Annotated[
+        float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts.")
+    ] = DEFAULT_FRICTION,
     force: Force = PUSH,
     moment: Moment = NO_MOMENT,
     point: Point = None,
@@ -52,7 +55,7 @@ def statics(
     from threadstate.state.solve import solve_poses
     from threadstate.statics.document import extras_document, statics_document
     from threadstate.statics.extras import extras_of, requested_extras
-    from threadstate.statics.solve import checked_friction, statics_of
+    from threadstate.statics.solve import statics_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
     from worker.tables import print_statics

@@ -13,40 +13,66 @@ import pytest
 from sqlalchemy import func, select
 
 from harness.databases import Databases
-from tests.prepared import prepared_chunk, use_prepared_chunks
+from tests.prepared import use_prepared_chunks
+from tests.stored_histories.history_library import rows_of
 from tests.worker.cluster.clusters import Cluster, running_cluster
-from tests.worker.conftest import GRID, SMALL_GRID, CommandLine
+from tests.worker.conftest import GRID, SHORT_TURNS, SMALL_GRID, CommandLine
+from threadstate.history.build import histories_of
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.queue import events_after, job_by_id, submit_job
 from threadstate.library.engine import reading, writing
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
+from threadstate.library.rows import chunk_rows
 from threadstate.library.tables import chunk, state, undecided
 from threadstate.settings import LEASE_S, SCHEDULER
-from threadstate.state.options import SolveOptions
+from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.cluster.chunks import computing_cluster
+from worker.messages import Chunk
 from worker.processes import QUEUED_PER_PROCESS
 
 pytestmark = pytest.mark.slow
 
-INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SHORT_TURNS)
 TIMEOUT_S = 120.0
 WORKERS = 2
 
 
+class SharedCluster:
+    """A cluster for many tests, which may kill any part of it."""
+
+    def __init__(self, factory: pytest.TempPathFactory, environment: Mapping[str, str]) -> None:
+        self._factory = factory
+        self._environment = environment
+        self._running: Cluster | None = None
+
+    def whole(self) -> Cluster:
+        """The cluster with all its workers; another one in place of one whose scheduler was killed."""
+        if self._running is None or self._running.scheduler.poll() is not None:
+            self.close()
+            self._running = Cluster(self._factory.mktemp("cluster"), self._environment)
+        self._running.replace_dead_workers(WORKERS)
+        return self._running
+
+    def close(self) -> None:
+        """End it, if it runs."""
+        if self._running is not None:
+            self._running.close()
+
+
 @pytest.fixture(scope="module")
-def shared_cluster(tmp_path_factory: pytest.TempPathFactory, environment: Mapping[str, str]) -> Iterator[Cluster]:
-    """A cluster whose scheduler lives as long as the tests here do."""
-    with running_cluster(tmp_path_factory.mktemp("cluster"), environment, workers=WORKERS) as made:
-        yield made
+def shared_cluster(tmp_path_factory: pytest.TempPathFactory, environment: Mapping[str, str]) -> Iterator[SharedCluster]:
+    """The cluster of the tests here; the one that kills its scheduler is the last to use it."""
+    shared = SharedCluster(tmp_path_factory, environment)
+    yield shared
+    shared.close()
 
 
 @pytest.fixture
-def cluster(shared_cluster: Cluster) -> Cluster:
-    """The shared cluster with all its workers, new ones in place of those that the test before has killed."""
-    shared_cluster.replace_dead_workers(WORKERS)
-    return shared_cluster
+def cluster(shared_cluster: SharedCluster) -> Cluster:
+    """The shared cluster, whole."""
+    return shared_cluster.whole()
 
 
 def _committed(database: str) -> int:
@@ -65,29 +91,24 @@ def _check_whole(database: str, expected_content: str) -> None:
     assert sum(count or 0 for count in counts) == GRID.pose_count
 
 
+def _chunk(index: int) -> Chunk:
+    """A chunk of the inputs, computed here."""
+    grid, pair = INPUTS.grid, INPUTS.pair
+    orientation = grid.orientation(index)
+    states = solve_poses(pair, grid.poses(index), SHORT_TURNS)
+    (history,) = histories_of(pair, [(orientation.roll_deg, orientation.pitch_deg)], SHORT_TURNS)
+    return Chunk(chunk_rows(orientation, grid.first_ordinal(index), states), rows_of(history, pair, SHORT_TURNS))
+
+
 def _wait_for(condition: Callable[[], bool]) -> None:
     end = time.monotonic() + TIMEOUT_S
     while not condition():
         assert time.monotonic() < end, "in vain"
-        time.sleep(0.01)
+        time.sleep(0.03)
 
 
 @pytest.mark.sqlite_alone
-def test_chunks_of_a_killed_worker_are_computed_by_others(
-    command_line: CommandLine, cluster: Cluster, expected_content: str
-) -> None:
-    command_line.here("migrate")
-    with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address, "--json") as process:
-        _wait_for(lambda: _committed(command_line.database) > 0)
-        cluster.workers[0].kill()
-        out, err = process.communicate(timeout=TIMEOUT_S)
-    assert process.returncode == 0, err
-    assert json.loads(out)["computed"] == GRID.pose_count
-    _check_whole(command_line.database, expected_content)
-
-
-@pytest.mark.sqlite_alone
-def test_a_killed_rebuild_goes_on_where_it_was(
+def test_a_killed_rebuild_goes_on_where_it_was_and_chunks_of_a_killed_worker_are_computed_by_others(
     command_line: CommandLine, cluster: Cluster, expected_content: str
 ) -> None:
     command_line.here("migrate")
@@ -97,31 +118,12 @@ def test_a_killed_rebuild_goes_on_where_it_was(
         killed.kill()
         killed.communicate()
     kept = _committed(command_line.database)
-    result = json.loads(command_line.out(*arguments))
-    assert result["was_published"] or result["computed"] == GRID.pose_count - kept * GRID.phase_count
-    _check_whole(command_line.database, expected_content)
-
-
-@pytest.mark.sqlite_alone
-def test_without_its_scheduler_a_rebuild_ends_and_what_is_committed_stays(
-    command_line: CommandLine,
-    tmp_path: Path,
-    environment: Mapping[str, str],
-    monkeypatch: pytest.MonkeyPatch,
-    expected_content: str,
-) -> None:
-    command_line.here("migrate")
-    with (
-        running_cluster(tmp_path, environment, workers=1) as cluster,
-        command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process,
-    ):
-        _wait_for(lambda: _committed(command_line.database) > 0)
-        cluster.scheduler.kill()
-        _, err = process.communicate(timeout=TIMEOUT_S)
-    assert process.returncode == 1
-    assert f"threadstate: the Dask scheduler {cluster.address} is gone" in err
-    use_prepared_chunks(monkeypatch)
-    assert command_line.here("rebuild", *SMALL_GRID)[0] == 0
+    with command_line.start(*arguments) as process:
+        _wait_for(lambda: _committed(command_line.database) > kept)
+        cluster.workers[0].kill()
+        out, err = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 0, err
+    assert json.loads(out)["computed"] == GRID.pose_count - kept * GRID.phase_count
     _check_whole(command_line.database, expected_content)
 
 
@@ -166,7 +168,7 @@ def test_chunks_are_those_computed_here_and_no_more_are_asked_for_than_there_is_
         for one in computing.chunks(orientations(), lambda: None):
             received[one.rows.orientation.index] = one
             assert taken - len(received) < QUEUED_PER_PROCESS * WORKERS
-    assert received == {index: prepared_chunk(GRID, index) for index in range(GRID.orientation_count)}
+    assert received == {index: _chunk(index) for index in range(GRID.orientation_count)}
 
 
 @pytest.mark.postgresql_alone
@@ -175,7 +177,7 @@ def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
     cluster: Cluster,
     environment: Mapping[str, str],
     capsys: pytest.CaptureFixture[str],
-    expected_content: str,
+    content_with_short_turns: str,
 ) -> None:
     with databases.lent() as database, writing(database) as engine:
         asked = submit_job(engine, INPUTS)
@@ -191,7 +193,23 @@ def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
         assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
         # No failure of the job: it was queued once.
         assert [kinds.count(kind) for kind in (EventKind.QUEUED, EventKind.PUBLISHED)] == [1, 1]
-        _check_whole(database, expected_content)
+        _check_whole(database, content_with_short_turns)
+
+
+@pytest.mark.sqlite_alone
+def test_without_its_scheduler_a_rebuild_ends_and_what_is_committed_stays(
+    command_line: CommandLine, cluster: Cluster, monkeypatch: pytest.MonkeyPatch, expected_content: str
+) -> None:
+    command_line.here("migrate")
+    with command_line.start("rebuild", *SMALL_GRID, "--scheduler", cluster.address) as process:
+        _wait_for(lambda: _committed(command_line.database) > 0)
+        cluster.scheduler.kill()
+        _, err = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 1
+    assert f"threadstate: the Dask scheduler {cluster.address} is gone" in err
+    use_prepared_chunks(monkeypatch)
+    assert command_line.here("rebuild", *SMALL_GRID)[0] == 0
+    _check_whole(command_line.database, expected_content)
 
 
 @pytest.mark.sqlite_alone

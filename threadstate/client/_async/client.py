@@ -14,6 +14,7 @@ from threadstate.client.calls import jobs as job_calls
 from threadstate.client.calls import libraries as library_calls
 from threadstate.client.calls import network as network_calls
 from threadstate.client.calls import states as state_calls
+from threadstate.client.calls import statics as statics_calls
 from threadstate.client.frames import to_pandas, to_polars
 from threadstate.client.models.answer import Page
 from threadstate.client.models.jobs import JobDocument
@@ -140,6 +141,9 @@ class AsyncClient:
     history_columns = _answered(state_calls.history_columns)
     history_csv = _answered(state_calls.history_csv)
     solve = _answered(state_calls.solve)
+
+    statics = _answered(statics_calls.statics)
+    solve_statics = _answered(statics_calls.solve_statics)
 
     intervals = _answered(network_calls.intervals)
     heights = _answered(network_calls.heights)

@@ -1,0 +1,1 @@
+"""What loads do to contact states: of a library's, or of any pose."""

@@ -1,0 +1,247 @@
+"""What loads do to states, by HTTP: of a library's states, and of any poses."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from pydantic import TypeAdapter
+
+from service.libraries.requested import SolvedPair
+from service.statics.endpoints import MOST_COMBINATIONS
+from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
+from tests.service.test_problems import problem
+from threadstate.errors import UnresolvedPoseError
+from threadstate.state.solve import solve_pose
+from threadstate.statics.document import StaticsDocument, statics_document
+from threadstate.statics.load import LARGEST_NUMBER, Load
+from threadstate.statics.solve import statics_of
+from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.cli import run_command_line
+
+pytestmark = pytest.mark.sqlite_alone
+
+POST = "/v1/statics"
+THREE, PATCH, PENETRATING = (-4.0, -4.0, 180.0), (0.0, -4.0, 180.0), (-4.0, -4.0, 0.0)
+LOAD = {"force": "0.1,0,-10", "moment": "0,0.5,0", "point": "0,0,0.1", "mu": "1.5"}
+"""As query parameters."""
+
+
+def path(pose: tuple[float, float, float], library: str = "latest") -> str:
+    """Where the statics of a stored state are."""
+    return f"/v1/libraries/{library}/states/{pose[0]:g}/{pose[1]:g}/{pose[2]:g}/statics"
+
+
+def given(parameters: dict[str, str]) -> dict[str, object]:
+    """The same load as a part of a body."""
+    return {name: json.loads(text if name == "mu" else f"[{text}]") for name, text in parameters.items()}
+
+
+def body(*poses: tuple[float, float, float], loads: list[dict[str, object]], **others: object) -> dict[str, Any]:
+    """The body that asks for these poses under these loads."""
+    named = [dict(zip(("roll", "pitch", "phase"), pose, strict=True)) for pose in poses]
+    return {"poses": named, "loads": loads, **others}
+
+
+@pytest.mark.parametrize("pose", [THREE, PATCH, PENETRATING])
+@pytest.mark.parametrize("parameters", [{}, LOAD, {**LOAD, "unit": "mm"}], ids=["push", "load", "mm"])
+def test_a_stored_state_is_answered_as_on_the_command_line(
+    solved_client: TestClient,
+    capsys: pytest.CaptureFixture[str],
+    pose: tuple[float, float, float],
+    parameters: dict[str, str],
+) -> None:
+    response = solved_client.get(path(pose), params=parameters)
+    assert response.status_code == 200, response.text
+    options = [f"--{name}={value}" for name, value in parameters.items()]
+    angles = [f"--{name}={angle}" for name, angle in zip(("roll", "pitch", "phase"), pose, strict=True)]
+    capsys.readouterr()
+    assert run_command_line(["statics", *angles, *options, "--json"]) == 0
+    assert response.json() == json.loads(capsys.readouterr().out)
+    shape = TypeAdapter(StaticsDocument)
+    assert shape.dump_python(shape.validate_python(response.json()), mode="json") == response.json()
+
+
+def test_a_patch_bears_a_push_over_it_and_an_overlap_is_flagged(solved_client: TestClient) -> None:
+    three, patch, penetrating = (solved_client.get(path(pose)).json() for pose in (THREE, PATCH, PENETRATING))
+    assert [one["penetrating"] for one in (three, patch, penetrating)] == [False, False, True]
+    assert (patch["supported"], patch["mu_hold"], patch["verdict"], patch["forces"]) == (False, None, "moves", [])
+    over = solved_client.get(path(PATCH), params={"point": "0,0.076,0"}).json()
+    assert (over["supported"], over["mu_hold"], over["verdict"]) == (True, 0.0, "can_stay")
+    assert sum(force["normal"] for force in over["forces"]) == pytest.approx(1.0)
+
+
+def test_an_answer_can_be_cached_and_names_its_library_and_unit(solved_client: TestClient) -> None:
+    first = solved_client.get(path(THREE), params=LOAD)
+    assert first.headers["Content-Location"] == path(THREE, "1")
+    assert first.headers["Length-Unit"] == "in"
+    again = solved_client.get(path(THREE), params=LOAD, headers={"If-None-Match": first.headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
+    other = solved_client.get(path(THREE), params={**LOAD, "mu": "1.4"})
+    assert other.json() != first.json()
+
+
+def test_stored_states_and_poses_have_the_same_statics(solved_client: TestClient) -> None:
+    loads = [LOAD, {"force": "1,0,0"}, {}]
+    asked = body(THREE, PATCH, PENETRATING, loads=[given(one) for one in loads], library=1)
+    for unit in ("in", "mm"):
+        answer = solved_client.post(POST, params={"unit": unit}, json=asked).json()
+        stored = [
+            solved_client.get(path(pose), params={**load, "unit": unit}).json()
+            for pose in (THREE, PATCH, PENETRATING)
+            for load in loads
+        ]
+        assert answer == {"designation": "1/4-20 UNC", "library": 1, "unit": unit, "statics": stored}
+
+
+def test_poses_between_those_of_a_grid_are_solved_with_a_librarys_pair(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = SolvedPair(OWN_PAIR, OWN_OPTIONS, 7)
+    monkeypatch.setattr("service.statics.endpoints.solved_pair", lambda _request, *_: asked)
+    pose = (3.5, -1.25, 77.7)
+    response = client.post(POST, json=body(pose, loads=[{"force": [0, 0, -5], "mu": 0.3}], library=7))
+    state = solve_pose(OWN_PAIR, *pose, options=OWN_OPTIONS)
+    expected = statics_document(statics_of(OWN_PAIR, state, Load(force=(0.0, 0.0, -5.0)), 0.3))
+    assert response.json() == {"designation": "M6x1", "library": 7, "unit": "mm", "statics": [expected]}
+    assert response.headers["Length-Unit"] == "mm"
+    assert response.headers["Cache-Control"] == "no-store"
+
+
+@pytest.mark.parametrize(
+    ("parameters", "named", "valid"),
+    [
+        ({"mu": "-0.1"}, "query mu", "greater than or equal to 0"),
+        ({"mu": "nan"}, "query mu", "valid number"),
+        ({"mu": "inf"}, "query mu", "valid number"),
+        ({"mu": "1e400"}, "query mu", "valid number"),
+        ({"mu": "0.1,0.2"}, "query mu", "valid number"),
+        ({"force": "0,0,0"}, "force", "not zero"),
+        ({"force": "0,0,-1e-13"}, "force", "at least 1e-12"),
+        ({"force": "0,0,-2e12"}, "force", "from -1e+12 to 1e+12"),
+        ({"force": "0,0,nan"}, "force", "three numbers, separated by commas"),
+        ({"point": "1,2"}, "point", "three numbers, separated by commas"),
+        ({"moment": "1,2,3,4"}, "moment", "three numbers, separated by commas"),
+        ({"moment": ""}, "query moment", "at least 1 character"),
+        ({"unit": "cm"}, "query unit", "'in' or 'mm'"),
+        ({"friction": "0.1"}, "query friction", "mu, unit, force, moment, point"),
+    ],
+)
+def test_a_bad_parameter_is_named_with_its_range(
+    solved_client: TestClient, parameters: dict[str, str], named: str, valid: str
+) -> None:
+    (error,) = problem(solved_client.get(path(THREE), params=parameters), 400).errors
+    assert error.location == named
+    assert valid in error.valid
+
+
+@pytest.mark.parametrize(
+    ("load", "named"),
+    [
+        ({"mu": -0.1}, "body loads 1 mu"),
+        ({"mu": "0.1"}, "body loads 1 mu"),
+        ({"mu": None}, "body loads 1 mu"),
+        ({"force": [0, 0, 0]}, "body loads 1 force"),
+        ({"force": [0, 0]}, "body loads 1 force"),
+        ({"force": "0,0,-1"}, "body loads 1 force"),
+        ({"point": [0, 0, LARGEST_NUMBER * 1.1]}, "body loads 1 point 2"),
+        ({"moment": [0, 0, True]}, "body loads 1 moment 2"),
+        ({"friction": 0.1}, "body loads 1 friction"),
+        ([], "body loads 1"),
+    ],
+)
+def test_a_bad_load_of_a_body_is_named(client: TestClient, load: dict[str, object], named: str) -> None:
+    (error,) = problem(client.post(POST, json=body(THREE, loads=[{}, load])), 400).errors
+    assert error.location == named
+
+
+@pytest.mark.parametrize("text", ["NaN", "Infinity", "1e400"])
+def test_what_is_no_finite_number_is_refused_in_a_body(client: TestClient, text: str) -> None:
+    content = json.dumps(body(THREE, loads=[{"mu": 0}])).replace('"mu": 0', f'"mu": {text}')
+    assert text in content
+    problem(client.post(POST, content=content, headers={"Content-Type": "application/json"}), 400)
+
+
+def test_a_thousand_combinations_are_answered_and_more_are_refused(client: TestClient) -> None:
+    poses = [(0.05 * i - 1.0, 1.0 - 0.07 * i, 9.0 * i) for i in range(40)]
+    loads: list[dict[str, object]] = [{"mu": 0.01 * i} for i in range(MOST_COMBINATIONS // 40)]
+    answer = client.post(POST, json=body(*poses, loads=loads)).json()["statics"]
+    found = [((one["roll"], one["pitch"], one["phase"]), one["mu"]) for one in answer]
+    assert found == [(pose, load["mu"]) for pose in poses for load in loads]
+    (error,) = problem(client.post(POST, json=body(*poses, loads=[*loads, {}])), 400).errors
+    assert (error.location, error.value, error.valid) == ("body poses times loads", "1040", "at most 1000")
+    (error,) = problem(client.post(POST, json=body(THREE, loads=[{}] * (MOST_COMBINATIONS + 1))), 400).errors
+    assert error.location == "body loads"
+
+
+@pytest.mark.parametrize(
+    ("others", "named"),
+    [
+        ({"loads": []}, "body loads"),
+        ({"poses": []}, "body poses"),
+        ({"yaw": 1}, "body yaw"),
+        ({"unit": "mm"}, "body unit"),
+        ({"library": 1, "designation": "1/4-20 UNC"}, "library"),
+        ({"designation": "M6"}, "designation"),
+    ],
+)
+def test_a_bad_body_is_refused_by_name(client: TestClient, others: dict[str, object], named: str) -> None:
+    (error,) = problem(client.post(POST, json={**body(THREE, loads=[{}]), **others}), 400).errors
+    assert error.location == named
+
+
+def test_a_body_needs_loads(client: TestClient) -> None:
+    asked = body(THREE, loads=[])
+    del asked["loads"]
+    (error,) = problem(client.post(POST, json=asked), 400).errors
+    assert error.location == "body loads"
+
+
+def test_every_digit_of_a_thousand_loads_is_read(client: TestClient) -> None:
+    third = [-1.2345678901234567e-100] * 3
+    load: dict[str, object] = {"force": [-1.2345678901234567e-10] * 3, "moment": third, "point": third, "mu": third[0]}
+    (error, *_) = problem(client.post(POST, json=body(THREE, loads=[load] * MOST_COMBINATIONS)), 400).errors
+    assert error.location == "body loads 0 mu"
+
+
+def test_a_pose_that_is_not_stored_is_not_found(solved_client: TestClient) -> None:
+    for pose in ((1.0, 0.0, 0.0), (4.0, 4.0, 1.0)):
+        assert problem(solved_client.get(path(pose)), 404).type.endswith(":not-found")
+    assert problem(solved_client.get(path(THREE, "99")), 404).type.endswith(":not-found")
+
+
+def test_a_pose_without_certain_normals_is_named(solved_client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    def uncertain(*_: object) -> None:
+        raise UnresolvedPoseError(*THREE, "the edges of contact 2 are parallel")
+
+    monkeypatch.setattr("threadstate.statics.solve.touching", uncertain)
+    not_cached = {"mu": "0.777"}
+    for response in (
+        solved_client.get(path(THREE), params=not_cached),
+        solved_client.post(POST, json=body(THREE, loads=[{}])),
+    ):
+        found = problem(response, 422)
+        assert found.type.endswith(":unresolved-pose")
+        assert "roll -4.0, pitch -4.0, phase 180.0 deg: the edges of contact 2 are parallel" in found.detail
+
+
+def test_the_largest_and_least_loads_have_finite_statics(solved_client: TestClient) -> None:
+    most = LARGEST_NUMBER
+    loads: list[dict[str, object]] = [
+        {"force": [most, -most, most], "moment": [most, most, -most], "point": [most, -most, most], "mu": 1e300},
+        {"force": [0, 0, -most], "point": [most, most, most], "mu": 0},
+        {"force": [0, 0, -1e-12], "moment": [1e-300, 0, 0], "mu": 1e-300},
+        {"force": [0, 0, 0], "moment": [0, 0, 1e-12]},
+        {"force": [1e-300, 0, 0], "moment": [most, 0, 0]},
+    ]
+    response = solved_client.post(POST, json=body(THREE, PATCH, (0.0, 0.0, 0.0), loads=loads))
+    assert response.status_code == 200, response.text
+    assert {one["verdict"] for one in response.json()["statics"]} <= {"moves", "can_stay", "can_wedge", "undecided"}
+
+
+def test_a_pair_is_chosen_by_its_designation(client: TestClient) -> None:
+    pair = quarter_twenty_unc()
+    answer = client.post(POST, json=body(THREE, loads=[{}], designation=pair.designation)).json()
+    assert (answer["designation"], answer["library"]) == (pair.designation, None)
