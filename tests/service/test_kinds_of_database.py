@@ -43,6 +43,9 @@ READ = {
             "limit=5&cursor=AAAA",
         )
     ],
+    "/v1/libraries/{id}/states/{roll}/{pitch}/{phase}/statics": [
+        f"{WITH_HISTORIES}/states/{pose}/statics?mu=0.1" for pose in ("0/-3/180", "3/3/0", "9/9/0")
+    ],
     "/v1/libraries/{id}/states/{roll}/{pitch}/{phase}": [
         f"{MADE_UP}/states/{pose}" for pose in ("0/0/0", "-1/1/330?unit=mm", "1/1/5", "9/9/0")
     ],

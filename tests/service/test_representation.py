@@ -66,11 +66,12 @@ def test_every_answer_has_the_security_headers(client: TestClient, path: str) ->
 def converted(document: object, name: str = "") -> object:
     """A state's document in inches with its lengths in millimetres."""
     angles_and_directions = ("roll", "pitch", "phase", "turns", "rotation", "normal", "stage")
+    statics = ("support_margin", "mu_hold", "mu_wedge")
     if isinstance(document, dict):
         return {key: converted(value, key) for key, value in document.items()}
     if isinstance(document, list):
         return [converted(value, name) for value in document]
-    if isinstance(document, float) and name not in angles_and_directions:
+    if isinstance(document, float) and name not in (*angles_and_directions, *statics):
         return document * MILLIMETRES_PER_INCH
     return document
 

@@ -120,7 +120,7 @@ def test_poses_between_those_of_a_grid_are_solved_with_a_librarys_pair(
         ({"mu": "0.1,0.2"}, "query mu", "valid number"),
         ({"force": "0,0,0"}, "force", "not zero"),
         ({"force": "0,0,-1e-13"}, "force", "at least 1e-12"),
-        ({"force": "0,0,-2e12"}, "force", "from -1e+12 to 1e+12"),
+        ({"force": "0,0,-2e12"}, "force", "from -1000000000000.0 to 1000000000000.0"),
         ({"force": "0,0,nan"}, "force", "three numbers, separated by commas"),
         ({"point": "1,2"}, "point", "three numbers, separated by commas"),
         ({"moment": "1,2,3,4"}, "moment", "three numbers, separated by commas"),

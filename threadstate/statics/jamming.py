@@ -221,7 +221,7 @@ def diagram_of_contacts(
     if window is not None and not all(0.0 < width < math.inf for width in window):
         raise InvalidValueError("window", window, "two finite numbers above 0")
     if not FINEST <= tolerance <= COARSEST:
-        raise InvalidValueError("tolerance", tolerance, f"{FINEST:g} to {COARSEST:g}")
+        raise InvalidValueError("tolerance", tolerance, f"{FINEST!r} to {COARSEST!r}")
     point = load.point or (0.0, 0.0, 0.0)
     push = -load.force[2]
     base = np.array([*(moment / (radius * push) for moment in load.moment), *(force / push for force in load.force)])

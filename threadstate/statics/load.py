@@ -44,10 +44,10 @@ class Load:
                 continue
             if len(value) != 3 or not all(abs(number) <= LARGEST_NUMBER for number in value):
                 raise InvalidValueError(
-                    name, value, f"three finite numbers from -{LARGEST_NUMBER:g} to {LARGEST_NUMBER:g}"
+                    name, value, f"three finite numbers from -{LARGEST_NUMBER!r} to {LARGEST_NUMBER!r}"
                 )
         if max(map(abs, (*self.force, *self.moment))) < LEAST_LOAD:
-            valid = f"a force or a moment that is not zero: of at least {LEAST_LOAD:g}"
+            valid = f"a force or a moment that is not zero: of at least {LEAST_LOAD!r}"
             raise InvalidValueError("force", self.force, valid)
 
     def about(self, origin: Vector) -> NDArray[np.float64]:

@@ -27,6 +27,7 @@ from threadstate.library.rows import chunk_rows
 from threadstate.library.tables import chunk, state, undecided
 from threadstate.settings import LEASE_S, SCHEDULER
 from threadstate.state.solve import solve_poses
+from threadstate.statics.rows import statics_by_ordinal
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.cluster.chunks import computing_cluster
 from worker.messages import Chunk
@@ -97,7 +98,9 @@ def _chunk(index: int) -> Chunk:
     orientation = grid.orientation(index)
     states = solve_poses(pair, grid.poses(index), SHORT_TURNS)
     (history,) = histories_of(pair, [(orientation.roll_deg, orientation.pitch_deg)], SHORT_TURNS)
-    return Chunk(chunk_rows(orientation, grid.first_ordinal(index), states), rows_of(history, pair, SHORT_TURNS))
+    first = grid.first_ordinal(index)
+    rows = chunk_rows(orientation, first, states, statics_by_ordinal(pair, first, states))
+    return Chunk(rows, rows_of(history, pair, SHORT_TURNS))
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
