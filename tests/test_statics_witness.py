@@ -16,7 +16,7 @@ from oracle.statics.friction import (
     wedge_friction,
     wedge_friction_by_pyramids,
 )
-from oracle.statics.loads import least_largest_normal_forces, reaction, support_margin
+from oracle.statics.loads import least_largest_normal_forces, normal_force_range, reaction, support_margin
 from oracle.statics.wrenches import Contacts, Floats, Twist, Wrench
 
 FRICTION_TOLERANCE = 1e-8
@@ -231,6 +231,19 @@ def test_reaction_to_a_load_between_wedged_contacts_is_the_moment_about_their_li
     found = reaction(points, normals, load, 5.0, bounds.upper + 0.01, about=points[0])
     assert found.lower - ROUND_OFF <= moment / 5.0 <= found.upper + ROUND_OFF
     assert found.upper - found.lower <= FRICTION_TOLERANCE
+
+
+@pytest.mark.parametrize(("tilt_deg", "friction"), [(30.0, 0.0), (30.0, 0.4), (-20.0, 0.4), (60.0, 0.2)])
+def test_two_contacts_that_lean_against_each_other_share_a_push(tilt_deg: float, friction: float) -> None:
+    # Each carries half of the push and a force between them, along any line within its cone.
+    a, phi = math.radians(tilt_deg), math.atan(friction)
+    points = np.array([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
+    normals = np.array([[math.sin(a), 0.0, math.cos(a)], [-math.sin(a), 0.0, math.cos(a)]])
+    expected = sorted(0.5 * (math.cos(a) + math.sin(a) * math.tan(a + side * phi)) for side in (-1.0, 1.0))
+    for contact in (0, 1):
+        found = normal_force_range(points, normals, PUSH, friction, contact)
+        for end, value in zip((found.least, found.largest), expected, strict=True):
+            assert end == pytest.approx((value, value), abs=FRICTION_TOLERANCE)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -15,7 +15,7 @@ from threadstate.units import LengthUnit, scale_length
 from worker.output import print_line
 
 if TYPE_CHECKING:
-    from threadstate.statics.document import ReactionDocument
+    from threadstate.statics.extras import Extras
     from threadstate.statics.jamming_document import JammingDocument
     from threadstate.statics.solve import Statics
 
@@ -139,8 +139,11 @@ def print_contacts(state: ContactState, unit: LengthUnit, factor: float) -> None
     rows.print()
 
 
-def print_statics(statics: Statics, unit: LengthUnit, factor: float) -> None:
-    """What a load does to a state, a number a row, then the forces; lengths times ``factor``, in ``unit``."""
+def print_statics(statics: Statics, extras: Extras | None, unit: LengthUnit, factor: float) -> None:
+    """What a load does to a state, a number a row, then the forces and what was requested beside them.
+
+    Lengths are times ``factor``, in ``unit``.
+    """
     roll, pitch, phase = map(number_text, statics.pose_deg)
     load = statics.load
     rows = table("", "")
@@ -159,7 +162,29 @@ def print_statics(statics: Statics, unit: LengthUnit, factor: float) -> None:
         rows.add_row(
             f"contact {force.contact} (N)", f"{force.normal:.6f} normal, {_numbers(force.tangential)} tangential"
         )
+    if extras is not None:
+        _add_extras(rows, extras, unit, factor)
     rows.print()
+
+
+def _add_extras(rows: Table, extras: Extras, unit: LengthUnit, factor: float) -> None:
+    if extras.reaction is not None:
+        reaction = extras.reaction
+        rows.add_row("reaction, force (N)", _numbers(reaction.force))
+        rows.add_row(f"reaction, moment (N {unit})", _numbers([factor * number for number in reaction.moment]))
+        rows.add_row("reaction, size (N)", f"{reaction.size:.6f}, at least {reaction.least_size:.6f}")
+    if extras.forces_range is not None:
+        dimension = extras.forces_range.internal_dimension
+        rows.add_row("internal forces", "of a patch" if dimension is None else f"{dimension} dimensions")
+        for one in extras.forces_range.contacts:
+            largest = "no limit" if math.isinf(one.normal_max) else f"{one.normal_max:.6f}"
+            rows.add_row(f"contact {one.contact}, normal (N)", f"{one.normal_min:.6f} to {largest}")
+    for mode in extras.modes or ():
+        twist = ""
+        if mode.angular is not None and mode.linear is not None and mode.margin is not None:
+            angular = _numbers([number / factor for number in mode.angular])
+            twist = f", turns {angular} and moves {_numbers(mode.linear)}, margin {mode.margin:.2g}"
+        rows.add_row(f"mode, {mode.status}", f"{', '.join(mode.contacts)}{twist}")
 
 
 def print_jamming(document: JammingDocument) -> None:
@@ -202,9 +227,3 @@ def _effort(effort: float | None) -> str:
     if effort is None:
         return "not pressed on a contact"
     return "jams" if math.isinf(effort) else f"{effort:.6f} of push times radius"
-
-
-def print_reaction(reaction: ReactionDocument, unit: LengthUnit) -> None:
-    """The least wrench that must be added to the load."""
-    force, moment = _numbers(reaction["force"]), _numbers(reaction["moment"])
-    print_line(f"a hand must add {reaction['size']:.6g} N: force {force} N, moment {moment} N {unit}")

@@ -59,6 +59,17 @@ class Reaction:
 
 
 @dataclass(frozen=True, eq=False)
+class NormalRange:
+    """The least normal force of a contact (N) among balancing forces lies in ``least``, the largest in ``largest``.
+
+    Each is an interval (from below, from above), whose outer end a twist proves and whose inner one forces do.
+    """
+
+    least: tuple[float, float]
+    largest: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
 class LargestForce:
     """The least largest normal force (N) lies in [lower, upper]; ``upper`` None: no balancing forces are known.
 
@@ -241,3 +252,40 @@ def _least_largest(maps: Floats, load: Floats, mu: float) -> tuple[Floats, Float
     kinds = [clarabel.ZeroConeT(q), clarabel.NonnegativeConeT(k), *([clarabel.SecondOrderConeT(3)] * k)]
     x, multipliers = solve_conic(np.eye(1, 3 * k + 1, 3 * k)[0], blocks, kinds)
     return multipliers[:q], x[: 3 * k].reshape(k, 3) * shares
+
+
+def normal_force_range(points: ArrayLike, normals: ArrayLike, load: Wrench, mu: float, contact: int) -> NormalRange:
+    """The range of a contact's normal force among forces that balance the load at ``mu``, where no contacts wedge.
+
+    For any twist whose power against the forces of every contact, less the contact's own normal force, is not negative,
+    that force is at least the load's power on it.
+    """
+    contacts = Contacts.of(points, normals)
+    coordinates = contacts.coordinates(load)
+    least = _end(contacts.maps, coordinates, mu, contact, 1.0)
+    largest = _end(contacts.maps, coordinates, mu, contact, -1.0)
+    return NormalRange(least, (-largest[1], -largest[0]))
+
+
+def _end(maps: Floats, load: Floats, mu: float, contact: int, sense: float) -> tuple[float, float]:
+    """Bounds of the least ``sense`` times a normal force, from forces and a twist that Clarabel proposes."""
+    k, q, _ = maps.shape
+    shares = np.array([1.0, mu, mu])
+    columns = np.einsum("kqc,c->qkc", maps, shares).reshape(q, 3 * k)
+    blocks = [(columns, -load), (-np.eye(3 * k), np.zeros(3 * k))]
+    kinds = [clarabel.ZeroConeT(q), *([clarabel.SecondOrderConeT(3)] * k)]
+    x, multipliers = solve_conic(sense * np.eye(3 * k)[3 * contact], blocks, kinds)
+    inner = [
+        sense * float(forces[contact, 0])
+        for needed, forces in forces_from(maps, load, x.reshape(k, 3) * shares, RoundCone(), mu)
+        if needed <= mu + 1e-6 * (1.0 + mu)
+    ]
+    opening, _ = RoundCone().wedge(maps, mu)
+    outer = -math.inf
+    for blend in BLENDS:
+        twist = multipliers[:q] + blend * (1.0 + float(np.linalg.norm(multipliers[:q]))) * opening
+        velocities = np.einsum("kqc,q->kc", maps, twist)
+        velocities[contact, 0] += sense
+        if (mu * RoundCone().velocity_size(velocities[:, 1:]) <= velocities[:, 0] + ROUND_OFF).all():
+            outer = max(outer, float(load @ twist))
+    return outer, min(inner, default=math.inf)

@@ -32,7 +32,7 @@ def test_no_smaller_wrench_will_do_and_none_is_needed_where_the_contacts_hold_it
         found = reaction_of(PAIR, state, load, mu)
         held = mu >= statics_of(PAIR, state, load, mu).hold.upper
         assert (found.size == 0.0) == held
-        assert found.size - found.least_size <= 1e-6 * max(1.0, found.size)
+        assert found.size - found.least_size <= 1e-9 * max(1.0, found.size)
         norm = math.hypot(*found.force, *(number / RADIUS for number in found.moment))
         assert norm == pytest.approx(found.size, rel=1e-12)
         seen.add((held, Flag.FLUSH in state.flags))

@@ -50,11 +50,40 @@ def test_poses_of_a_file_are_one_object_a_line(command_line: CommandLine, tmp_pa
     assert (flush["mu_hold"], flush["mu_wedge"], flush["verdict"], flush["forces"]) == (None, None, "moves", [])
 
 
+def test_more_is_added_on_request_alone(command_line: CommandLine) -> None:
+    asked = ("--mu", "1.5", "--include", "modes,reaction,forces_range", "--json")
+    found = json.loads(command_line.here("statics", *POSE, *asked)[1])
+    assert list(found)[-4:] == ["reaction", "forces_range", "internal_dimension", "modes"]
+    assert (found["reaction"]["size"], found["internal_dimension"]) == (0.0, 3)
+    for force, limits in zip(found["forces"], found["forces_range"], strict=True):
+        assert limits["normal_min"] <= force["normal"] + 1e-6 <= limits["normal_max"] + 2e-6
+    assert [(mode["contacts"], mode["status"]) for mode in found["modes"]] == [
+        (["sticks", "sticks", "sticks"], "consistent"),
+        (["opens", "sticks", "sticks"], "consistent"),
+    ]
+    asked = ("--mu", "1", "--include", "reaction,modes", "--json")
+    inches, millimetres = (
+        json.loads(command_line.here("statics", *POSE, *asked, "--unit", unit)[1]) for unit in ("in", "mm")
+    )
+    assert 0.0 < inches["reaction"]["least_size"] <= inches["reaction"]["size"] == millimetres["reaction"]["size"]
+    assert np.allclose(np.multiply(25.4, inches["reaction"]["moment"]), millimetres["reaction"]["moment"])
+    (moving,), (same,) = inches["modes"], millimetres["modes"]
+    assert np.allclose(moving["twist"]["linear"], same["twist"]["linear"])
+    assert np.allclose(np.divide(moving["twist"]["angular"], 25.4), same["twist"]["angular"])
+    assert np.allclose(np.multiply(25.4, moving["twist"]["point"]), same["twist"]["point"])
+    flush = ("--roll", "4", "--pitch", "0", "--phase", "185", "--include", "forces_range,modes", "--json")
+    found = json.loads(command_line.here("statics", *flush)[1])
+    assert (found["forces_range"], found["internal_dimension"], found["modes"]) == ([], None, None)
+
+
 def test_without_json_it_is_a_table(command_line: CommandLine) -> None:
     code, out, _ = command_line.here("statics", *POSE, "--mu", "1.5")
     assert code == 0
     assert "holds from mu" in out
     assert "contact 3 (N)" in out
+    out = command_line.here("statics", *POSE, "--mu", "2", "--include", "reaction,forces_range,modes")[1]
+    for text in ("reaction, size (N)", "3 dimensions", "to no limit", "opens, sticks, sticks, turns"):
+        assert text in out
 
 
 @pytest.mark.parametrize(
@@ -64,6 +93,7 @@ def test_without_json_it_is_a_table(command_line: CommandLine) -> None:
         (("--mu", "nan"), "mu"),
         (("--force", "0,0,0"), "force is (0.0, 0.0, 0.0); valid: a force or a moment that is not zero"),
         (("--force", "1,2"), "--force is '1,2'; valid: three numbers, separated by commas"),
+        (("--include", "reaction,mode"), "include is 'mode'; valid: reaction, forces_range, modes"),
         (("--point", "1,x,2"), "--point is '1,x,2'"),
         (("--moment", "inf,0,0"), "moment"),
     ],

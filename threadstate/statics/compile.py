@@ -11,9 +11,11 @@ from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.state.model import ContactState
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics._friction_kernel import least_forces
+from threadstate.statics.extras import Extra, extras_of
 from threadstate.statics.load import Load
 from threadstate.statics.rows import statics_rows, stored_statics
 from threadstate.statics.solve import statics_of
+from threadstate.statics.wrench_cone import contact_maps, opening
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
@@ -22,7 +24,7 @@ def load_statics(pair: Pair, states: Sequence[ContactState]) -> None:
     """Call each kernel that is called from Python: of the states one has three contacts, one lies on a patch."""
     stored_statics(pair, states)
     for state in states:
-        statics_of(pair, state, Load(force=(0.1, 0.0, -1.0)), 0.5)
+        extras_of(pair, state, statics_of(pair, state, Load(force=(0.1, 0.0, -1.0)), 0.5), [Extra.REACTION])
 
 
 def compile_without_states() -> None:
@@ -31,6 +33,7 @@ def compile_without_states() -> None:
     points, normals = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
     least_forces(np.array([0.0, 0.0, 0.1, 0.0, 0.0, -1.0]), 1.0, points, normals, np.zeros(9))
     turn_effort(1.0, 0.0, points, normals, 0.1, 1.0)
+    opening(contact_maps(points, normals, 1.0))
 
 
 def statics_are_compiled() -> bool:

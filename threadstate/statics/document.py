@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from collections.abc import Sequence
+from typing import Annotated, Literal, NotRequired
 
 from pydantic import Field
 from typing_extensions import TypedDict
 
 from threadstate.state.document import VectorDocument
+from threadstate.state.model import Vector
+from threadstate.statics.extras import Extra, Extras
+from threadstate.statics.modes import ContactMode, ModeStatus, Motion
 from threadstate.statics.reaction import Reaction
-from threadstate.statics.solve import Statics
+from threadstate.statics.solve import ContactForce, Statics
 from threadstate.statics.verdict import Verdict
 
 
@@ -59,6 +63,49 @@ class ReactionDocument(TypedDict):
     least_size: Annotated[float, Field(description="no wrench of a smaller size will do")]
 
 
+class NormalRangeDocument(TypedDict):
+    """The least and the largest normal force of a contact among all balancing forces, in N."""
+
+    contact: Annotated[int, Field(ge=1)]
+    normal_min: float
+    normal_max: Annotated[float | None, Field(description="null where contacts wedge and it has no limit")]
+    uncertainty: Annotated[float, Field(description="how far beyond these the true ends may lie")]
+
+
+class TwistDocument(TypedDict):
+    """A velocity of the bolt, for a viscous medium in which a force of 1 N on its origin gives it the velocity 1."""
+
+    angular: Annotated[VectorDocument, Field(description="over the unit of length")]
+    linear: VectorDocument
+    point: Annotated[VectorDocument, Field(description="of the bolt that has the linear velocity: its origin")]
+    frame: Literal["nut"]
+
+
+class ModeDocument(TypedDict):
+    """A contact mode that is consistent with the load, or one that is undecided."""
+
+    contacts: list[Motion]
+    status: ModeStatus
+    twist: Annotated[TwistDocument | None, Field(description="null where undecided")]
+    forces: list[ContactForceDocument]
+    margin: Annotated[float | None, Field(description="by how much the conditions hold, over the load")]
+
+
+class ExtrasDocument(TypedDict):
+    """What is added to the statics of a state on request."""
+
+    reaction: NotRequired[ReactionDocument]
+    forces_range: NotRequired[
+        Annotated[
+            list[NormalRangeDocument], Field(description="empty where no forces balance the load, and on a patch")
+        ]
+    ]
+    internal_dimension: NotRequired[
+        Annotated[int | None, Field(description="of the forces that balance each other; null on a patch")]
+    ]
+    modes: NotRequired[Annotated[list[ModeDocument] | None, Field(description="null on a patch")]]
+
+
 def reaction_document(reaction: Reaction, length_factor: float = 1.0) -> ReactionDocument:
     """The least reaction as an object, lengths times a factor from the pair's unit."""
     return ReactionDocument(
@@ -91,12 +138,55 @@ def statics_document(statics: Statics, length_factor: float = 1.0) -> StaticsDoc
         mu_wedge=statics.wedge.value,
         turn_effort_ccw=_finite(statics.turn_effort_ccw),
         turn_effort_cw=_finite(statics.turn_effort_cw),
-        forces=[
-            ContactForceDocument(contact=one.contact, normal=one.normal, tangential=list(one.tangential))
-            for one in statics.forces
-        ],
+        forces=_forces(statics.forces),
         verdict=statics.verdict,
     )
+
+
+def extras_document(extras: Extras, length_factor: float = 1.0) -> ExtrasDocument:
+    """What was requested beside the statics of a state, lengths times a factor from the pair's unit."""
+    document = ExtrasDocument()
+    if extras.reaction is not None:
+        document["reaction"] = reaction_document(extras.reaction, length_factor)
+    if extras.forces_range is not None:
+        document["forces_range"] = [
+            NormalRangeDocument(
+                contact=one.contact,
+                normal_min=one.normal_min,
+                normal_max=_finite(one.normal_max),
+                uncertainty=one.uncertainty,
+            )
+            for one in extras.forces_range.contacts
+        ]
+        document["internal_dimension"] = extras.forces_range.internal_dimension
+    if Extra.MODES in extras.requested:
+        modes = extras.modes
+        document["modes"] = None if modes is None else [_mode(one, extras.origin, length_factor) for one in modes]
+    return document
+
+
+def _mode(mode: ContactMode, origin: Vector, length_factor: float) -> ModeDocument:
+    twist = None
+    if mode.angular is not None and mode.linear is not None:
+        twist = TwistDocument(
+            angular=_times(1.0 / length_factor, mode.angular),
+            linear=list(mode.linear),
+            point=_times(length_factor, origin),
+            frame="nut",
+        )
+    return ModeDocument(
+        contacts=list(mode.contacts), status=mode.status, twist=twist, forces=_forces(mode.forces), margin=mode.margin
+    )
+
+
+def _forces(forces: Sequence[ContactForce]) -> list[ContactForceDocument]:
+    return [
+        ContactForceDocument(contact=one.contact, normal=one.normal, tangential=list(one.tangential)) for one in forces
+    ]
+
+
+def _times(factor: float, vector: Vector) -> VectorDocument:
+    return [factor * number for number in vector]
 
 
 def _finite(effort: float | None) -> float | None:

@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.errors import UnresolvedPoseError
 from threadstate.state.model import ContactState, Vector
-from threadstate.statics._program_kernel import program_address
-from threadstate.statics._reaction_kernel import least_withstood, reaction_with
 from threadstate.statics.load import Load
-from threadstate.statics.solve import FIRST_POINTS, statics_of
-from threadstate.statics.touching import touching
+from threadstate.statics.scene import Scene, scene_of
+from threadstate.statics.solve import statics_of
+from threadstate.statics.wrench_cone import (
+    Divided,
+    balanced_by_wedging,
+    carried,
+    contact_maps,
+    divided,
+    into_cones,
+    moved,
+    slacks,
+    solved_program,
+)
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
-
-FORCES_CONSIDERED = 1e3
-"""The bound of a reaction holds for contact forces up to this multiple of the load."""
-WITHSTOOD = -1e-12
-"""Work, over the forces' size, that counts as none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +34,9 @@ class Reaction:
     Attributes:
         force: in N.
         moment: about the bolt's origin, in N times the pair's length unit.
-        size: its norm in N, moments over the nominal radius; 0 where the contacts balance the load alone.
-        least_size: no wrench of a smaller size will do, with contact forces up to ``FORCES_CONSIDERED`` times the load.
+        size: its norm in N, moments over the nominal radius; 0 where the contacts balance the load alone. Where some
+            wedge it is approached by ever greater forces.
+        least_size: no wrench of a smaller size will do: a twist that no contact withstands proves it.
     """
 
     force: Vector
@@ -47,34 +50,54 @@ def reaction_of(pair: Pair, state: ContactState, load: Load | None = None, mu: f
 
     Raises:
         InvalidValueError: ``mu`` is negative or not finite.
-        UnresolvedPoseError: a contact has no certain normal, or the program was not solved.
+        UnresolvedPoseError: a contact has no certain normal.
     """
-    statics = statics_of(pair, state, load, mu)
-    if mu >= statics.hold.upper:
-        return Reaction((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0, 0.0)
-    found = touching(pair, state)
-    radius = pair.nominal_diameter / 2.0
-    wrench = (load or Load()).about(found.origin)
-    wrench[:3] /= radius
-    scale = float(np.linalg.norm(wrench))
-    wrench /= scale
-    points, normals = (found.points - found.origin) / radius, found.normals.copy()
-    chosen = list(range(len(points)))
-    if found.patch:
-        # A few points of its hull suffice; those are added that work against the motion.
-        points, normals = points[found.own :], normals[found.own :]
-        chosen = sorted({len(points) * i // FIRST_POINTS for i in range(FIRST_POINTS)})
-    reaction, twist = np.zeros(6), np.zeros(6)
-    while True:
-        size = reaction_with(program_address(), wrench, mu, points[chosen], normals[chosen], reaction, twist)
-        if size == math.inf:
-            pose = state.roll_deg, state.pitch_deg, state.phase_deg
-            raise UnresolvedPoseError(*pose, "the program for the least reaction was not solved")
-        work, worst = least_withstood(twist, mu, points, normals)
-        if work >= WITHSTOOD or worst in chosen:
-            break
-        chosen = sorted({*chosen, worst})
-    least = float(twist @ wrench) / max(1.0, float(np.linalg.norm(twist))) + FORCES_CONSIDERED * min(work, 0.0)
-    mx, my, mz = (scale * radius * reaction[:3]).tolist()
-    fx, fy, fz = (scale * reaction[3:]).tolist()
-    return Reaction((fx, fy, fz), (mx, my, mz), scale * size, scale * max(0.0, min(size, least)))
+    held = mu >= statics_of(pair, state, load, mu).hold.upper
+    return reaction_in(scene_of(pair, state, load or Load()), mu, held=held)
+
+
+def reaction_in(scene: Scene, mu: float, *, held: bool) -> Reaction:
+    """The reaction to the load of a scene; zero where the contacts are known to hold it."""
+    wrench, least = np.zeros(6), 0.0
+    if not held:
+        least, wrench = least_wrench(contact_maps(scene.points, scene.normals, mu), scene.load)
+    mx, my, mz = (wrench[:3] * scene.radius + 0.0).tolist()
+    fx, fy, fz = (wrench[3:] + 0.0).tolist()
+    return Reaction((fx, fy, fz), (mx, my, mz), float(np.linalg.norm(wrench)), least)
+
+
+def least_wrench(maps: Floats, load: Floats) -> tuple[float, Floats]:
+    """A bound from below of the least wrench to be added to a load (6) on contacts, and such a wrench (6)."""
+    found = divided(maps)
+    rest = found.free.T @ load
+    lower, inner = _distance(found, rest)
+    forces = np.zeros((len(maps), maps.shape[2]))
+    forces[~found.pressed] = inner
+    if found.pressed.any():
+        left = rest + carried(found.maps, inner)
+        missing = load + carried(maps, forces) - found.free @ left
+        forces[found.pressed] = balanced_by_wedging(maps[found.pressed], missing)
+    wrench = -(load + carried(maps, forces))
+    return min(lower, float(np.linalg.norm(wrench))), wrench
+
+
+def _distance(found: Divided, load: Floats) -> tuple[float, Floats]:
+    """Of minus the load from the cone of contacts that do not wedge: a bound from below, and forces in their cones.
+
+    Maximises the load's power over twists of size at most 1 that no contact withstands; the multipliers are forces.
+    """
+    k, q, parts = found.maps.shape
+    size = float(np.linalg.norm(load))
+    if size == 0.0 or k == 0:
+        return size, np.zeros((k, parts))
+    g = np.zeros((k * parts + q + 1, q))
+    g[: k * parts] = -np.swapaxes(found.maps, 1, 2).reshape(k * parts, q)
+    g[k * parts + 1 :] = -np.eye(q)
+    h = np.zeros(len(g))
+    h[k * parts] = 1.0
+    twist, z = solved_program(-load / size, g, h, [parts] * k + [q + 1])
+    # With enough of the twist that leaves all contacts none withstands the sum.
+    short = max(0.0, -float(slacks(moved(found.maps, twist)).min()))
+    twist = twist + short / found.rate * found.twist
+    lower = float(load @ twist) / max(float(np.linalg.norm(twist)), 1e-300)
+    return max(lower, 0.0), into_cones(z[: k * parts].reshape(k, parts)) * size

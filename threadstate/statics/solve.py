@@ -13,7 +13,8 @@ from threadstate.statics import _friction_kernel as fk
 from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics.load import Load, checked_friction
-from threadstate.statics.touching import Touching, touching
+from threadstate.statics.scene import scene_of
+from threadstate.statics.touching import Touching
 from threadstate.statics.verdict import FrictionBounds, Verdict, verdict_at
 from threadstate.thread.pair import Pair
 
@@ -80,19 +81,15 @@ def statics_of(pair: Pair, state: ContactState, load: Load | None = None, mu: fl
     """
     checked_friction(mu)
     load = load or Load()
-    found = touching(pair, state)
-    radius = pair.nominal_diameter / 2.0
-    wrench = load.about(found.origin)
-    wrench[:3] /= radius
-    # Copies that can be written to: for others the kernels would be compiled again.
-    scaled = replace(found, points=(found.points - found.origin) / radius, normals=found.normals.copy())
+    scene = scene_of(pair, state, load)
+    wrench, scaled, radius = scene.load, scene.contacts, scene.radius
     numbers = _numbers(wrench, scaled)
     hold = _hold(wrench, scaled, numbers)
     return Statics(
         pose_deg=(state.roll_deg, state.pitch_deg, state.phase_deg),
-        load=replace(load, point=load.point or found.origin),
+        load=replace(load, point=load.point or scaled.origin),
         mu=mu,
-        penetrating=found.penetrating,
+        penetrating=scaled.penetrating,
         support_margin=float(numbers[nk.N_MARGIN]),
         hold=hold,
         wedge=_bounds(numbers[nk.N_WEDGE :]),

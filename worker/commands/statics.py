@@ -24,10 +24,15 @@ def statics(
     force: Force = PUSH,
     moment: Moment = NO_MOMENT,
     point: Point = None,
-    reaction: Annotated[
-        bool,
-        typer.Option("--reaction", help="Add the least wrench that a hand must supply to hold it.", show_default=False),
-    ] = False,
+    include: Annotated[
+        str | None,
+        typer.Option(
+            "--include",
+            metavar="NAMES",
+            help="More numbers, with commas: reaction, forces_range, modes.",
+            show_default=False,
+        ),
+    ] = None,
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,
@@ -42,32 +47,30 @@ def statics(
       threadstate statics --roll 1 --pitch -2 --phase 10
       threadstate statics --roll 1 --pitch -2 --phase 10 --mu 0.15 --force 0,0,-10 --json
       threadstate statics --roll 1 --pitch -2 --phase 10 --force 0.5,0,-10 --moment 0,0.1,0 --json
-      threadstate statics --roll 1 --pitch -2 --phase 10 --mu 0.1 --reaction
+      threadstate statics --roll 1 --pitch -2 --phase 10 --mu 1 --include reaction,forces_range,modes
       threadstate statics --poses poses.csv --mu 0.1 --json
     """
     wanted = wanted_poses(roll, pitch, phase, poses)
 
     from threadstate.state.solve import solve_poses
-    from threadstate.statics.document import reaction_document, statics_document
-    from threadstate.statics.reaction import reaction_of
+    from threadstate.statics.document import extras_document, statics_document
+    from threadstate.statics.extras import extras_of, requested_extras
     from threadstate.statics.solve import statics_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
-    from worker.tables import print_reaction, print_statics
+    from worker.tables import print_statics
 
     threads = chosen_pair(pair, dimension or ())
     shown = unit or threads.unit
     factor = conversion_factor(threads.unit, shown)
     checked_friction(mu)
+    requested = requested_extras(include) if include is not None else frozenset()
     load = chosen_load(force, moment, point, factor)
     for start in range(0, len(wanted), BATCH):
         for state in solve_poses(threads, wanted[start : start + BATCH]):
             found = statics_of(threads, state, load, mu)
-            needed = reaction_document(reaction_of(threads, state, load, mu), factor) if reaction else None
+            extras = extras_of(threads, state, found, requested) if requested else None
             if as_json:
-                document = statics_document(found, factor)
-                print_json(document if needed is None else {**document, "reaction": needed})
+                print_json({**statics_document(found, factor), **(extras_document(extras, factor) if extras else {})})
             else:
-                print_statics(found, shown, factor)
-                if needed is not None:
-                    print_reaction(needed, shown)
+                print_statics(found, extras, shown, factor)
