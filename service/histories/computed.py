@@ -1,5 +1,5 @@
-"""``/v1/histories/{roll}/{pitch}/intervals``, ``.../heights`` and ``.../falls``: of any orientation, computed on
-request.
+"""``/v1/histories/{roll}/{pitch}/intervals``, ``.../heights``, ``.../falls`` and ``.../held``: of any orientation,
+computed on request.
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ from pydantic import AllowInfNan
 from service.kernels import require_kernels
 from service.libraries.requested import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
 from service.network.parameters import LeastQuery
-from service.network.schemas import ComputedFalls, ComputedHeights, ComputedIntervals
+from service.network.schemas import ComputedFalls, ComputedHeights, ComputedHeld, ComputedIntervals
 from service.quantities import INTEGER_TEXT, NUMBER_TEXT, UNIT_HEADER, PitchPath, RollPath, UnitQuery
 from service.representation import JSON
+from service.statics.parameters import FrictionsQuery, LoadQuery
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
 from threadstate.responses.documents import FallsDocument
 from threadstate.responses.falls_range import (
@@ -28,6 +29,7 @@ from threadstate.responses.falls_range import (
     tilts_within,
 )
 from threadstate.responses.heights import computed_heights, heights_document
+from threadstate.responses.held import held_documents
 from threadstate.responses.histories import computed_history, history_document
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import conversion_factor
@@ -97,6 +99,27 @@ def get_computed_heights(roll: RollPath, pitch: PitchPath, asked: RequestedPair,
     found = computed_heights(pair, roll, pitch, asked.options)
     heights = heights_document(found, roll, pitch, pair.thread_pitch, conversion_factor(pair.unit, shown))
     return _computed(ComputedHeights(designation=pair.designation, library=asked.library, unit=shown, heights=heights))
+
+
+@router.get("/{roll}/{pitch}/held", summary="Where a load holds along any phase", response_model=ComputedHeld)
+def get_computed_held(
+    roll: RollPath,
+    pitch: PitchPath,
+    asked: RequestedPair,
+    load: LoadQuery,
+    mus: FrictionsQuery,
+    unit: UnitQuery = None,
+) -> Response:
+    """At which phases of any roll and pitch the contacts can hold a load or wedge, at each friction.
+
+    Lengths of the load are in `unit`.
+    """
+    pair = asked.pair
+    factor = conversion_factor(pair.unit, unit or pair.unit)
+    cells = computed_history(pair, roll, pitch, asked.options).cells
+    held = held_documents(pair, asked.options, (roll, pitch), cells, load.with_lengths_over(factor), mus)
+    answer = ComputedHeld(designation=pair.designation, library=asked.library, held=held)
+    return Response(answer.model_dump_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)
 
 
 @router.get("/{roll}/{pitch}/falls", summary="Falls and snap of any orientation", response_model=ComputedFalls)
