@@ -7,11 +7,11 @@ from __future__ import annotations
 from typing import Annotated
 
 from annotated_types import Ge, Gt, Le
-from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi import APIRouter, Depends, Query, Response
 from pydantic import AllowInfNan
 
 from service.kernels import require_kernels
-from service.libraries.requested import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
+from service.libraries.requested import RequestedPair
 from service.network.parameters import LeastQuery
 from service.network.schemas import ComputedFalls, ComputedHeights, ComputedHeld, ComputedIntervals
 from service.quantities import INTEGER_TEXT, NUMBER_TEXT, UNIT_HEADER, PitchPath, RollPath, UnitQuery
@@ -31,21 +31,9 @@ from threadstate.responses.falls_range import (
 from threadstate.responses.heights import computed_heights, heights_document
 from threadstate.responses.held import held_documents
 from threadstate.responses.histories import computed_history, history_document
-from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import conversion_factor
 
 router = APIRouter(prefix="/v1/histories", tags=["histories"], dependencies=[Depends(require_kernels)])
-
-DesignationQuery = Annotated[
-    str | None,
-    Query(
-        min_length=1,
-        max_length=100,
-        description=f"designation of the pair; {DEFAULT_DESIGNATION} where neither it nor a library is given",
-    ),
-]
-LibraryQuery = Annotated[str | None, Query(min_length=1, max_length=100, description=LIBRARY_DESCRIPTION)]
-
 
 ToleranceQuery = Annotated[
     Annotated[float, Gt(0.0), Le(LARGEST_TOLERANCE_DEG), AllowInfNan(False), NUMBER_TEXT] | None,
@@ -70,13 +58,6 @@ SpanQuery = Annotated[
         description="span of phase, in degrees, of the steepest fall",
     ),
 ]
-
-
-def _solved_pair(request: Request, designation: DesignationQuery = None, library: LibraryQuery = None) -> SolvedPair:
-    return solved_pair(request, designation, library)
-
-
-RequestedPair = Annotated[SolvedPair, Depends(_solved_pair)]
 
 
 @router.get("/{roll}/{pitch}/intervals", summary="The intervals of any orientation", response_model=ComputedIntervals)

@@ -1,4 +1,6 @@
-"""``/v1/libraries/{id}/states/{roll}/{pitch}/{phase}/statics`` and ``.../jamming``, and ``POST /v1/statics``."""
+"""``/v1/libraries/{id}/states/{roll}/{pitch}/{phase}/statics`` and ``.../jamming``, ``POST /v1/statics``, and
+``/v1/states/{roll}/{pitch}/{phase}/jamming``.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +14,14 @@ from pydantic import BaseModel, ConfigDict, Field
 from service.cache.stored import content_location
 from service.database import ReadConnection
 from service.kernels import require_kernels
-from service.libraries.requested import IdentifiedLibrary, solved_pair
+from service.libraries.requested import IdentifiedLibrary, RequestedPair, solved_pair
 from service.quantities import UNIT_HEADER, PhasePath, PitchPath, RollPath, UnitQuery
 from service.representation import JSON, NOT_MODIFIED, SVG, json_response, representation
 from service.solve import NOT_BOTH, SolveRequest
 from service.statics.parameters import (
     DiagramFormat,
     DiagramQuery,
+    DiagramShape,
     FrictionQuery,
     IncludeQuery,
     LoadQuery,
@@ -86,6 +89,8 @@ class StaticsAnswer(BaseModel):
     statics: list[RequestedStaticsDocument]
 
 
+FormatQuery = Annotated[DiagramFormat, Query(description="its numbers, or a picture of it")]
+
 router = APIRouter(tags=["statics"], route_class=StrictJsonRoute, dependencies=[Depends(require_kernels)])
 
 
@@ -137,9 +142,7 @@ def get_jamming(
     load: LoadQuery,
     shape: DiagramQuery,
     mu: FrictionQuery = DEFAULT_FRICTION,
-    format: Annotated[  # noqa: A002 - the parameter's name in the address
-        DiagramFormat, Query(description="its numbers, or a picture of it")
-    ] = DiagramFormat.JSON,
+    format: FormatQuery = DiagramFormat.JSON,  # noqa: A002 - the parameter's name in the address
     unit: UnitQuery = None,
 ) -> Response:
     """Which loads beside a push the contacts of a stored state can balance, in a plane of loads.
@@ -149,22 +152,40 @@ def get_jamming(
     shown = unit or library.length_unit
     factor = conversion_factor(library.length_unit, shown)
     state = state_of_pose(connection, library.id, roll, pitch, phase)
-    diagram = jamming_diagram(
-        pair_of(library.pair),
-        state,
-        mu,
-        shape.axes,
-        load=load.with_lengths_over(factor),
-        contacts=shape.contacts,
-        window=shape.window,
-        tolerance=shape.tolerance,
-    )
-    document = jamming_document(state, diagram, factor)
+    document = _diagram(pair_of(library.pair), state, load, mu, shape, factor)
     location = f"{content_location(library.id, roll, pitch, phase)}/jamming"
     headers = {UNIT_HEADER: shown.value, "Content-Location": location}
     if format is DiagramFormat.SVG:
         return representation(request, jamming_svg(document).encode(), SVG, headers)
     return json_response(request, document, headers)
+
+
+@router.get(
+    "/v1/states/{roll}/{pitch}/{phase}/jamming",
+    summary="The jamming diagram of any pose",
+    response_model=JammingDocument,
+    responses={200: {"content": {SVG: {"schema": {"type": "string"}}}}},
+)
+def get_computed_jamming(
+    roll: RollPath,
+    pitch: PitchPath,
+    phase: PhasePath,
+    asked: RequestedPair,
+    load: LoadQuery,
+    shape: DiagramQuery,
+    mu: FrictionQuery = DEFAULT_FRICTION,
+    format: FormatQuery = DiagramFormat.JSON,  # noqa: A002 - the parameter's name in the address
+    unit: UnitQuery = None,
+) -> Response:
+    """The same of any pose, computed on request."""
+    shown = unit or asked.pair.unit
+    factor = conversion_factor(asked.pair.unit, shown)
+    (state,) = solve_poses(asked.pair, [(roll, pitch, phase)], asked.options)
+    document = _diagram(asked.pair, state, load, mu, shape, factor)
+    is_svg = format is DiagramFormat.SVG
+    content = jamming_svg(document) if is_svg else json.dumps(document, separators=(",", ":"), allow_nan=False)
+    headers = {UNIT_HEADER: shown.value, "Cache-Control": "no-store"}
+    return Response(content, headers=headers, media_type=SVG if is_svg else JSON)
 
 
 @router.post("/v1/statics", summary="What loads do to poses", response_model=StaticsAnswer)
@@ -205,3 +226,19 @@ def _statics(
     found = statics_of(pair, state, load, mu)
     extras = extras_of(pair, state, found, requested) if requested else None
     return requested_document(found, extras, factor)
+
+
+def _diagram(
+    pair: Pair, state: ContactState, load: Load, mu: float, shape: DiagramShape, factor: float
+) -> JammingDocument:
+    diagram = jamming_diagram(
+        pair,
+        state,
+        mu,
+        shape.axes,
+        load=load.with_lengths_over(factor),
+        contacts=shape.contacts,
+        window=shape.window,
+        tolerance=shape.tolerance,
+    )
+    return jamming_document(state, diagram, factor)

@@ -95,6 +95,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "statics": {"roll": 0, "pitch": -3, "phase": 180, "force": (1, 0, -10), "unit": "mm"},
         "jamming": {"roll": 0, "pitch": -3, "phase": 180, "mu": 0.5, "axes": ["mx", "my"], "window": (3, 3)},
         "jamming_svg": {"roll": 0, "pitch": -3, "phase": 180, "contacts": [5, 6, 7], "tolerance": 1e-3},
+        "computed_jamming": {"roll": 0.5, "pitch": 0.5, "phase": 0.5},
         "held": {"roll": 0, "pitch": -3, "mu": (0.1, 0.3), "force": (1, 0, -10)},
         "computed_held": {"roll": 1.5, "pitch": 0, "mu": 0.1},
         "solve_statics": {"poses": [(0.5, 0.5, 0.5)], "loads": [{"mu": 0.5}, {}]},

@@ -32,7 +32,7 @@ RENAMED = {
     name: f"{name}Document"
     for name in (
         *("State", "Pose", "Contact", "Margins", "StoredStatics", "Load", "ContactForce", "Reaction", "NormalRange"),
-        *("Twist", "LoadedContact", "Piece", "Jamming"),
+        *("Twist", "LoadedContact", "Piece", "Jamming", "ContactWrench"),
     )
 } | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
 """Models that go by a shorter name than the service's."""
@@ -81,7 +81,7 @@ def _functions(module: ModuleType) -> Iterator[Callable[..., Any]]:
 
 def _described(function: Callable[..., Any]) -> Call[object]:
     """The request of a function, given all the arguments that it takes."""
-    known = ARGUMENTS | OF_A_DIAGRAM if function.__name__.startswith("jamming") else ARGUMENTS
+    known = ARGUMENTS | OF_A_DIAGRAM if "jamming" in function.__name__ else ARGUMENTS
     arguments = {name: known.get(name, "text") for name in inspect.signature(function).parameters}
     call = function(**arguments)
     return call.first if isinstance(call, PagedCall) else cast("Call[object]", call)

@@ -32,6 +32,7 @@ SOLVING = [
     "/v1/histories/1/1/falls",
     "/v1/libraries/1/histories/1/1/heights",
     "/v1/histories/1/1/held",
+    "/v1/states/1/1/1/jamming",
     "/v1/libraries/1/transitions",
     "/v1/libraries/1/histories/1/1/held",
     "/v1/libraries/1/network/loaded",

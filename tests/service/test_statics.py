@@ -69,7 +69,7 @@ def test_a_stored_state_is_answered_as_on_the_command_line(
 def test_what_is_requested_beside_is_added(
     solved_client: TestClient, capsys: pytest.CaptureFixture[str], pose: tuple[float, float, float]
 ) -> None:
-    names = "reaction, forces_range,modes"
+    names = "reaction, forces_range,modes,wrenches"
     parameters = {"mu": "0.1", "include": names, "unit": "mm"}
     response = solved_client.get(path(pose), params=parameters)
     assert response.status_code == 200, response.text
@@ -78,14 +78,18 @@ def test_what_is_requested_beside_is_added(
     assert run_command_line(["statics", *angles, "--mu=0.1", "--unit=mm", f"--include={names}", "--json"]) == 0
     assert response.json() == json.loads(capsys.readouterr().out)
     assert (response.json()["modes"] is None) == (pose == PATCH)
-    asked = body(pose, loads=[{"mu": 0.1}], library=1, include=["modes", "reaction", "forces_range"])
+    asked = body(pose, loads=[{"mu": 0.1}], library=1, include=["modes", "reaction", "wrenches", "forces_range"])
     assert solved_client.post(POST, params={"unit": "mm"}, json=asked).json()["statics"] == [response.json()]
     assert "reaction" not in solved_client.get(path(pose)).json()
 
 
 def test_what_cannot_be_requested_is_refused(solved_client: TestClient) -> None:
     (error,) = problem(solved_client.get(path(THREE), params={"include": "reaction,efforts"}), 400).errors
-    assert (error.location, error.value, error.valid) == ("include", "efforts", "reaction, forces_range, modes")
+    assert (error.location, error.value, error.valid) == (
+        "include",
+        "efforts",
+        "reaction, forces_range, modes, wrenches",
+    )
     (error,) = problem(solved_client.post(POST, json=body(THREE, loads=[{}], include=["efforts"])), 400).errors
     assert error.location == "body include 0"
     many = body(THREE, loads=[{}] * (MOST_WITH_MODES + 1), include=["modes"])
@@ -110,6 +114,15 @@ def test_a_jamming_diagram_is_that_of_the_command_line(
     assert response.json() == json.loads(capsys.readouterr().out)
     assert drawn.read_text() == picture.text
     assert response.headers["Content-Location"] == path(THREE, "1").replace("/statics", "/jamming")
+
+
+def test_any_pose_has_the_diagram_of_a_stored_one(solved_client: TestClient) -> None:
+    stored = path(THREE).replace("/statics", "/jamming")
+    computed = stored.removeprefix("/v1/libraries/latest").join(("/v1", ""))
+    for parameters in ({}, {"format": "svg"}):
+        asked = solved_client.get(computed, params={"library": "latest", **parameters})
+        assert asked.text == solved_client.get(stored, params=parameters).text
+        assert asked.headers["Cache-Control"] == "no-store"
 
 
 @pytest.mark.parametrize(

@@ -93,8 +93,22 @@ class ModeDocument(TypedDict):
     margin: Annotated[float | None, Field(description="by how much the conditions hold, over the load")]
 
 
+class ContactWrenchDocument(TypedDict):
+    """A contact that carries forces, in the last pose: the wrench of a force of 1 N along its normal."""
+
+    contact: Annotated[int, Field(ge=1)]
+    point: VectorDocument
+    normal: Annotated[VectorDocument, Field(description="from the nut into the bolt: the force")]
+    moment: Annotated[VectorDocument, Field(description="about the load's point, in N times the unit of length")]
+
+
 class ExtrasDocument(TypedDict):
     """What is added to the statics of a state on request."""
+
+    wrenches: NotRequired[list[ContactWrenchDocument]]
+    hull_gap: NotRequired[
+        Annotated[float, Field(description="the hull of a true patch reaches beyond its contacts by no more")]
+    ]
 
     reaction: NotRequired[ReactionDocument]
     forces_range: NotRequired[
@@ -148,6 +162,17 @@ def requested_document(statics: Statics, extras: Extras | None, length_factor: f
 def extras_document(extras: Extras, length_factor: float = 1.0) -> ExtrasDocument:
     """What was requested beside the statics of a state, lengths times a factor from the pair's unit."""
     document = ExtrasDocument()
+    if extras.wrenches is not None:
+        document["wrenches"] = [
+            ContactWrenchDocument(
+                contact=one.contact,
+                point=_times(length_factor, one.point),
+                normal=list(one.normal),
+                moment=_times(length_factor, one.moment),
+            )
+            for one in extras.wrenches
+        ]
+        document["hull_gap"] = length_factor * extras.hull_gap
     if extras.reaction is not None:
         document["reaction"] = _reaction(extras.reaction, extras.origin, length_factor)
     if extras.forces_range is not None:

@@ -29,7 +29,7 @@ def statics(
         typer.Option(
             "--include",
             metavar="NAMES",
-            help="More numbers, with commas: reaction, forces_range, modes.",
+            help="More numbers, with commas: reaction, forces_range, modes, wrenches.",
             show_default=False,
         ),
     ] = None,

@@ -146,6 +146,7 @@ class Client:
     statics = _answered(statics_calls.statics)
     solve_statics = _answered(statics_calls.solve_statics)
     jamming = _answered(statics_calls.jamming)
+    computed_jamming = _answered(statics_calls.computed_jamming)
     jamming_svg = _answered(statics_calls.jamming_svg)
     held = _answered(statics_calls.held)
     computed_held = _answered(statics_calls.computed_held)

@@ -46,7 +46,8 @@ def statics(
 
     The load is a ``force`` on the bolt in N, and a ``moment`` in N times the unit of length about ``point``, in the
     nut's frame; by default a push of 1 N along -z, and the bolt's origin. Lengths of the load and of the answer are in
-    ``unit``, else in the library's own. ``include`` names what is added: reaction, forces_range, modes.
+    ``unit``, else in the library's own. ``include`` names what is added: reaction, forces_range, modes,
+    wrenches.
 
     Raises:
         InvalidValueError: ``mu`` is negative or not finite, a vector is not three finite numbers, or the load is zero.
@@ -83,6 +84,33 @@ def jamming(
     """
     query = load_query(mu, force, moment, point) | _shape(axes, contacts, window, tolerance)
     return get(library_path(library, "states", roll, pitch, phase, "jamming"), Jamming, **query, unit=unit)
+
+
+def computed_jamming(
+    roll: float,
+    pitch: float,
+    phase: float,
+    *,
+    mu: float = DEFAULT_FRICTION,
+    axes: Iterable[str] | None = None,
+    force: Sequence[float] | None = None,
+    moment: Sequence[float] | None = None,
+    point: Sequence[float] | None = None,
+    contacts: Iterable[int] | None = None,
+    window: Sequence[float] | None = None,
+    tolerance: float | None = None,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    unit: str | None = None,
+) -> Call[Jamming]:
+    """As ``jamming``, of any pose, computed on request, of a known thread or of a library's pair.
+
+    Raises:
+        InvalidValueError: as ``statics``.
+    """
+    query = load_query(mu, force, moment, point) | _shape(axes, contacts, window, tolerance)
+    path = path_of("v1", "states", roll, pitch, phase, "jamming")
+    return get(path, Jamming, **query, designation=designation, library=library, unit=unit)
 
 
 def jamming_svg(

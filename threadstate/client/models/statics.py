@@ -66,6 +66,18 @@ class Twist(Answer):
     frame: Literal["nut"]
 
 
+class ContactWrench(Answer):
+    """A contact that carries forces in the last pose, with the wrench of 1 N along its normal, in the nut's frame.
+
+    The moment is about the load's point; ``contact`` counts as that of a force.
+    """
+
+    contact: int
+    point: Vector
+    normal: Vector
+    moment: Vector
+
+
 class ContactMode(Answer):
     """A way in which contacts can open, stick or slide under the load; of an undecided one nothing else is known."""
 
@@ -81,8 +93,8 @@ class Statics(Answer):
 
     ``mu_hold`` and ``mu_wedge`` are None where no friction is known to hold the load, or to wedge the bolt; an effort
     is None where no torque turns the bolt that way. ``penetrating``: the solids overlap, so that no forces can be real.
-    What was not requested is None: ``reaction``, ``forces_range`` with ``internal_dimension``, and ``modes``, which are
-    None of a patch as well.
+    What was not requested is None: ``reaction``, ``forces_range`` with ``internal_dimension``, ``wrenches`` with
+    ``hull_gap``, and ``modes``, which are None of a patch as well.
     """
 
     roll: float
@@ -103,6 +115,8 @@ class Statics(Answer):
     forces_range: tuple[NormalRange, ...] | None = None
     internal_dimension: int | None = None
     modes: tuple[ContactMode, ...] | None = None
+    wrenches: tuple[ContactWrench, ...] | None = None
+    hull_gap: float | None = None
 
 
 class StaticsAnswer(Answer):
