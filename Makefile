@@ -10,6 +10,7 @@
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make statics    what a push does to the states, docs/statics.md and its maps
+# make witness    the numbers of 10,000 loaded states beside a conic solver's, docs/statics-witness.md
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
 # make client     make the blocking client of the asynchronous one
 # make designer   write the answers in docs/tutorial.md and the page of falls and windows; pins 1/4-20 UNC
@@ -31,7 +32,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test check bench client load paper chart stability docs lock designer statics histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test check bench client load paper chart stability docs lock designer statics witness histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -80,6 +81,9 @@ stability: setup
 
 statics: setup
 	$(BIN)/python -m studies.statics
+
+witness: setup
+	$(BIN)/python -m studies.witness
 
 histories: setup
 	$(BIN)/python -m studies.history

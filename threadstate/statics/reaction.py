@@ -17,10 +17,10 @@ from threadstate.statics.wrench_cone import (
     carried,
     contact_maps,
     divided,
+    driven,
     into_cones,
     moved,
     slacks,
-    solved_program,
 )
 from threadstate.thread.pair import Pair
 
@@ -86,18 +86,13 @@ def _distance(found: Divided, load: Floats) -> tuple[float, Floats]:
 
     Maximises the load's power over twists of size at most 1 that no contact withstands; the multipliers are forces.
     """
-    k, q, parts = found.maps.shape
+    k, _, parts = found.maps.shape
     size = float(np.linalg.norm(load))
     if size == 0.0 or k == 0:
         return size, np.zeros((k, parts))
-    g = np.zeros((k * parts + q + 1, q))
-    g[: k * parts] = -np.swapaxes(found.maps, 1, 2).reshape(k * parts, q)
-    g[k * parts + 1 :] = -np.eye(q)
-    h = np.zeros(len(g))
-    h[k * parts] = 1.0
-    twist, z = solved_program(-load / size, g, h, [parts] * k + [q + 1])
+    twist, forces = driven(found.maps, load / size)
     # With enough of the twist that leaves all contacts none withstands the sum.
     short = max(0.0, -float(slacks(moved(found.maps, twist)).min()))
     twist = twist + short / found.rate * found.twist
     lower = float(load @ twist) / max(float(np.linalg.norm(twist)), 1e-300)
-    return max(lower, 0.0), into_cones(z[: k * parts].reshape(k, parts)) * size
+    return max(lower, 0.0), into_cones(forces) * size

@@ -16,6 +16,7 @@ from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.scene import scene_of
 from threadstate.statics.touching import Touching
 from threadstate.statics.verdict import FrictionBounds, Verdict, verdict_at
+from threadstate.statics.wrench_cone import contact_maps, driven, withstood
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -111,8 +112,33 @@ def _numbers(wrench: Floats, scaled: Touching) -> Floats:
 
 def _hold(wrench: Floats, scaled: Touching, numbers: Floats) -> FrictionBounds:
     if numbers[nk.N_STATUS] == nk.OPEN_PATCH:
-        return _patch_hold(wrench, scaled.points[scaled.own :])[0]
-    return _bounds(numbers[nk.N_HOLD :])
+        return patch_hold(wrench, scaled.points[scaled.own :])[0]
+    bounds = _bounds(numbers[nk.N_HOLD :])
+    return bounds if scaled.patch else sharpened(bounds, wrench, scaled.points, scaled.normals)
+
+
+LOOSE = 1e-9
+"""Relative width of bounds that are sharpened."""
+STEPS = (1e-9, 1e-8, 1e-7)
+"""How far below the upper bound, over it, motions are sought that prove a lower one."""
+LEAST_POWER = 1e-12
+"""Over the load, of what it does on a motion."""
+
+
+def sharpened(bounds: FrictionBounds, wrench: Floats, points: Floats, normals: Floats) -> FrictionBounds:
+    """Bounds of the friction that holds a load, the lower one raised by motions that it drives just below the upper.
+
+    The friction at which the first contact withstands such a motion is a lower bound, however it was found. Of three
+    contacts at most the kernels' bounds are tight; of more they need not be.
+    """
+    lower, load = bounds.lower, wrench / np.linalg.norm(wrench)
+    for step in STEPS:
+        if math.isinf(bounds.upper) or bounds.upper - lower <= LOOSE * bounds.upper:
+            break
+        twist, _ = driven(contact_maps(points, normals, bounds.upper * (1.0 - step)), load)
+        if load @ twist > LEAST_POWER:
+            lower = max(lower, float(withstood(points, normals, twist).min()))
+    return FrictionBounds(min(lower, bounds.upper), bounds.upper)
 
 
 FIRST_POINTS = 6
@@ -120,8 +146,10 @@ FIRST_POINTS = 6
 MOST_ADDITIONS = 40
 
 
-def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]]:
-    """Bounds for a level patch, and the points of its hull that carry the load at the upper one.
+def patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]]:
+    """Bounds for a level patch with a hull (n, 3), and the points of it that carry the load at the upper one.
+
+    Lengths are over the nominal radius, about the point of the load (6).
 
     The twist that proves the lower bound of some points is tried on the whole hull; points against which it fails are
     added until none is left.
@@ -135,20 +163,15 @@ def _patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]
             wrench, hull[chosen], everywhere[chosen], math.inf, none, np.zeros(6), forces, twist
         )
         bounds = FrictionBounds(0.0, math.inf) if status == fk.OPEN else FrictionBounds(float(low), float(upper))
-        velocity = twist[3:] + np.cross(twist[:3], hull)
-        scale = np.abs(velocity).max()
-        across = np.hypot(velocity[:, 0], velocity[:, 1])
-        moving = across > 1e-12 * scale
-        ratio = np.where(moving, velocity[:, 2] / np.where(moving, across, 1.0), np.inf)
-        pressed = velocity[:, 2] < -1e-12 * scale
-        ratio[pressed] = -np.inf
+        ratio = withstood(hull, everywhere, twist)
         # Where the motion presses into the nut no friction lets it: the deepest first.
-        worst = int(np.argmin(velocity[:, 2] if pressed.any() else ratio))
+        worst = int(np.argmin((twist[3:] + np.cross(twist[:3], hull))[:, 2] if np.isneginf(ratio).any() else ratio))
         if ratio[worst] >= bounds.lower * (1.0 - 1e-12) or worst in chosen:
-            return FrictionBounds(max(lower, min(float(ratio[worst]), bounds.lower)), bounds.upper), chosen
+            lower = max(lower, min(float(ratio[worst]), bounds.lower))
+            break
         lower = max(lower, float(ratio[worst]))
         chosen = sorted({*chosen, worst})
-    return FrictionBounds(min(lower, bounds.upper), bounds.upper), chosen
+    return sharpened(FrictionBounds(min(lower, bounds.upper), bounds.upper), wrench, hull, everywhere), chosen
 
 
 def _bounds(bounds: Floats) -> FrictionBounds:
@@ -171,7 +194,7 @@ def _forces(wrench: Floats, scaled: Touching, mu: float) -> tuple[ContactForce, 
     """Balancing forces at ``mu`` of least largest normal part."""
     chosen = list(range(len(scaled.points)))
     if scaled.patch:
-        chosen = [scaled.own + i for i in _patch_hold(wrench, scaled.points[scaled.own :])[1]]
+        chosen = [scaled.own + i for i in patch_hold(wrench, scaled.points[scaled.own :])[1]]
     forces = np.zeros(3 * len(chosen))
     fk.least_forces(wrench, mu, scaled.points[chosen], scaled.normals[chosen], forces)
     rows = []

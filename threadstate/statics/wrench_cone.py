@@ -26,6 +26,8 @@ PRESSED = 1e-6
 """A contact is pressed by forces of which its own is more than this part of the largest."""
 SCALES = (1.0, 1e1, 1e2, 1e3, 1e4, 1e5)
 """Sizes of forces, over the load, in whose units forces within their cones are sought."""
+STILL = 1e-12
+"""Velocities below this part of the largest one are none."""
 MOST_FORCE = 1e12
 """Forces that wedge are not taken larger, over the load, to hold those of other contacts in their cones."""
 
@@ -71,6 +73,33 @@ def moved(maps: Floats, twist: Floats) -> Floats:
 def carried(maps: Floats, forces: Floats) -> Floats:
     """The wrench of contact forces."""
     return np.einsum("kqc,kc->q", maps, forces)
+
+
+def driven(maps: Floats, load: Floats) -> tuple[Floats, Floats]:
+    """The twist of size at most 1 on which a load (q) of norm 1 does most work while no contact withstands it.
+
+    With it the contacts' forces (k, parts), on the border of their cones, that come nearest to minus the load.
+    """
+    k, q, parts = maps.shape
+    g = np.zeros((k * parts + q + 1, q))
+    g[: k * parts] = -np.swapaxes(maps, 1, 2).reshape(k * parts, q)
+    g[k * parts + 1 :] = -np.eye(q)
+    h = np.zeros(len(g))
+    h[k * parts] = 1.0
+    twist, z = solved_program(-load, g, h, [parts] * k + [q + 1])
+    return twist, z[: k * parts].reshape(k, parts)
+
+
+def withstood(points: Floats, normals: Floats, twist: Floats) -> Floats:
+    """The frictions (k) from which on contacts withstand a twist (6); minus infinity where it presses them."""
+    velocity = twist[3:] + np.cross(twist[:3], points)
+    along = np.einsum("ka,ka->k", velocity, normals)
+    across = np.linalg.norm(velocity - along[:, np.newaxis] * normals, axis=1)
+    scale = np.abs(velocity).max()
+    moving = across > STILL * scale
+    ratio = np.where(moving, along / np.where(moving, across, 1.0), math.inf)
+    ratio[along < -STILL * scale] = -math.inf
+    return np.asarray(ratio)
 
 
 def opening(maps: Floats) -> tuple[float, Floats, Floats]:
