@@ -114,30 +114,39 @@ def _hold(wrench: Floats, scaled: Touching, numbers: Floats) -> FrictionBounds:
     if numbers[nk.N_STATUS] == nk.OPEN_PATCH:
         return patch_hold(wrench, scaled.points[scaled.own :])[0]
     bounds = _bounds(numbers[nk.N_HOLD :])
-    return bounds if scaled.patch else sharpened(bounds, wrench, scaled.points, scaled.normals)
+    if scaled.patch or len(scaled.points) <= TIGHT_CONTACTS:
+        return bounds
+    return sharpened(bounds, _bounds(numbers[nk.N_WEDGE :]), wrench, scaled.points, scaled.normals)
 
 
+TIGHT_CONTACTS = 3
+"""So many contacts at most have tight bounds by the kernels alone."""
 LOOSE = 1e-9
 """Relative width of bounds that are sharpened."""
-STEPS = (1e-9, 1e-8, 1e-7)
-"""How far below the upper bound, over it, motions are sought that prove a lower one."""
+STEPS = (1e-9, 1e-8, 1e-7, 1e-6)
+"""How far below a friction, over it, motions are sought that prove a lower bound."""
 LEAST_POWER = 1e-12
 """Over the load, of what it does on a motion."""
 
 
-def sharpened(bounds: FrictionBounds, wrench: Floats, points: Floats, normals: Floats) -> FrictionBounds:
-    """Bounds of the friction that holds a load, the lower one raised by motions that it drives just below the upper.
+def sharpened(
+    bounds: FrictionBounds, wedge: FrictionBounds, wrench: Floats, points: Floats, normals: Floats
+) -> FrictionBounds:
+    """Bounds of the friction that holds a load on many contacts; the lower one is proved by motions that it drives.
 
-    The friction at which the first contact withstands such a motion is a lower bound, however it was found. Of three
-    contacts at most the kernels' bounds are tight; of more they need not be.
+    The friction at which the first contact withstands such a motion is a lower bound, however it was found: motions are
+    sought just below the upper bound, and just below the friction that wedges. Above that the kernels' lower bound is
+    not one of forces without limit, and is left.
     """
-    lower, load = bounds.lower, wrench / np.linalg.norm(wrench)
+    lower, load = min(bounds.lower, wedge.lower), wrench / np.linalg.norm(wrench)
     for step in STEPS:
-        if math.isinf(bounds.upper) or bounds.upper - lower <= LOOSE * bounds.upper:
-            break
-        twist, _ = driven(contact_maps(points, normals, bounds.upper * (1.0 - step)), load)
-        if load @ twist > LEAST_POWER:
-            lower = max(lower, float(withstood(points, normals, twist).min()))
+        for friction in (bounds.upper * (1.0 - step), wedge.lower * (1.0 - step)):
+            if math.isinf(bounds.upper) or bounds.upper - lower <= LOOSE * bounds.upper:
+                return FrictionBounds(min(lower, bounds.upper), bounds.upper)
+            if lower < friction < bounds.upper:
+                twist, _ = driven(contact_maps(points, normals, friction), load)
+                if load @ twist > LEAST_POWER:
+                    lower = max(lower, float(withstood(points, normals, twist).min()))
     return FrictionBounds(min(lower, bounds.upper), bounds.upper)
 
 
@@ -171,7 +180,8 @@ def patch_hold(wrench: Floats, hull: Floats) -> tuple[FrictionBounds, list[int]]
             break
         lower = max(lower, float(ratio[worst]))
         chosen = sorted({*chosen, worst})
-    return sharpened(FrictionBounds(min(lower, bounds.upper), bounds.upper), wrench, hull, everywhere), chosen
+    found = FrictionBounds(min(lower, bounds.upper), bounds.upper)
+    return sharpened(found, FrictionBounds(math.inf, math.inf), wrench, hull, everywhere), chosen
 
 
 def _bounds(bounds: Floats) -> FrictionBounds:
