@@ -16,8 +16,8 @@ from oracle.statics.loads import support_margin
 from oracle.statics.wrenches import Wrench
 from studies.witness.scenes import Scene
 from threadstate.statics import _numbers_kernel as nk
-from threadstate.statics._friction_kernel import least_forces, search_addresses
-from threadstate.statics.solve import patch_hold
+from threadstate.statics.solve import deep_forces, numbers_of
+from threadstate.statics.touching import Touching
 
 Floats = NDArray[np.float64]
 
@@ -116,22 +116,16 @@ def _compared(
 def _verified(scene: Scene, load: Wrench, one: Compared) -> bool:
     """Whether the witness's twist, and the closed form's forces in its arithmetic, prove the closed form's friction."""
     angle = one.ours[1]
-    forces = np.zeros(3 * len(scene.points))
-    least_forces(scene.load, math.tan(angle + 0.5 * AGREE), scene.points, scene.normals, forces)
-    bound = forces_bound(scene.points, scene.normals, load, forces.reshape(-1, 3))
+    forces, _ = deep_forces(scene.load, scene.points, scene.normals, math.tan(angle + 0.5 * AGREE))
+    bound = forces_bound(scene.points, scene.normals, load, forces)
     return math.atan(bound) - AGREE <= angle <= one.theirs[0] + AGREE
 
 
 def _closed_forms(scene: Scene) -> Floats:
-    row = np.zeros(nk.NUMBERS_SIZE)
-    if not scene.patch:
-        nk.contact_numbers(search_addresses(), scene.load, scene.points, scene.normals, row)
-        return row
-    nk.patch_numbers(scene.load, scene.points[:, :2].copy(), row)
-    if row[nk.N_STATUS] == nk.OPEN_PATCH:
-        bounds, _ = patch_hold(scene.load, scene.points)
-        row[nk.N_HOLD], row[nk.N_HOLD + 1] = bounds.lower, bounds.upper
-    return row
+    """A row of numbers, as ``_numbers_kernel`` lays them out."""
+    contacts = Touching(scene.points, scene.normals, 0, (0.0, 0.0, 0.0), scene.patch, False, 0.0, False)
+    margin, hold, wedge = numbers_of(scene.load, contacts)
+    return np.array([nk.DONE, margin, hold.lower, hold.upper, wedge.lower, wedge.upper])
 
 
 def _bracketed(scene: Scene, number: Number, angles: tuple[float, float]) -> tuple[float, Bracket]:

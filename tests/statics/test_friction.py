@@ -65,7 +65,7 @@ def test_bounds_of_three_contacts_are_narrow() -> None:
     assert max(widths) < 1e-7
 
 
-@pytest.mark.parametrize(("contacts", "count"), [(4, 30), (7, 15)])
+@pytest.mark.parametrize(("contacts", "count"), [(4, 15), (7, 6)])
 def test_bounds_of_more_contacts_are_narrow_once_sharpened(contacts: int, count: int) -> None:
     widths = []
     for points, normals, load in scenes(count, contacts, seed=contacts):
@@ -75,12 +75,12 @@ def test_bounds_of_more_contacts_are_narrow_once_sharpened(contacts: int, count:
         _, least, most = wedge(points, normals)[:3]
         bounds = sharpened(FrictionBounds(lower, upper), FrictionBounds(least, most), load, points, normals)
         theirs = witness.hold_friction(points, normals, Wrench.of(load[3:], load[:3]), 1.0)
-        assert bounds.lower <= bounds.upper == upper
+        assert bounds.lower <= bounds.upper <= upper
         assert agree((fk.FOUND, bounds.lower, bounds.upper), theirs, 1e-10)
         widths.append((bounds.upper - bounds.lower) / upper)
     assert np.median(widths) < 1e-8
     # What is only approached, by ever larger forces as the contacts begin to wedge.
-    assert max(widths) < 3e-5
+    assert max(widths) < 1e-6
 
 
 def test_forces_balance_and_lie_in_their_cones() -> None:

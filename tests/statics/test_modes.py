@@ -34,7 +34,7 @@ UP = np.array([[0.0, 0.0, 1.0]])
 
 def scene(points: Floats, normals: Floats, load: Floats) -> Scene:
     origin = (0.0, 0.0, 0.0)
-    return Scene(load, Touching(points, normals, len(points), origin, False, 0.0, False), 1.0)
+    return Scene(load, Touching(points, normals, len(points), origin, False, False, 0.0, False), 1.0)
 
 
 def twist(mode: ContactMode) -> Floats:

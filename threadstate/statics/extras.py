@@ -100,7 +100,7 @@ def _wrenches(scene: Scene, load: Load) -> tuple[ContactWrench, ...]:
     origin = np.array(scene.contacts.origin)
     points = origin + scene.radius * scene.points
     moments = np.cross(points - np.array(load.point or origin), scene.normals)
-    first = 1 + (scene.carriers.start or 0)
+    first = 1 + (scene.contacts.carriers.start or 0)
     return tuple(
         ContactWrench(first + k, *map(_vector, rows))
         for k, rows in enumerate(zip(points, scene.normals, moments, strict=True))

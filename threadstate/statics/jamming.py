@@ -167,7 +167,7 @@ def jamming_diagram(
         UnresolvedPoseError: a contact has no certain normal.
     """
     found = touching(pair, state)
-    first = found.own if found.patch else 0
+    first = found.carriers.start or 0
     radius = pair.nominal_diameter / 2.0
     left_out = 0.0
     if contacts is not None:
@@ -179,7 +179,7 @@ def jamming_diagram(
         kept, left_out = thinned(found.points[first:, :2], tolerance * radius)
         numbers = tuple(first + 1 + index for index in kept)
     else:
-        numbers = tuple(range(1, len(found.points) + 1))
+        numbers = tuple(range(first + 1, len(found.points) + 1))
     rows = [number - 1 for number in numbers]
     load = load or Load()
     diagram = diagram_of_contacts(

@@ -59,7 +59,7 @@ class ForcesRange:
 
 def forces_range_of(scene: Scene, mu: float, *, held: bool) -> ForcesRange:
     """The range of forces in a scene at a friction; ``held``: whether the contacts are known to hold the load."""
-    if scene.contacts.patch:
+    if scene.contacts.patch or scene.contacts.strip:
         return ForcesRange((), None)
     maps = contact_maps(scene.points, scene.normals, mu)
     internal = null_space(np.concatenate(list(maps), axis=1)).shape[1]

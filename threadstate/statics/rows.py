@@ -23,15 +23,24 @@ Floats = NDArray[np.float64]
 def statics_rows(pair: Pair, records: Floats, load: Load | None = None) -> Floats:
     """Rows of shape (n, NUMBERS_SIZE), as ``_numbers_kernel`` lays them out, of decided records under one load.
 
-    Each has the same bits whatever the others are. A patch under a load with a part across it has its holding friction
-    open (``OPEN_PATCH``): :func:`threadstate.statics.solve.statics_of` finds it.
+    Each has the same bits whatever the others are. A patch under a load with a part across it, and a strip of flank
+    under any but a push along the axis, have their holding friction open (``OPEN_PATCH``):
+    :func:`threadstate.statics.solve.statics_of` finds it.
     """
     rows = np.empty((len(records), nk.NUMBERS_SIZE))
     radius = pair.nominal_diameter / 2.0
     loads = loads_about(origins(records), load or Load())
     loads[:, :3] /= radius
     nk.statics_rows(search_addresses(), records, loads, radius, pair.bolt.packed, pair.nut.packed, rows)
+    # Corners alone say what the whole strip holds under a push along the axis, and under no other load.
+    rows[on_strips(records) & loads[:, :5].any(axis=1), nk.N_STATUS] = nk.OPEN_PATCH
     return rows
+
+
+def on_strips(records: Floats) -> NDArray[np.bool_]:
+    """Which records are of a bolt that lies on a strip of flank."""
+    flush = records[:, rk.O_FLAGS].astype(np.intp) & rk.FLAG_FLUSH != 0
+    return np.asarray(flush & (origins(records)[:, 2] < 0.0))
 
 
 def origins(records: Floats) -> Floats:

@@ -30,19 +30,14 @@ class Scene:
     radius: float
 
     @property
-    def carriers(self) -> slice:
-        """Which of the contacts carry forces: all of them, or the hull of a level patch."""
-        return slice(self.contacts.own, None) if self.contacts.patch else slice(None)
-
-    @property
     def points(self) -> Floats:
         """Of the contacts that carry forces, shape (k, 3)."""
-        return self.contacts.points[self.carriers]
+        return self.contacts.points[self.contacts.carriers]
 
     @property
     def normals(self) -> Floats:
         """Of the contacts that carry forces, shape (k, 3)."""
-        return self.contacts.normals[self.carriers]
+        return self.contacts.normals[self.contacts.carriers]
 
 
 def scene_of(pair: Pair, state: ContactState, load: Load) -> Scene:

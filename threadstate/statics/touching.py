@@ -7,6 +7,7 @@ lies on the axes of the later turns, but the features have turned against each o
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.encode import geometry_records
-from threadstate.state.model import ContactState, Flag, StagePose, Vector
+from threadstate.state.model import Contact, ContactState, Flag, StagePose, Vector
 from threadstate.statics import _patch_kernel as hk
 from threadstate.statics._last_pose_kernel import set_contacts
 from threadstate.thread.pair import Pair
@@ -28,12 +29,14 @@ class Touching:
     """Contacts of a state's last pose, in the nut's frame, lengths in the pair's unit.
 
     Attributes:
-        points: shape (k, 3), read-only; the state's own contacts first, then the hull of its patch.
+        points: shape (k, 3), read-only; the state's own contacts first, then the hull of its patch, or the outline of
+            its strip of flank.
         normals: shape (k, 3), read-only; unit vectors from the nut into the bolt.
         own: how many are the state's own contacts.
         origin: the bolt's origin.
         patch: whether they are a level patch, all normals up.
-        gap: how far the hull of the true patch may lie outside of the one of these points; 0 without a patch.
+        strip: whether they are a strip of flank on flank along a helix.
+        gap: how far the hull of the true patch or strip may lie outside of the one of these points; else 0.
         penetrating: whether the solids overlap in the last pose by more than the tolerance: no forces are real there.
     """
 
@@ -42,8 +45,14 @@ class Touching:
     own: int
     origin: tuple[float, float, float]
     patch: bool
+    strip: bool
     gap: float
     penetrating: bool
+
+    @property
+    def carriers(self) -> slice:
+        """Which of the contacts carry forces: all of them, or the hull of a patch, the outline of a strip."""
+        return slice(self.own, None) if self.patch or self.strip else slice(None)
 
 
 def touching(pair: Pair, state: ContactState) -> Touching:
@@ -54,29 +63,67 @@ def touching(pair: Pair, state: ContactState) -> Touching:
     """
     last = state.poses[-1]
     points = [contact.point for contact in state.contacts]
-    gap, patch = 0.0, False
-    if Flag.FLUSH in state.flags:
-        on_thread = last.translation[2] < 0.0
-        patch = not on_thread
-        normals = [contact.normal if on_thread else (0.0, 0.0, 1.0) for contact in state.contacts]
-        if not on_thread:
-            hull, gap = patch_hull(pair, last)
-            if len(hull) < 3:
-                pose = state.roll_deg, state.pitch_deg, state.phase_deg
-                raise UnresolvedPoseError(*pose, "the patch on which the bolt lies is too narrow for its hull")
-            points += hull
-            normals += [(0.0, 0.0, 1.0)] * len(hull)
-    else:
+    normals = [contact.normal for contact in state.contacts]
+    gap, patch, strip = 0.0, False, False
+    if Flag.FLUSH not in state.flags:
         normals = _last_normals(pair, state)
+    elif last.translation[2] < 0.0:
+        strip = True
+        outline, gap = strip_outline(state.contacts)
+        points += [point for point, _ in outline]
+        normals += [normal for _, normal in outline]
+    else:
+        patch = True
+        hull, gap = patch_hull(pair, last)
+        if len(hull) < 3:
+            pose = state.roll_deg, state.pitch_deg, state.phase_deg
+            raise UnresolvedPoseError(*pose, "the patch on which the bolt lies is too narrow for its hull")
+        points += hull
+        normals = [(0.0, 0.0, 1.0)] * len(points)
     return Touching(
         points=_read_only(points),
         normals=_read_only(normals),
         own=len(state.contacts),
         origin=last.translation,
         patch=patch,
+        strip=strip,
         gap=gap,
         penetrating=state.embedment_margin is not None and state.embedment_margin < 0.0,
     )
+
+
+STRIP_SAMPLES = 33
+"""Points of each of the two curves of a strip's outline."""
+
+
+def strip_outline(corners: Sequence[Contact]) -> tuple[list[tuple[Vector, Vector]], float]:
+    """Points and normals on the upper and the lower curve of a strip of flank, and how far the strip lies outside.
+
+    On a flank the height grows linearly with radius and azimuth: a curve of one height is a spiral of Archimedes, and
+    the normal's slopes along the radius and, times the radius, across it are those of its corners. Between two samples
+    points and normals leave their chords by at most an eighth of the step of azimuth squared.
+    """
+    found, gap = [], 0.0
+    for height in sorted({contact.point[2] for contact in corners}):
+        first, last = (contact for contact in corners if contact.point[2] == height)
+        (azimuth, start), end = _polar(first), _polar(last)[1]
+        ex, ey, ez = first.normal
+        along = (ex * math.cos(azimuth) + ey * math.sin(azimuth)) / ez
+        across = (ey * math.cos(azimuth) - ex * math.sin(azimuth)) / ez * start
+        turn = -along / across * (end - start)
+        for share in np.linspace(0.0, 1.0, STRIP_SAMPLES).tolist():
+            angle, radius = azimuth + share * turn, start + share * (end - start)
+            cosine, sine, side = math.cos(angle), math.sin(angle), across / radius
+            size = math.sqrt(1.0 + along * along + side * side)
+            normal = (along * cosine - side * sine) / size, (along * sine + side * cosine) / size, 1.0 / size
+            found.append(((radius * cosine, radius * sine, height), normal))
+        gap = max(gap, max(start, end) * (turn / (STRIP_SAMPLES - 1)) ** 2 / 8.0)
+    return found, gap
+
+
+def _polar(contact: Contact) -> tuple[float, float]:
+    x, y, _ = contact.point
+    return math.atan2(y, x), math.hypot(x, y)
 
 
 def _last_normals(pair: Pair, state: ContactState) -> list[Vector]:
