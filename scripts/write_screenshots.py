@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from time import sleep
 
 from selenium import webdriver
 
@@ -16,6 +17,7 @@ from threadstate.settings import read_settings
 
 FOLDER = Path(__file__).parent.parent / "docs" / "explorer"
 LAPTOP, DESKTOP = (1280, 800), (1920, 1080)
+REST_S = 1.0
 DRAWN = ("#map .cell", "#depth .curve", "#scene canvas")
 
 
@@ -40,6 +42,12 @@ SHOTS = (
         "roll=-4&pitch=-4&phase=300&theme=dark&beside_library=1&beside_roll=0&beside_pitch=-4&tab=poses"
         "&poses=-4,-4,300;-4,-4,352.5;2.5,-1.2,357",
         "#poses-list tbody tr",
+    ),
+    Shot(
+        "laptop-load",
+        LAPTOP,
+        "roll=2&pitch=0&phase=345&theme=light&nut=glass&tab=load&mu=0.3&fx=0.1&quantity=mu_hold",
+        "#jamming .edge",
     ),
     Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light&tab=network", "#network .way .stop"),
     Shot(
@@ -77,8 +85,17 @@ def _take(explorer: Explorer, chromium: webdriver.Chrome, shot: Shot) -> None:
         explorer.one(selector)
     label = "return document.querySelector('#scene canvas').getAttribute('aria-label') ?? ''"
     explorer.wait(lambda: "phase" in explorer.run(label), "the scene is not drawn")
+    # Without a graphics card a change of the solids is drawn after a rest.
+    looks = [chromium.get_screenshot_as_png()]
+
+    def is_settled() -> bool:
+        sleep(REST_S)
+        looks.append(chromium.get_screenshot_as_png())
+        return looks[-1] == looks[-2]
+
+    explorer.wait(is_settled, "the page goes on changing")
     path = FOLDER / f"{shot.name}.png"
-    path.write_bytes(chromium.get_screenshot_as_png())
+    path.write_bytes(looks[-1])
     print(f"{path.relative_to(FOLDER.parent.parent)}: {path.stat().st_size} bytes")
 
 

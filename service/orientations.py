@@ -24,6 +24,9 @@ class OrientationDocument(BaseModel):
     embedment_most: float | None = Field(description="greatest embedment")
     pivot_offset_least: float | None = Field(description="least pivot offset")
     margin_least: float | None = Field(description="least distance of any of a class's numbers from its threshold")
+    mu_hold_least: float | None = Field(description="least friction that holds a push at any phase")
+    mu_wedge_least: float | None = Field(description="least friction at which contacts wedge at any phase")
+    support_margin_most: float | None = Field(description="greatest support margin under a push")
 
 
 class OrientationsAnswer(BaseModel):
@@ -48,6 +51,9 @@ def orientation_document(summary: OrientationSummary, factor: float) -> Orientat
         embedment_most=scaled(summary.embedment_most),
         pivot_offset_least=scaled(summary.pivot_offset_least),
         margin_least=scaled(summary.margin_least),
+        mu_hold_least=summary.mu_hold_least,
+        mu_wedge_least=summary.mu_wedge_least,
+        support_margin_most=summary.support_margin_most,
     )
 
 

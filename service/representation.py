@@ -16,6 +16,7 @@ REVALIDATE_PRIVATELY = "private, no-cache"
 """No shared caches where reads need a key."""
 
 JSON = "application/json"
+SVG = "image/svg+xml"
 NOT_MODIFIED: dict[int | str, dict[str, str]] = {304: {"description": "The client's copy is current (`If-None-Match`)"}}
 CSV = "text/csv; charset=utf-8; header=present"
 VARY_ACCEPT = "Accept"

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from threadstate.errors import InvalidValueError
 from threadstate.numbers import three_numbers
 from threadstate.statics.load import Load
 from worker.options import number_option
@@ -37,6 +38,23 @@ Avoid = Annotated[
 PUSH = "0,0,-1"
 NO_MOMENT = "0,0,0"
 WEDGED = "wedged"
+
+
+def needs_friction(mu: float | None, force: str, moment: str, point: str | None, avoid: str = WEDGED) -> None:
+    """Check that nothing of a load is given without a friction.
+
+    Raises:
+        InvalidValueError: something is.
+    """
+    given = {
+        "--force": (force, PUSH),
+        "--moment": (moment, NO_MOMENT),
+        "--point": (point, None),
+        "--avoid": (avoid, WEDGED),
+    }
+    for name, (value, default) in given.items():
+        if mu is None and value != default:
+            raise InvalidValueError(name, value, "with --mu, the coefficient of friction under that load")
 
 
 def chosen_load(force: str, moment: str, point: str | None, factor: float) -> Load:

@@ -173,6 +173,10 @@ def _add_extras(rows: Table, extras: Extras, unit: LengthUnit, factor: float) ->
         rows.add_row("reaction, force (N)", _numbers(reaction.force))
         rows.add_row(f"reaction, moment (N {unit})", _numbers([factor * number for number in reaction.moment]))
         rows.add_row("reaction, size (N)", f"{reaction.size:.6f}, at least {reaction.least_size:.6f}")
+    for wrench in extras.wrenches or ():
+        moment = _numbers([factor * number for number in wrench.moment])
+        rows.add_row(f"contact {wrench.contact}, at ({unit})", _numbers([factor * number for number in wrench.point]))
+        rows.add_row(f"contact {wrench.contact}, normal", f"{_numbers(wrench.normal)}, moment {moment} N {unit}")
     if extras.forces_range is not None:
         dimension = extras.forces_range.internal_dimension
         rows.add_row("internal forces", "of a patch" if dimension is None else f"{dimension} dimensions")

@@ -34,9 +34,9 @@ _MODULES_MARK = b"<!-- modules -->"
 _LATER = {"js/main.js"} | {
     f"js/{name}.js"
     for name in (
-        *("scene_view", "glb"),
+        *("scene_view", "glb", "force_marks"),
         *("tab_views", "disks_view", "disks", "follows_view", "network_view", "overview", "path_view"),
-        *("locate_view", "poses_view"),
+        *("locate_view", "poses_view", "load_view", "jamming_view"),
     )
 }
 """Modules that are not preloaded: the entry point, and those that are needed after the first view."""

@@ -1,5 +1,5 @@
-"""``/v1/histories/{roll}/{pitch}/intervals``, ``.../heights`` and ``.../falls``: of any orientation, computed on
-request.
+"""``/v1/histories/{roll}/{pitch}/intervals``, ``.../heights``, ``.../falls`` and ``.../held``: of any orientation,
+computed on request.
 """
 
 from __future__ import annotations
@@ -7,15 +7,16 @@ from __future__ import annotations
 from typing import Annotated
 
 from annotated_types import Ge, Gt, Le
-from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi import APIRouter, Depends, Query, Response
 from pydantic import AllowInfNan
 
 from service.kernels import require_kernels
-from service.libraries.requested import LIBRARY_DESCRIPTION, SolvedPair, solved_pair
+from service.libraries.requested import RequestedPair
 from service.network.parameters import LeastQuery
-from service.network.schemas import ComputedFalls, ComputedHeights, ComputedIntervals
+from service.network.schemas import ComputedFalls, ComputedHeights, ComputedHeld, ComputedIntervals
 from service.quantities import INTEGER_TEXT, NUMBER_TEXT, UNIT_HEADER, PitchPath, RollPath, UnitQuery
 from service.representation import JSON
+from service.statics.parameters import FrictionsQuery, LoadQuery
 from threadstate.history.falls import SNAP_PITCHES, SPAN_DEG
 from threadstate.responses.documents import FallsDocument
 from threadstate.responses.falls_range import (
@@ -28,22 +29,11 @@ from threadstate.responses.falls_range import (
     tilts_within,
 )
 from threadstate.responses.heights import computed_heights, heights_document
+from threadstate.responses.held import held_documents
 from threadstate.responses.histories import computed_history, history_document
-from threadstate.thread.catalogue import DEFAULT_DESIGNATION
 from threadstate.units import conversion_factor
 
 router = APIRouter(prefix="/v1/histories", tags=["histories"], dependencies=[Depends(require_kernels)])
-
-DesignationQuery = Annotated[
-    str | None,
-    Query(
-        min_length=1,
-        max_length=100,
-        description=f"designation of the pair; {DEFAULT_DESIGNATION} where neither it nor a library is given",
-    ),
-]
-LibraryQuery = Annotated[str | None, Query(min_length=1, max_length=100, description=LIBRARY_DESCRIPTION)]
-
 
 ToleranceQuery = Annotated[
     Annotated[float, Gt(0.0), Le(LARGEST_TOLERANCE_DEG), AllowInfNan(False), NUMBER_TEXT] | None,
@@ -70,13 +60,6 @@ SpanQuery = Annotated[
 ]
 
 
-def _solved_pair(request: Request, designation: DesignationQuery = None, library: LibraryQuery = None) -> SolvedPair:
-    return solved_pair(request, designation, library)
-
-
-RequestedPair = Annotated[SolvedPair, Depends(_solved_pair)]
-
-
 @router.get("/{roll}/{pitch}/intervals", summary="The intervals of any orientation", response_model=ComputedIntervals)
 def get_computed_intervals(roll: RollPath, pitch: PitchPath, asked: RequestedPair, unit: UnitQuery = None) -> Response:
     """The intervals of any roll and pitch, computed on request."""
@@ -97,6 +80,27 @@ def get_computed_heights(roll: RollPath, pitch: PitchPath, asked: RequestedPair,
     found = computed_heights(pair, roll, pitch, asked.options)
     heights = heights_document(found, roll, pitch, pair.thread_pitch, conversion_factor(pair.unit, shown))
     return _computed(ComputedHeights(designation=pair.designation, library=asked.library, unit=shown, heights=heights))
+
+
+@router.get("/{roll}/{pitch}/held", summary="Where a load holds along any phase", response_model=ComputedHeld)
+def get_computed_held(
+    roll: RollPath,
+    pitch: PitchPath,
+    asked: RequestedPair,
+    load: LoadQuery,
+    mus: FrictionsQuery,
+    unit: UnitQuery = None,
+) -> Response:
+    """At which phases of any roll and pitch the contacts can hold a load or wedge, at each friction.
+
+    Lengths of the load are in `unit`.
+    """
+    pair = asked.pair
+    factor = conversion_factor(pair.unit, unit or pair.unit)
+    cells = computed_history(pair, roll, pitch, asked.options).cells
+    held = held_documents(pair, asked.options, (roll, pitch), cells, load.with_lengths_over(factor), mus)
+    answer = ComputedHeld(designation=pair.designation, library=asked.library, held=held)
+    return Response(answer.model_dump_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)
 
 
 @router.get("/{roll}/{pitch}/falls", summary="Falls and snap of any orientation", response_model=ComputedFalls)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from fastapi import Depends, Path, Request
+from fastapi import Depends, Path, Query, Request
 
 from service.database import ReadConnection, engine_of
 from threadstate.errors import InvalidValueError
@@ -74,3 +74,22 @@ def solved_pair(request: Request, designation: str | None, library: int | str | 
     with engine_of(request).connect() as connection:
         record = identified_library(connection, str(library))
     return SolvedPair(pair_of(record.pair), options_of(record.options), record.id)
+
+
+DesignationQuery = Annotated[
+    str | None,
+    Query(
+        min_length=1,
+        max_length=100,
+        description=f"designation of the pair; {DEFAULT_DESIGNATION} where neither it nor a library is given",
+    ),
+]
+LibraryQuery = Annotated[str | None, Query(min_length=1, max_length=100, description=LIBRARY_DESCRIPTION)]
+
+
+def _solved_pair(request: Request, designation: DesignationQuery = None, library: LibraryQuery = None) -> SolvedPair:
+    return solved_pair(request, designation, library)
+
+
+RequestedPair = Annotated[SolvedPair, Depends(_solved_pair)]
+"""The pair and the tolerances that the query parameters name."""

@@ -23,7 +23,9 @@ from service.network.parameters import (
 from service.network.schemas import (
     FormationsAnswer,
     HeightsAnswer,
+    HeldAnswer,
     IntervalsAnswer,
+    LoadedNetworkSummary,
     LocationAnswer,
     NetworkSummary,
     NodeAnswer,
@@ -43,19 +45,33 @@ from service.quantities import (
     UnitQuery,
 )
 from service.representation import JSON, NOT_MODIFIED, json_response, representation
+from service.statics.parameters import (
+    AVOIDED,
+    AvoidQuery,
+    FrictionQuery,
+    FrictionsQuery,
+    Loaded,
+    LoadQuery,
+    UnderLoad,
+    needs_friction,
+)
 from threadstate.errors import InvalidValueError
 from threadstate.history.falls import SNAP_PITCHES
+from threadstate.network.cells import CellMap
 from threadstate.network.formation import KEY_DIGITS
 from threadstate.network.locate import locate
 from threadstate.network.paths import best_path
 from threadstate.network.search import Objective
 from threadstate.responses.heights import heights_document, stored_heights
+from threadstate.responses.held import held_documents
 from threadstate.responses.histories import history_document
 from threadstate.responses.library_network import LibraryNetwork
-from threadstate.responses.networks import location_document, node_document, path_document
+from threadstate.responses.loaded_network import LoadedNetwork
+from threadstate.responses.networks import loaded_summary_document, location_document, node_document, path_document
 from threadstate.responses.query import filter_transitions
 from threadstate.responses.transitions import transition_documents
 from threadstate.responses.windows import windows_of_histories
+from threadstate.statics.load import DEFAULT_FRICTION
 from threadstate.units import LengthUnit, conversion_factor
 
 router = APIRouter(prefix="/v1/libraries/{id}", tags=["network"])
@@ -72,6 +88,15 @@ def _unit(network: LibraryNetwork, unit: LengthUnit | None) -> tuple[LengthUnit,
     stored = network.library.length_unit
     shown = unit or stored
     return shown, conversion_factor(stored, shown)
+
+
+def _under(network: LibraryNetwork, loaded: Loaded | None, factor: float) -> LoadedNetwork | None:
+    return None if loaded is None else network.under(loaded.load.with_lengths_over(factor), loaded.mu)
+
+
+def _cell_map(network: LibraryNetwork, loaded: Loaded | None, factor: float) -> CellMap:
+    under = _under(network, loaded, factor)
+    return network.cell_map if under is None else under.cell_map
 
 
 @router.get(
@@ -114,6 +139,33 @@ def get_heights(
 
 
 @router.get(
+    "/histories/{roll}/{pitch}/held",
+    summary="Where a load holds along the phase",
+    response_model=HeldAnswer,
+    responses=NOT_MODIFIED,
+    dependencies=[Depends(require_kernels)],
+)
+def get_held(
+    request: Request,
+    network: RequestedNetwork,
+    roll: RollPath,
+    pitch: PitchPath,
+    load: LoadQuery,
+    mus: FrictionsQuery,
+    unit: UnitQuery = None,
+) -> Response:
+    """At which phases of an orientation the contacts can hold a load or wedge, at each friction; boundaries solved.
+
+    Lengths of the load are in `unit`.
+    """
+    _, factor = _unit(network, unit)
+    cells = network.histories.orientations[network.orientation(roll, pitch)].cells
+    held = held_documents(network.pair, network.options, (roll, pitch), cells, load.with_lengths_over(factor), mus)
+    answer = HeldAnswer(library=network.library.id, held=held)
+    return json_response(request, answer.model_dump(mode="json"))
+
+
+@router.get(
     "/transitions",
     summary="Transitions",
     response_model=TransitionsPage,
@@ -122,6 +174,7 @@ def get_heights(
 )
 def list_transitions(
     request: Request,
+    loaded: UnderLoad,
     network: RequestedNetwork,
     which: TransitionQuery,
     limit: Annotated[
@@ -135,7 +188,8 @@ def list_transitions(
     """From which interval to which, along phase and to the orientations beside; all filters hold at once.
 
     Heights and normals along phase are stored ones. Those of tilts are solved for the page, half way through the
-    stretch over which the tilt can be made, unless that is shorter than 0.001 deg.
+    stretch over which the tilt can be made, unless that is shorter than 0.001 deg. With `mu` each transition is marked
+    by what a load does where it begins.
     """
     shown, factor = _unit(network, unit)
     found = filter_transitions(network, which)
@@ -150,7 +204,9 @@ def list_transitions(
         library=network.library.id,
         unit=shown,
         count=len(found),
-        transitions=transition_documents(page, network.histories, network.tilts, factor),
+        transitions=transition_documents(
+            page, network.histories, network.tilts, factor, _under(network, loaded, factor)
+        ),
         next=following,
     )
     return _json(request, answer, shown, headers)
@@ -202,6 +258,32 @@ def get_network(
             return json_response(request, answer.model_dump(mode="json", by_alias=True))
 
 
+@router.get(
+    "/network/loaded",
+    summary="The constraint network under a load",
+    response_model=LoadedNetworkSummary,
+    responses=NOT_MODIFIED,
+    dependencies=[Depends(require_kernels)],
+)
+def get_loaded_network(
+    request: Request,
+    network: RequestedNetwork,
+    load: LoadQuery,
+    avoid: AvoidQuery,
+    mu: FrictionQuery = DEFAULT_FRICTION,
+    unit: UnitQuery = None,
+) -> Response:
+    """How much of all phases is free, held or wedged under a load, and the dead ends.
+
+    A load is solved at all orientations when it is first asked for, which takes a while. Its lengths are in `unit`.
+    """
+    _, factor = _unit(network, unit)
+    cell_map = network.under(load.with_lengths_over(factor), mu).cell_map
+    summary = loaded_summary_document(network.network, cell_map, mu, AVOIDED if avoid is None else avoid)
+    answer = LoadedNetworkSummary(library=network.library.id, network=summary)
+    return json_response(request, answer.model_dump(mode="json"))
+
+
 @router.get("/network/formations", summary="All formations", response_model=FormationsAnswer, responses=NOT_MODIFIED)
 def list_formations(request: Request, network: RequestedNetwork) -> Response:
     """A summary of every formation: class, share, where it occurs, how far it is to the window; ordered by key."""
@@ -220,29 +302,37 @@ def get_formation(request: Request, network: RequestedNetwork, key: KeyPath, uni
 @router.get("/network/paths", summary="The best path to the window", response_model=PathAnswer, responses=NOT_MODIFIED)
 def get_path(
     request: Request,
+    loaded: UnderLoad,
     network: RequestedNetwork,
     start: RequiredKey,
     moves: MovesQuery,
+    avoid: AvoidQuery,
     objective: ObjectiveQuery = Objective.TURNING,
     roll: RollQuery = None,
     pitch: PitchQuery = None,
     phase: PhaseQuery = None,
     unit: UnitQuery = None,
 ) -> Response:
-    """From a formation, at any orientation or at one, to the clearance window, by the moves allowed."""
+    """From a formation, at any orientation or at one, to the clearance window, by the moves allowed.
+
+    With `mu` no move leaves what a load marks as one of `avoid`.
+    """
+    needs_friction(None if loaded is None else loaded.mu, avoid=avoid)
     shown, factor = _unit(network, unit)
     if (roll is None) != (pitch is None) or (phase is not None and roll is None):
         raise InvalidValueError("roll, pitch, phase", (roll, pitch, phase), "none, roll and pitch, or all three")
     orientation = None if roll is None or pitch is None else network.orientation(roll, pitch)
+    cell_map = _cell_map(network, loaded, factor)
     path = best_path(
-        network.cell_map,
+        cell_map,
         network.network.node(start).formation,
         objective,
         moves,
         orientation=orientation,
         phase_deg=phase,
+        avoid=AVOIDED if avoid is None else avoid,
     )
-    document = None if path is None else path_document(path, network.cell_map, factor)
+    document = None if path is None else path_document(path, cell_map, factor)
     return _json(request, PathAnswer(library=network.library.id, unit=shown, path=document), shown)
 
 
@@ -252,9 +342,23 @@ def get_path(
     response_model=LocationAnswer,
     responses=NOT_MODIFIED,
 )
-def get_location(request: Request, network: RequestedNetwork, observed: ObservationQuery) -> Response:
-    """The orientations and phases at which a state can have all that was observed, and their share of all."""
-    location = location_document(locate(network.cell_map, observed), network.cell_map)
+def get_location(
+    request: Request,
+    loaded: UnderLoad,
+    network: RequestedNetwork,
+    observed: ObservationQuery,
+    unit: UnitQuery = None,
+) -> Response:
+    """The orientations and phases at which a state can have all that was observed, and their share of all.
+
+    What a bolt does under a load can be observed as well: `verdict`, with `mu`. Lengths of the load are in `unit`.
+    """
+    if (observed.verdict is None) != (loaded is None):
+        value = (observed.verdict, None if loaded is None else loaded.mu)
+        raise InvalidValueError("verdict, mu", value, "both or none: a verdict is that at a friction")
+    _, factor = _unit(network, unit)
+    cell_map = _cell_map(network, loaded, factor)
+    location = location_document(locate(cell_map, observed), cell_map)
     answer = LocationAnswer(library=network.library.id, location=location)
     return json_response(request, answer.model_dump(mode="json", by_alias=True))
 

@@ -17,6 +17,7 @@ from threadstate.network.moves import Move
 from threadstate.network.search import Objective
 from threadstate.responses.query import TransitionFilter, parse_contact_observations, parse_moves
 from threadstate.state.model import Flag, StateClass
+from threadstate.statics.verdict import Verdict
 
 _LONGEST_MOVES = len(",".join(Move))
 _LONGEST_CONTACT = 80
@@ -109,6 +110,9 @@ def observation(
             json_schema_extra={"enum": [True, False]},
         ),
     ] = False,
+    verdict: Annotated[
+        Verdict | None, Query(description="what the bolt was seen to do under a load; with `mu`")
+    ] = None,
 ) -> Observation:
     """The observation of the query parameters.
 
@@ -117,7 +121,7 @@ def observation(
         UnknownNameError: a region or a pair of features that does not exist.
     """
     flags = frozenset() if flag is None else frozenset({flag})
-    return Observation(state_class, contacts, flags, parse_contact_observations(contact or ""), ordered)
+    return Observation(state_class, contacts, flags, parse_contact_observations(contact or ""), ordered, verdict)
 
 
 TransitionQuery = Annotated[TransitionFilter, Depends(transition_filter)]

@@ -9,6 +9,8 @@ from threadstate.responses.documents import (
     FallsRangeDocument,
     FormationSummaryDocument,
     HeightsDocument,
+    HeldDocument,
+    LoadedSummaryDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
@@ -65,6 +67,21 @@ class ComputedFalls(BaseModel):
     range: FallsRangeDocument | None
 
 
+class HeldAnswer(BaseModel):
+    """What a load does along the phase of an orientation, at each friction."""
+
+    library: int = Field(description="number of the library")
+    held: list[HeldDocument]
+
+
+class ComputedHeld(BaseModel):
+    """The same of any orientation, computed on request."""
+
+    designation: str
+    library: int | None = Field(description="number of the library whose pair and tolerances these are")
+    held: list[HeldDocument]
+
+
 class TransitionsPage(_OfLibrary):
     """Transitions in order: by orientation of the source, turns before tilts, each by phase."""
 
@@ -84,6 +101,13 @@ class NetworkSummary(BaseModel):
 
     library: int = Field(description="number of the library")
     network: NetworkSummaryDocument
+
+
+class LoadedNetworkSummary(BaseModel):
+    """What a load does in a library's network."""
+
+    library: int = Field(description="number of the library")
+    network: LoadedSummaryDocument
 
 
 class NodeLinkNetwork(BaseModel):

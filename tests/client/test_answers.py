@@ -93,6 +93,11 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "history_csv": {"roll": 0, "pitch": -3},
         "solve": {"poses": [(0.5, 0.5, 0.5)]},
         "statics": {"roll": 0, "pitch": -3, "phase": 180, "force": (1, 0, -10), "unit": "mm"},
+        "jamming": {"roll": 0, "pitch": -3, "phase": 180, "mu": 0.5, "axes": ["mx", "my"], "window": (3, 3)},
+        "jamming_svg": {"roll": 0, "pitch": -3, "phase": 180, "contacts": [5, 6, 7], "tolerance": 1e-3},
+        "computed_jamming": {"roll": 0.5, "pitch": 0.5, "phase": 0.5},
+        "held": {"roll": 0, "pitch": -3, "mu": (0.1, 0.3), "force": (1, 0, -10)},
+        "computed_held": {"roll": 1.5, "pitch": 0, "mu": 0.1},
         "solve_statics": {"poses": [(0.5, 0.5, 0.5)], "loads": [{"mu": 0.5}, {}]},
         "intervals": {"roll": 0, "pitch": -3},
         "heights": {"roll": 0, "pitch": -3},
@@ -101,13 +106,14 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "computed_falls": {"roll": 1.5, "pitch": 0, "tolerance": 0.1},
         "windows": {"roll": 0},
         "network": {},
+        "loaded_network": {"mu": 0.15, "avoid": ["held"]},
         "network_node_link": {},
         "network_graphml": {},
         "network_dot": {},
         "formations": {},
         "formation": {"key": key},
         "path": {"source": key, "moves": ["ccw", "roll+"], "objective": "transitions"},
-        "locate": {"contact": ["1:*:*:edge-edge"], "ordered": True},
+        "locate": {"contact": ["1:*:*:edge-edge"], "ordered": True, "verdict": "can_stay", "mu": 0.15},
         "health": {},
         "readiness": {},
     }
@@ -135,6 +141,9 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
     assert found["network_dot"].startswith(b"digraph")
     assert found["path"].path.steps[-1].in_window
     assert found["windows"].windows
+    assert found["jamming_svg"].startswith(b"<svg")
+    assert [one.mu for one in found["held"].held] == [0.1, 0.3]
+    assert 0.0 < found["loaded_network"].network.shares["held"] < 1.0
     assert len(found["transitions"]) > 40
     assert found["readiness"].library == found["library"].id
 

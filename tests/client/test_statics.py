@@ -11,7 +11,8 @@ import anyio
 import pytest
 
 from threadstate.client import AsyncClient, Client
-from threadstate.client.calls.statics import MOST_COMBINATIONS, LoadToBear
+from threadstate.client.calls.statics import MOST_COMBINATIONS
+from threadstate.client.loads import LoadToBear
 from threadstate.client.models.statics import Statics
 from threadstate.errors import InvalidValueError
 from threadstate.state.solve import solve_pose
@@ -26,7 +27,7 @@ FORCE, MOMENT, POINT = (0.1, 0.0, -10.0), (0.0, 0.25, 0.0), (1.0 / 3.0, 0.0, -1e
 
 
 def _dumped(statics: Statics) -> Any:
-    return json.loads(statics.model_dump_json())
+    return json.loads(statics.model_dump_json(exclude_unset=True))
 
 
 def _computed(load: Load, mu: float, factor: float = 1.0) -> Any:

@@ -28,6 +28,14 @@ const CHOSEN = {
   beside_library: 2,
   beside_roll: 2.5,
   beside_pitch: -1.2,
+  mu: 0.35,
+  push: 10,
+  fx: -0.1,
+  fy: 0.2,
+  mx: 0.3,
+  my: -1.5,
+  mz: 0.04,
+  plane: "mx,my",
   poses: "2.5,-1.2,357;0,-4,10.25",
   observed: "class=stable_three_point&contact=1:crest:*:edge-edge,*:*:flank_pos:*&ordered=true",
 };
@@ -51,6 +59,7 @@ test("what is not valid in a fragment is left out and reported, the rest stays",
   const bad = {
     roll: "11", pitch: "", phase: "x", unit: "ft", theme: "red", span: "0", library: "-1", stage: "NaN", nut: "", tab: "numbers",
     distance: "1e999", quantity: "colour", tolerance: "-0.1", beside_roll: "12", poses: "1,2", observed: "class=x", from: "400",
+    mu: "-0.1", push: "0", fx: "101", mz: "left", plane: "fx,fx",
   };
   for (const [key, text] of Object.entries(bad)) {
     const { view, remarks } = readFragment(`${key}=${text}&azimuth=3&x=1&constructor=1`);

@@ -31,8 +31,15 @@ SOLVING = [
     "/v1/histories/1/1/heights",
     "/v1/histories/1/1/falls",
     "/v1/libraries/1/histories/1/1/heights",
+    "/v1/histories/1/1/held",
+    "/v1/states/1/1/1/jamming",
     "/v1/libraries/1/transitions",
+    "/v1/libraries/1/histories/1/1/held",
+    "/v1/libraries/1/network/loaded",
+    "/v1/libraries/1/network/paths?from=0123456789&mu=0.1",
+    "/v1/libraries/1/network/locate?verdict=can_stay&mu=0.1",
     "/v1/libraries/1/states/0/0/30/statics",
+    "/v1/libraries/1/states/0/0/30/jamming",
 ]
 COMPILING = """
 import pathlib, sys, time

@@ -27,12 +27,14 @@ from service.network.schemas import (
 )
 from tests.service.conftest import client_of
 from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
+from tests.service.test_problems import problem
 from tests.stored_histories.history_library import SMALL_GRID as GRID
 from tests.stored_histories.history_library import histories_of_grid, store_histories
 from threadstate.responses.heights import computed_heights, heights_document
 from threadstate.responses.histories import computed_history, history_document
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
+from worker.cli import run_command_line
 
 pytestmark = pytest.mark.sqlite_alone
 
@@ -41,10 +43,15 @@ PAIR = quarter_twenty_unc()
 
 
 @pytest.fixture(scope="module")
-def network_client(databases: Databases) -> Iterator[TestClient]:
+def network_database(databases: Databases) -> str:
     database = databases.migrated()
     store_histories(database, GRID, histories_of_grid(GRID))
-    with client_of(database) as client:
+    return database
+
+
+@pytest.fixture(scope="module")
+def network_client(network_database: str) -> Iterator[TestClient]:
+    with client_of(network_database) as client:
         yield client
 
 
@@ -360,3 +367,69 @@ def test_what_follows_is_told_by_its_class_and_by_what_changes(network_client: T
         )
         assert ("contact" in one["change"]) is not same_contacts
         assert (" to " in one["change"].partition(";")[0] and not one["change"].startswith("contact")) is not same_class
+
+
+UNDER = "mu=0.15&force=0.1,0,-10&unit=mm"
+LOADED = ["--mu=0.15", "--force=0.1,0,-10", "--unit=mm"]
+
+
+def _printed(capsys: pytest.CaptureFixture[str], *arguments: str) -> list[Any]:
+    capsys.readouterr()
+    assert run_command_line([*arguments, "--json"]) == 0
+    return [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+
+
+@pytest.mark.slow
+def test_under_a_load_it_answers_as_the_command_line(
+    network_client: TestClient, network_database: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    where = [*LOADED, f"--database={network_database}"]
+    held = _json(network_client, f"{LIBRARY}/histories/0/-3/held?{UNDER.replace('0.15', '0.1,0.15')}")["held"]
+    tilt = ["--roll=0", "--pitch=-3", "--library=latest"]
+    assert held == _printed(capsys, "held", *tilt, *where, "--mu=0.1,0.15")
+    assert {one["verdict"] for one in held[1]["stretches"]} == {"moves", "can_stay"}
+    summary = _json(network_client, f"{LIBRARY}/network/loaded?{UNDER}&avoid=held,wedged")["network"]
+    assert [summary] == _printed(capsys, "network", *where, "--avoid=held,wedged")
+    page = _json(network_client, f"{LIBRARY}/transitions?roll=0&pitch=-3&move=ccw&limit=30&{UNDER}")["transitions"]
+    printed = _printed(capsys, "transitions", "--roll=0", "--pitch=-3", "--move=ccw", "--limit=30", *where)
+    assert [{"unit": "mm", **one} for one in page] == printed
+    assert {one["mark"] for one in page} == {"free", "held"}
+    located = _json(network_client, f"{LIBRARY}/network/locate?verdict=can_stay&{UNDER}")["location"]
+    assert [located] == _printed(capsys, "locate", "--verdict=can_stay", *where)
+    key = _key(network_client)
+    free, avoiding = (
+        _json(network_client, f"{LIBRARY}/network/paths?from={key}&{query}")["path"]
+        for query in (UNDER, f"{UNDER}&avoid=held,wedged")
+    )
+    assert free is not None
+    assert free != avoiding
+    (path,) = _printed(capsys, "path", f"--from={key}", "--avoid=held,wedged", *where)
+    assert path == (None if avoiding is None else {"unit": "mm", **avoiding})
+
+
+@pytest.mark.slow
+def test_any_orientation_is_held_as_a_stored_one(network_client: TestClient) -> None:
+    stored = _json(network_client, f"{LIBRARY}/histories/0/-3/held?mu=0.15")["held"]
+    computed = _json(network_client, "/v1/histories/0/-3/held?mu=0.15&library=latest")
+    assert (computed["designation"], computed["library"]) == ("1/4-20 UNC", 1)
+    assert computed["held"] == stored
+
+
+@pytest.mark.parametrize(
+    ("path", "location", "valid"),
+    [
+        ("transitions?force=0,0,-10", "force", "with mu"),
+        ("network/paths?from=0123456789&avoid=held", "avoid", "with mu"),
+        ("network/paths?from=0123456789&mu=0.1&avoid=stuck", "avoid", "free, held, wedged, undecided"),
+        ("network/locate?verdict=moves", "verdict, mu", "both or none"),
+        ("network/locate?contacts=3&mu=0.1", "verdict, mu", "both or none"),
+        ("network/loaded?mu=-1", "query mu", "greater than or equal to 0"),
+        ("histories/0/-3/held?mu=0.1,-1", "mu", ">= 0"),
+        ("histories/0/-3/held?mu=0.1,x", "mu", "separated by commas"),
+        ("histories/0/-3/held?force=0,0,0", "force", "not zero"),
+    ],
+)
+def test_a_bad_load_is_named(network_client: TestClient, path: str, location: str, valid: str) -> None:
+    (error,) = problem(network_client.get(f"{LIBRARY}/{path}"), 400).errors
+    assert error.location == location
+    assert valid in error.valid

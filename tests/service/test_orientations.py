@@ -35,6 +35,12 @@ def test_each_orientation_sums_up_its_states(client: TestClient, made_up: Stored
         assert one.drop_most == _extreme(max, (state.drop for state in states))
         assert one.embedment_most == _extreme(max, (state.embedment for state in states))
         assert one.pivot_offset_least == _extreme(min, (state.pivot_offset for state in states))
+        first = made_up.grid.first_ordinal(shown.index((one.roll, one.pitch)))
+        statics = [made_up.statics[ordinal] for ordinal in range(first, first + made_up.grid.phase_count)]
+        known = [found for found in statics if found is not None]
+        assert one.mu_hold_least == _extreme(min, (found.mu_hold for found in known))
+        assert one.mu_wedge_least == _extreme(min, (found.mu_wedge for found in known))
+        assert one.support_margin_most == _extreme(max, (found.support_margin for found in known))
         assert one.margin_least == _extreme(min, (margin for state in states for margin in _margins(state)))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -10,12 +11,12 @@ from fastapi.testclient import TestClient
 from pydantic import TypeAdapter
 
 from service.libraries.requested import SolvedPair
-from service.statics.endpoints import MOST_COMBINATIONS
+from service.statics.endpoints import MOST_COMBINATIONS, MOST_WITH_MODES
 from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
 from tests.service.test_problems import problem
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.solve import solve_pose
-from threadstate.statics.document import StaticsDocument, statics_document
+from threadstate.statics.document import RequestedStaticsDocument, statics_document
 from threadstate.statics.load import LARGEST_NUMBER, Load
 from threadstate.statics.solve import statics_of
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -60,8 +61,89 @@ def test_a_stored_state_is_answered_as_on_the_command_line(
     capsys.readouterr()
     assert run_command_line(["statics", *angles, *options, "--json"]) == 0
     assert response.json() == json.loads(capsys.readouterr().out)
-    shape = TypeAdapter(StaticsDocument)
+    shape = TypeAdapter(RequestedStaticsDocument)
     assert shape.dump_python(shape.validate_python(response.json()), mode="json") == response.json()
+
+
+@pytest.mark.parametrize("pose", [THREE, PATCH])
+def test_what_is_requested_beside_is_added(
+    solved_client: TestClient, capsys: pytest.CaptureFixture[str], pose: tuple[float, float, float]
+) -> None:
+    names = "reaction, forces_range,modes,wrenches"
+    parameters = {"mu": "0.1", "include": names, "unit": "mm"}
+    response = solved_client.get(path(pose), params=parameters)
+    assert response.status_code == 200, response.text
+    angles = [f"--{name}={angle}" for name, angle in zip(("roll", "pitch", "phase"), pose, strict=True)]
+    capsys.readouterr()
+    assert run_command_line(["statics", *angles, "--mu=0.1", "--unit=mm", f"--include={names}", "--json"]) == 0
+    assert response.json() == json.loads(capsys.readouterr().out)
+    assert (response.json()["modes"] is None) == (pose == PATCH)
+    asked = body(pose, loads=[{"mu": 0.1}], library=1, include=["modes", "reaction", "wrenches", "forces_range"])
+    assert solved_client.post(POST, params={"unit": "mm"}, json=asked).json()["statics"] == [response.json()]
+    assert "reaction" not in solved_client.get(path(pose)).json()
+
+
+def test_what_cannot_be_requested_is_refused(solved_client: TestClient) -> None:
+    (error,) = problem(solved_client.get(path(THREE), params={"include": "reaction,efforts"}), 400).errors
+    assert (error.location, error.value, error.valid) == (
+        "include",
+        "efforts",
+        "reaction, forces_range, modes, wrenches",
+    )
+    (error,) = problem(solved_client.post(POST, json=body(THREE, loads=[{}], include=["efforts"])), 400).errors
+    assert error.location == "body include 0"
+    many = body(THREE, loads=[{}] * (MOST_WITH_MODES + 1), include=["modes"])
+    (error,) = problem(solved_client.post(POST, json=many), 400).errors
+    assert (error.location, error.valid) == ("body poses times loads", "at most 10")
+
+
+@pytest.mark.parametrize("parameters", [{}, {**LOAD, "axes": "mx, my", "unit": "mm", "tolerance": "1e-3"}])
+def test_a_jamming_diagram_is_that_of_the_command_line(
+    solved_client: TestClient, capsys: pytest.CaptureFixture[str], tmp_path: Path, parameters: dict[str, str]
+) -> None:
+    address = path(THREE).replace("/statics", "/jamming")
+    response = solved_client.get(address, params=parameters)
+    assert response.status_code == 200, response.text
+    picture = solved_client.get(address, params={**parameters, "format": "svg"})
+    assert picture.headers["Content-Type"] == "image/svg+xml"
+    options = [f"--{name}={value}" for name, value in parameters.items()]
+    angles = [f"--{name}={angle}" for name, angle in zip(("roll", "pitch", "phase"), THREE, strict=True)]
+    capsys.readouterr()
+    drawn = tmp_path / "jamming.svg"
+    assert run_command_line(["jamming", *angles, *options, f"--plot={drawn}", "--json"]) == 0
+    assert response.json() == json.loads(capsys.readouterr().out)
+    assert drawn.read_text() == picture.text
+    assert response.headers["Content-Location"] == path(THREE, "1").replace("/statics", "/jamming")
+
+
+def test_any_pose_has_the_diagram_of_a_stored_one(solved_client: TestClient) -> None:
+    stored = path(THREE).replace("/statics", "/jamming")
+    computed = stored.removeprefix("/v1/libraries/latest").join(("/v1", ""))
+    for parameters in ({}, {"format": "svg"}):
+        asked = solved_client.get(computed, params={"library": "latest", **parameters})
+        assert asked.text == solved_client.get(stored, params=parameters).text
+        assert asked.headers["Cache-Control"] == "no-store"
+
+
+@pytest.mark.parametrize(
+    ("parameters", "named", "valid"),
+    [
+        ({"axes": "fx,fx"}, "axes", "two different ones of fx, fy, mx, my, mz"),
+        ({"contacts": "1,4"}, "contact", "1 to 3"),
+        ({"contacts": "1;2"}, "contacts", "whole numbers"),
+        ({"window": "1"}, "window", "two numbers"),
+        ({"window": "0,1"}, "window", "above 0"),
+        ({"tolerance": "1"}, "query tolerance", "less than or equal to 0.1"),
+        ({"force": "0,0,1"}, "force", "z below 0"),
+        ({"format": "png"}, "query format", "'json' or 'svg'"),
+    ],
+)
+def test_a_bad_parameter_of_a_diagram_is_named(
+    solved_client: TestClient, parameters: dict[str, str], named: str, valid: str
+) -> None:
+    (error,) = problem(solved_client.get(path(THREE).replace("/statics", "/jamming"), params=parameters), 400).errors
+    assert error.location == named
+    assert valid in error.valid
 
 
 def test_a_patch_bears_a_push_over_it_and_an_overlap_is_flagged(solved_client: TestClient) -> None:
@@ -126,7 +208,7 @@ def test_poses_between_those_of_a_grid_are_solved_with_a_librarys_pair(
         ({"moment": "1,2,3,4"}, "moment", "three numbers, separated by commas"),
         ({"moment": ""}, "query moment", "at least 1 character"),
         ({"unit": "cm"}, "query unit", "'in' or 'mm'"),
-        ({"friction": "0.1"}, "query friction", "mu, unit, force, moment, point"),
+        ({"friction": "0.1"}, "query friction", "mu, unit, force, moment, point, include"),
     ],
 )
 def test_a_bad_parameter_is_named_with_its_range(
@@ -216,7 +298,7 @@ def test_a_pose_without_certain_normals_is_named(solved_client: TestClient, monk
     def uncertain(*_: object) -> None:
         raise UnresolvedPoseError(*THREE, "the edges of contact 2 are parallel")
 
-    monkeypatch.setattr("threadstate.statics.solve.touching", uncertain)
+    monkeypatch.setattr("threadstate.statics.scene.touching", uncertain)
     not_cached = {"mu": "0.777"}
     for response in (
         solved_client.get(path(THREE), params=not_cached),

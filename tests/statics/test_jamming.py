@@ -21,7 +21,7 @@ from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_poses
 from threadstate.statics._cone_kernel import boundary_step
 from threadstate.statics.cone_slice import SliceKind
-from threadstate.statics.jamming import JammingDiagram, Mode, Side, diagram_of_contacts, jamming_diagram
+from threadstate.statics.jamming import JammingDiagram, Mode, Side, diagram_of_contacts, jamming_diagram, thinned
 from threadstate.statics.load import Load
 from threadstate.statics.solve import statics_of
 from threadstate.statics.touching import touching
@@ -280,6 +280,30 @@ def test_a_patch_slides_as_a_whole_and_tips_about_its_hull() -> None:
     assert sorted(map(sorted, modes)) == [[Mode.SLIDES], [Mode.SLIDES], [Mode.STICKS], [Mode.STICKS]]
     assert found.hull_gap > 0.0
     assert found.contacts[0] == len(patch.contacts) + 1
+
+
+def test_corners_of_a_hull_are_left_out_within_the_tolerance() -> None:
+    turns = np.linspace(0.0, 2.0 * math.pi, 180, endpoint=False)
+    circle = np.column_stack([np.cos(turns), np.sin(turns)])
+    for most in (1e-6, 1e-3, 1e-2):
+        kept, outside = thinned(circle, most)
+        corners = circle[kept]
+        assert outside <= most
+        assert min(depth(corners, point) for point in circle) == pytest.approx(-outside, abs=1e-12)
+    assert thinned(circle, 1e-6) == (list(range(180)), 0.0)
+    assert len(thinned(circle, 1e-2)[0]) == pytest.approx(math.pi / math.sqrt(2e-2), abs=2.0)
+    square = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    assert thinned(square, 0.5) == ([0, 1, 2, 3], 0.0)
+    assert thinned(square[:3], 10.0) == ([0, 1, 2], 0.0)
+
+
+def test_a_coarse_diagram_of_a_patch_lies_within_the_fine_one() -> None:
+    _, _, patch = states()
+    fine, coarse = (jamming_diagram(PAIR, patch, MU, ("mx", "my"), tolerance=one) for one in (1e-5, 1e-2))
+    assert len(coarse.contacts) < len(fine.contacts) / 5
+    assert coarse.hull_gap > fine.hull_gap
+    assert all(depth(fine.vertices, point) > -1e-9 for point in coarse.vertices)
+    assert all(depth(coarse.vertices, point) > -coarse.hull_gap - 1e-2 for point in fine.vertices)
 
 
 def test_a_window_is_as_wide_as_asked() -> None:

@@ -19,6 +19,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import HistoryRows, chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.statics.rows import statics_by_ordinal
 from threadstate.stored_histories.mapping import history_rows
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
@@ -79,7 +80,8 @@ def store_histories(database: str, grid: Grid, histories: Sequence[SolvedHistory
     engine = writer_engine(database)
     library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions()))
     for index in reversed(range(grid.orientation_count)):
-        rows = chunk_rows(grid.orientation(index), grid.first_ordinal(index), solve_poses(pair, grid.poses(index)))
+        answers, first = solve_poses(pair, grid.poses(index)), grid.first_ordinal(index)
+        rows = chunk_rows(grid.orientation(index), first, answers, statics_by_ordinal(pair, first, answers))
         history = rows_of(histories[index])
         assert write_chunk(engine, library_id, rows, history)
         assert not write_chunk(engine, library_id, rows, history)

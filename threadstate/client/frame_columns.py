@@ -66,6 +66,9 @@ _ORIENTATIONS: tuple[Column[OrientationDocument], ...] = (
     length("embedment_most", "greatest embedment", lambda one: one.embedment_most),
     length("pivot_offset_least", "least pivot offset", lambda one: one.pivot_offset_least),
     length("margin_least", "least distance of a class's number from its threshold", lambda one: one.margin_least),
+    number("mu_hold_least", "least friction that holds a push at any phase", lambda one: one.mu_hold_least),
+    number("mu_wedge_least", "least friction at which contacts wedge at any phase", lambda one: one.mu_wedge_least),
+    number("support_margin_most", "greatest support margin under a push", lambda one: one.support_margin_most),
 )
 
 _WINDOWS: tuple[Column[WindowDocument], ...] = (

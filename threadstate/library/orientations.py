@@ -15,7 +15,8 @@ class OrientationSummary:
     """An orientation (degrees) over all phases of the grid; lengths in the library's unit, None where no state has one.
 
     ``of_class`` is the number of states of each class, every class included. ``margin_least`` is the least distance
-    of any state's drop, embedment or pivot offset from its threshold.
+    of any state's drop, embedment or pivot offset from its threshold. The last three are of the states under the
+    default load: their least frictions, and the greatest support margin.
     """
 
     roll_deg: float
@@ -25,6 +26,9 @@ class OrientationSummary:
     embedment_most: float | None
     pivot_offset_least: float | None
     margin_least: float | None
+    mu_hold_least: float | None
+    mu_wedge_least: float | None
+    support_margin_most: float | None
 
 
 def orientation_summaries(connection: Connection, library_id: int) -> list[OrientationSummary]:
@@ -37,6 +41,9 @@ def orientation_summaries(connection: Connection, library_id: int) -> list[Orien
             func.max(state.c.drop),
             func.max(state.c.embedment),
             func.min(state.c.pivot_offset),
+            func.min(state.c.mu_hold),
+            func.min(state.c.mu_wedge),
+            func.max(state.c.support_margin),
             *(func.min(func.abs(margin)) for margin in margins),
             *(func.count().filter(state.c.state_class == name.value) for name in StateClass),
         )
@@ -53,6 +60,9 @@ def _summary(
     drop: float | None,
     embedment: float | None,
     pivot_offset: float | None,
+    mu_hold: float | None,
+    mu_wedge: float | None,
+    support_margin: float | None,
     *rest: float | None,
 ) -> OrientationSummary:
     margins, counts = rest[: -len(StateClass)], rest[-len(StateClass) :]
@@ -65,4 +75,7 @@ def _summary(
         embedment,
         pivot_offset,
         min(known) if known else None,
+        mu_hold,
+        mu_wedge,
+        support_margin,
     )

@@ -4,8 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from threadstate.network.cells import Cell
 from threadstate.responses.documents import HeldDocument, VerdictStretchDocument
+from threadstate.state.options import SolveOptions
+from threadstate.statics.load import Load
 from threadstate.statics.stretches import LoadedOrientation
+from threadstate.thread.pair import Pair
+
+
+def held_documents(
+    pair: Pair,
+    options: SolveOptions,
+    tilt_deg: tuple[float, float],
+    cells: Sequence[Cell],
+    load: Load,
+    mus: Sequence[float],
+) -> list[HeldDocument]:
+    """What a load does along the phase of an orientation with these intervals, at each friction."""
+    intervals = [(one.start_deg, one.end_deg) for one in cells]
+    solved = LoadedOrientation(pair, options, *tilt_deg, load)
+    return [held_document(solved, intervals, mu) for mu in mus]
 
 
 def held_document(solved: LoadedOrientation, intervals: Sequence[tuple[float, float]], mu: float) -> HeldDocument:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from threading import Lock
 
 from sqlalchemy import Connection
 
@@ -35,6 +36,7 @@ class LibraryNetwork:
 
     library: LibraryRecord
     histories: StoredHistories
+    _lock: Lock = field(default_factory=Lock, compare=False, repr=False)
 
     @cached_property
     def pair(self) -> Pair:
@@ -98,11 +100,12 @@ class LibraryNetwork:
 
     def under(self, load: Load, mu: float) -> LoadedNetwork:
         """The network under a load at a friction; the last few are kept."""
-        if (load, mu) not in self._loaded:
-            while len(self._loaded) >= LOADED_KEPT:
-                del self._loaded[next(iter(self._loaded))]
-            self._loaded[load, mu] = LoadedNetwork(self.network, self.pair, self.options, load, mu)
-        return self._loaded[load, mu]
+        with self._lock:
+            if (load, mu) not in self._loaded:
+                while len(self._loaded) >= LOADED_KEPT:
+                    del self._loaded[next(iter(self._loaded))]
+                self._loaded[load, mu] = LoadedNetwork(self.network, self.pair, self.options, load, mu)
+            return self._loaded[load, mu]
 
     @cached_property
     def _loaded(self) -> dict[tuple[Load, float], LoadedNetwork]:

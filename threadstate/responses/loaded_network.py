@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from threading import Lock
 
 from threadstate.network.cells import CellMap
 from threadstate.network.graph import ConstraintNetwork
@@ -24,6 +25,7 @@ class LoadedNetwork:
     options: SolveOptions
     load: Load
     mu: float
+    _lock: Lock = field(default_factory=Lock, compare=False, repr=False)
 
     @cached_property
     def cell_map(self) -> CellMap:
@@ -32,7 +34,11 @@ class LoadedNetwork:
         return loaded_cells(cell_map, [self.parts(number) for number in range(cell_map.orientation_count)])
 
     def parts(self, orientation: int) -> list[list[Part]]:
-        """The parts of the cells of an orientation."""
+        """The parts of the cells of an orientation; each is solved once, whoever asks."""
+        with self._lock:
+            return self._solved_parts(orientation)
+
+    def _solved_parts(self, orientation: int) -> list[list[Part]]:
         if orientation not in self._parts:
             cells = self.network.cell_map.cells[orientation]
             tilt = self.network.cell_map.tilt_deg(orientation)

@@ -1,4 +1,4 @@
-"""Moves, observations and filters of transitions, as a query or a command line writes them."""
+"""Moves, observations, filters of transitions, frictions and diagrams, as a query or a command line writes them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from threadstate.network.loaded import Mark, mark_of
 from threadstate.network.locate import ContactObservation
 from threadstate.network.moves import Move
 from threadstate.network.transitions import Transition
-from threadstate.numbers import number
+from threadstate.numbers import integer, number
 from threadstate.responses.library_network import LibraryNetwork
 from threadstate.state.model import FeaturePair, StateClass
 from threadstate.statics.load import checked_friction
@@ -43,6 +43,36 @@ def parse_marks(text: str) -> frozenset[Verdict]:
         if name not in tuple(Mark):
             raise UnknownNameError("avoid", name, ", ".join(Mark))
     return frozenset(verdict for verdict in Verdict if mark_of(verdict) in names)
+
+
+def parse_axes(text: str) -> tuple[str, ...]:
+    """Names of the axes of a jamming diagram, separated by commas; :func:`jamming_diagram` checks them."""
+    return tuple(name.strip() for name in text.split(","))
+
+
+def parse_contacts(name: str, text: str) -> tuple[int, ...]:
+    """Numbers of contacts, separated by commas.
+
+    Raises:
+        InvalidValueError: one is no whole number; ``name`` is that of the parameter.
+    """
+    try:
+        return tuple(integer(part.strip()) for part in text.split(","))
+    except ValueError:
+        raise InvalidValueError(name, text, "whole numbers, separated by commas") from None
+
+
+def parse_window(name: str, text: str) -> tuple[float, float]:
+    """The half widths of a window, separated by a comma.
+
+    Raises:
+        InvalidValueError: they are not two numbers; ``name`` is that of the parameter.
+    """
+    try:
+        x, y = (number(part.strip()) for part in text.split(","))
+    except ValueError:
+        raise InvalidValueError(name, text, "two numbers, separated by a comma") from None
+    return x, y
 
 
 def parse_frictions(text: str) -> tuple[float, ...]:

@@ -59,6 +59,8 @@ class ReactionDocument(TypedDict):
 
     force: Annotated[VectorDocument, Field(description="in N")]
     moment: Annotated[VectorDocument, Field(description="in N times the unit of length")]
+    point: Annotated[VectorDocument, Field(description="about which the moment is taken: the bolt's origin")]
+    frame: Literal["nut"]
     size: Annotated[float, Field(description="its norm in N, moments over the nominal radius; 0 where none is needed")]
     least_size: Annotated[float, Field(description="no wrench of a smaller size will do")]
 
@@ -91,8 +93,22 @@ class ModeDocument(TypedDict):
     margin: Annotated[float | None, Field(description="by how much the conditions hold, over the load")]
 
 
+class ContactWrenchDocument(TypedDict):
+    """A contact that carries forces, in the last pose: the wrench of a force of 1 N along its normal."""
+
+    contact: Annotated[int, Field(ge=1)]
+    point: VectorDocument
+    normal: Annotated[VectorDocument, Field(description="from the nut into the bolt: the force")]
+    moment: Annotated[VectorDocument, Field(description="about the load's point, in N times the unit of length")]
+
+
 class ExtrasDocument(TypedDict):
     """What is added to the statics of a state on request."""
+
+    wrenches: NotRequired[list[ContactWrenchDocument]]
+    hull_gap: NotRequired[
+        Annotated[float, Field(description="the hull of a true patch reaches beyond its contacts by no more")]
+    ]
 
     reaction: NotRequired[ReactionDocument]
     forces_range: NotRequired[
@@ -106,14 +122,8 @@ class ExtrasDocument(TypedDict):
     modes: NotRequired[Annotated[list[ModeDocument] | None, Field(description="null on a patch")]]
 
 
-def reaction_document(reaction: Reaction, length_factor: float = 1.0) -> ReactionDocument:
-    """The least reaction as an object, lengths times a factor from the pair's unit."""
-    return ReactionDocument(
-        force=list(reaction.force),
-        moment=[length_factor * number for number in reaction.moment],
-        size=reaction.size,
-        least_size=reaction.least_size,
-    )
+class RequestedStaticsDocument(StaticsDocument, ExtrasDocument):
+    """The statics of a state, with what else was requested."""
 
 
 def statics_document(statics: Statics, length_factor: float = 1.0) -> StaticsDocument:
@@ -143,11 +153,28 @@ def statics_document(statics: Statics, length_factor: float = 1.0) -> StaticsDoc
     )
 
 
+def requested_document(statics: Statics, extras: Extras | None, length_factor: float = 1.0) -> RequestedStaticsDocument:
+    """The statics of a state with what else was requested, lengths times a factor from the pair's unit."""
+    added = ExtrasDocument() if extras is None else extras_document(extras, length_factor)
+    return RequestedStaticsDocument(**statics_document(statics, length_factor), **added)
+
+
 def extras_document(extras: Extras, length_factor: float = 1.0) -> ExtrasDocument:
     """What was requested beside the statics of a state, lengths times a factor from the pair's unit."""
     document = ExtrasDocument()
+    if extras.wrenches is not None:
+        document["wrenches"] = [
+            ContactWrenchDocument(
+                contact=one.contact,
+                point=_times(length_factor, one.point),
+                normal=list(one.normal),
+                moment=_times(length_factor, one.moment),
+            )
+            for one in extras.wrenches
+        ]
+        document["hull_gap"] = length_factor * extras.hull_gap
     if extras.reaction is not None:
-        document["reaction"] = reaction_document(extras.reaction, length_factor)
+        document["reaction"] = _reaction(extras.reaction, extras.origin, length_factor)
     if extras.forces_range is not None:
         document["forces_range"] = [
             NormalRangeDocument(
@@ -163,6 +190,17 @@ def extras_document(extras: Extras, length_factor: float = 1.0) -> ExtrasDocumen
         modes = extras.modes
         document["modes"] = None if modes is None else [_mode(one, extras.origin, length_factor) for one in modes]
     return document
+
+
+def _reaction(reaction: Reaction, origin: Vector, length_factor: float) -> ReactionDocument:
+    return ReactionDocument(
+        force=list(reaction.force),
+        moment=_times(length_factor, reaction.moment),
+        point=_times(length_factor, origin),
+        frame="nut",
+        size=reaction.size,
+        least_size=reaction.least_size,
+    )
 
 
 def _mode(mode: ContactMode, origin: Vector, length_factor: float) -> ModeDocument:

@@ -28,6 +28,8 @@ Floats = NDArray[np.float64]
 TOLERANCE = 1e-5
 """Gap, over the diagram's size, that is aimed at."""
 FINEST, COARSEST = 1e-8, 0.1
+LEAST_CORNERS = 3
+"""Of a hull, whatever the tolerance."""
 
 
 class Axis(StrEnum):
@@ -155,7 +157,8 @@ def jamming_diagram(
         mu: coefficient of friction of all contacts.
         axes: two of ``fx``, ``fy``, ``mx``, ``my``, ``mz``.
         load: lies in the plane of loads; it must push along -z. The default is a push through the bolt's origin.
-        contacts: some of the state's, from 1; by default all, of a level patch those of its hull.
+        contacts: some of the state's, from 1; by default all, of a level patch corners of its hull, outside of which
+            the others lie by at most the tolerance times the nominal radius.
         window: half widths of what is seen of an unbounded diagram, in place of those that show its corners.
         tolerance: the gap that is aimed at, over the diagram's size.
 
@@ -165,12 +168,19 @@ def jamming_diagram(
     """
     found = touching(pair, state)
     first = found.own if found.patch else 0
-    numbers = tuple(range(first + 1, len(found.points) + 1)) if contacts is None else tuple(contacts)
-    for number in numbers:
-        if not first < number <= len(found.points):
-            raise InvalidValueError("contact", number, f"{first + 1} to {len(found.points)}")
-    rows = [number - 1 for number in numbers]
     radius = pair.nominal_diameter / 2.0
+    left_out = 0.0
+    if contacts is not None:
+        numbers = tuple(contacts)
+        for number in numbers:
+            if not first < number <= len(found.points):
+                raise InvalidValueError("contact", number, f"{first + 1} to {len(found.points)}")
+    elif found.patch:
+        kept, left_out = thinned(found.points[first:, :2], tolerance * radius)
+        numbers = tuple(first + 1 + index for index in kept)
+    else:
+        numbers = tuple(range(1, len(found.points) + 1))
+    rows = [number - 1 for number in numbers]
     load = load or Load()
     diagram = diagram_of_contacts(
         found.points[rows] / radius,
@@ -183,7 +193,39 @@ def jamming_diagram(
         window=window,
         tolerance=tolerance,
     )
-    return replace(diagram, hull_gap=found.gap / radius, penetrating=found.penetrating)
+    return replace(diagram, hull_gap=(found.gap + left_out) / radius, penetrating=found.penetrating)
+
+
+def thinned(corners: Floats, most: float) -> tuple[list[int], float]:
+    """Some of a convex polygon's corners (k, 2) so that the others lie at most ``most`` outside of theirs.
+
+    Returns:
+        Their indices, and how far outside the others lie.
+    """
+    count = len(corners)
+    kept, farthest, start = [0], 0.0, 0
+    while start < count:
+        end, outside = start + 1, 0.0
+        while end < count:
+            reach = _reach(corners, start, end + 1)
+            if reach > most:
+                break
+            end, outside = end + 1, reach
+        farthest = max(farthest, outside)
+        start = end
+        kept.append(start)
+    kept = [index for index in kept if index < count]
+    if len(kept) < LEAST_CORNERS:
+        return list(range(count)), 0.0
+    return kept, farthest
+
+
+def _reach(corners: Floats, start: int, end: int) -> float:
+    """How far corners between two others of a polygon lie from the line through these."""
+    first, last = corners[start], corners[end % len(corners)]
+    along = last - first
+    across = np.array([along[1], -along[0]]) / max(float(np.hypot(*along)), 1e-300)
+    return float(np.abs((corners[start + 1 : end] - first) @ across).max(initial=0.0))
 
 
 def diagram_of_contacts(

@@ -46,10 +46,9 @@ def held(
       threadstate held --roll 0 --pitch -4 --mu 0.15 --force 0.5,0,-10 --json
       threadstate held --roll 2.5 --pitch -1.2 --library 1-4-20-unc --mu 0.1
     """
-    from threadstate.responses.held import held_document
+    from threadstate.responses.held import held_documents
     from threadstate.responses.histories import computed_history
     from threadstate.responses.query import parse_frictions
-    from threadstate.statics.stretches import LoadedOrientation
     from threadstate.units import conversion_factor
     from worker.history_table import print_held
     from worker.library_source import orientation_source
@@ -64,10 +63,7 @@ def held(
         else:
             found = computed_history(threads, roll, pitch, source.options)
     load = chosen_load(force, moment, point, conversion_factor(threads.unit, unit or threads.unit))
-    intervals = [(one.start_deg, one.end_deg) for one in found.cells]
-    solved = LoadedOrientation(threads, options, roll, pitch, load)
-    for friction in frictions:
-        document = held_document(solved, intervals, friction)
+    for document in held_documents(threads, options, (roll, pitch), found.cells, load, frictions):
         if as_json:
             print_json(document.model_dump(mode="json"))
         else:

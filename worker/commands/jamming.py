@@ -7,8 +7,6 @@ from typing import Annotated
 
 import typer
 
-from threadstate.errors import InvalidValueError
-from threadstate.numbers import integer, number
 from threadstate.statics.load import DEFAULT_FRICTION
 from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, chosen_load
 from worker.options import Dimensions, Json, PairName, UnitName, number_option
@@ -41,6 +39,10 @@ def jamming(
             show_default="what shows its corners",
         ),
     ] = None,
+    tolerance: Annotated[
+        float | None,
+        number_option("--tolerance", metavar="X", help="Gap of its boundary aimed at, over the diagram's size."),
+    ] = None,
     plot: Annotated[Path | None, typer.Option("--plot", metavar="FILE", help="Draw it, too, as .svg.")] = None,
     pair: PairName = None,
     dimension: Dimensions = None,
@@ -63,8 +65,9 @@ def jamming(
     if plot is not None:
         check_plot_file(plot, (".svg",))
 
+    from threadstate.responses.query import parse_axes, parse_contacts, parse_window
     from threadstate.state.solve import solve_pose
-    from threadstate.statics.jamming import jamming_diagram
+    from threadstate.statics.jamming import TOLERANCE, jamming_diagram
     from threadstate.statics.jamming_document import jamming_document
     from threadstate.statics.jamming_svg import jamming_svg
     from threadstate.units import conversion_factor
@@ -80,10 +83,11 @@ def jamming(
         threads,
         state,
         mu,
-        [name.strip() for name in axes.split(",")],
+        parse_axes(axes),
         load=load,
-        contacts=None if contacts is None else _contacts(contacts),
-        window=None if window is None else _window(window),
+        contacts=None if contacts is None else parse_contacts("--contacts", contacts),
+        window=None if window is None else parse_window("--window", window),
+        tolerance=TOLERANCE if tolerance is None else tolerance,
     )
     document = jamming_document(state, diagram, factor)
     if plot is not None:
@@ -92,18 +96,3 @@ def jamming(
         print_json(document)
     else:
         print_jamming(document)
-
-
-def _contacts(text: str) -> list[int]:
-    try:
-        return [integer(part.strip()) for part in text.split(",")]
-    except ValueError:
-        raise InvalidValueError("--contacts", text, "whole numbers, separated by commas") from None
-
-
-def _window(text: str) -> tuple[float, float]:
-    try:
-        x, y = (number(part.strip()) for part in text.split(","))
-    except ValueError:
-        raise InvalidValueError("--window", text, "two numbers, separated by a comma") from None
-    return x, y

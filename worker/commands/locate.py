@@ -9,7 +9,7 @@ import typer
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import Flag, StateClass
 from threadstate.statics.verdict import Verdict
-from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, UnderMu, chosen_load
+from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, UnderMu, chosen_load, needs_friction
 from worker.options import Database, Json, LibraryName, UnitName, integer_option
 from worker.output import print_json
 
@@ -61,6 +61,7 @@ def locate(
         )
     if (verdict is None) != (mu is None):
         raise InvalidValueError("--verdict, --mu", (verdict, mu), "both or none: a verdict is that at a friction")
+    needs_friction(mu, force, moment, point)
 
     from threadstate.network.locate import Observation
     from threadstate.network.locate import locate as located

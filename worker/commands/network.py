@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from threadstate.errors import InvalidValueError
-from worker.load import NO_MOMENT, PUSH, WEDGED, Avoid, Force, Moment, Point, UnderMu, chosen_load
+from worker.load import NO_MOMENT, PUSH, WEDGED, Avoid, Force, Moment, Point, UnderMu, chosen_load, needs_friction
 from worker.options import Database, Json, LibraryName, UnitName
 from worker.output import print_json, print_text
 
@@ -44,6 +44,8 @@ def network(
       threadstate network --library 2 --json
       threadstate network --mu 0.15 --force 0,0,-10 --avoid held,wedged
     """
+    needs_friction(mu, force, moment, point, avoid)
+
     from threadstate.responses.networks import loaded_summary_document
     from threadstate.responses.query import parse_marks
     from threadstate.units import conversion_factor

@@ -9,7 +9,7 @@ import typer
 from threadstate.errors import InvalidValueError
 from threadstate.network.moves import Move
 from threadstate.network.search import Objective
-from worker.load import NO_MOMENT, PUSH, WEDGED, Avoid, Force, Moment, Point, UnderMu, chosen_load
+from worker.load import NO_MOMENT, PUSH, WEDGED, Avoid, Force, Moment, Point, UnderMu, chosen_load, needs_friction
 from worker.options import Database, Json, LibraryName, UnitName, number_option
 from worker.output import print_json
 
@@ -47,6 +47,7 @@ def path(
     """
     if (roll is None) != (pitch is None) or (phase is not None and roll is None):
         raise InvalidValueError("--roll, --pitch, --phase", (roll, pitch, phase), "none, roll and pitch, or all three")
+    needs_friction(mu, force, moment, point, avoid)
 
     from threadstate.network.paths import best_path
     from threadstate.responses.networks import path_document

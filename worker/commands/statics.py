@@ -29,7 +29,7 @@ def statics(
         typer.Option(
             "--include",
             metavar="NAMES",
-            help="More numbers, with commas: reaction, forces_range, modes.",
+            help="More numbers, with commas: reaction, forces_range, modes, wrenches.",
             show_default=False,
         ),
     ] = None,
@@ -53,7 +53,7 @@ def statics(
     wanted = wanted_poses(roll, pitch, phase, poses)
 
     from threadstate.state.solve import solve_poses
-    from threadstate.statics.document import extras_document, statics_document
+    from threadstate.statics.document import requested_document
     from threadstate.statics.extras import extras_of, requested_extras
     from threadstate.statics.solve import statics_of
     from threadstate.units import conversion_factor
@@ -71,6 +71,6 @@ def statics(
             found = statics_of(threads, state, load, mu)
             extras = extras_of(threads, state, found, requested) if requested else None
             if as_json:
-                print_json({**statics_document(found, factor), **(extras_document(extras, factor) if extras else {})})
+                print_json(requested_document(found, extras, factor))
             else:
                 print_statics(found, extras, shown, factor)

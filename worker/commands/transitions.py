@@ -9,7 +9,7 @@ import typer
 from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.model import StateClass
-from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, UnderMu, chosen_load
+from worker.load import NO_MOMENT, PUSH, Force, Moment, Point, UnderMu, chosen_load, needs_friction
 from worker.options import Database, Json, LibraryName, UnitName, integer_option, number_option
 from worker.output import print_json, print_status
 
@@ -46,6 +46,8 @@ def transitions(
       threadstate transitions --library 2 --unit mm --limit 5
       threadstate transitions --roll 0 --pitch -4 --move ccw --mu 0.15 --force 0,0,-10
     """
+    needs_friction(mu, force, moment, point)
+
     from threadstate.responses.query import TransitionFilter, filter_transitions
     from threadstate.responses.transitions import transition_documents
     from threadstate.units import conversion_factor

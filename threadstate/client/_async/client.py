@@ -144,6 +144,11 @@ class AsyncClient:
 
     statics = _answered(statics_calls.statics)
     solve_statics = _answered(statics_calls.solve_statics)
+    jamming = _answered(statics_calls.jamming)
+    computed_jamming = _answered(statics_calls.computed_jamming)
+    jamming_svg = _answered(statics_calls.jamming_svg)
+    held = _answered(statics_calls.held)
+    computed_held = _answered(statics_calls.computed_held)
 
     intervals = _answered(network_calls.intervals)
     heights = _answered(network_calls.heights)
@@ -153,6 +158,7 @@ class AsyncClient:
     windows = _answered(network_calls.windows)
     transitions = _listed(network_calls.transitions)
     network = _answered(network_calls.network)
+    loaded_network = _answered(network_calls.loaded_network)
     network_node_link = _answered(network_calls.network_node_link)
     network_graphml = _answered(network_calls.network_graphml)
     network_dot = _answered(network_calls.network_dot)

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from threadstate.client.call import (
     LATEST,
     Call,
     LibraryName,
     PagedCall,
+    QueryValue,
     get,
     get_content,
     joined,
     library_path,
     path_of,
 )
+from threadstate.client.loads import load_query, under_load_query
 from threadstate.client.models.network import (
     ComputedFalls,
     ComputedHeights,
@@ -22,6 +24,7 @@ from threadstate.client.models.network import (
     FormationsAnswer,
     HeightsAnswer,
     IntervalsAnswer,
+    LoadedNetworkSummary,
     LocationAnswer,
     NetworkSummary,
     NodeAnswer,
@@ -31,6 +34,7 @@ from threadstate.client.models.network import (
     WindowsAnswer,
 )
 from threadstate.responses.documents import TransitionDocument
+from threadstate.statics.load import DEFAULT_FRICTION
 
 LARGEST_PAGE = 100
 GRAPHML = "application/graphml+xml"
@@ -138,10 +142,20 @@ def transitions(
     target: str | None = None,
     change: str | None = None,
     state_class: str | None = None,
+    mu: float | None = None,
+    force: Sequence[float] | None = None,
+    moment: Sequence[float] | None = None,
+    point: Sequence[float] | None = None,
     limit: int = LARGEST_PAGE,
     unit: str | None = None,
 ) -> PagedCall[TransitionDocument]:
-    """From which interval to which; ``source`` and ``target`` are keys of formations. All filters hold at once."""
+    """From which interval to which; ``source`` and ``target`` are keys of formations. All filters hold at once.
+
+    With ``mu`` each is marked by what a load does where it begins; the load is that of ``statics``.
+
+    Raises:
+        InvalidValueError: a load that is not valid, or one without ``mu``.
+    """
     filters = {
         "move": move,
         "roll": roll,
@@ -153,13 +167,43 @@ def transitions(
         "change": change,
         "class": state_class,
     }
-    first = get(library_path(library, "transitions"), TransitionsPage, **filters, limit=limit, unit=unit)
+    first = get(
+        library_path(library, "transitions"),
+        TransitionsPage,
+        **filters,
+        **under_load_query(mu, force, moment, point),
+        limit=limit,
+        unit=unit,
+    )
     return PagedCall(first, TransitionDocument)
 
 
 def network(*, library: LibraryName = LATEST) -> Call[NetworkSummary]:
     """The size of the constraint network, and its connectivity."""
     return get(library_path(library, "network"), NetworkSummary, format="summary")
+
+
+def loaded_network(
+    *,
+    mu: float = DEFAULT_FRICTION,
+    force: Sequence[float] | None = None,
+    moment: Sequence[float] | None = None,
+    point: Sequence[float] | None = None,
+    avoid: Iterable[str] | None = None,
+    library: LibraryName = LATEST,
+    unit: str | None = None,
+) -> Call[LoadedNetworkSummary]:
+    """How much of all phases is free, held or wedged under a load, and the dead ends.
+
+    These are dead where no move leaves what is marked as one of ``avoid``. The load is that of ``statics``; it is
+    solved at all orientations when it is first asked for, which takes a while.
+
+    Raises:
+        InvalidValueError: a load that is not valid.
+    """
+    query = load_query(mu, force, moment, point)
+    path = library_path(library, "network", "loaded")
+    return get(path, LoadedNetworkSummary, **query, avoid=joined(avoid), unit=unit)
 
 
 def network_node_link(*, library: LibraryName = LATEST) -> Call[NodeLinkNetwork]:
@@ -196,13 +240,28 @@ def path(
     roll: float | None = None,
     pitch: float | None = None,
     phase: float | None = None,
+    mu: float | None = None,
+    force: Sequence[float] | None = None,
+    moment: Sequence[float] | None = None,
+    point: Sequence[float] | None = None,
+    avoid: Iterable[str] | None = None,
     unit: str | None = None,
 ) -> Call[PathAnswer]:
     """The best path to the window from the formation with the key ``source``, by the ``moves`` allowed.
 
-    From any orientation, or from one ``roll`` and ``pitch``, and ``phase``.
+    From any orientation, or from one ``roll`` and ``pitch``, and ``phase``. With ``mu`` no move leaves what a load
+    marks as one of ``avoid``; the load is that of ``statics``.
+
+    Raises:
+        InvalidValueError: a load that is not valid, or one without ``mu``.
     """
-    query = {"from": source, "objective": objective, "moves": joined(moves)}
+    query: dict[str, QueryValue] = {
+        "from": source,
+        "objective": objective,
+        "moves": joined(moves),
+        "avoid": joined(avoid),
+    }
+    query |= under_load_query(mu, force, moment, point)
     return get(
         library_path(library, "network", "paths"), PathAnswer, **query, roll=roll, pitch=pitch, phase=phase, unit=unit
     )
@@ -216,13 +275,24 @@ def locate(
     flag: str | None = None,
     contact: Iterable[str] | None = None,
     ordered: bool = False,
+    verdict: str | None = None,
+    mu: float | None = None,
+    force: Sequence[float] | None = None,
+    moment: Sequence[float] | None = None,
+    point: Sequence[float] | None = None,
+    unit: str | None = None,
 ) -> Call[LocationAnswer]:
     """The orientations and phases that are consistent with the observed labels of a state.
 
     Each ``contact`` is written ``stage:bolt_region:nut_region:features``, with ``*`` for what was not observed; with
-    ``ordered`` these are the first contacts in their order. ``contacts`` is how many there are.
+    ``ordered`` these are the first contacts in their order. ``contacts`` is how many there are. ``verdict`` is what the
+    bolt was seen to do under a load, with ``mu``; the load is that of ``statics``, its lengths in ``unit``.
+
+    Raises:
+        InvalidValueError: a load that is not valid, or one without ``mu``.
     """
-    query = {"class": state_class, "contact": joined(contact)}
+    query: dict[str, QueryValue] = {"class": state_class, "contact": joined(contact), "verdict": verdict}
+    query |= under_load_query(mu, force, moment, point)
     return get(
         library_path(library, "network", "locate"),
         LocationAnswer,
@@ -230,4 +300,5 @@ def locate(
         contacts=contacts,
         flag=flag,
         ordered=ordered,
+        unit=unit,
     )

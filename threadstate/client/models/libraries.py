@@ -86,6 +86,9 @@ class OrientationDocument(Answer):
     embedment_most: float | None
     pivot_offset_least: float | None
     margin_least: float | None
+    mu_hold_least: float | None
+    mu_wedge_least: float | None
+    support_margin_most: float | None
 
 
 class OrientationsAnswer(Answer):

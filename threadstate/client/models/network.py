@@ -8,6 +8,7 @@ from threadstate.responses.documents import (
     FallsRangeDocument,
     FormationSummaryDocument,
     HeightsDocument,
+    LoadedSummaryDocument,
     LocationDocument,
     NetworkSummaryDocument,
     NodeDocument,
@@ -97,6 +98,13 @@ class NetworkSummary(Answer):
 
     library: int
     network: NetworkSummaryDocument
+
+
+class LoadedNetworkSummary(Answer):
+    """What a load does in a library's network."""
+
+    library: int
+    network: LoadedSummaryDocument
 
 
 class NodeLinkNetwork(Answer):

@@ -63,6 +63,22 @@ export class Api {
     return answer.states;
   }
 
+  /** What a load does to a pose, with the wrenches of its contacts, with the pair and the tolerances of a library. */
+  async statics(pose, load, library, unit) {
+    const body = JSON.stringify({ library, poses: [pose], loads: [load], include: ["wrenches"] });
+    const answer = await this.#fetchJson(addressOf("/v1/statics", { unit }), {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body,
+    });
+    return answer.statics[0];
+  }
+
+  /** The jamming diagram of a pose, with the pair and the tolerances of a library; not cached, as loads are many. */
+  jamming({ roll, pitch, phase }, parameters) {
+    return this.#fetchJson(addressOf(`/v1/states/${roll}/${pitch}/${phase}/jamming`, parameters));
+  }
+
   /** The bytes at a path. */
   async bytes(path) {
     return (await this.#fetch(path)).arrayBuffer();

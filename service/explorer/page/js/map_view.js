@@ -41,7 +41,7 @@ export class MapView {
     const { grid } = model.library;
     const values = mapValues(model, view);
     const angles = tilts(grid);
-    const range = rangeOf(values);
+    const range = rangeOf(values, QUANTITIES[view.quantity]);
     const focused = this.#frame.contains(document.activeElement);
     const { width, height } = sizeOf(this.#frame, LEAST);
     const root = picture(width, height, "Map of orientations", { class: "map", role: "group" });
@@ -184,9 +184,10 @@ function keyOf(roll, pitch) {
   return `${roll} ${pitch}`;
 }
 
-function rangeOf(values) {
+function rangeOf(values, { range }) {
   const numbers = [...values.values()].map(({ value }) => value).filter((value) => typeof value === "number");
-  return numbers.length > 0 ? [Math.min(...numbers), Math.max(...numbers)] : null;
+  if (numbers.length === 0) return null;
+  return range ?? [Math.min(...numbers), Math.max(...numbers)];
 }
 
 function hasGaps(values, angles) {
@@ -280,8 +281,9 @@ function scaleLegend({ left, side }, top, view, [low, high]) {
     svg("rect", { x: left + k * width, y: top - 2, width: width + 0.4, height: 9, fill: scaleColour(k / (steps - 1)) }),
   );
   const quantity = QUANTITIES[view.quantity];
-  const label = (value, x, anchor) => svg("text", { x, y: top + 20, "text-anchor": anchor }, quantity.write(value, view.unit));
-  return [...bars, label(low, left, "start"), label(high, left + side, "end")];
+  const label = (value, x, anchor, sign = "") => svg("text", { x, y: top + 20, "text-anchor": anchor }, sign + quantity.write(value, view.unit));
+  const beyond = quantity.range ? "≥ " : "";
+  return [...bars, label(low, left, "start"), label(high, left + side, "end", beyond)];
 }
 
 function noneLegend({ left, side }, top, { quantity }) {

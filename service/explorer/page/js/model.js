@@ -4,24 +4,27 @@ import { ProblemError } from "./api.js";
 import { heightsOf } from "./curve.js";
 import { Debounce } from "./debounce.js";
 import { isOnGrid, nearestPhase } from "./grid.js";
+import { LOAD_FIELDS, loadOf } from "./load.js";
 import { observationQuery } from "./observation.js";
 import { posesOfView } from "./poses.js";
 import { needsSummaries } from "./quantities.js";
 import { Throttle } from "./throttle.js";
 import { turnPath } from "./turn_path.js";
 
-const MAP_FIELDS = "roll,pitch,class,drop,embedment,pivot_offset,margins";
+const MAP_FIELDS = "roll,pitch,class,drop,embedment,pivot_offset,margins,statics";
 const MAP_PAGE = 1000;
 /** Milliseconds between requests of the map while the phase moves. */
 const MAP_MS = 300;
 /** What belongs to a formation is requested once the phase has not moved for so many milliseconds. */
 const DEBOUNCE_MS = 150;
+/** The gap of a diagram's boundary that is not seen, over its size. */
+const DIAGRAM_TOLERANCE = 0.002;
 const UNRESOLVED = 422;
 const NOT_FOUND = 404;
 /** The parts that belong to one library. */
 const OF_LIBRARY = [
   "orientations", "windows", "map", "history", "depth", "state", "node", "path", "formations", "falls",
-  "measured", "located",
+  "measured", "located", "statics", "jamming",
 ];
 
 /** The parts of the model, each null until it has arrived. */
@@ -43,6 +46,9 @@ export class Model {
   falls = null;
   measured = null;
   located = null;
+  /** What the view's load does to its pose, and the jamming diagram there: with `problem`, in words, where it is not known. */
+  statics = null;
+  jamming = null;
 
   #api;
   #busy;
@@ -53,6 +59,8 @@ export class Model {
   #arrived = new Map();
   #mapThrottle = new Throttle(MAP_MS);
   #solveThrottle = new Throttle(0);
+  #staticsThrottle = new Throttle(0);
+  #jammingThrottle = new Throttle(0);
   #formationDebounce = new Debounce(DEBOUNCE_MS);
 
   /** `onPart` is called with the name of a part that has arrived, `onError` with an error and the part that is missing for it. */
@@ -149,6 +157,35 @@ export class Model {
       if (!onGrid) return { path: turnPath(this.intervals.history, phase) };
       return this.#optional(this.#api.get(`${this.root}/network/paths`, { from: key, roll, pitch, phase: interval.inside, unit }));
     });
+  }
+
+  /** Requests what the view's load does to its pose, and the jamming diagram; of loads that come faster than answers the last. */
+  followLoad(view) {
+    const { library, unit, roll, pitch, phase, plane } = view;
+    if (this.library.id !== library || this.library.unit !== unit) return;
+    const key = `${library} ${unit} ${roll} ${pitch} ${phase} ${LOAD_FIELDS.map((name) => view[name])}`;
+    const pose = { roll, pitch, phase };
+    const { force, moment } = loadOf(view, this.library.pair.nominal_diameter / 2);
+    if (this.#requested.get("statics") !== key) {
+      this.#staticsThrottle.run(() => this.#request("statics", key, () => this.#orProblem(async () => {
+        const statics = await this.#api.statics(pose, { force, moment, mu: view.mu }, library, unit);
+        return { statics };
+      })));
+    }
+    const ofDiagram = `${key} ${plane}`;
+    if (this.#requested.get("jamming") === ofDiagram) return;
+    const parameters = { library, unit, mu: view.mu, force: force.join(), moment: moment.join(), axes: plane, tolerance: DIAGRAM_TOLERANCE };
+    this.#jammingThrottle.run(() => this.#request("jamming", ofDiagram, () => this.#orProblem(async () => ({ diagram: await this.#api.jamming(pose, parameters) }))));
+  }
+
+  /** A part of the answer, or {problem} where there is none for this pose. */
+  async #orProblem(answer) {
+    try {
+      return await answer();
+    } catch (error) {
+      if (!(error instanceof ProblemError) || error.status !== UNRESOLVED) throw error;
+      return { problem: error.message };
+    }
   }
 
   /** Requests all formations of the network; null where the library has none. */

@@ -8,6 +8,7 @@ import { afterSnap, noSnapText, toleranceText } from "./falls.js";
 import { justAfter, isOnGrid, nearestPhase, steppedPhase } from "./grid.js";
 import { byId } from "./html.js";
 import { MapView, mapPhaseText } from "./map_view.js";
+import { LOAD_FIELDS } from "./load.js";
 import { markPainted } from "./marks.js";
 import { showToast } from "./messages.js";
 import { followed } from "./neighbours.js";
@@ -30,7 +31,7 @@ const TILT_FIELDS = ["roll", "pitch"];
 const NO_NETWORK = "No network: the library was computed by meshes, or the phase is undecided.";
 const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not have it. The way below is by turning alone.";
 /** Parts of the model that are seen in the tabs behind the first one alone. */
-const TAB_PARTS = ["node", "path", "formations", "located", "measured"];
+const TAB_PARTS = ["statics", "jamming", "node", "path", "formations", "located", "measured"];
 const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
 
 /** The pictures, and what is played in them. */
@@ -95,6 +96,7 @@ export class Pictures {
       chooseFormation: (key, move) => this.#followFormation(key, move),
       observe: (observed) => view.set({ observed }),
       measure: (poses) => view.set({ poses }),
+      load: (parts) => view.set(parts),
     });
     this.#showTab();
     for (const part of this.#missed) this.redraw(part);
@@ -131,6 +133,8 @@ export class Pictures {
       if (TAB_PARTS.includes(part)) this.#missed.add(part);
       return;
     }
+    if (part === "statics") this.#drawLoad();
+    if (part === "jamming") this.#tabs.load.showJamming(this.#model.jamming);
     if (part === "node") this.#drawFollowing();
     if (part === "path") this.#drawPath();
     if (part === "formations") this.#drawNetwork();
@@ -150,6 +154,7 @@ export class Pictures {
     if (has(...TILT_FIELDS)) this.#showSnap();
     if (has("stage", "nut", "azimuth", "elevation", "distance")) this.#drawScene();
     if (has("tab")) this.#showTab();
+    if (has(...LOAD_FIELDS, "plane", ...TILT_FIELDS, "phase", "unit")) this.#followLoad();
     if (has(...TILT_FIELDS, "stage") && !["stages", "phase"].includes(this.#player.playing)) this.#player.stop();
   }
 
@@ -198,8 +203,29 @@ export class Pictures {
     return tabs.includes(this.#view.value.tab);
   }
 
+  /** Requests what the load does where that is seen. */
+  #followLoad() {
+    this.#tabs?.load.show(this.#view.value);
+    if (this.#isSeen("load")) this.#model.followLoad(this.#view.value);
+  }
+
+  #drawLoad() {
+    this.#tabs.load.showStatics(this.#model.statics, this.#view.value.unit);
+    this.#drawScene();
+  }
+
+  /** What the load does to the state that is shown, where its tab and the state's last pose are seen. */
+  #loaded() {
+    const { statics, state } = this.#model;
+    const found = statics?.statics;
+    const isHere = found && state?.state && ["roll", "pitch", "phase"].every((name) => found[name] === state.pose[name]);
+    const isLast = isHere && lastStage(state.state) === state.state.poses.length && this.#view.value.stage >= lastStage(state.state);
+    return this.#isSeen("load") && isLast ? found : null;
+  }
+
   /** Draws what a tab holds that has become visible. */
   #showTab() {
+    this.#followLoad();
     if (this.#isSeen("network")) this.#model.followNetwork();
     this.#drawCurves();
     if (!this.#isSeen("state")) this.#beginTabs();
@@ -290,7 +316,10 @@ export class Pictures {
     const { thread_pitch: threadPitch, nominal_diameter: nominal } = library.pair;
     const readout = state.state ? sceneReadout(state.state, this.#view.value.stage) : "no state at this pose";
     const { roll, pitch, phase } = state.pose;
-    this.scene.show(state.state, this.#view.value, threadPitch, nominal, `roll ${roll}, pitch ${pitch}, phase ${phase} deg, ${readout}`);
+    const loaded = this.#loaded();
+    byId("force-legend").hidden = loaded === null;
+    byId("stage-legend").hidden = loaded !== null;
+    this.scene.show(state.state, loaded, this.#view.value, threadPitch, nominal, `roll ${roll}, pitch ${pitch}, phase ${phase} deg, ${readout}`);
     byId("scene-readout").textContent = readout;
   }
 

@@ -1,6 +1,6 @@
 // What the map of orientations can show.
 
-import { angle, length, percent } from "./units.js";
+import { angle, fixed, length, percent } from "./units.js";
 
 /** How near the class is to a threshold: the least distance of the three that the state has. */
 export function nearestThreshold(margins) {
@@ -12,7 +12,7 @@ const ofWindows = (pick) => (orientation) => (orientation.windows.length > 0 ? p
 
 /**
  * A quantity: its name, a line of help, how it is written, and how it is read from a state (`ofState`) and from an
- * orientation's summary with its windows and falls (`ofAll`, named by `all`); `none` says what is missing where there is none. Without `ofState` it belongs to the orientation.
+ * orientation's summary with its windows and falls (`ofAll`, named by `all`); `none` says what is missing where there is none; colours have a fixed `range`, or that of the values. Without `ofState` it belongs to the orientation.
  */
 export const QUANTITIES = {
   class: {
@@ -75,6 +75,34 @@ export const QUANTITIES = {
     ofState: (state) => nearestThreshold(state.margins),
     ofAll: (orientation) => orientation.margin_least,
     write: length,
+  },
+  mu_hold: {
+    name: "μ that holds",
+    help: "the least coefficient of friction at which contacts can hold a push along -z through the bolt's origin",
+    all: "least friction that holds a push",
+    ofState: (state) => state.statics?.mu_hold ?? null,
+    ofAll: (orientation) => orientation.mu_hold_least,
+    none: "no friction holds",
+    range: [0, 1],
+    write: (value) => fixed(value, 3),
+  },
+  mu_wedge: {
+    name: "μ that wedges",
+    help: "the least coefficient of friction at which contacts can press against each other without any load",
+    all: "least friction that wedges",
+    ofState: (state) => state.statics?.mu_wedge ?? null,
+    ofAll: (orientation) => orientation.mu_wedge_least,
+    none: "never wedges",
+    range: [0, 3],
+    write: (value) => fixed(value, 3),
+  },
+  support_margin: {
+    name: "support margin",
+    help: "distance of a push from the boundary of what the contacts balance without friction, over the push; negative outside",
+    all: "greatest support margin",
+    ofState: (state) => state.statics?.support_margin ?? null,
+    ofAll: (orientation) => orientation.support_margin_most,
+    write: (value) => fixed(value, 4),
   },
 };
 

@@ -4,9 +4,9 @@ import { html } from "./html.js";
 import { showToast } from "./messages.js";
 import { lastStage } from "./resting.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
-import { depthTable, followingTable, formationTable, intervalTable, mapTable, pathTable, poseTable, stateTable } from "./tables.js";
+import { depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable } from "./tables.js";
 
-const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg" };
+const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg", jamming: "#jamming svg" };
 const TABLES = {
   map: mapTable,
   phase: depthTable,
@@ -14,6 +14,7 @@ const TABLES = {
   follows: followingTable,
   path: pathTable,
   network: formationTable,
+  jamming: jammingTable,
   state: stateTable,
   poses: poseTable,
 };
@@ -24,6 +25,7 @@ const NAMES = {
   follows: "what-follows",
   path: "way-to-the-window",
   network: "formations",
+  jamming: "jamming-diagram",
   scene: "bolt-and-nut",
   state: "state",
   poses: "measured-poses",

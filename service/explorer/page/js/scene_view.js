@@ -3,6 +3,7 @@
 import * as THREE from "../third-party/three.module.js";
 
 import { STAGE_COLOURS } from "./colours.js";
+import { forceMarks } from "./force_marks.js";
 import { meshesOf } from "./glb.js";
 import { poseAt } from "./motion.js";
 import { dragged, cameraAfterKey, cameraPosition, zoomed } from "./orbit.js";
@@ -74,17 +75,22 @@ export class SceneView {
     this.#draw();
   }
 
-  /** Shows a state (null: none) at the view's stage, from the view's camera; `description` is the picture in words. */
-  show(state, view, threadPitch, nominal, description) {
+  /**
+   * Shows a state (null: none) at the view's stage, from the view's camera, with its contacts, or what a load does to it (null: no
+   * load); `description` is the picture in words.
+   */
+  show(state, loaded, view, threadPitch, nominal, description) {
     this.#view = view;
     this.#description = description;
     this.#dressNut(view.nut);
     this.#bolt.visible = state !== null;
     this.#clearMarks();
     if (state !== null) {
-      const pose = poseAt(state, Math.min(view.stage, lastStage(state)), threadPitch);
+      const stage = Math.min(view.stage, lastStage(state));
+      const pose = poseAt(state, stage, threadPitch);
       this.#bolt.matrix.copy(matrixOf(pose, nominal));
-      this.#mark(state, Math.min(view.stage, lastStage(state)), nominal);
+      if (loaded !== null) this.#marks.add(...forceMarks(loaded, nominal));
+      else this.#mark(state, stage, nominal);
     }
     this.#draw();
   }

@@ -3,14 +3,16 @@
 import { DisksView } from "./disks_view.js";
 import { FollowsView } from "./follows_view.js";
 import { byId } from "./html.js";
+import { LoadView } from "./load_view.js";
 import { LocateView } from "./locate_view.js";
 import { NetworkView } from "./network_view.js";
 import { drawPath, pathText } from "./path_view.js";
 import { PosesView } from "./poses_view.js";
 
-/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, or poses. */
-export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure }) {
+/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, poses, or a load. */
+export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure, load }) {
   return {
+    load: new LoadView(load),
     disks: new DisksView(byId("disks"), choosePhase),
     follows: new FollowsView(byId("follows"), chooseFormation),
     network: new NetworkView(

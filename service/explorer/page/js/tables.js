@@ -75,6 +75,11 @@ export function stateTable({ state: { state, pose, unit } }) {
   return [["of", "name", "value", "unit"], ...rows];
 }
 
+/** The outline of the jamming diagram, counter-clockwise. */
+export function jammingTable({ jamming: { diagram } }) {
+  return [diagram.axes, ...diagram.vertices];
+}
+
 const AXES = ["x", "y", "z"];
 
 function contactRows(name, contact, unit) {

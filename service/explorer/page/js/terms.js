@@ -47,6 +47,11 @@ export const FEATURES = ["edge-edge", "edge-surface", "base-edge", "edge-thread"
 
 /** The meaning of a state's numbers. */
 export const TERMS = {
+  "held from friction": "The least coefficient of friction at which the contacts can balance the load.",
+  "can wedge from friction": "The least coefficient of friction at which contacts can press against each other without any load.",
+  "support margin": "Distance of the load, made of size 1, from the boundary of what the contacts balance without friction; negative outside.",
+  "torque that turns it ccw": "Torque about the nut's axis, over push times nominal radius, at which the bolt begins to turn counter-clockwise.",
+  "torque that turns it cw": "Torque about the nut's axis, over push times nominal radius, at which the bolt begins to turn clockwise.",
   flags: "What is out of the ordinary about this state.",
   "first contact at": "Height of the bolt's origin above the nut's surface when it first touches.",
   "at rest at": "Height of the bolt's origin above the nut's surface in its last pose, in which it rests.",

@@ -1,12 +1,13 @@
 // The view as the fragment of an address, so that a link restores it exactly.
 
+import { PLANES } from "./load.js";
 import { checkedObservation } from "./observation.js";
 import { checkedPoses } from "./poses.js";
 import { QUANTITIES } from "./quantities.js";
 import { TABS } from "./tabs.js";
 import { TILT_LIMIT, TOLERANCE_LIMIT } from "./grid.js";
 import { wrapAngle, parseDecimal } from "./units.js";
-import { DEFAULTS } from "./view.js";
+import { DEFAULTS, LOAD_LIMITS } from "./view.js";
 
 const finite = (text) => (Number.isFinite(parseDecimal(text)) ? parseDecimal(text) + 0 : undefined);
 const between = (low, high, unit = "") => ({
@@ -42,6 +43,8 @@ const READERS = {
   beside_roll: tilt,
   beside_pitch: tilt,
   poses: { read: checkedPoses, valid: "poses as the page writes them" },
+  ...Object.fromEntries(Object.entries(LOAD_LIMITS).map(([name, limits]) => [name, between(...limits)])),
+  plane: among(...Object.keys(PLANES)),
   observed: { read: checkedObservation, valid: "an observation as the page writes it" },
 };
 

@@ -27,7 +27,20 @@ export const DEFAULTS = Object.freeze({
   poses: "",
   /** What was observed of a state, as `observation.js` writes it. */
   observed: "",
+  /** The load, as `load.js` reads it, with the friction of all contacts, and the plane of loads of the diagram. */
+  mu: 0.2,
+  push: 1,
+  fx: 0,
+  fy: 0,
+  mx: 0,
+  my: 0,
+  mz: 0,
+  plane: "fx,my",
 });
+
+const PART_LIMITS = [-100, 100];
+/** The least and the largest value of the load's numbers. */
+export const LOAD_LIMITS = { mu: [0, 10], push: [1e-3, 1e6], fx: PART_LIMITS, fy: PART_LIMITS, mx: PART_LIMITS, my: PART_LIMITS, mz: PART_LIMITS };
 
 /** The present view, and its listeners. */
 export class View {
