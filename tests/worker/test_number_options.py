@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
 from typing import Any, get_args, get_type_hints
 
 import pytest
-from typer.core import TyperGroup
 from typer.exceptions import TyperException
-from typer.main import get_command
 
-from worker.cli import COMMANDS, app, run_command_line
+from worker.cli import COMMANDS, command_group, run_command_line
 
 pytestmark = pytest.mark.sqlite_alone
 
@@ -22,17 +19,9 @@ def _is_number(annotation: Any) -> bool:
     return annotation in (int, float) or any(_is_number(one) for one in get_args(annotation))
 
 
-@cache
-def _group() -> TyperGroup:
-    """All commands, whose options take 30 ms to describe."""
-    group = get_command(app)
-    assert isinstance(group, TyperGroup)
-    return group
-
-
 def _options() -> Iterator[tuple[str, str]]:
     """(command, option) of every number."""
-    group = _group()
+    group = command_group()
     for command in COMMANDS:
         types = get_type_hints(command)
         for parameter in group.commands[command.__name__].params:
@@ -60,7 +49,7 @@ def test_limits_hold(option: str, reason: str) -> None:
 
 def _refusal(command: str, argument: str) -> str:
     """What is said where a command is given that argument; nothing is run."""
-    group = _group()
+    group = command_group()
     try:
         group.commands[command].make_context(command, [argument])
     except TyperException as error:
