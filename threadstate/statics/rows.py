@@ -14,6 +14,7 @@ from threadstate.state.model import Answer, ContactState
 from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._friction_kernel import search_addresses
 from threadstate.statics.load import Load
+from threadstate.statics.solve import statics_of
 from threadstate.statics.stored import StoredStatics
 from threadstate.thread.pair import Pair
 
@@ -23,17 +24,16 @@ Floats = NDArray[np.float64]
 def statics_rows(pair: Pair, records: Floats, load: Load | None = None) -> Floats:
     """Rows of shape (n, NUMBERS_SIZE), as ``_numbers_kernel`` lays them out, of decided records under one load.
 
-    Each has the same bits whatever the others are. A patch under a load with a part across it, and a strip of flank
-    under any but a push along the axis, have their holding friction open (``OPEN_PATCH``):
-    :func:`threadstate.statics.solve.statics_of` finds it.
+    Each has the same bits whatever the others are. A patch under a load with a part across it has its holding friction
+    open (``OPEN_PATCH``), and so has a strip of flank, whose margin here is that of its corners alone:
+    :func:`threadstate.statics.solve.statics_of` finds them.
     """
     rows = np.empty((len(records), nk.NUMBERS_SIZE))
     radius = pair.nominal_diameter / 2.0
     loads = loads_about(origins(records), load or Load())
     loads[:, :3] /= radius
     nk.statics_rows(search_addresses(), records, loads, radius, pair.bolt.packed, pair.nut.packed, rows)
-    # Corners alone say what the whole strip holds under a push along the axis, and under no other load.
-    rows[on_strips(records) & loads[:, :5].any(axis=1), nk.N_STATUS] = nk.OPEN_PATCH
+    rows[on_strips(records), nk.N_STATUS] = nk.OPEN_PATCH
     return rows
 
 
@@ -58,10 +58,14 @@ def loads_about(points: Floats, load: Load) -> Floats:
 
 def stored_statics(pair: Pair, states: Sequence[ContactState]) -> list[StoredStatics | None]:
     """The statics of states that a library stores, in their order; None where a contact has no certain normal."""
+    records = geometry_records(states)
     found: list[StoredStatics | None] = []
-    for status, margin, _, hold, _, wedge in statics_rows(pair, geometry_records(states)).tolist():
+    for status, margin, _, hold, _, wedge in statics_rows(pair, records).tolist():
         certain = status in (nk.DONE, nk.OPEN_PATCH)
         found.append(StoredStatics(margin + 0.0, _finite(hold), _finite(wedge)) if certain else None)
+    for number in np.flatnonzero(on_strips(records)).tolist():
+        whole = statics_of(pair, states[number])
+        found[number] = StoredStatics(whole.support_margin + 0.0, _finite(whole.hold.upper), _finite(whole.wedge.upper))
     return found
 
 
