@@ -5,9 +5,11 @@ import re
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
+from xdist.scheduler import LoadFileScheduling
 
 from harness.databases import KINDS, POSTGRESQL, SQLITE, Databases, PostgresqlDatabases, SqliteDatabases
 from harness.postgresql_server import PostgresqlServer, running_server
@@ -18,9 +20,26 @@ from threadstate.history.model import SolvedHistory
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("repeatable")
 
-TAKE_LONGEST = ("worker", "faults", "test_benchmarks.py", "studies", "explorer", "service", "contact")
+TAKE_LONGEST = (
+    "explorer",
+    "worker",
+    "test_benchmarks.py",
+    "studies",
+    "test_examples.py",
+    "docs",
+    "test_chart_study.py",
+    "test_paper_study.py",
+    "faults",
+    "service",
+    "mesh",
+    "library",
+    "contact",
+    "statics",
+    "client",
+)
 """Folders and files of tests, those first that are begun first, so that no lane is left alone with them at the end."""
-
+ONE_BROWSER = "tests/explorer/"
+"""What one process of a run tests, with one Chromium, service and library."""
 
 WHOLLY_SLOW = re.compile(r"^pytestmark = .*\bpytest\.mark\.slow\b", re.M)
 
@@ -36,6 +55,17 @@ def pytest_configure(config: pytest.Config) -> None:
             os.environ.pop(FOLDER, None)
 
         config.add_cleanup(forget_folder)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Where each file goes to one process, let the files that need the browser go to one together."""
+    if config.getoption("dist") != "loadfile":
+        return None
+    scheduler = LoadFileScheduling(config, log)
+    file_of = scheduler._split_scope
+    scheduler._split_scope = lambda name: ONE_BROWSER if name.startswith(ONE_BROWSER) else file_of(name)
+    return scheduler
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 
 import uvicorn
 
-from service.app import create_app
 from service.server import bound_socket
+from tests.service_app import service_app
 from threadstate.settings import DATABASE, read_settings
 
 HOST = "127.0.0.1"
@@ -20,7 +20,7 @@ LOOK_S = 0.01
 @contextmanager
 def service_thread(database: str, port: int = 0, settings: Mapping[str, str] | None = None) -> Iterator[str]:
     """The address of a service over a database, at that port or (0) at a free one, with these settings more."""
-    app = create_app(read_settings({DATABASE: database, **(settings or {})}))
+    app = service_app(read_settings({DATABASE: database, **(settings or {})}))
     listening = bound_socket(HOST, port)
     server = uvicorn.Server(uvicorn.Config(app, log_config=None, access_log=False))
     thread = threading.Thread(target=server.run, args=([listening],), daemon=True)

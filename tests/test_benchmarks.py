@@ -20,7 +20,7 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
 
-SMALL = ["--poses", "20", "--compared", "2", "--tilt-max", "0", "--phase-step", "120"]
+SMALL = ["--poses", "20", "--compared", "1", "--tilt-max", "0", "--phase-step", "120"]
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ def test_every_pose_is_counted_once_on_one_core_and_on_two(report: dict[str, Any
 
 
 def test_meshes_come_to_the_exact_heights(report: dict[str, Any]) -> None:
-    assert report["compared"] == 2
+    assert report["compared"] == 1
     assert len(report["rivals"]) == 4
     for rival in report["rivals"]:
         # Fine meshes differ from the surfaces by up to 7e-5 in near a jump (method, section 6).

@@ -87,7 +87,9 @@ def compare(scene: Scene) -> list[Compared]:
             one = replace(one, outcome=Outcome.VERIFIED)
         found.append(one)
     own = float(row[nk.N_MARGIN])
-    found.append(_compared(Number.MARGIN, (own, own), (margin.lower, margin.upper), None, 0.0))
+    # Of a supported load on dependent rays the closed form says no more than that it is supported.
+    deepest = math.inf if own == 0.0 and _are_dependent(scene) else own
+    found.append(_compared(Number.MARGIN, (own, deepest), (margin.lower, margin.upper), None, 0.0))
     return found
 
 
@@ -119,6 +121,11 @@ def _verified(scene: Scene, load: Wrench, one: Compared) -> bool:
     forces, _ = deep_forces(scene.load, scene.points, scene.normals, math.tan(angle + 0.5 * AGREE))
     bound = forces_bound(scene.points, scene.normals, load, forces)
     return math.atan(bound) - AGREE <= angle <= one.theirs[0] + AGREE
+
+
+def _are_dependent(scene: Scene) -> bool:
+    rays = np.hstack([np.cross(scene.points, scene.normals), scene.normals])
+    return int(np.linalg.matrix_rank(rays)) < len(rays)
 
 
 def _closed_forms(scene: Scene) -> Floats:

@@ -12,13 +12,14 @@ import pytest
 from harness.databases import Databases
 from scripts.shown_commands import ShownCommand, Terminal, abridged, saved_files, shown_commands, written_again
 from tests.service_thread import service_thread
+from tests.stored_histories.history_library import histories_of_grid, store_histories
+from threadstate.library.grid import Grid
 from threadstate.settings import DATABASE
-from worker.cli import run_command_line
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?![\w.])")
 UNITS_OF_THE_LAST_PLACE = 2
 """Phases of boundaries are known to 5e-7 deg, and tables show six decimals."""
-COARSE_GRID = ["--tilt-step", "4", "--phase-step", "5"]
+COARSE_GRID = Grid(4.0, 4.0, 5.0)
 """Of the library that stands for that of ``make run``: every pose that the page asks it about is on the grid."""
 
 
@@ -48,9 +49,9 @@ def terminal(
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(repository_root)
         patch.setenv("PYTHONPATH", str(repository_root))
-        database = sqlite_databases.new()
+        database = sqlite_databases.migrated()
         patch.setenv(DATABASE, database)
-        assert run_command_line(["rebuild", *COARSE_GRID]) == 0
+        store_histories(database, COARSE_GRID, histories_of_grid(COARSE_GRID))
         with service_thread(database) as address:
             yield Terminal(address, tmp_path_factory.mktemp("saved"), saved_files(page))
 

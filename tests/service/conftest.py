@@ -9,9 +9,9 @@ from fastapi.testclient import TestClient
 from sqlalchemy import Connection, Engine
 
 from harness.databases import Databases
-from service.app import create_app
 from tests.service.made_up_states import made_up_states, made_up_statics
 from tests.service.own_library import store_own_library
+from tests.service_app import service_app
 from threadstate.library.engine import reader_engine, writer_engine
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
@@ -99,7 +99,7 @@ def empty_database(databases: Databases) -> str:
 
 def client_of(database: str, *, cache_mb: int = 256) -> TestClient:
     """A client of a service over that database, which keeps up to so many megabytes of answers."""
-    return TestClient(create_app(read_settings({DATABASE: database, CACHE_MB: str(cache_mb)})))
+    return TestClient(service_app(read_settings({DATABASE: database, CACHE_MB: str(cache_mb)})))
 
 
 @pytest.fixture(scope="session")

@@ -10,11 +10,11 @@ from fastapi.testclient import TestClient
 from sqlalchemy import Connection
 
 from harness.databases import Databases
-from service.app import create_app
 from service.cache.library_names import LibraryNames
 from service.cache.responses import OVERHEAD_BYTES, CachedResponse, ResponseCache
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
+from tests.service_app import service_app
 from threadstate.library.engine import reading, writing
 from threadstate.library.grid import Grid
 from threadstate.library.orientations import OrientationSummary, orientation_summaries
@@ -59,7 +59,7 @@ def test_what_is_too_large_is_not_cached() -> None:
 
 @pytest.mark.parametrize("room", ["0", "1"])
 def test_cached_response_is_the_one_that_was_made(made_up: StoredLibrary, room: str) -> None:
-    with TestClient(create_app(read_settings({DATABASE: made_up.database, CACHE_MB: room}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: made_up.database, CACHE_MB: room}))) as client:
         for path in ("states?limit=3", "orientations", "histories/1/-1", "histories/1/-1?format=csv", "meshes/nut", ""):
             for encoding in ("gzip", "identity"):
                 headers = {"Accept-Encoding": encoding}
@@ -111,7 +111,7 @@ def test_accept_header_is_part_of_the_key(client: TestClient) -> None:
 def test_publication_and_removal_show_at_once(databases: Databases) -> None:
     database = databases.migrated()
     pair, grid = quarter_twenty_unc(), Grid(1.0, 1.0, 90.0)
-    with TestClient(create_app(read_settings({DATABASE: database}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: database}))) as client:
         path = "/v1/libraries/latest/orientations"
         assert client.get(path).status_code == 404
         first = store_library(database, pair, grid, made_up_states)
@@ -130,7 +130,7 @@ def test_pinning_shows_at_once(databases: Databases) -> None:
     first = store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 90.0), made_up_states)
     second = store_library(database, quarter_twenty_unc(), Grid(1.0, 1.0, 120.0), made_up_states)
     path = "/v1/libraries/latest/orientations"
-    with TestClient(create_app(read_settings({DATABASE: database}))) as client, writing(database) as engine:
+    with TestClient(service_app(read_settings({DATABASE: database}))) as client, writing(database) as engine:
         for pinned, latest in ((None, second), (first.id, first), (second.id, second), (first.id, first)):
             pin_library(engine, pinned)
             assert f'"library":{latest.id},' in client.get(path).text
@@ -172,7 +172,7 @@ def test_what_several_ask_for_at_once_is_made_once(made_up: StoredLibrary, monke
         return orientation_summaries(connection, library_id)
 
     monkeypatch.setattr("service.orientations.orientation_summaries", slow)
-    with TestClient(create_app(read_settings({DATABASE: made_up.database}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: made_up.database}))) as client:
         answers: list[bytes] = []
         threads = [
             threading.Thread(target=lambda: answers.append(client.get("/v1/libraries/latest/orientations").content))
@@ -190,7 +190,7 @@ def test_what_several_ask_for_at_once_is_made_once(made_up: StoredLibrary, monke
 
 def test_stream_of_a_known_length_goes_through_whole(made_up: StoredLibrary) -> None:
     parts = [b"a" * 2000, b"b" * 2000]
-    app = create_app(read_settings({DATABASE: made_up.database}))
+    app = service_app(read_settings({DATABASE: made_up.database}))
 
     @app.get("/v1/libraries/{id}/parts")
     def stream(id: str) -> StreamingResponse:  # noqa: A002 - as in the address

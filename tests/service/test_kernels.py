@@ -14,9 +14,9 @@ import httpx2
 import pytest
 from fastapi.testclient import TestClient
 
-from service.app import create_app
 from tests.service.conftest import StoredLibrary
 from tests.service.test_problems import problem
+from tests.service_app import service_app
 from threadstate.client.errors import ServiceUnavailableError, problem_error
 from threadstate.client.models.service import Problem
 from threadstate.client.options import DEFAULT_RETRIES
@@ -60,7 +60,7 @@ def compiling(
     monkeypatch.setattr("service.kernels.COMPILE", command)
     monkeypatch.setattr("service.kernels.kernels_are_compiled", lambda: False)
     settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
-    with TestClient(create_app(settings, serving=True)) as client:
+    with TestClient(service_app(settings, serving=True)) as client:
         yield client
 
 
@@ -110,7 +110,7 @@ def _error(response: httpx2.Response) -> ServiceUnavailableError:
 
 def test_kernels_that_are_compiled_are_ready_at_once(made_up: StoredLibrary, tmp_path: Path) -> None:
     settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
-    with TestClient(create_app(settings, serving=True)) as client:
+    with TestClient(service_app(settings, serving=True)) as client:
         assert client.get("/readyz").json()["kernels"] == "ready"
         assert client.post("/v1/solve", json=SOLVE).status_code == 200
 
@@ -123,7 +123,7 @@ def test_a_service_that_ends_ends_the_compiler(
     monkeypatch.setattr("service.kernels.COMPILE", (sys.executable, "-c", script, str(begun)))
     monkeypatch.setattr("service.kernels.kernels_are_compiled", lambda: False)
     settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
-    with TestClient(create_app(settings, serving=True)):
+    with TestClient(service_app(settings, serving=True)):
         until = time.monotonic() + LONGEST_S
         while not (begun.exists() and begun.read_text()):
             assert time.monotonic() < until

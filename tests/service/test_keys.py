@@ -12,9 +12,9 @@ from fastapi.testclient import TestClient
 from sqlalchemy import Engine
 
 from harness.databases import Databases
-from service.app import create_app
 from tests.jobs.jobs import published_count
 from tests.service.test_problems import problem
+from tests.service_app import service_app
 from threadstate.access.keys import create_key, revoke_key
 from threadstate.access.scope import Scope
 from threadstate.library.engine import writing
@@ -40,7 +40,7 @@ def engine(database: str) -> Iterator[Engine]:
 
 
 def _client(database: str, reading: str) -> TestClient:
-    return TestClient(create_app(read_settings({DATABASE: database, READ_KEYS: reading})))
+    return TestClient(service_app(read_settings({DATABASE: database, READ_KEYS: reading})))
 
 
 def _bearer(key: str) -> dict[str, str]:

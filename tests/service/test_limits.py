@@ -7,10 +7,10 @@ import httpx2
 import pytest
 from fastapi.testclient import TestClient
 
-from service.app import create_app
 from service.limits import QUEUED_PER_PLACE
 from tests.service.conftest import StoredLibrary
 from tests.service.test_problems import problem
+from tests.service_app import service_app
 from threadstate.settings import CONCURRENCY, DATABASE, STREAMS, TIME_LIMIT_S, read_settings
 
 pytestmark = pytest.mark.sqlite_alone
@@ -34,7 +34,7 @@ def _slow(seconds: float, monkeypatch: pytest.MonkeyPatch) -> list[float]:
 def _at_once(settings: dict[str, str], count: int) -> list[httpx2.Response]:
     """The answers to that many requests that are sent at once."""
 
-    app = create_app(read_settings(settings))
+    app = service_app(read_settings(settings))
     app.openapi()
 
     async def ask() -> list[httpx2.Response]:
@@ -75,7 +75,7 @@ def test_request_over_its_time_is_given_up_and_keeps_its_place(
 
 
 def test_health_is_answered_when_all_places_are_taken(made_up: StoredLibrary) -> None:
-    with TestClient(create_app(read_settings({DATABASE: made_up.database}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: made_up.database}))) as client:
         (limits,) = (one for one in client.app.user_middleware if one.cls.__name__ == "LimitsMiddleware")  # type: ignore[attr-defined]
         admission = limits.kwargs["admission"]
         admission.queued = 10**6
@@ -88,6 +88,6 @@ def test_health_is_answered_when_all_places_are_taken(made_up: StoredLibrary) ->
 
 def test_streams_have_a_limit_of_their_own(made_up: StoredLibrary) -> None:
     settings = {DATABASE: made_up.database, STREAMS: "0"}
-    with TestClient(create_app(read_settings(settings))) as client:
+    with TestClient(service_app(read_settings(settings))) as client:
         assert problem(client.get("/v1/jobs/1/events"), 429).type.endswith(":too-many-streams")
         assert client.get("/v1/jobs").status_code == 200

@@ -30,8 +30,10 @@ from tests.service.own_library import OWN_OPTIONS, OWN_PAIR
 from tests.service.test_problems import problem
 from tests.stored_histories.history_library import SMALL_GRID as GRID
 from tests.stored_histories.history_library import histories_of_grid, store_histories
+from threadstate.network.loaded import Part
 from threadstate.responses.heights import computed_heights, heights_document
 from threadstate.responses.histories import computed_history, history_document
+from threadstate.responses.loaded_network import LoadedNetwork
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.cli import run_command_line
@@ -379,7 +381,23 @@ def _printed(capsys: pytest.CaptureFixture[str], *arguments: str) -> list[Any]:
     return [json.loads(line) for line in capsys.readouterr().out.splitlines()]
 
 
+@pytest.fixture
+def solved_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cells of an orientation under a load are solved once, whether the service or a command asks."""
+    solve = LoadedNetwork.parts
+    solved: dict[Any, list[list[Part]]] = {}
+
+    def parts(network: LoadedNetwork, orientation: int) -> list[list[Part]]:
+        key = network.pair, network.options, network.load, network.mu, orientation
+        if key not in solved:
+            solved[key] = solve(network, orientation)
+        return solved[key]
+
+    monkeypatch.setattr(LoadedNetwork, "parts", parts)
+
+
 @pytest.mark.slow
+@pytest.mark.usefixtures("solved_once")
 def test_under_a_load_it_answers_as_the_command_line(
     network_client: TestClient, network_database: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

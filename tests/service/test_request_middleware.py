@@ -13,11 +13,11 @@ import structlog
 from fastapi.testclient import TestClient
 from structlog.testing import capture_logs
 
-from service.app import create_app
 from service.logs import configure_logs
 from service.request_scope import current_request_id
 from tests.service.conftest import StoredLibrary
 from tests.service.test_problems import problem
+from tests.service_app import service_app
 from threadstate.errors import InvalidValueError
 from threadstate.settings import CORS_ORIGINS, DATABASE, LogForm, LogLevel, read_settings
 
@@ -28,7 +28,7 @@ ORIGIN = "https://example.com"
 
 def _logging_client(library: StoredLibrary) -> TestClient:
     settings = read_settings({DATABASE: library.database})
-    return TestClient(create_app(settings, serving=True), raise_server_exceptions=False)
+    return TestClient(service_app(settings, serving=True), raise_server_exceptions=False)
 
 
 def test_request_has_the_number_that_it_asks_for(client: TestClient) -> None:
@@ -128,7 +128,7 @@ def test_lines_for_people_have_the_same(capfd: pytest.CaptureFixture[str]) -> No
 
 
 def test_metrics_count_requests_by_route(made_up: StoredLibrary) -> None:
-    with TestClient(create_app(read_settings({DATABASE: made_up.database}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: made_up.database}))) as client:
         # States are read from the database every time, lists of orientations are cached.
         cached = ("latest/orientations", "latest/orientations")
         for path in ("latest/states/1/-1/30", "latest/states/1/-1/30", "latest/states/1/-1/31", "secret", *cached):
@@ -147,14 +147,14 @@ def test_metrics_count_requests_by_route(made_up: StoredLibrary) -> None:
 
 
 def test_metrics_without_a_database_say_so(missing_database: str) -> None:
-    with TestClient(create_app(read_settings({DATABASE: missing_database}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: missing_database}))) as client:
         text = client.get("/metrics").text
     assert "threadstate_database_up 0.0" in text
     assert "threadstate_libraries" not in text
 
 
 def test_every_metric_is_documented(made_up: StoredLibrary, repository_root: Path) -> None:
-    with TestClient(create_app(read_settings({DATABASE: made_up.database}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: made_up.database}))) as client:
         found = set(re.findall(r"^# TYPE (\w+)", client.get("/metrics").text, re.M))
     text = (repository_root / "docs" / "operations.md").read_text()
     documented = set(re.findall(r"`(threadstate_\w+)`", text))
@@ -168,7 +168,7 @@ def test_other_origins_are_answered_where_they_are_listed(made_up: StoredLibrary
         "Access-Control-Request-Headers": "authorization",
     }
     settings = read_settings({DATABASE: made_up.database, CORS_ORIGINS: f"{ORIGIN}, http://127.0.0.1:1"})
-    with TestClient(create_app(settings)) as client:
+    with TestClient(service_app(settings)) as client:
         answer = client.options("/v1/jobs", headers=preflight)
         assert answer.status_code == 200
         assert answer.headers["Access-Control-Allow-Origin"] == ORIGIN

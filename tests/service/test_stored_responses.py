@@ -10,10 +10,10 @@ from fastapi.testclient import TestClient
 from sqlalchemy import update
 
 from harness.databases import Databases
-from service.app import create_app
 from tests.service.conftest import StoredLibrary, store_library
 from tests.service.made_up_states import made_up_states
 from tests.service.test_problems import problem
+from tests.service_app import service_app
 from threadstate.access.keys import create_key, revoke_key
 from threadstate.access.scope import Scope
 from threadstate.library.address import database_url, sqlite_path
@@ -45,7 +45,7 @@ def stored(databases: Databases) -> StoredLibrary:
 @pytest.fixture
 def by_endpoints(stored: StoredLibrary, monkeypatch: pytest.MonkeyPatch) -> Iterator[TestClient]:
     """A client of a service in which nothing is read before routing."""
-    with TestClient(create_app(read_settings({DATABASE: stored.database, CACHE_MB: "0"}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: stored.database, CACHE_MB: "0"}))) as client:
 
         async def nothing(*_: object) -> None:
             return None
@@ -79,7 +79,7 @@ def test_same_bytes_and_headers_as_the_endpoints(
     paths += ["histories/0.5/0", "histories/0/0?format=columns", "states/0/0/30?unit=mm"]
     expected = _answers(by_endpoints, paths, encoding)
     monkeypatch.undo()
-    with TestClient(create_app(read_settings({DATABASE: stored.database}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: stored.database}))) as client:
         for _ in "twice":
             assert _answers(client, paths, encoding) == expected
     assert {status for status, _, _ in expected} == {200, 400, 404}
@@ -88,7 +88,7 @@ def test_same_bytes_and_headers_as_the_endpoints(
 def test_poses_and_histories_are_read_before_routing(stored: StoredLibrary, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("service.states.endpoints.state_of_pose", None)
     monkeypatch.setattr("service.histories.endpoints.history_rows_json", None)
-    with TestClient(create_app(read_settings({DATABASE: stored.database, CACHE_MB: "0"}))) as client:
+    with TestClient(service_app(read_settings({DATABASE: stored.database, CACHE_MB: "0"}))) as client:
         for path in ("states/1/-1/30", "histories/1/-1"):
             assert client.get(f"/v1/libraries/latest/{path}").status_code == 200
 
@@ -97,7 +97,7 @@ def test_where_reading_needs_a_key_none_is_answered_without(databases: Databases
     with databases.lent() as database:
         store_library(database, quarter_twenty_unc(), GRID, made_up_states)
         settings = read_settings({DATABASE: database, READ_KEYS: "required"})
-        with writing(database) as engine, TestClient(create_app(settings)) as client:
+        with writing(database) as engine, TestClient(service_app(settings)) as client:
             key = create_key(engine, "reader", Scope.READ)
             shown = {"Authorization": f"Bearer {key}"}
             for path in ("states/0/0/30", "histories/1/-1"):

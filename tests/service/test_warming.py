@@ -9,8 +9,8 @@ import pytest
 from fastapi.testclient import TestClient
 
 from harness.databases import Databases
-from service.app import create_app
 from service.network.cache import NetworkCache
+from tests.service_app import service_app
 from tests.stored_histories.history_library import SMALL_GRID, store_histories
 from threadstate.history.model import SolvedHistory
 from threadstate.library.read import latest_library
@@ -25,7 +25,7 @@ def test_a_service_is_prepared_and_then_in_full(
 ) -> None:
     database = databases.migrated()
     store_histories(database, SMALL_GRID, small_histories)
-    app = create_app(read_settings({DATABASE: database, DATA_DIR: str(tmp_path)}), serving=True)
+    app = service_app(read_settings({DATABASE: database, DATA_DIR: str(tmp_path)}), serving=True)
     with TestClient(app) as client:
         _wait_for(client, "threadstate_prepared 1.0")
         _wait_for(client, "threadstate_prepared_in_full 1.0")
@@ -39,7 +39,7 @@ def test_a_service_is_prepared_and_then_in_full(
 @pytest.mark.sqlite_alone
 def test_without_a_library_there_is_nothing_to_prepare(databases: Databases, tmp_path: Path) -> None:
     settings = read_settings({DATABASE: databases.migrated(), DATA_DIR: str(tmp_path)})
-    with TestClient(create_app(settings, serving=True)) as client:
+    with TestClient(service_app(settings, serving=True)) as client:
         _wait_for(client, "threadstate_prepared_in_full 1.0")
 
 
@@ -59,6 +59,6 @@ def test_what_fails_in_the_background_is_logged(
 
     monkeypatch.setattr("service.warming.Warming.run", failing)
     settings = read_settings({DATABASE: databases.migrated(), DATA_DIR: str(tmp_path)})
-    with TestClient(create_app(settings, serving=True)) as client:
+    with TestClient(service_app(settings, serving=True)) as client:
         assert client.get("/healthz").status_code == 200
         assert "a fault of the preparation" in caplog.text

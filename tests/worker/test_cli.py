@@ -9,8 +9,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
-from typer.core import TyperGroup
-from typer.main import get_command
 
 import threadstate
 from tests.worker.conftest import COMMAND, CommandLine
@@ -24,7 +22,7 @@ from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit, conversion_factor
-from worker.cli import PROGRAM, app
+from worker.cli import PROGRAM, command_group
 from worker.commands.solve import BATCH
 from worker.exit_codes import ExitCode
 
@@ -40,17 +38,11 @@ def _line(state: ContactState, unit: LengthUnit = LengthUnit.INCH) -> str:
     return json.dumps({**document, "unit": unit.value}, separators=(",", ":")) + "\n"
 
 
-def _commands() -> TyperGroup:
-    command = get_command(app)
-    assert isinstance(command, TyperGroup)
-    return command
-
-
-COMMANDS = sorted(_commands().commands)
+COMMANDS = sorted(command_group().commands)
 
 
 def _options(name: str) -> Iterator[str]:
-    for parameter in _commands().commands[name].params:
+    for parameter in command_group().commands[name].params:
         yield from (name for name in parameter.opts if name.startswith("-"))
 
 
@@ -115,7 +107,7 @@ def test_no_description_of_the_overview_is_cut(
     assert "..." not in out.partition("Commands:")[2]
     told = " ".join(out.split())
     for name in COMMANDS:
-        text = _commands().commands[name].help
+        text = command_group().commands[name].help
         assert text is not None
         assert " ".join(text.split("\n\n")[0].split()) in told
 

@@ -167,7 +167,8 @@ def test_a_library_is_asked_by_its_name(ask: Callable[..., str]) -> None:
         ("heights", "--roll", "0", "--pitch", "-3", "--json"),
         ("summary", "--json"),
     ):
-        said = {ask(*arguments, "--library", name) for name in ("1", "latest", "1/4-20 UNC", "1-4-20-unc")}
+        names = ("1", "latest", "1/4-20 UNC", "1-4-20-unc") if arguments[0] == "windows" else ("1/4-20 UNC",)
+        said = {ask(*arguments, "--library", name) for name in names}
         assert said == {ask(*arguments, *(["--stored"] if arguments[0] in ("history", "heights") else []))}
 
 

@@ -6,11 +6,9 @@ from collections.abc import Iterator
 from typing import Any, get_args, get_type_hints
 
 import pytest
-from typer.core import TyperGroup
 from typer.exceptions import TyperException
-from typer.main import get_command
 
-from worker.cli import COMMANDS, app, run_command_line
+from worker.cli import COMMANDS, command_group, run_command_line
 
 pytestmark = pytest.mark.sqlite_alone
 
@@ -23,8 +21,7 @@ def _is_number(annotation: Any) -> bool:
 
 def _options() -> Iterator[tuple[str, str]]:
     """(command, option) of every number."""
-    group = get_command(app)
-    assert isinstance(group, TyperGroup)
+    group = command_group()
     for command in COMMANDS:
         types = get_type_hints(command)
         for parameter in group.commands[command.__name__].params:
@@ -52,8 +49,7 @@ def test_limits_hold(option: str, reason: str) -> None:
 
 def _refusal(command: str, argument: str) -> str:
     """What is said where a command is given that argument; nothing is run."""
-    group = get_command(app)
-    assert isinstance(group, TyperGroup)
+    group = command_group()
     try:
         group.commands[command].make_context(command, [argument])
     except TyperException as error:

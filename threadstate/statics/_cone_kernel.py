@@ -28,6 +28,13 @@ ACCURACY = 1e-14
 
 
 @kernel()
+def assign(target: Array, values: Array) -> None:
+    """Sets each element: an assignment to a slice compiles the text of its error too, for seconds."""
+    for i in range(target.shape[0]):
+        target[i] = values[i]
+
+
+@kernel()
 def boundary_step(point: Array, direction: Array, start: int, size: int) -> float:
     """The largest step that keeps ``point + step direction`` in the cone at ``start``; infinite if every one does."""
     d0, p0 = direction[start], point[start]
@@ -223,8 +230,8 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
         if error < best:
             stalled = 0 if error < 0.9 * best else stalled + 1
             best = error
-            best_x[:] = x
-            best_z[:] = z
+            assign(best_x, x)
+            assign(best_z, z)
         else:
             stalled += 1
         if error <= ACCURACY or stalled == 5:
@@ -263,8 +270,8 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
         for k in range(m):
             s[k] += step * ds[k]
             z[k] += step * dz[k]
-    x[:] = best_x
-    z[:] = best_z
+    assign(x, best_x)
+    assign(z, best_z)
     return best
 
 

@@ -10,12 +10,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._pointer import Pointer
+from threadstate.statics._cone_kernel import assign
 from threadstate.statics._grasp_kernel import (
     RANK_TOLERANCE,
     Grasp,
+    Solvers,
     contact_velocities,
     friction_of,
     least_ratio,
@@ -24,7 +28,7 @@ from threadstate.statics._grasp_kernel import (
     twist_of,
     withstands,
 )
-from threadstate.statics._program_kernel import program_at
+from threadstate.statics._program_kernel import program_address, program_at
 
 Array = NDArray[np.float64]
 
@@ -40,8 +44,7 @@ REGULAR = 1e-11
 """Added to the diagonal of Newton's equations: forces that no sliding contact feels stay as they are."""
 
 
-@kernel()
-def friction_program(mu: float, weights: Array, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
+def deepest_forces(mu: float, weights: Array, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """Finds the forces of the family that are deepest in their cones at ``mu``, and the twist that says so.
 
     Minimises s with ``|t_i| <= mu N_i + s weights_i`` and the sum of the N_i at most ``FORCE_LIMIT``.
@@ -78,7 +81,7 @@ def friction_program(mu: float, weights: Array, start: Array, basis: Array, gras
             g[3 * i + 1, j] = -a
             g[3 * i + 2, j] = -b
             g[m - 1, j] += n * per
-    gap = program_at(grasp.program)(c, g, h, sizes, x, z)
+    gap = program_at(grasp.solvers[0])(c, g, h, sizes, x, z)
     for i in range(3 * k):
         total = start[i]
         for j in range(d):
@@ -95,11 +98,18 @@ def friction_program(mu: float, weights: Array, start: Array, basis: Array, gras
 
 
 @kernel()
+def set_solution(target: Array, solution: Array) -> None:
+    """Sets both rows."""
+    assign(target[0], solution[0])
+    assign(target[1], solution[1])
+
+
+@kernel()
 def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """The least pull that a contact needs where contacts carry any tangential force, over all forces of the family.
 
     Internal forces that change no normal force are left out, since they would leave the program without a unique
-    solution. ``solution`` is filled in as by :func:`friction_program`.
+    solution. ``solution`` is filled in as by :func:`deepest_forces`.
 
     Returns:
         The pull: normal forces that only press exist where it is not positive; infinite if the program was not solved.
@@ -158,7 +168,7 @@ def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> flo
             n = normal_part(left[j], grasp, i)
             g[i, j] = -n
             g[k, j] += n * per
-    gap = program_at(grasp.program)(c, g, h, np.ones(k + 1, np.intp), x, z)
+    gap = program_at(grasp.solvers[0])(c, g, h, np.ones(k + 1, np.intp), x, z)
     for i in range(3 * k):
         solution[0, i] = start[i]
         for j in range(count):
@@ -195,8 +205,7 @@ def solve_dense(matrix: Array, right: Array) -> bool:
     return True
 
 
-@kernel()
-def polish(mu: float, basis: Array, grasp: Grasp, solution: Array) -> float:
+def newton_friction(mu: float, basis: Array, grasp: Grasp, solution: Array) -> float:
     """Newton's method on the conditions of a least friction, from forces near them; the friction it comes to.
 
     The sliding contacts i satisfy ``|t_i| = mu N_i``, and with multipliers that sum to 1 the velocities
@@ -288,6 +297,34 @@ def polish(mu: float, basis: Array, grasp: Grasp, solution: Array) -> float:
     return mu
 
 
+_ROW, _TABLE = types.float64[::1], types.float64[:, ::1]
+_ORDER = types.Array(types.intp, 1, "C")
+_SOLVERS = types.UniTuple(types.int64, 3)
+_GRASP = types.NamedTuple(
+    (_TABLE, types.float64[:, :, ::1], _TABLE, _TABLE, _TABLE, _ORDER, types.intp, _SOLVERS), Grasp
+)
+DEEPEST = Pointer(deepest_forces, types.float64(types.float64, _ROW, _ROW, _TABLE, _GRASP, _TABLE))
+NEWTON = Pointer(newton_friction, types.float64(types.float64, _TABLE, _GRASP, _TABLE))
+deepest_at, newton_at = DEEPEST.at, NEWTON.at
+
+
+def solver_addresses() -> Solvers:
+    """The addresses in this process."""
+    return program_address(), DEEPEST.address, NEWTON.address
+
+
+@kernel()
+def friction_program(mu: float, weights: Array, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
+    """As :func:`deepest_forces`, at its address."""
+    return float(deepest_at(grasp.solvers[1])(mu, weights, start, basis, grasp, solution))
+
+
+@kernel()
+def polish(mu: float, basis: Array, grasp: Grasp, solution: Array) -> float:
+    """As :func:`newton_friction`, at its address."""
+    return float(newton_at(grasp.solvers[2])(mu, basis, grasp, solution))
+
+
 @kernel()
 def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """The least friction of the family, by Dinkelbach's iteration from forces that ``mu`` suffices for.
@@ -312,7 +349,7 @@ def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Arra
             lower = friction_of(solution[0], grasp)
             if not lower < mu:
                 break
-        best[:, :] = solution
+        set_solution(best, solution)
         near = lower > mu * (1.0 - 1e-6)
         mu = lower
         if near:
@@ -323,7 +360,7 @@ def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Arra
                     return lower
             if mu - lower < 1e-12 * mu:
                 break
-    solution[:, :] = best
+    set_solution(solution, best)
     return mu
 
 
@@ -361,7 +398,7 @@ def narrowed(
         lower = friction_of(tried_solution[0], grasp)
         if lower < mu * (1.0 - ROUND_OFF):
             mu = lower
-            solution[:, :] = tried_solution
+            set_solution(solution, tried_solution)
             continue
         if wedging:
             work = 0.0
@@ -382,12 +419,12 @@ def narrowed(
             break
         else:
             part *= 10.0
-    tried_solution[:, :] = solution
+    set_solution(tried_solution, solution)
     if low < mu * (1.0 - 1e-9) and polish(mu, basis, grasp, tried_solution) < math.inf:
         lower = friction_of(tried_solution[0], grasp)
         if lower <= mu * (1.0 + ROUND_OFF):
             mu = min(mu, lower)
-            solution[:, :] = tried_solution
+            set_solution(solution, tried_solution)
             twist_of(solution[1], grasp, twist)
             power = 0.0
             for m in range(6):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate._pointer import Pointer
+from threadstate.statics._cone_kernel import assign
 from threadstate.statics._family_kernel import (
     ROUND_OFF,
     friction_program,
@@ -20,9 +21,11 @@ from threadstate.statics._family_kernel import (
     least_pull,
     narrowed,
     polish,
+    solver_addresses,
 )
 from threadstate.statics._grasp_kernel import (
     RANK_TOLERANCE,
+    Solvers,
     balancing_forces,
     contact_velocities,
     friction_of,
@@ -34,7 +37,7 @@ from threadstate.statics._grasp_kernel import (
     tangential_part,
     twist_of,
 )
-from threadstate.statics._program_kernel import program_address, program_at
+from threadstate.statics._program_kernel import program_at
 from threadstate.statics._triangle_kernel import (
     hinge_twist,
     inner,
@@ -55,7 +58,9 @@ BALANCE_TOLERANCE = 1e-9
 FOUND, NEVER, OPEN = range(3)
 
 
-def wedge_with(program: int, points: Array, normals: Array, forces: Array, twist: Array) -> tuple[int, float, float]:
+def wedge_with(
+    solvers: Solvers, points: Array, normals: Array, forces: Array, twist: Array
+) -> tuple[int, float, float]:
     """Bounds of the least friction at which forces at the contacts that are not all zero balance each other.
 
     The contacts' points and normals have shape (k, 3). ``forces`` (3 k) is filled in with such forces at the upper
@@ -68,7 +73,7 @@ def wedge_with(program: int, points: Array, normals: Array, forces: Array, twist
     k = normals.shape[0]
     forces[:] = 0.0
     twist[:] = 0.0
-    grasp = new_grasp(points, normals, program)
+    grasp = new_grasp(points, normals, solvers)
     d = 3 * k - grasp.rank
     if d == 0:
         return NEVER, math.inf, math.inf
@@ -204,7 +209,7 @@ def limit_of_pairs(load: Array, points: Array, normals: Array, twist: Array) -> 
 
 
 def hold_with(
-    program: int,
+    solvers: Solvers,
     load: Array,
     points: Array,
     normals: Array,
@@ -225,7 +230,7 @@ def hold_with(
         The status, the lower and the upper bound; both infinite where no friction holds the load.
     """
     k = normals.shape[0]
-    grasp = new_grasp(points, normals, program)
+    grasp = new_grasp(points, normals, solvers)
     size = 0.0
     for m in range(6):
         size += load[m] * load[m]
@@ -282,7 +287,7 @@ def hold_with(
         if low >= limit * (1.0 - ROUND_OFF):
             return FOUND, min(low, limit), limit
         # No program below the limit found forces, and no motion proves that there are none.
-        solution[0] = wedge_forces
+        assign(solution[0], wedge_forces)
         low, mu = narrowed(limit, load / size, start, basis, grasp, solution, twist)
         for i in range(3 * k):
             forces[i] = solution[0, i] * size
@@ -317,14 +322,14 @@ def hold_with(
 
 
 @kernel()
-def least_forces_with(program: int, load: Array, mu: float, points: Array, normals: Array, forces: Array) -> float:
+def least_forces_with(solvers: Solvers, load: Array, mu: float, points: Array, normals: Array, forces: Array) -> float:
     """Forces within the cones at ``mu`` that balance a load, of least largest normal part, into ``forces`` (3 k).
 
     Returns:
         The least friction that they need; infinite if none were found.
     """
     k = normals.shape[0]
-    grasp = new_grasp(points, normals, program)
+    grasp = new_grasp(points, normals, solvers)
     size = 0.0
     for m in range(6):
         size += load[m] * load[m]
@@ -356,7 +361,7 @@ def least_forces_with(program: int, load: Array, mu: float, points: Array, norma
                 g[3 * i + 1, j] = -a
                 g[3 * i + 2, j] = -b
                 g[3 * k + i, j] = n
-        program_at(program)(c, g, h, sizes, x, z)
+        program_at(solvers[0])(c, g, h, sizes, x, z)
         for j in range(d):
             for i in range(3 * k):
                 forces[i] += x[j] * basis[j, i]
@@ -368,17 +373,18 @@ def least_forces_with(program: int, load: Array, mu: float, points: Array, norma
 
 _ROW, _TABLE = types.float64[::1], types.float64[:, ::1]
 _FOUND = types.Tuple((types.int64, types.float64, types.float64))
-WEDGE = Pointer(wedge_with, _FOUND(types.int64, _TABLE, _TABLE, _ROW, _ROW))
-HOLD = Pointer(hold_with, _FOUND(types.int64, _ROW, _TABLE, _TABLE, types.float64, _ROW, _ROW, _ROW, _ROW))
+_SOLVERS = types.UniTuple(types.int64, 3)
+WEDGE = Pointer(wedge_with, _FOUND(_SOLVERS, _TABLE, _TABLE, _ROW, _ROW))
+HOLD = Pointer(hold_with, _FOUND(_SOLVERS, _ROW, _TABLE, _TABLE, types.float64, _ROW, _ROW, _ROW, _ROW))
 wedge_at, hold_at = WEDGE.at, HOLD.at
 
-Searches = tuple[int, int, int]
-"""The addresses of the solver of cone programs, of :func:`wedge_with` and of :func:`hold_with`."""
+Searches = tuple[Solvers, int, int]
+"""The addresses of the solvers, of :func:`wedge_with` and of :func:`hold_with`."""
 
 
 def search_addresses() -> Searches:
     """The addresses in this process."""
-    return program_address(), WEDGE.address, HOLD.address
+    return solver_addresses(), WEDGE.address, HOLD.address
 
 
 @kernel()
@@ -433,5 +439,5 @@ def hold_friction(
 
 
 def least_forces(load: Array, mu: float, points: Array, normals: Array, forces: Array) -> float:
-    """As :func:`least_forces_with`, with the compiled solver of cone programs."""
-    return float(least_forces_with(program_address(), load, mu, points, normals, forces))
+    """As :func:`least_forces_with`, with the addresses of this process."""
+    return float(least_forces_with(solver_addresses(), load, mu, points, normals, forces))

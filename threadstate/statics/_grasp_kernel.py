@@ -21,6 +21,9 @@ RANK_TOLERANCE = 1e-10
 """Relative size below which a direction of the contacts' wrenches is none."""
 
 
+Solvers = tuple[int, int, int]
+
+
 class Grasp(NamedTuple):
     """Contacts with what is computed of them once.
 
@@ -32,7 +35,7 @@ class Grasp(NamedTuple):
         upper: shape (6, 6), R.
         order: shape (6).
         rank: of the matrix.
-        program: the address of the solver of cone programs.
+        solvers: the addresses of the solver of cone programs and of what ``_family_kernel`` has compiled once.
     """
 
     normals: Array
@@ -42,7 +45,7 @@ class Grasp(NamedTuple):
     upper: Array
     order: NDArray[np.intp]
     rank: int
-    program: int
+    solvers: Solvers
 
 
 @kernel()
@@ -143,7 +146,7 @@ def orthogonal_factor(matrix: Array, reflections: Array, upper: Array, order: ND
 
 
 @kernel()
-def new_grasp(points: Array, normals: Array, program: int) -> Grasp:
+def new_grasp(points: Array, normals: Array, solvers: Solvers) -> Grasp:
     """The grasp of contacts at points of shape (k, 3)."""
     k = points.shape[0]
     frames = np.empty((k, 2, 3))
@@ -154,7 +157,7 @@ def new_grasp(points: Array, normals: Array, program: int) -> Grasp:
     upper = np.zeros((6, 6))
     order = np.empty(6, np.intp)
     rank = orthogonal_factor(matrix, reflections, upper, order)
-    return Grasp(normals, frames, matrix, reflections, upper, order, rank, program)
+    return Grasp(normals, frames, matrix, reflections, upper, order, rank, solvers)
 
 
 @kernel()

@@ -38,7 +38,7 @@ def contact_numbers(searches: Searches, load: Array, points: Array, normals: Arr
     forces, twist = np.zeros(3 * k), np.zeros(6)
     status, lower, upper = wedge_by(searches, points, normals, forces, twist)
     set_bounds(status, lower, upper, numbers[N_WEDGE:])
-    numbers[N_MARGIN] = margin_with(searches[0], load, points, normals)
+    numbers[N_MARGIN] = margin_with(searches[0][0], load, points, normals)
     if numbers[N_MARGIN] >= 0.0:
         numbers[N_HOLD], numbers[N_HOLD + 1] = 0.0, 0.0
         return
