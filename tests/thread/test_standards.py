@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,8 +11,10 @@ import pytest
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.standards import acme, metric, trapezoidal, unified, whitworth
-from threadstate.thread.standards.designation import standard_thread, standard_threads
+from threadstate.thread.standards.designation import found_threads, standard_thread, standard_threads
+from threadstate.thread.standards.document import standard_thread_document
 from threadstate.thread.standards.limits import Limits
+from worker.cli import run_command_line
 
 PUBLISHED = Path(__file__).parent / "published"
 Row = tuple[str, list[float | None], list[float | None]]
@@ -189,3 +192,30 @@ def test_what_is_no_designation_is_refused(written: str, error: type[Exception],
     with pytest.raises(error, match="valid: ") as found:
         standard_thread(written)
     assert valid in str(found.value)
+
+
+def test_a_search_finds_a_designation_or_words() -> None:
+    assert found_threads(None) == list(standard_threads())
+    assert [one.designation for one in found_threads("m6")] == ["M6x1-6g/6H"]
+    assert [one.designation for one in found_threads("M6x1-4h/5H")] == ["M6x1-4h/5H"]
+    fine = found_threads("1/4-32 unef")
+    assert [one.designation for one in fine] == ["1/4-32 UNEF-2A/2B"]
+    assert {one.form for one in found_threads("bs")} == {"Whitworth"}
+    for nothing in ("M7x9", "", "  "):
+        with pytest.raises(UnknownNameError):
+            found_threads(nothing)
+
+
+def test_the_command_prints_one_object_or_a_table(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command_line(["threads", "--search", "1/4-16 acme-2g", "--json"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["threads"]
+    assert found == standard_thread_document(standard_thread("1/4-16 ACME"))
+    assert list(found) == ["designation", "form", "unit", "thread_pitch", "bolt", "nut", "source"]
+    assert found["bolt"] == {"major": [0.245, 0.25], "pitch": [0.2043, 0.2148], "minor": [0.1618, 0.1775]}
+    assert run_command_line(["threads", "--search", "1/4-20 UNC", "--json"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["threads"]
+    assert found["bolt"]["minor"] == [None, 0.1894]
+    assert run_command_line(["threads"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) > 242
+    assert run_command_line(["threads", "--search", "M6-6k"]) != 0
+    assert "tolerance class" in capsys.readouterr().err

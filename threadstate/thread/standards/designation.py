@@ -95,6 +95,25 @@ def standard_thread(designation: str) -> StandardThread:
     raise UnknownNameError("designation", designation, f"a standard thread, such as {EXAMPLES}")
 
 
+def found_threads(search: str | None) -> list[StandardThread]:
+    """The threads of the catalogue that a search means: all, that of a designation, or those that hold all its words.
+
+    Raises:
+        InvalidValueError: a class that the form of a designation does not have.
+        UnknownNameError: nothing is found.
+    """
+    if search is None:
+        return list(standard_threads())
+    try:
+        return [standard_thread(search)]
+    except UnknownNameError:
+        words = search.lower().split()
+        found = [one for one in standard_threads() if all(word in one.designation.lower() for word in words)]
+        if not found or not words:
+            raise
+        return found
+
+
 def _splits(text: str) -> Iterator[tuple[str, str | None]]:
     """A designation as a size alone, then as a size and classes, cut at each hyphen from the right."""
     yield text, None
