@@ -18,7 +18,7 @@ export function loadOf(view, radius) {
   const { push, fx, fy, mx, my, mz } = view;
   return {
     force: [fx * push, fy * push, -push],
-    moment: [mx * push * radius, my * push * radius, mz * push * radius],
+    moment: [mx, my, mz].map((part) => part * push * radius),
   };
 }
 
@@ -26,7 +26,7 @@ export function loadOf(view, radius) {
 export function lineOfAction({ force: [fx, fy, fz], moment: [mx, my, mz] }) {
   const square = fx * fx + fy * fy + fz * fz;
   if (square === 0) return null;
-  return [(fy * mz - fz * my) / square, (fz * mx - fx * mz) / square, (fx * my - fy * mx) / square];
+  return [fy * mz - fz * my, fz * mx - fx * mz, fx * my - fy * mx].map((part) => part / square + 0);
 }
 
 const VERDICTS = {
