@@ -39,6 +39,7 @@ from worker.commands.solve import solve
 from worker.commands.statics import statics
 from worker.commands.summary import summary
 from worker.commands.sweep import sweep
+from worker.commands.threads import threads
 from worker.commands.transitions import transitions
 from worker.commands.windows import windows
 from worker.commands.worker import worker
@@ -70,6 +71,7 @@ COMMANDS = (
     heights,
     windows,
     compare,
+    threads,
     transitions,
     network,
     formation,

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from threadstate.statics.extras import Extras
     from threadstate.statics.jamming_document import JammingDocument
     from threadstate.statics.solve import Statics
+    from threadstate.thread.standards.designation import StandardThread
+    from threadstate.thread.standards.limits import Diameter
 
 _GAP = "  "
 _INDENT = "      "
@@ -189,6 +191,33 @@ def _add_extras(rows: Table, extras: Extras, unit: LengthUnit, factor: float) ->
             angular = _numbers([number / factor for number in mode.angular])
             twist = f", turns {angular} and moves {_numbers(mode.linear)}, margin {mode.margin:.2g}"
         rows.add_row(f"mode, {mode.status}", f"{', '.join(mode.contacts)}{twist}")
+
+
+def print_threads(threads: Sequence[StandardThread]) -> None:
+    """Standard threads, a row each, with the limits of their diameters in their own unit."""
+    rows = table(
+        *(
+            "designation",
+            "unit",
+            "bolt major",
+            "bolt pitch",
+            "bolt minor",
+            "nut major",
+            "nut pitch",
+            "nut minor",
+            "source",
+        ),
+        words_last=True,
+    )
+    for one in threads:
+        diameters = [bound for part in (one.bolt, one.nut) for bound in (part.major, part.pitch, part.minor)]
+        rows.add_row(one.designation, one.unit, *map(_limits, diameters), one.source)
+    rows.print()
+
+
+def _limits(diameter: Diameter) -> str:
+    least, greatest = ("..." if bound is None else number_text(bound) for bound in (diameter.least, diameter.greatest))
+    return f"{least} to {greatest}"
 
 
 def print_jamming(document: JammingDocument) -> None:

@@ -1,0 +1,1 @@
+"""Standard threads: sizes, and limits of diameters by tolerance class."""

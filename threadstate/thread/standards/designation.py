@@ -1,0 +1,281 @@
+"""Designations of standard threads as people write them, and the limits that they name.
+
+A designation is a size, its form where the size does not say it, and classes of bolt and nut after a hyphen, both
+separated by a slash; ``LH`` at the end is a left-hand thread. Case does not matter, nor do blanks round its parts.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache, partial
+
+from threadstate.errors import InvalidValueError, UnknownNameError
+from threadstate.numbers import number_text
+from threadstate.thread.standards import acme, metric, trapezoidal, unified, whitworth
+from threadstate.thread.standards.limits import Limits
+from threadstate.units import LengthUnit
+
+
+@dataclass(frozen=True, slots=True)
+class StandardThread:
+    """A thread of a standard, with tolerance classes.
+
+    Attributes:
+        designation: as this project writes it.
+        form: of the thread.
+        unit: of all lengths.
+        nominal_diameter, thread_pitch: of the size.
+        bolt, nut: limits of the diameters.
+        source: the standard, and on what the numbers rest.
+        left_hand: whether it turns the other way.
+    """
+
+    designation: str
+    form: str
+    unit: LengthUnit
+    nominal_diameter: float
+    thread_pitch: float
+    bolt: Limits
+    nut: Limits
+    source: str
+    left_hand: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Size:
+    """A size: its name without classes, the classes that are usual, and how limits and given classes are read."""
+
+    name: str
+    form: str
+    unit: LengthUnit
+    diameter: float
+    pitch: float
+    classes: tuple[str, str]
+    bolt: Callable[[str], Limits]
+    nut: Callable[[str], Limits]
+    chosen: Callable[[list[str]], tuple[str, str]]
+    source: str
+    aliases: tuple[str, ...] = ()
+
+
+UNIFIED_SOURCE = "ASME B1.1: formulas, rounded as its tables are; checked against published limits"
+METRIC_SOURCE = (
+    "ISO 965-1: formulas with the smoothing and the exceptions of its tables; checked against published limits"
+)
+ACME_SOURCE = "ASME B1.5: formulas, rounded as its tables are; checked against published limits"
+STUB_SOURCE = "ASME B1.8: diameters from one source, tolerances those of ASME B1.5, from memory"
+TRAPEZOIDAL_SOURCE = "ISO 2903: tables from one source; no published limits to check against"
+WHITWORTH_SOURCE = "BS 84: formulas from two sources, allowances from memory; no published limits to check against"
+
+_LEFT_HAND = re.compile(r"\s+LH\s*$", re.IGNORECASE)
+_BLANKS = re.compile(r"\s+")
+EXAMPLES = "1/4-20 UNC-2A/2B, M6x1-6g/6H, M6, 1/4-16 ACME-2G, Tr 8x1.5-7e/7H or 1/4-20 BSW"
+
+
+def standard_threads() -> Iterator[StandardThread]:
+    """All sizes of the catalogue with the classes that are usual for them, form by form, the smallest first."""
+    for size in catalogue():
+        yield _thread(size, size.classes, left_hand=False)
+
+
+def standard_thread(designation: str) -> StandardThread:
+    """The thread of a designation; without classes with those that are usual for its form.
+
+    Raises:
+        UnknownNameError: no such size.
+        InvalidValueError: a class that its form does not have.
+    """
+    text = _LEFT_HAND.sub("", designation)
+    by_key = _by_key()
+    for name, classes in _splits(text):
+        if (size := by_key.get(_key(name))) is not None:
+            return _thread(size, _classes(size, classes), left_hand=text != designation)
+    raise UnknownNameError("designation", designation, f"a standard thread, such as {EXAMPLES}")
+
+
+def found_threads(search: str | None) -> list[StandardThread]:
+    """The threads of the catalogue that a search means: all, that of a designation, or those that hold all its words.
+
+    Raises:
+        InvalidValueError: a class that the form of a designation does not have.
+        UnknownNameError: nothing is found.
+    """
+    if search is None:
+        return list(standard_threads())
+    try:
+        return [standard_thread(search)]
+    except UnknownNameError:
+        words = search.lower().split()
+        found = [one for one in standard_threads() if all(word in one.designation.lower() for word in words)]
+        if not found or not words:
+            raise
+        return found
+
+
+def _splits(text: str) -> Iterator[tuple[str, str | None]]:
+    """A designation as a size alone, then as a size and classes, cut at each hyphen from the right."""
+    yield text, None
+    for cut in reversed([match.start() for match in re.finditer("-", text)]):
+        yield text[:cut], text[cut + 1 :]
+
+
+def _key(name: str) -> str:
+    found = _BLANKS.sub(" ", name.strip()).upper().removeprefix("#")
+    return _BLANKS.sub("", found) if found.startswith(("M", "TR")) else found
+
+
+@cache
+def _by_key() -> dict[str, _Size]:
+    return {_key(name): size for size in catalogue() for name in (size.name, *size.aliases)}
+
+
+def _classes(size: _Size, text: str | None) -> tuple[str, str]:
+    """The classes of bolt and nut; of one alone the other is the same, or the usual one of its form."""
+    if text is None:
+        return size.classes
+    given = [part.strip() for part in text.split("/")]
+    if len(given) > 2 or not all(given):
+        raise InvalidValueError("tolerance class", text, f"classes of bolt and nut, such as {'/'.join(size.classes)}")
+    return size.chosen(given)
+
+
+def _unified_classes(given: list[str]) -> tuple[str, str]:
+    upper = [one.upper() for one in given]
+    bolt = next((one for one in upper if one.endswith("A")), None)
+    nut = next((one for one in upper if one.endswith("B")), None)
+    if len(upper) == 1:
+        grade = upper[0][:-1]
+        return (bolt or f"{grade}A", nut or f"{grade}B")
+    return (bolt or upper[0], nut or upper[1])
+
+
+def _metric_classes(bolt: str, nut: str) -> Callable[[list[str]], tuple[str, str]]:
+    """Of two the bolt's is the first, unless cases say otherwise; of one, the other is the usual one."""
+
+    def chosen(given: list[str]) -> tuple[str, str]:
+        if len(given) == 1:
+            is_nut = given[0].upper() == given[0]
+            return (bolt, given[0]) if is_nut else (given[0], nut)
+        first, last = given
+        if first.upper() == first and last.lower() == last and first.lower() != first:
+            first, last = last, first
+        return first.lower(), last.upper()
+
+    return chosen
+
+
+def _both(given: list[str]) -> tuple[str, str]:
+    return given[0].upper(), given[-1].upper()
+
+
+def _named(given: list[str]) -> tuple[str, str]:
+    return given[0].lower(), given[-1].lower()
+
+
+def _thread(size: _Size, classes: tuple[str, str], *, left_hand: bool) -> StandardThread:
+    bolt, nut = classes
+    written = bolt if bolt == nut else f"{bolt}/{nut}"
+    return StandardThread(
+        designation=f"{size.name}-{written}{' LH' if left_hand else ''}",
+        form=size.form,
+        unit=size.unit,
+        nominal_diameter=size.diameter,
+        thread_pitch=size.pitch,
+        bolt=size.bolt(bolt),
+        nut=size.nut(nut),
+        source=size.source,
+        left_hand=left_hand,
+    )
+
+
+@cache
+def catalogue() -> tuple[_Size, ...]:
+    """All sizes, form by form, the smallest first."""
+    return (*_unified(), *_metric(), *_acme(), *_trapezoidal(), *_whitworth())
+
+
+def _unified() -> Iterator[_Size]:
+    for series in unified.Series:
+        for one in unified.sizes(series):
+            yield _Size(
+                name=f"{one.name} {series}",
+                form="UN",
+                unit=LengthUnit.INCH,
+                diameter=one.diameter,
+                pitch=one.thread_pitch,
+                classes=("2A", "2B"),
+                bolt=partial(unified.bolt_limits, one),
+                nut=partial(unified.nut_limits, one),
+                chosen=_unified_classes,
+                source=UNIFIED_SOURCE,
+            )
+
+
+def _metric() -> Iterator[_Size]:
+    for diameter, pitch in metric.sizes_mm():
+        coarse = metric.COARSE_MM.get(diameter) == pitch
+        yield _Size(
+            name=f"M{number_text(diameter)}x{number_text(pitch)}",
+            form="M",
+            unit=LengthUnit.MILLIMETRE,
+            diameter=diameter,
+            pitch=pitch,
+            classes=("6g", "6H"),
+            bolt=partial(metric.bolt_limits, diameter, pitch),
+            nut=partial(metric.nut_limits, diameter, pitch),
+            chosen=_metric_classes("6g", "6H"),
+            source=METRIC_SOURCE,
+            aliases=(f"M{number_text(diameter)}",) if coarse else (),
+        )
+
+
+def _acme() -> Iterator[_Size]:
+    for form in acme.AcmeForm:
+        for one in acme.sizes():
+            yield _Size(
+                name=f"{one.name} {form.upper()}",
+                form=form,
+                unit=LengthUnit.INCH,
+                diameter=one.diameter,
+                pitch=one.thread_pitch,
+                classes=("2G", "2G"),
+                bolt=partial(acme.screw_limits, one, form=form),
+                nut=partial(acme.nut_limits, one, form=form),
+                chosen=_both,
+                source=ACME_SOURCE if form is acme.AcmeForm.ACME else STUB_SOURCE,
+            )
+
+
+def _trapezoidal() -> Iterator[_Size]:
+    for diameter, pitch in trapezoidal.SIZES_MM:
+        yield _Size(
+            name=f"Tr {number_text(diameter)}x{number_text(pitch)}",
+            form="Tr",
+            unit=LengthUnit.MILLIMETRE,
+            diameter=float(diameter),
+            pitch=float(pitch),
+            classes=("7e", "7H"),
+            bolt=partial(trapezoidal.bolt_limits, diameter, pitch),
+            nut=partial(trapezoidal.nut_limits, diameter, pitch),
+            chosen=_metric_classes("7e", "7H"),
+            source=TRAPEZOIDAL_SOURCE,
+        )
+
+
+def _whitworth() -> Iterator[_Size]:
+    for series in whitworth.Series:
+        for one in whitworth.sizes(series):
+            yield _Size(
+                name=f"{one.name} {series}",
+                form="Whitworth",
+                unit=LengthUnit.INCH,
+                diameter=one.diameter,
+                pitch=one.thread_pitch,
+                classes=("medium", "normal"),
+                bolt=partial(whitworth.bolt_limits, one),
+                nut=partial(whitworth.nut_limits, one),
+                chosen=_named,
+                source=WHITWORTH_SOURCE,
+            )
