@@ -316,7 +316,9 @@ def _forces(wrench: Floats, scaled: Touching, wedge: FrictionBounds, mu: float) 
     needed = fk.least_forces(wrench, mu, scaled.points[chosen], scaled.normals[chosen], forces)
     vectors = forces.reshape(-1, 3)
     if not needed <= mu * (1.0 + NEAR) + NEAR:
-        vectors, _ = deep_forces(wrench, scaled.points[chosen], scaled.normals[chosen], mu)
+        vectors, needed = deep_forces(wrench, scaled.points[chosen], scaled.normals[chosen], mu)
+        if math.isinf(needed):
+            return ()
     rows = []
     for number, force in zip(chosen, vectors, strict=True):
         normal = float(force @ scaled.normals[number])
