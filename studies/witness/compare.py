@@ -16,7 +16,8 @@ from oracle.statics.loads import support_margin
 from oracle.statics.wrenches import Wrench
 from studies.witness.scenes import Scene
 from threadstate.statics import _numbers_kernel as nk
-from threadstate.statics.solve import deep_forces, numbers_of
+from threadstate.statics.hold_bounds import deep_forces
+from threadstate.statics.solve import numbers_of
 from threadstate.statics.touching import Touching
 
 Floats = NDArray[np.float64]

@@ -13,9 +13,11 @@ from oracle.statics.wrenches import Wrench
 from tests.statics.test_check_values import hold, wedge
 from threadstate.state.solve import solve_pose
 from threadstate.statics import _friction_kernel as fk
+from threadstate.statics.hold_bounds import sharpened
 from threadstate.statics.load import Load
-from threadstate.statics.solve import sharpened, statics_of
-from threadstate.statics.verdict import FrictionBounds
+from threadstate.statics.solve import statics_of
+from threadstate.statics.touching import touching
+from threadstate.statics.verdict import FrictionBounds, Verdict
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
@@ -129,3 +131,32 @@ def test_a_patch_holds_a_load_near_its_rim_by_the_friction_that_its_slope_asks_f
     assert hold.lower <= across * (1.0 + 1e-12)
     assert hold.upper >= across * (1.0 - 1e-12)
     assert hold.upper - hold.lower < 1e-7
+
+
+@pytest.mark.parametrize(("pose", "above"), [((-2.0, 0.0, 151.0), 1e-9), ((2.0, 2.0, 359.0), 1e-6)])
+def test_forces_are_found_close_above_the_least_friction(pose: tuple[float, float, float], above: float) -> None:
+    """Cones leave next to no room there; those of the second pose need forces without limit."""
+    pair = quarter_twenty_unc()
+    state = solve_pose(pair, *pose)
+    mu = statics_of(pair, state).hold.upper * (1.0 + above)
+    statics = statics_of(pair, state, mu=mu)
+    contacts = touching(pair, state)
+    forces = np.array([force.tangential for force in statics.forces])
+    normal = np.array([force.normal for force in statics.forces])
+    at = [force.contact - 1 for force in statics.forces]
+    whole = forces + normal[:, np.newaxis] * np.array(contacts.normals)[at]
+    arms = np.array(contacts.points)[at] - np.array(contacts.origin)
+    assert normal.min() > 0.0
+    assert (np.linalg.norm(forces, axis=1) <= mu * normal).all()
+    assert np.abs(whole.sum(axis=0) - [0.0, 0.0, 1.0]).max() < 1e-11 * normal.sum()
+    assert np.abs(np.cross(arms, whole).sum(axis=0)).max() < 1e-11 * normal.sum()
+
+
+@pytest.mark.parametrize("pose", [(-2.0, 0.0, 151.0), (2.0, 2.0, 359.0)])
+def test_forces_that_were_not_found_are_none(pose: tuple[float, float, float]) -> None:
+    """At the least friction itself the load is held, but what holds it is known to no more digits than a double's."""
+    pair = quarter_twenty_unc()
+    state = solve_pose(pair, *pose)
+    statics = statics_of(pair, state, mu=statics_of(pair, state).hold.upper)
+    assert statics.verdict in (Verdict.CAN_STAY, Verdict.CAN_WEDGE)
+    assert statics.forces == ()

@@ -38,6 +38,7 @@ STATES = (
     "statics/_program_kernel.py",
     "statics/_support_kernel.py",
     "statics/_triangle_kernel.py",
+    "statics/hold_bounds.py",
     "statics/load.py",
     "statics/rows.py",
     "statics/scene.py",
