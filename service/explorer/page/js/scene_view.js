@@ -21,6 +21,8 @@ const SLOW_MS = 50;
 /** How long the scene rests after a slow drawing, in times of what that took. */
 const REST = 2;
 const LONGEST_REST_MS = 600;
+/** How long a drawing waits after it is asked for where they are slow: numbers and diagrams of the same change come first. */
+const WAIT_MS = 120;
 /** The scene looks at a point a little below the nut's surface, in nominal diameters. */
 const TARGET = [0, 0, -0.03];
 
@@ -42,6 +44,7 @@ export class SceneView {
   #cut = new THREE.Plane(new THREE.Vector3(1, 0, 0), 0);
   #view = null;
   #frame = null;
+  #slow = false;
   #rested = 0;
   #description = "";
 
@@ -145,7 +148,10 @@ export class SceneView {
 
   /** Draws once, with the next frame of the page, however often it is requested until then. */
   #draw() {
-    this.#frame ??= requestAnimationFrame((now) => this.#drawPaced(now));
+    this.#frame ??= requestAnimationFrame((now) => {
+      if (this.#slow) this.#rested = Math.max(this.#rested, now + WAIT_MS);
+      this.#drawPaced(now);
+    });
   }
 
   /** Where a drawing holds up the page, as without a graphics card, leaves time for everything else after it. */
@@ -155,10 +161,12 @@ export class SceneView {
       return;
     }
     this.#drawNow();
-    requestAnimationFrame((next) => {
+    // A frame may still come while the drawing is in the works; the one after it is held up.
+    requestAnimationFrame(() => requestAnimationFrame((next) => {
       const took = next - now;
-      this.#rested = took > SLOW_MS ? next + Math.min(REST * took, LONGEST_REST_MS) : 0;
-    });
+      this.#slow = took > SLOW_MS;
+      this.#rested = this.#slow ? next + Math.min(REST * took, LONGEST_REST_MS) : 0;
+    }));
   }
 
   #drawNow() {
