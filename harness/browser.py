@@ -30,12 +30,12 @@ SCRIPT_S = 120.0
 """axe-core looks at every element of the page, without a graphics card."""
 
 
-def start_chromium(width: int, height: int) -> webdriver.Chrome:
+def start_chromium(width: int, height: int, *more_arguments: str) -> webdriver.Chrome:
     """A Chromium with a viewport of that size."""
     driver = shutil.which("chromedriver")
     assert driver, "chromedriver is missing; on Debian: apt-get install chromium chromium-driver"
     options = webdriver.ChromeOptions()
-    for argument in ARGUMENTS:
+    for argument in (*ARGUMENTS, *more_arguments):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     chromium = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
