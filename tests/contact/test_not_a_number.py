@@ -70,7 +70,7 @@ def test_no_box_is_excluded_by_nan() -> None:
 
         def box_class(values: Floats, a: float = a, b: float = b) -> float:
             phi, g = tuple(values[:8].tolist()), tuple(values[8:].tolist())
-            return float(box.classify_box(a, b, phi, g, -1.0, P))
+            return float(box.classify_box(a, b, phi, g, -1.0, P)[0])
 
         for i in range(16):
             unknown = numbers.copy()

@@ -8,6 +8,8 @@ functions over a box admit no onset of any kind the box is excluded.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,7 +32,8 @@ X_END = 3 * CAPACITY
 X_CLASS = 4 * CAPACITY
 X_DEPTH = 5 * CAPACITY
 X_PHI_THETA_THETA = 6 * CAPACITY
-BOXES_SIZE = 7 * CAPACITY
+X_LARGEST_DEPTH = 7 * CAPACITY
+BOXES_SIZE = 8 * CAPACITY
 
 # Classes, in this order: no onset and no point inside; no onset (excluded); at most one onset, on the edge, the thread
 # or the plane; at most one peak of min(g, phi) at each time, of that kind, but whether and when it rises through zero
@@ -54,8 +57,11 @@ ROUND_OFF = 4e-15
 
 
 @kernel(contract=True, forceinline=True)
-def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float) -> float:
+def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float) -> tuple[float, float]:
     """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`.
+
+    Also returns a bound on the distance from the surface that limits the depth in the whole box; infinite where that
+    may be either of them.
 
     In names, ``tt``, ``tv`` and ``vv`` are second derivatives by theta twice, theta and tau, tau twice; ``bound`` is a
     bound on the size, ``var`` on the variation from the value in the middle, ``low`` and ``high`` are the range.
@@ -169,7 +175,9 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
     box_class = ONE_THREAD if one_thread else box_class
     box_class = ONE_EDGE if one_edge else box_class
     box_class = EXCLUDED if excluded else box_class
-    return ALL_OUTSIDE if all_outside else box_class
+    largest_depth = larger(g_high, -g_low) if phi_low > 0.0 else math.inf
+    largest_depth = larger(phi_high, -phi_low) if g_low > 0.0 else largest_depth
+    return ALL_OUTSIDE if all_outside else box_class, largest_depth
 
 
 @kernel(contract=True)
@@ -192,6 +200,6 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
         start, end = boxes[X_START + i], boxes[X_END + i]
         tau, b = 0.5 * (start + end), 0.5 * (end - start)
         of_phi, of_g, depth = ranges(boxes[X_THETA + i], a, tau, b, x_axis, y_axis, origin, rest, curve, solid, sizes)
-        boxes[X_CLASS + i] = classify_box(a, b, of_phi, of_g, depth, p)
+        boxes[X_CLASS + i], boxes[X_LARGEST_DEPTH + i] = classify_box(a, b, of_phi, of_g, depth, p)
         boxes[X_DEPTH + i] = smaller(of_phi[0], of_g[0])
         boxes[X_PHI_THETA_THETA + i] = of_phi[4]

@@ -23,6 +23,7 @@ from threadstate.contact._box_kernel import (
     X_DEPTH,
     X_END,
     X_HALF,
+    X_LARGEST_DEPTH,
     X_PHI_THETA_THETA,
     X_START,
     X_THETA,
@@ -64,6 +65,12 @@ ENLARGEMENT = 8.0
 
 ROUND_OFF = 1e-14
 """Bound on the round-off of a distance from a surface, in thread pitches."""
+
+LEAST_DIP = 4e-15
+"""The same of the values that bounds of boxes are made of: a curve that leaves the surface by less lies on it."""
+
+LEAST_DEPTH = 6e-15
+"""A box in which the distance from the surface is less lies on it; the bound on the round-off is part of that."""
 
 MAX_BOXES = 4_000
 
@@ -227,10 +234,11 @@ def joined_to_contact(
     solid_profile: Array,
     contact_azimuths: Array,
     azimuth_count: int,
+    noise: float,
     path: Array,
     jet: Array,
 ) -> bool:
-    """Whether an onset beside an earlier contact is joined to it: the curve between them is nowhere outside.
+    """Whether an onset beside an earlier contact is joined to it: the curve between is outside by ``noise`` at most.
 
     At the earlier contact the curve touches at all times, so that round-off alone can make a peak beside it rise.
     """
@@ -243,8 +251,7 @@ def joined_to_contact(
             leaves = False
             for i in range(1, 8):
                 set_jet(theta - gap * i / 8.0, tau, motion, curve_profile, solid_profile, path, jet)
-                noise = -ROUND_OFF * solid_profile[pk.P]
-                leaves = leaves or not (jet[J_G] >= noise and jet[J_PHI] >= noise)
+                leaves = leaves or not (jet[J_G] >= -noise and jet[J_PHI] >= -noise)
             if not leaves:
                 return True
     return False
@@ -297,6 +304,7 @@ def search_edge(
     path = np.empty(PATH_SIZE)
     jet = np.empty(JET_SIZE)
     wedge = np.empty(9)
+    p = solid_profile[pk.P]
     evaluated = 0
     n = set_initial_boxes(since, min(until, best + tie_tolerance), boxes)
     while n > 0:
@@ -333,12 +341,13 @@ def search_edge(
                 )
             ):
                 continue
-            touches = (
-                gap < JOIN_DISTANCE
-                and half < AZIMUTH_TOLERANCE
-                and abs(boxes[X_DEPTH + i]) < ROUND_OFF * solid_profile[pk.P]
+            noise = ROUND_OFF * p
+            touches = gap < JOIN_DISTANCE and half < AZIMUTH_TOLERANCE and abs(boxes[X_DEPTH + i]) < noise
+            # Where the curve's curvature at an earlier contact vanishes during a turn, it lies on the surface around.
+            lies_on_surface = (
+                box_class > ONE_PLANE and gap < JOIN_DISTANCE and boxes[X_LARGEST_DEPTH + i] < LEAST_DEPTH * p
             )
-            if touches and joined_to_contact(
+            if (touches or lies_on_surface) and joined_to_contact(
                 theta,
                 0.5 * (start + end),
                 motion,
@@ -346,6 +355,7 @@ def search_edge(
                 solid_profile,
                 contact_azimuths,
                 azimuth_count,
+                noise if touches else LEAST_DIP * p,
                 path,
                 jet,
             ):
@@ -368,7 +378,7 @@ def search_edge(
                     and tau <= best + tie_tolerance
                     and rises(kind, jet)
                     and not joined_to_contact(
-                        t, tau, motion, curve_profile, solid_profile, contact_azimuths, azimuth_count, path, jet
+                        t, tau, motion, curve_profile, solid_profile, contact_azimuths, azimuth_count, noise, path, jet
                     )
                 ):
                     set_jet(t, tau, motion, curve_profile, solid_profile, path, jet)
