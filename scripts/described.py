@@ -27,7 +27,7 @@ MADE_UP_PER_SLOW = 20
 SLOW = rf"^/v1/histories/|{STREAM}"
 MADE_UP_PER_SEQUENCE = 3
 """A sequence is of several requests: there is one for so many cases of an operation."""
-RULES_BETWEEN_VALUES = r"/(states|transitions|paths|locate|intervals|heights|solve|jobs)$"
+RULES_BETWEEN_VALUES = r"/(states|transitions|paths|locate|intervals|heights|solve|jobs|threads)$"
 """Where a value may be refused for what no schema says: another value beside it, a cursor's content, a name."""
 
 

@@ -29,6 +29,7 @@ import service.orientations
 import service.solve
 import service.states.endpoints
 import service.statics.endpoints
+import service.threads
 import service.undecided
 import threadstate
 from service.cache.library_names import LibraryNames
@@ -147,6 +148,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.network.endpoints,
         service.meshes,
         service.solve,
+        service.threads,
         service.jobs.endpoints,
         service.health,
         service.metrics,

@@ -29,13 +29,21 @@ def etag_of(content: bytes) -> str:
 
 
 def json_response(request: Request, document: object, headers: dict[str, str] | None = None) -> Response:
-    """A response with ``document`` as compact JSON; every double reads back the same.
+    """A response with ``document`` as JSON.
 
     Raises:
         ValueError: a number is not finite.
     """
-    content = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-    return representation(request, content, JSON, headers)
+    return representation(request, json_content(document), JSON, headers)
+
+
+def json_content(document: object) -> bytes:
+    """``document`` as compact JSON; every double reads back the same.
+
+    Raises:
+        ValueError: a number is not finite.
+    """
+    return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
 
 
 def representation(

@@ -11,11 +11,13 @@ import httpx2
 import pytest
 
 from tests.service.made_up_states import made_up_state
-from threadstate.client import AsyncClient, Client, NotFoundError
+from threadstate.client import AsyncClient, Client, InvalidRequestError, NotFoundError
 from threadstate.client.models.states import State
 from threadstate.state.document import state_document
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.standards.designation import standard_threads
+from threadstate.thread.standards.document import standard_thread_list
 
 
 def _asynchronously(address: str, ask: Callable[[AsyncClient], Awaitable[Any]]) -> Any:
@@ -73,6 +75,16 @@ def test_a_library_goes_by_any_of_its_names(client: Client, name: int | str) -> 
     assert client.library(name).designation == "1/4-20 UNC"
 
 
+def test_standard_threads_are_those_of_the_catalogue(client: Client) -> None:
+    assert json.loads(client.threads().model_dump_json()) == standard_thread_list(standard_threads())
+    (found,) = client.threads("1/4-16 acme").threads
+    assert found.bolt.pitch == (0.2043, 0.2148)
+    (found,) = client.threads(search="m6").threads
+    assert (found.designation, found.unit, found.nut.major) == ("M6x1-6g/6H", "mm", (6.0, None))
+    with pytest.raises(InvalidRequestError, match=r"GET /v1/threads: 400 Invalid value: tolerance class is '6k'"):
+        client.threads("M6-6k")
+
+
 @pytest.mark.slow
 def test_both_clients_get_the_same_of_every_method(client: Client, address: str) -> None:
     """Each of the methods that answer, but those of jobs, and what is listed."""
@@ -114,6 +126,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "formation": {"key": key},
         "path": {"source": key, "moves": ["ccw", "roll+"], "objective": "transitions"},
         "locate": {"contact": ["1:*:*:edge-edge"], "ordered": True, "verdict": "can_stay", "mu": 0.15},
+        "threads": {"search": "M6-4g6g/5H"},
         "health": {},
         "readiness": {},
     }

@@ -16,7 +16,7 @@ from service.jobs.schemas import EventDocument
 from tests.test_architecture import modules_loaded_by
 from threadstate.client import AsyncClient, Client
 from threadstate.client.call import Call, PagedCall
-from threadstate.client.calls import jobs, libraries, network, states, statics
+from threadstate.client.calls import jobs, libraries, network, states, statics, threads
 from threadstate.client.loads import LoadToBear
 from threadstate.client.models import jobs as job_models
 from threadstate.client.models import libraries as library_models
@@ -24,15 +24,19 @@ from threadstate.client.models import network as network_models
 from threadstate.client.models import service as service_models
 from threadstate.client.models import states as state_models
 from threadstate.client.models import statics as statics_models
+from threadstate.client.models import threads as thread_models
 from threadstate.client.models.answer import Answer
 
-CALLS = (jobs, libraries, network, states, statics)
-MODELS = (job_models, library_models, network_models, service_models, state_models, statics_models)
+CALLS = (jobs, libraries, network, states, statics, threads)
+MODELS = (
+    *(job_models, library_models, network_models, service_models),
+    *(state_models, statics_models, thread_models),
+)
 RENAMED = {
     name: f"{name}Document"
     for name in (
         *("State", "Pose", "Contact", "Margins", "StoredStatics", "Load", "ContactForce", "Reaction", "NormalRange"),
-        *("Twist", "LoadedContact", "Piece", "Jamming", "ContactWrench"),
+        *("Twist", "LoadedContact", "Piece", "Jamming", "ContactWrench", "Limits", "StandardThread"),
     )
 } | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
 """Models that go by a shorter name than the service's."""

@@ -15,7 +15,7 @@ pytestmark = [pytest.mark.sqlite_alone, pytest.mark.slow]
 
 NAMES = (
     *("roll", "pitch", "phase", "phase_min", "phase_max", "class", "bolt_region", "nut_region", "flag"),
-    *("fields", "sort", "limit", "cursor", "unit", "format", "mu", "force", "moment", "point"),
+    *("fields", "sort", "limit", "cursor", "unit", "format", "mu", "force", "moment", "point", "search"),
 )
 ODD = (
     "",
@@ -52,6 +52,7 @@ resources = st.one_of(
     st.tuples(*map(st.just, ("v1", "libraries", "latest", "states")), text, text, text),
     st.tuples(*map(st.just, ("v1", "libraries", "latest", "states", "0", "0", "30", "statics"))),
     st.tuples(*map(st.just, ("v1", "libraries", "1", "histories")), text, text),
+    st.tuples(st.just("v1"), st.just("threads")),
     st.tuples(st.just("v1"), st.just("jobs"), text),
     st.tuples(st.just("v1"), st.just("jobs"), text, st.just("events")),
 )

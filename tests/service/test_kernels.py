@@ -81,7 +81,7 @@ def test_what_solves_is_refused_while_kernels_are_compiled(
         assert refused.type.endswith(":kernels-compiling")
         assert "are being compiled" in refused.detail
         assert response.headers["Retry-After"] == "30"
-    for path in ("/v1/libraries/1/states/0/0/30", "/v1/libraries/1/histories/0/0", "/v1/jobs", "/"):
+    for path in ("/v1/libraries/1/states/0/0/30", "/v1/libraries/1/histories/0/0", "/v1/jobs", "/v1/threads", "/"):
         assert compiling.get(path).status_code == 200, path
     caplog.set_level(logging.ERROR)
     (tmp_path / "compiled").touch()

@@ -78,7 +78,7 @@ def test_nothing_is_written_without_a_key_for_it(database: str, engine: Engine, 
 def test_reading_is_open_unless_it_is_closed(database: str, engine: Engine) -> None:
     key = create_key(engine, "one", Scope.READ)
     with _client(database, "open") as open_client, _client(database, "required") as closed_client:
-        for path in ("/v1/libraries", JOBS, f"{JOBS}/1", "/v1/libraries/latest"):
+        for path in ("/v1/libraries", "/v1/threads", JOBS, f"{JOBS}/1", "/v1/libraries/latest"):
             assert open_client.get(path).status_code in (200, 404)
             assert problem(closed_client.get(path), 401).type == REFUSED
             assert closed_client.get(path, headers=_bearer(key)).status_code in (200, 404)

@@ -17,6 +17,8 @@ RESOURCES = (
     "/v1/libraries/latest/meshes/nut",
     "/v1/libraries/latest/histories/1/-1",
     "/v1/libraries/latest/histories/1/-1?format=csv",
+    "/v1/threads",
+    "/v1/threads?search=M6",
     "/openapi.json",
     "/docs",
     "/docs/assets/swagger-ui.css",

@@ -24,7 +24,7 @@ def threads(
 ) -> None:
     r"""List standard threads with the limits of their diameters, each with the classes that are usual for it.
 
-    Not all of these can be solved: --pair takes those that `threadstate solve` names.
+    --pair takes all of these but left-hand ones, with "at minimum material" or the like behind it.
 
     \b
     Examples:
@@ -34,11 +34,11 @@ def threads(
       threadstate threads --search M6
     """
     from threadstate.thread.standards.designation import found_threads
-    from threadstate.thread.standards.document import standard_thread_document
+    from threadstate.thread.standards.document import standard_thread_list
     from worker.tables import print_threads
 
     found = found_threads(search)
     if as_json:
-        print_json({"threads": [standard_thread_document(one) for one in found]})
+        print_json(standard_thread_list(found))
     else:
         print_threads(found)

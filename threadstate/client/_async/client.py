@@ -15,6 +15,7 @@ from threadstate.client.calls import libraries as library_calls
 from threadstate.client.calls import network as network_calls
 from threadstate.client.calls import states as state_calls
 from threadstate.client.calls import statics as statics_calls
+from threadstate.client.calls import threads as thread_calls
 from threadstate.client.frames import to_pandas, to_polars
 from threadstate.client.models.answer import Page
 from threadstate.client.models.jobs import JobDocument
@@ -166,6 +167,8 @@ class AsyncClient:
     formation = _answered(network_calls.formation)
     path = _answered(network_calls.path)
     locate = _answered(network_calls.locate)
+
+    threads = _answered(thread_calls.threads)
 
     ask = _watched(job_calls.ask)
     jobs = _listed(job_calls.jobs)

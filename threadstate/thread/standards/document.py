@@ -1,7 +1,8 @@
-"""A standard thread as the JSON object that the command line prints."""
+"""Standard threads as the JSON object of the command line and the service."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Annotated
 
 from pydantic import Field
@@ -35,6 +36,17 @@ class StandardThreadDocument(TypedDict):
     bolt: LimitsDocument
     nut: LimitsDocument
     source: Annotated[str, Field(description="the standard, and on what its numbers rest here")]
+
+
+class StandardThreadList(TypedDict):
+    """Standard threads, form by form, the smallest first."""
+
+    threads: list[StandardThreadDocument]
+
+
+def standard_thread_list(threads: Iterable[StandardThread]) -> StandardThreadList:
+    """The threads as an object."""
+    return StandardThreadList(threads=[standard_thread_document(one) for one in threads])
 
 
 def standard_thread_document(thread: StandardThread) -> StandardThreadDocument:

@@ -1,0 +1,41 @@
+"""``/v1/threads``: standard threads, which are the same whatever the database holds."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Request, Response
+
+from service.representation import JSON, NOT_MODIFIED, json_content, representation
+from threadstate.thread.standards.designation import found_threads
+from threadstate.thread.standards.document import StandardThreadList, standard_thread_list
+
+_CACHE_SIZE = 64
+
+SearchQuery = Annotated[
+    str | None,
+    Query(
+        min_length=1,
+        max_length=100,
+        description="a designation, in any case and with tolerance classes or without, or words that it contains; "
+        "default: all",
+        examples=["1/4-20 UNC-3A/3B", "unef"],
+    ),
+]
+
+router = APIRouter(prefix="/v1/threads", tags=["threads"])
+
+
+@router.get("", summary="Standard threads", response_model=StandardThreadList, responses=NOT_MODIFIED)
+def list_threads(request: Request, search: SearchQuery = None) -> Response:
+    """Standard threads with the limits of their diameters, each in the unit of its standard and, unless a designation
+    has others, with the tolerance classes that are usual for it.
+    """
+    return representation(request, _content(search), JSON)
+
+
+@lru_cache(maxsize=_CACHE_SIZE)
+def _content(search: str | None) -> bytes:
+    """The threads that a search finds, as JSON; cached, as a pass over all of them takes some 30 ms."""
+    return json_content(standard_thread_list(found_threads(search)))
