@@ -66,7 +66,8 @@ def test_more_than_can_wait_are_refused(made_up: StoredLibrary, monkeypatch: pyt
 def test_request_over_its_time_is_given_up_and_keeps_its_place(
     made_up: StoredLibrary, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begun = _slow(2.0, monkeypatch)
+    # Long enough that the second is given up while the first still computes, though it came seconds later.
+    begun = _slow(4.0, monkeypatch)
     answers = _at_once({DATABASE: made_up.database, CONCURRENCY: "1", TIME_LIMIT_S: "1"}, 2)
     for answer in answers:
         assert problem(answer, 503).type.endswith(":out-of-time")
