@@ -95,7 +95,8 @@ PairName = Annotated[
     typer.Option(
         "--pair",
         metavar="NAME",
-        help="Designation of the pair, or a TOML file of its dimensions; with --dimension, a name for it.",
+        help='A thread, such as M6-6g/6H or "1/4-20 UNC at minimum material", or a TOML file of dimensions; with '
+        "--dimension, a name for it.",
         show_default=f"{settings.PAIR}, else 1/4-20 UNC",
     ),
 ]

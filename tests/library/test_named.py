@@ -43,6 +43,11 @@ def test_a_name_is_a_number_a_designation_a_slug_or_the_latest(
     first, second, newer, mesh = numbers
     names = (LATEST, LATEST_MESH, str(first), CLASSIC.designation, slug(CLASSIC.designation), NEWER.designation)
     assert _found(reader, *names) == [newer, mesh, first, second, second, newer]
+    assert _found(reader, "1/4-20 unc-2a/2b", "1/4-20  UNC NEWER ROOT", "1/4-20 UNC-2B at maximum") == [
+        second,
+        newer,
+        second,
+    ]
 
 
 @pytest.mark.parametrize("name", ["99", "9" * 30, "m6x1", ""])

@@ -206,7 +206,7 @@ def test_a_job_that_is_not_there_is_not_found(desk: Desk) -> None:
 @pytest.mark.parametrize(
     ("body", "named"),
     [
-        ({"designation": "M6"}, "designation"),
+        ({"designation": "M7"}, "designation"),
         ({"grid": {"tilt_max": 11}}, "tilt_max"),
         ({"grid": {"tilt_max": "4"}}, "tilt_max"),
         ({"grid": {"phase_step": 7}}, "phase_step"),

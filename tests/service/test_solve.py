@@ -13,7 +13,7 @@ from threadstate.state.document import state_document
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
-from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
+from threadstate.thread.catalogue import RootForm, pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 from threadstate.units import MILLIMETRES_PER_INCH
 
@@ -93,9 +93,19 @@ def test_a_library_that_is_not_there_is_refused(
 
 
 def test_unknown_thread_is_told_the_known_ones(client: TestClient) -> None:
-    response = client.post("/v1/solve", json=body(POSES[0], designation="M6"))
+    response = client.post("/v1/solve", json=body(POSES[0], designation="M7"))
     assert response.status_code == 400
     assert "1/4-20 UNC" in response.json()["detail"]
+
+
+@pytest.mark.parametrize("designation", ["m6 - 6G/6h at minimum", "1/4-16 Acme", "Tr8x1.5-7e/7H"])
+def test_standard_threads_are_solved_however_they_are_written(client: TestClient, designation: str) -> None:
+    pair = pair_by_designation(designation)
+    answer = client.post("/v1/solve", json=body(POSES[0], designation=designation)).json()
+    assert (answer["designation"], answer["unit"]) == (pair.designation, pair.unit.value)
+    (state,) = answer["states"]
+    (expected,) = solve_poses(pair, [POSES[0]])
+    assert [contact["point"] for contact in state["contacts"]] == [list(one.point) for one in expected.contacts]
 
 
 def test_a_thousand_poses_are_solved_and_one_more_is_refused(client: TestClient) -> None:

@@ -266,7 +266,7 @@ def test_a_thousand_combinations_are_answered_and_more_are_refused(client: TestC
         ({"yaw": 1}, "body yaw"),
         ({"unit": "mm"}, "body unit"),
         ({"library": 1, "designation": "1/4-20 UNC"}, "library"),
-        ({"designation": "M6"}, "designation"),
+        ({"designation": "M7"}, "designation"),
     ],
 )
 def test_a_bad_body_is_refused_by_name(client: TestClient, others: dict[str, object], named: str) -> None:

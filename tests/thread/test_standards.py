@@ -214,7 +214,7 @@ def test_the_command_prints_one_object_or_a_table(capsys: pytest.CaptureFixture[
     assert found["bolt"] == {"major": [0.245, 0.25], "pitch": [0.2043, 0.2148], "minor": [0.1618, 0.1775]}
     assert run_command_line(["threads", "--search", "1/4-20 UNC", "--json"]) == 0
     (found,) = json.loads(capsys.readouterr().out)["threads"]
-    assert found["bolt"]["minor"] == [None, 0.1894]
+    assert found["bolt"]["minor"] == [0.1802, 0.1894]
     assert run_command_line(["threads"]) == 0
     assert len(capsys.readouterr().out.splitlines()) > 242
     assert run_command_line(["threads", "--search", "M6-6k"]) != 0

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from threadstate.errors import ImpossibleThreadError, UnknownNameError
-from threadstate.thread.catalogue import RootForm, designations, pair_by_designation, quarter_twenty_unc
+from threadstate.errors import ImpossibleThreadError, InvalidValueError
+from threadstate.thread.catalogue import RootForm, is_known, pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
 PAIR = quarter_twenty_unc()
@@ -112,13 +112,51 @@ def test_root_forms_differ_in_the_bolt_s_minor_diameter_alone(root_form: RootFor
     )
 
 
-def test_every_designation_finds_its_pair() -> None:
-    assert [pair_by_designation(name).designation for name in designations()] == list(designations())
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("1/4-20 UNC", "1/4-20 UNC"),
+        ("  1/4-20   unc ", "1/4-20 UNC"),
+        ("1/4-20 UNC-2A/2B", "1/4-20 UNC"),
+        ("1/4-20 unc-2a at maximum", "1/4-20 UNC"),
+        ("1/4-20 UNC Newer Root", "1/4-20 UNC newer root"),
+        ("1/4-20 UNC-3A", "1/4-20 UNC-3A/3B"),
+        ("1/4-20 UNC at minimum", "1/4-20 UNC-2A/2B at minimum material"),
+        ("m6", "M6x1-6g/6H"),
+        ("M6 - 6G at MIDDLE", "M6x1-6g/6G at middle"),
+        ("M6 at 0/0.25", "M6x1-6g/6H at 0/0.25"),
+        ("M6 at 0.5/0.5", "M6x1-6g/6H at middle"),
+    ],
+)
+def test_a_designation_finds_its_pair_however_it_is_written(written: str, meant: str) -> None:
+    assert pair_by_designation(written).designation == meant
+    assert pair_by_designation(meant) == pair_by_designation(written)
+    assert is_known(meant)
 
 
-def test_an_unknown_designation_lists_those_there_are() -> None:
-    with pytest.raises(UnknownNameError) as error:
-        pair_by_designation("M6")
-    assert "'M6'" in str(error.value)
-    for name in designations():
-        assert name in error.value.valid
+def test_the_default_pair_is_that_of_its_classes() -> None:
+    assert pair_by_designation("1/4-20 UNC-2A/2B") == PAIR
+    assert not is_known("1/4-20 UNC-2A/2B")
+    assert not is_known("M6")
+
+
+@pytest.mark.parametrize(
+    ("written", "value", "valid"),
+    [
+        ("M7", "'M7'", "M6x1-6g/6H"),
+        ("M7", "'M7'", "1/4-20 UNC newer root"),
+        ("M6-7z", "'7z'", "a bolt's"),
+        ("1/4-16 ACME-5G", "'5G'", "2G, 3G, 4G"),
+        ("1/2-10 STUB ACME-3G", "'3G'", "2G of Stub Acme"),
+        ("M6 at 1.5/0", "1.5", "maximum material"),
+        ("M6 at nan/0", "'nan/0'", "0.25/0.75"),
+        ("M6 at", "'M6 at'", "M6x1-6g/6H"),
+        ("M6 at least", "'least'", "minimum material"),
+        ("M6 LH", "'M6x1-6g/6H LH'", "right-hand"),
+    ],
+)
+def test_what_names_no_pair_says_what_does(written: str, value: str, valid: str) -> None:
+    with pytest.raises(InvalidValueError) as error:
+        pair_by_designation(written)
+    assert value in str(error.value)
+    assert valid in error.value.valid

@@ -203,7 +203,7 @@ def test_a_file_without_poses_has_no_answers(command_line: CommandLine, tmp_path
         (["solve", "--roll", "11", "--pitch", "0", "--phase", "0"], "roll is 11.0; valid: -10"),
         (["solve", "--roll", "0", "--pitch", "nan", "--phase", "0"], "'--pitch': 'nan' is not a decimal number"),
         (["solve", "--roll", "0", "--pitch", "0", "--phase", "inf"], "'--phase': 'inf' is not a decimal number"),
-        (["solve", *POSE, "--pair", "M6"], "designation is 'M6'; valid: 1/4-20 UNC"),
+        (["solve", *POSE, "--pair", "M7"], "designation is 'M7'; valid: a standard thread"),
         (["solve", *POSE, "--poses", "poses.csv"], "not both"),
         (["solve", *POSE, "--method", "guess"], "'guess' is not one of"),
         (["solve", *POSE, "--preset", "fine"], "--preset is 'fine'; valid: a setting of --method mesh alone"),

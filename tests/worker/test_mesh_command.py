@@ -88,7 +88,7 @@ def test_without_json_the_report_is_prose(command_line: CommandLine, tmp_path: P
         (["--part", "bolt", "--out", "x.stl", "--angle-control", "2"], "angle_control is 2.0; valid: 0 to 1"),
         (["--part", "bolt", "--out", "x.stl", "--scene", "none"], "'none' is not one of"),
         (["--part", "bolt", "--out", "x.stl", "--scene", "curves"], "--scene is 'curves'; valid: full, band, edges"),
-        (["--part", "bolt", "--out", "x.stl", "--pair", "M6"], "designation is 'M6'"),
+        (["--part", "bolt", "--out", "x.stl", "--pair", "M7"], "designation is 'M7'"),
     ],
 )
 def test_a_bad_value_ends_with_2_and_writes_nothing(

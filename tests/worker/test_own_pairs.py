@@ -124,7 +124,7 @@ def test_without_a_pair_it_is_that_of_the_setting(
         (LOOSE.replace("0.219", "0.2"), "fit.bolt_pitch_diameter", "0.2164", "at most the nut's, 0.2"),
         (LOOSE.replace('"loose"', '"1/4-20 UNC"', 1), "designation", "'1/4-20 UNC'", "one's own"),
         (LOOSE.replace('like = "1/4-20 UNC"', ""), "form.name", "None", "a known pair as `like`"),
-        (LOOSE.replace('like = "1/4-20 UNC"', 'like = "M5"'), "like", "'M5'", "1/4-20 UNC"),
+        (LOOSE.replace('like = "1/4-20 UNC"', 'like = "M51"'), "like", "'M51'", "1/4-20 UNC"),
         (LOOSE.replace("[fit]", "[[fits]]") + "[[fits]]\nname = 'b'\n", "fits", "'2 fits'", "one fit alone, as `fit`"),
         ("[[pair]]\ndesignation = 'a'\n[[pair]]\ndesignation = 'b'", "pair", "'2 pairs'", "one pair alone"),
         ("[[pair]]\ndesignation = 'a'\nunit = 'm'", "pair[1].unit", "'m'", "'in' or 'mm'"),
@@ -144,7 +144,7 @@ def test_what_a_file_may_not_say_is_named_with_file_and_key(
 @pytest.mark.parametrize(
     ("name", "dimensions", "words"),
     [
-        ("M6", [], "designation is 'M6'; valid: 1/4-20 UNC, .* a file that ends in .toml"),
+        ("M7", [], "designation is 'M7'; valid: a standard thread, .* a file that ends in .toml"),
         ("no-such.toml", [], r"file is 'no-such\.toml'; valid: a file that can be read"),
         (None, [LIKE], "--pair is None; valid: with --dimension, a name"),
         ("own.toml", [LIKE], r"--pair is 'own\.toml'; valid: with --dimension, a name"),
@@ -170,8 +170,8 @@ def test_what_cannot_be_a_pair_is_said(name: str | None, dimensions: list[str], 
 
 
 def test_a_setting_that_is_no_pair_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(PAIR, "M6")
-    with pytest.raises(InvalidValueError, match=f"{PAIR} is 'M6'; valid: 1/4-20 UNC"):
+    monkeypatch.setenv(PAIR, "M7")
+    with pytest.raises(InvalidValueError, match=f"{PAIR} is 'M7'; valid: a standard thread"):
         chosen_pair(None)
 
 

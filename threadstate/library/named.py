@@ -6,9 +6,10 @@ import re
 
 from sqlalchemy import Connection
 
-from threadstate.errors import NotFoundError
+from threadstate.errors import InvalidValueError, NotFoundError
 from threadstate.library.read import LibraryRecord, latest_library, library_by_id, published_libraries
 from threadstate.library.solver_method import SolverMethod
+from threadstate.thread.catalogue import pair_by_designation
 
 LATEST = "latest"
 LATEST_MESH = "latest-mesh"
@@ -27,8 +28,9 @@ def named_library(connection: Connection, name: str) -> LibraryRecord:
     Args:
         connection: to the database.
         name: ``latest``, the pinned library or else the one published last by the exact method; ``latest-mesh``, the
-            one published last by meshes; a library's number; a designation or its slug, the library of that thread that
-            is pinned or else published last by the exact method.
+            one published last by meshes; a library's number; a designation, as libraries have it or as people write
+            that of a standard thread, or its slug, the library of that thread that is pinned or else published last by
+            the exact method.
 
     Raises:
         NotFoundError: it does not exist; the message lists the published libraries.
@@ -44,10 +46,20 @@ def named_library(connection: Connection, name: str) -> LibraryRecord:
         except NotFoundError as error:
             raise NotFoundError(f"{error}; published are: {_listed(published)}") from None
     by_exact_method = [one for one in published if one.method is SolverMethod.EXACT]
-    for record in sorted(by_exact_method, key=lambda one: not one.is_pinned):
-        if name in (record.designation, slug(record.designation)):
-            return record
+    by_exact_method.sort(key=lambda one: not one.is_pinned)
+    for wanted in (name, _standard_designation(name)):
+        for record in by_exact_method:
+            if wanted in (record.designation, slug(record.designation)):
+                return record
     raise NotFoundError(f"no library of {name!r} is published; published are: {_listed(published)}")
+
+
+def _standard_designation(name: str) -> str | None:
+    """The designation of a standard thread as libraries have it; None where it is none."""
+    try:
+        return pair_by_designation(name).designation
+    except InvalidValueError:
+        return None
 
 
 def _listed(published: list[LibraryRecord]) -> str:

@@ -1,13 +1,16 @@
-"""The pairs that are known by their designation; the only place that holds dimensions of a thread."""
+"""The pairs that are known by their designation: the default one, and those of standard threads."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import StrEnum
 
-from threadstate.errors import UnknownNameError
+from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.pair import Pair
+from threadstate.thread.standards.designation import EXAMPLES
+from threadstate.thread.standards.pairs import standard_pair
 from threadstate.units import LengthUnit
 
 
@@ -51,18 +54,36 @@ def quarter_twenty_unc(root_form: RootForm = RootForm.CLASSIC) -> Pair:
     )
 
 
-def designations() -> tuple[str, ...]:
-    """All designations that :func:`pair_by_designation` accepts."""
-    return tuple(_DESIGNATION[root_form] for root_form in RootForm)
-
-
 def pair_by_designation(designation: str) -> Pair:
-    """The pair of that designation.
+    """The pair of that designation, in any case, with or without blanks round its parts.
+
+    A standard thread is ``1/4-20 UNC-3A/3B``, ``M6`` or the like, with ``at minimum material`` or another position in
+    its tolerances after it. The default pair has its own name however it is written.
 
     Raises:
         UnknownNameError: no such designation.
+        InvalidValueError: a class that the form does not have, a position that is none, or a left-hand thread.
     """
+    written = " ".join(designation.split()).upper()
     for root_form, name in _DESIGNATION.items():
-        if name == designation:
+        if written == name.upper():
             return quarter_twenty_unc(root_form)
-    raise UnknownNameError("designation", designation, ", ".join(designations()))
+    try:
+        found = standard_pair(designation)
+    except UnknownNameError as error:
+        raise UnknownNameError(
+            error.name, designation, f"{VALID_DESIGNATIONS}; `threadstate threads` lists them"
+        ) from None
+    default = quarter_twenty_unc()
+    return default if replace(found, designation=default.designation) == default else found
+
+
+VALID_DESIGNATIONS = f"a standard thread, such as {EXAMPLES}, or {_DESIGNATION[RootForm.NEWER]}"
+
+
+def is_known(designation: str) -> bool:
+    """Whether a pair of the catalogue has this very designation, as this project writes it."""
+    try:
+        return pair_by_designation(designation).designation == designation
+    except InvalidValueError:
+        return False

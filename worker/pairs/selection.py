@@ -10,7 +10,7 @@ from typing import Any
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.numbers import number
 from threadstate.settings import PAIR, read_settings
-from threadstate.thread.catalogue import DEFAULT_DESIGNATION, designations, pair_by_designation
+from threadstate.thread.catalogue import DEFAULT_DESIGNATION, VALID_DESIGNATIONS, is_known, pair_by_designation
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.pair import Pair
@@ -37,8 +37,8 @@ def chosen_pair(name: str | None, dimensions: Sequence[str] = ()) -> Pair:
     """The pair of a command.
 
     Args:
-        name: a known designation, or the path of a TOML file, which ends in ``.toml``; None: ``THREADSTATE_PAIR``, else
-            the default pair. With dimensions: the designation of the pair that they make.
+        name: a designation of the catalogue, or the path of a TOML file, which ends in ``.toml``; None:
+            ``THREADSTATE_PAIR``, else the default pair. With dimensions: the designation of the pair that they make.
         dimensions: ``KEY=VALUE`` each, keys of a file's pair, those of its tables behind a dot (``fit.name=6g/6H``).
 
     Raises:
@@ -61,10 +61,11 @@ def named_pair(name: str, called: str) -> Pair:
     """
     if name.endswith(FILE_ENDING):
         return pair_of_file(Path(name))
-    if name not in designations():
-        known = ", ".join(designations())
-        raise UnknownNameError(called, name, f"{known}, or the path of a file that ends in {FILE_ENDING}")
-    return pair_by_designation(name)
+    try:
+        return pair_by_designation(name)
+    except UnknownNameError:
+        valid = f"{VALID_DESIGNATIONS}, or the path of a file that ends in {FILE_ENDING}"
+        raise UnknownNameError(called, name, valid) from None
 
 
 def pair_of_file(path: Path) -> Pair:
@@ -151,7 +152,7 @@ def _pair_of_fit(
     values = _values(part.given(), base, ("unit", "nominal_diameter", "thread_pitch"), location)
     fitted = _fit(fit, base, of_fit)
     designation = part.designation if part.fits is None else f"{part.designation} {fitted.name}"
-    if designation in designations():
+    if is_known(designation):
         raise location.invalid("designation", designation, "a designation of one's own, as dimensions are given too")
     if len(designation) > LARGEST_DESIGNATION:
         raise of_fit.invalid("name", fitted.name, f"at most {LARGEST_DESIGNATION} characters with the designation")
@@ -196,6 +197,7 @@ def known(pairs: dict[str, Pair], designation: str) -> Pair:
     """
     if designation in pairs:
         return pairs[designation]
-    if designation in designations():
+    try:
         return pair_by_designation(designation)
-    raise InvalidValueError("pair", designation, ", ".join(dict.fromkeys((*pairs, *designations()))))
+    except UnknownNameError:
+        raise InvalidValueError("pair", designation, ", ".join([*pairs, VALID_DESIGNATIONS])) from None

@@ -25,6 +25,7 @@ class StandardThread:
     Attributes:
         designation: as this project writes it.
         form: of the thread.
+        classes: of bolt and nut.
         unit: of all lengths.
         nominal_diameter, thread_pitch: of the size.
         bolt, nut: limits of the diameters.
@@ -34,6 +35,7 @@ class StandardThread:
 
     designation: str
     form: str
+    classes: str
     unit: LengthUnit
     nominal_diameter: float
     thread_pitch: float
@@ -180,6 +182,7 @@ def _thread(size: _Size, classes: tuple[str, str], *, left_hand: bool) -> Standa
     return StandardThread(
         designation=f"{size.name}-{written}{' LH' if left_hand else ''}",
         form=size.form,
+        classes=written,
         unit=size.unit,
         nominal_diameter=size.diameter,
         thread_pitch=size.pitch,

@@ -88,7 +88,7 @@ def _size(name: str, series: Series) -> UnifiedSize:
 
 
 def bolt_limits(size: UnifiedSize, tolerance_class: str) -> Limits:
-    """Limits of a bolt of class 1A, 2A or 3A; its minor diameter is that of a rounded root (UNR), without a least one.
+    """Limits of a bolt of class 1A, 2A or 3A; its minor diameter is that of a rounded root (UNR).
 
     Raises:
         InvalidValueError: another class.
@@ -106,7 +106,8 @@ def bolt_limits(size: UnifiedSize, tolerance_class: str) -> Limits:
     pitch_least = rounded(pitch_greatest - rounded(PITCH_FACTOR[tolerance_class] * tolerance, 6), 4)
     pitch_least = _PITCH_OVERRIDES.get((size.name, tolerance_class), pitch_least)
     minor = rounded(greatest - rounded(HEIGHT_11_8 * pitch, 6), 4)
-    return Limits(Diameter(least, greatest), Diameter(pitch_least, pitch_greatest), Diameter(None, minor))
+    minor_least = rounded(pitch_least - rounded(HEIGHT_3_4 * pitch, 6), 4)
+    return Limits(Diameter(least, greatest), Diameter(pitch_least, pitch_greatest), Diameter(minor_least, minor))
 
 
 def nut_limits(size: UnifiedSize, tolerance_class: str) -> Limits:

@@ -1,0 +1,130 @@
+"""Contacts of other threads than the default pair: the forms of the standards, tight and loose."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from oracle.first_height import first_height
+from oracle.profile import bolt_profile, nut_profile, radius
+from oracle.state_turns import deepest_near, earlier_appearance, turns_of, within_brute_force
+from tests.contact.samples import random_poses
+from threadstate.errors import InvalidValueError
+from threadstate.state.model import Contact
+from threadstate.state.options import SolveOptions
+from threadstate.state.solve import solve_pose, solve_poses
+from threadstate.thread.catalogue import pair_by_designation
+from threadstate.thread.fit import Fit
+from threadstate.thread.pair import Pair
+
+pytestmark = pytest.mark.slow
+
+DESIGNATIONS = [
+    "4-40 UNC-1A/1B at minimum material",
+    "1/4-20 UNC-3A/3B",
+    "M3",
+    "M3 at minimum material",
+    "1/4-16 ACME-2G",
+    "1/4-16 ACME-2G at minimum material",
+    "1/2-10 STUB ACME-2G",
+    "Tr 8x1.5-7e/7H at minimum material",
+    "1/4-20 BSW",
+    "1/4-20 BSW at minimum material",
+]
+SEED = 181
+HEIGHTS, TURNS = 6, 1
+PARTED = 2e-5
+"""Depth, over the thread pitch, from which on a component that is first seen had no onset there."""
+
+
+def largest_distance(pair: Pair, contact: Contact) -> float:
+    """How far a contact is from the surfaces that its features name, in the nut's plane and in the bolt's."""
+    found = []
+    parts = (contact.point_bolt, bolt_profile(pair)), (contact.point, nut_profile(pair))
+    for (point, profile), feature in zip(parts, contact.features.split("-"), strict=True):
+        s = point[2] - pair.thread_pitch * math.atan2(point[1], point[0]) / math.tau
+        found += [abs(math.hypot(point[0], point[1]) - radius(s, profile))] if feature in ("thread", "edge") else []
+        found += [abs(point[2])] if feature != "thread" else []
+    return max(found)
+
+
+@pytest.mark.parametrize("designation", DESIGNATIONS)
+def test_heights_and_turns_are_those_of_the_brute_force(designation: str) -> None:
+    pair = pair_by_designation(designation)
+    pitch = pair.thread_pitch
+    poses = random_poses(SEED + DESIGNATIONS.index(designation), HEIGHTS, tilt_deg=4.0)
+    poses[::2, 2] = poses[::2, 2] % 40.0 - 20.0
+    for number, state in enumerate(solve_poses(pair, poses)):
+        pose = (state.roll_deg, state.pitch_deg, state.phase_deg)
+        height, expected = state.poses[0].translation[2], first_height(pair, *pose).height
+        # Samples find no height that is too great, but may step over a narrow pocket: its point proves it.
+        assert height >= expected - 1e-9 * pitch, pose
+        if height > expected + 1e-9 * pitch:
+            assert largest_distance(pair, state.contacts[0]) < 1e-12 * pitch, pose
+        for turn in turns_of(pair, state) if number < TURNS else ():
+            earlier = earlier_appearance(pair, turn, SolveOptions().turn_limit_deg, steps=10)
+            assert earlier is None or earlier.depth > PARTED * pitch, (pose, turn.stage)
+            if turn.turn_deg is None or turn.turn_deg < 1e-4 or not within_brute_force(turn):
+                continue
+            for point in (np.array(contact.point) for contact in turn.found if contact.features.value != "flush"):
+                before = deepest_near(pair, turn, turn.turn_deg - 1e-4, point, 1e-3 * pitch)
+                after = deepest_near(pair, turn, turn.turn_deg + 1e-4, point, 1e-3 * pitch)
+                assert before < 0.0 < after, (pose, turn.stage)
+
+
+@pytest.mark.parametrize(
+    ("designation", "pose"),
+    [
+        ("M3 at minimum material", (-1.6990751824320345, 1.9688071751891254, 342.62488721389104)),
+        ("M3 at minimum material", (-0.11847220454691954, 3.869999434186301, 1.3425704230996338)),
+        ("M3 at 0/1", (-0.8355486315805702, 3.71380535274044, 350.21966778404607)),
+        ("1/4-20 BSW at minimum material", (-1.6990751824320345, 1.9688071751891254, 342.62488721389104)),
+        ("1/4-20 UNC at minimum material", (-2.6900667643746567, 3.8934234425368723, 345.83319360644913)),
+    ],
+)
+def test_a_turn_in_which_an_edge_comes_to_lie_along_a_flank_is_decided(
+    designation: str, pose: tuple[float, float, float]
+) -> None:
+    """During the second turn the nut's edge and the bolt's flank agree around the first contact to the third order.
+
+    There round-off alone tells inside from outside, up to a thousandth of a radian from the contact.
+    """
+    pair = pair_by_designation(designation)
+    state = solve_pose(pair, *pose)
+    turn = turns_of(pair, state)[0]
+    earlier = earlier_appearance(pair, turn, SolveOptions().turn_limit_deg, steps=14)
+    # What is deep at once has parted from the overlap around the first contact.
+    assert earlier is None or earlier.depth > PARTED * pair.thread_pitch
+
+
+def test_a_metric_pair_is_an_inch_pair_of_another_size() -> None:
+    metric = pair_by_designation("M3")
+    by = 1.0 / 25.4
+    lengths = {name: value * by for name, value in vars(metric.fit).items() if name != "name"}
+    inch = Pair(
+        "M3 in inches",
+        metric.unit,
+        metric.nominal_diameter * by,
+        metric.thread_pitch * by,
+        metric.form,
+        Fit("", **lengths),
+    )
+    for pose in random_poses(SEED, 12, tilt_deg=4.0):
+        here, there = solve_pose(metric, *pose), solve_pose(inch, *pose)
+        assert [one.features for one in here.contacts] == [one.features for one in there.contacts]
+        assert here.flags == there.flags
+        for one, other in zip(here.contacts, there.contacts, strict=True):
+            np.testing.assert_allclose(np.array(one.point) * by, other.point, rtol=0.0, atol=1e-9 * inch.thread_pitch)
+            np.testing.assert_allclose(one.normal, other.normal, rtol=0.0, atol=1e-7)
+
+
+@pytest.mark.parametrize("name", ["bolt_crest_fillet", "nut_root_fillet"])
+@pytest.mark.parametrize("value", [0.0, 5e-4])
+def test_fillets_that_the_search_may_miss_are_refused(name: str, value: float) -> None:
+    pair = pair_by_designation("1/4-16 ACME-2G")
+    sharp = replace(pair, form=replace(pair.form, **{name: value}))  # type: ignore[arg-type]
+    with pytest.raises(InvalidValueError, match=f"{name} is .*valid: at least 0.00"):
+        solve_pose(sharp, 1.0, 2.0, 3.0)

@@ -1,0 +1,65 @@
+"""Pairs of standard threads: each fits, and their diameters are where the position says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from threadstate.thread.play import axial_play
+from threadstate.thread.standards.designation import standard_thread, standard_threads
+from threadstate.thread.standards.pairs import Position, pair_at, parsed_position, standard_pair
+
+
+@pytest.mark.parametrize("position", [Position(0.0, 0.0), Position(1.0, 1.0)], ids=["maximum", "minimum"])
+def test_every_bolt_of_the_catalogue_goes_into_its_nut(position: Position) -> None:
+    """Roots and crests too: a fillet that is larger than that of the other part beside it would leave no play."""
+    for thread in standard_threads():
+        assert axial_play(pair_at(thread, position)) >= -1e-12 * thread.thread_pitch, thread.designation
+
+
+@pytest.mark.parametrize("designation", ["1/4-20 UNC-3A/3B", "M6-4h/4H", "1/4-20 BSW-close/close"])
+def test_tightest_fits_have_no_play_at_maximum_material_and_some_at_minimum(designation: str) -> None:
+    assert axial_play(standard_pair(designation)) == pytest.approx(0.0, abs=1e-12)
+    loose = standard_pair(f"{designation} at minimum material")
+    assert axial_play(loose) > 0.02 * loose.thread_pitch
+
+
+def test_diameters_are_at_the_fractions_of_their_tolerances() -> None:
+    thread = standard_thread("1/4-16 ACME-2G")
+    fit = pair_at(thread, Position(0.25, 0.75)).fit
+    for name, diameter in (("major", thread.bolt.major), ("pitch", thread.bolt.pitch), ("minor", thread.bolt.minor)):
+        assert diameter.least is not None
+        assert diameter.greatest is not None
+        expected = 0.75 * diameter.greatest + 0.25 * diameter.least
+        assert getattr(fit, f"bolt_{name}_diameter") == pytest.approx(expected, abs=1e-15)
+    for name, diameter in (("major", thread.nut.major), ("pitch", thread.nut.pitch), ("minor", thread.nut.minor)):
+        assert diameter.least is not None
+        assert diameter.greatest is not None
+        expected = 0.25 * diameter.least + 0.75 * diameter.greatest
+        assert getattr(fit, f"nut_{name}_diameter") == pytest.approx(expected, abs=1e-15)
+
+
+def test_a_metric_root_is_full_between_the_two_radii_of_the_standard() -> None:
+    pitch = 1.0
+    for position, radius in (("maximum", 0.144338), ("minimum", 0.125)):
+        pair = standard_pair(f"M6 at {position}")
+        assert pair.form.bolt_root_fillet == pytest.approx(radius, abs=2e-4)
+        assert pair.bolt.boundaries[0] == pytest.approx(-pitch / 4.0, abs=1e-12)
+
+
+def test_whitworth_is_round_and_its_radius_that_of_the_standard() -> None:
+    form = standard_pair("1/4-20 BSW-close/close").form
+    assert form.flank_half_angle_deg == 27.5
+    assert {form.bolt_root_fillet, form.bolt_crest_fillet, form.nut_root_fillet, form.nut_crest_fillet} == {0.137329}
+
+
+@pytest.mark.parametrize("text", ["maximum", "Middle", "minimum material", "0.25/1", "0/0.125"])
+def test_the_name_of_a_position_means_it(text: str) -> None:
+    position = parsed_position(text)
+    assert standard_pair(f"M6{position.name}") == pair_at(standard_thread("M6"), position)
+
+
+def test_a_left_hand_thread_is_refused() -> None:
+    with pytest.raises(ValueError, match="right-hand thread"):
+        pair_at(replace(standard_thread("M6"), left_hand=True), Position(0.0, 0.0))

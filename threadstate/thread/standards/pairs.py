@@ -1,0 +1,187 @@
+"""Pairs of standard threads: diameters at a position within their tolerances, with roots and crests of the form.
+
+A position is a fraction of each tolerance, 0 at maximum material. The fillets are those that a standard bounds, or half
+of the largest that fit the basic form where it leaves them open; none is larger than fits at its position.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from threadstate.errors import InvalidValueError
+from threadstate.numbers import number, number_text
+from threadstate.thread.fit import Fit
+from threadstate.thread.form import Form
+from threadstate.thread.pair import Pair
+from threadstate.thread.standards.acme import AcmeForm
+from threadstate.thread.standards.designation import StandardThread, standard_thread
+from threadstate.thread.standards.limits import Diameter
+from threadstate.thread.standards.trapezoidal import crest_clearance_mm
+
+_POSITION = re.compile(r"\s+at\s+(?P<position>.*)$", re.IGNORECASE | re.DOTALL)
+_NAMED = {"maximum": 0.0, "middle": 0.5, "minimum": 1.0}
+POSITIONS = (
+    "maximum material, middle, minimum material, or two numbers from 0 to 1 such as 0.25/0.75: the fractions of the "
+    "bolt's and the nut's tolerances, from maximum material on"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """Where the diameters of bolt and nut lie within their tolerances: 0 at maximum, 1 at minimum material.
+
+    Raises:
+        InvalidValueError: a number outside 0 to 1.
+    """
+
+    bolt: float
+    nut: float
+
+    def __post_init__(self) -> None:
+        for value in (self.bolt, self.nut):
+            if not 0.0 <= value <= 1.0:
+                raise InvalidValueError("position in the tolerance", value, POSITIONS)
+
+    @property
+    def name(self) -> str:
+        """As it ends a designation; empty at maximum material."""
+        if self.bolt == self.nut and self.bolt in _NAMED.values():
+            (word,) = (word for word, value in _NAMED.items() if value == self.bolt)
+            return {"maximum": "", "middle": " at middle"}.get(word, f" at {word} material")
+        return f" at {number_text(self.bolt)}/{number_text(self.nut)}"
+
+
+MAXIMUM_MATERIAL = Position(0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Rounding:
+    """Flank half-angle and wanted fillet radii of a form, over the thread pitch; infinite: the largest that fits."""
+
+    flank_half_angle_deg: float
+    bolt_root: float
+    bolt_crest: float
+    nut_root: float
+    nut_crest: float
+
+
+def rounding(thread: StandardThread) -> Rounding:
+    """Those of a thread's form.
+
+    Unified: the root's as in method, section 1. ISO metric: a full root radius, from H / 6 at maximum material to P / 8
+    at minimum material. Acme: roots at the limit from memory. Trapezoidal: the standard's greatest radii, the bolt's
+    for the nut's crest, too. Whitworth: its one radius.
+    """
+    pitch = thread.thread_pitch
+    match thread.form:
+        case "UN":
+            return Rounding(30.0, 0.108, 0.054, 0.054, 0.108)
+        case "M":
+            return Rounding(30.0, math.inf, 0.054, 0.054, 0.108)
+        case AcmeForm.ACME | AcmeForm.STUB:
+            return Rounding(14.5, ACME_ROOT, ACME_CREST, ACME_ROOT, ACME_CREST)
+        case "Tr":
+            play = crest_clearance_mm(pitch) / pitch
+            return Rounding(15.0, play, 0.5 * play, play, 0.5 * play)
+        case _:
+            return Rounding(27.5, WHITWORTH, WHITWORTH, WHITWORTH, WHITWORTH)
+
+
+ACME_ROOT, ACME_CREST = 0.06, 0.02
+WHITWORTH = 0.137329
+METRIC_ROOT = 0.577350
+"""Below the greatest pitch diameter, over the pitch: the minor diameter of a full root radius of H / 6."""
+
+
+def standard_pair(designation: str) -> Pair:
+    """The pair of a designation, with a position after ``at``; without one at maximum material.
+
+    Raises:
+        UnknownNameError: no such size.
+        InvalidValueError: a class that its form does not have, a position that is none, or a left-hand thread.
+    """
+    found = _POSITION.search(designation)
+    position = MAXIMUM_MATERIAL if found is None else parsed_position(found["position"])
+    return pair_at(standard_thread(_POSITION.sub("", designation)), position)
+
+
+def parsed_position(text: str) -> Position:
+    """A position as it is written.
+
+    Raises:
+        InvalidValueError: it is none.
+    """
+    words = text.lower().split()
+    if words and words[0] in _NAMED and words[1:] in ([], ["material"]):
+        return Position(_NAMED[words[0]], _NAMED[words[0]])
+    try:
+        bolt, nut = (number(part.strip()) for part in text.split("/"))
+    except ValueError:
+        raise InvalidValueError("position in the tolerance", text, POSITIONS) from None
+    return Position(bolt, nut)
+
+
+def pair_at(thread: StandardThread, position: Position) -> Pair:
+    """The pair of a thread at a position.
+
+    Raises:
+        InvalidValueError: a left-hand thread, which the solver does not take.
+    """
+    if thread.left_hand:
+        raise InvalidValueError("designation", thread.designation, "a right-hand thread: others are listed, not solved")
+    bolt, nut, pitch = thread.bolt, thread.nut, thread.thread_pitch
+    wanted = rounding(thread)
+    tangent = math.tan(math.radians(wanted.flank_half_angle_deg))
+    fit = Fit(
+        name=f"{thread.classes}{position.name}",
+        bolt_major_diameter=_outer(bolt.major, position.bolt),
+        bolt_pitch_diameter=_outer(bolt.pitch, position.bolt),
+        bolt_minor_diameter=_bolt_minor(thread, position.bolt),
+        nut_major_diameter=_inner(nut.major, position.nut),
+        nut_pitch_diameter=_inner(nut.pitch, position.nut),
+        nut_minor_diameter=_inner(nut.minor, position.nut),
+    )
+
+    def fitting(radius: float, height: float) -> float:
+        """A fillet over the pitch, no larger than fits at a flat this high above or below the pitch radius."""
+        room = 0.25 - height * tangent / pitch
+        return min(radius, room / math.tan(math.pi / 4.0 - math.radians(wanted.flank_half_angle_deg) / 2.0))
+
+    bolt_radius, nut_radius = fit.bolt_pitch_diameter / 2.0, fit.nut_pitch_diameter / 2.0
+    form = Form(
+        name=thread.form,
+        flank_half_angle_deg=wanted.flank_half_angle_deg,
+        bolt_root_fillet=fitting(wanted.bolt_root, bolt_radius - fit.bolt_minor_diameter / 2.0),
+        bolt_crest_fillet=fitting(wanted.bolt_crest, fit.bolt_major_diameter / 2.0 - bolt_radius),
+        nut_root_fillet=fitting(wanted.nut_root, fit.nut_major_diameter / 2.0 - nut_radius),
+        nut_crest_fillet=fitting(wanted.nut_crest, nut_radius - fit.nut_minor_diameter / 2.0),
+    )
+    return Pair(f"{thread.designation}{position.name}", thread.unit, thread.nominal_diameter, pitch, form, fit)
+
+
+def _bolt_minor(thread: StandardThread, position: float) -> float:
+    """Of ISO metric threads from a full root radius of H / 6, which the boundary of a flat root leaves room for."""
+    minor = thread.bolt.minor
+    if thread.form == "M":
+        minor = Diameter(minor.least, _limit(thread.bolt.pitch.greatest) - METRIC_ROOT * thread.thread_pitch)
+    return _outer(minor, position)
+
+
+def _outer(diameter: Diameter, position: float) -> float:
+    """A bolt's diameter: from the greatest to the least."""
+    greatest = _limit(diameter.greatest)
+    return greatest if diameter.least is None else greatest + position * (diameter.least - greatest)
+
+
+def _inner(diameter: Diameter, position: float) -> float:
+    """A nut's diameter: from the least on; the least one at any position where there is no greatest."""
+    least = _limit(diameter.least)
+    return least if diameter.greatest is None else least + position * (diameter.greatest - least)
+
+
+def _limit(value: float | None) -> float:
+    if value is None:
+        raise AssertionError("every standard here limits the material")
+    return value
