@@ -14,7 +14,7 @@ from threadstate.contact import _branchless_kernel as branchless
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact import _rectangle_kernel as rectangle
 from threadstate.contact._bound_kernel import BOUNDS_SIZE, set_bounds
-from threadstate.contact._edge_search_kernel import joined_to_contact
+from threadstate.contact._edge_search_kernel import ROUND_OFF, joined_to_contact
 from threadstate.contact._entry_kernel import half_space
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
 from threadstate.contact._lift_kernel import inside_until
@@ -110,7 +110,9 @@ def test_an_onset_is_not_joined_to_a_contact_across_nan() -> None:
     motion[9] = math.nan
     path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
     azimuths = np.array([1.0])
-    assert not joined_to_contact(1.005, 0.0, motion, PAIR.bolt.packed, PAIR.nut.packed, azimuths, 1, path, jet)
+    assert not joined_to_contact(
+        1.005, 0.0, motion, PAIR.bolt.packed, PAIR.nut.packed, azimuths, 1, ROUND_OFF * P, path, jet
+    )
 
 
 def test_a_bolt_whose_lowest_point_is_unknown_does_not_meet_the_surface_first() -> None:

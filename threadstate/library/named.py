@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import suppress
 
 from sqlalchemy import Connection
 
@@ -47,19 +49,18 @@ def named_library(connection: Connection, name: str) -> LibraryRecord:
             raise NotFoundError(f"{error}; published are: {_listed(published)}") from None
     by_exact_method = [one for one in published if one.method is SolverMethod.EXACT]
     by_exact_method.sort(key=lambda one: not one.is_pinned)
-    for wanted in (name, _standard_designation(name)):
+    for wanted in _ways_to_write(name):
         for record in by_exact_method:
             if wanted in (record.designation, slug(record.designation)):
                 return record
     raise NotFoundError(f"no library of {name!r} is published; published are: {_listed(published)}")
 
 
-def _standard_designation(name: str) -> str | None:
-    """The designation of a standard thread as libraries have it; None where it is none."""
-    try:
-        return pair_by_designation(name).designation
-    except InvalidValueError:
-        return None
+def _ways_to_write(name: str) -> Iterator[str]:
+    """The name, and then the designation that libraries have where it is that of a known pair."""
+    yield name
+    with suppress(InvalidValueError):
+        yield pair_by_designation(name).designation
 
 
 def _listed(published: list[LibraryRecord]) -> str:
