@@ -28,7 +28,6 @@ import time
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
-from typing import IO
 
 UNUSED_DAYS = 30.0
 LOOK_DAYS = 1.0
@@ -40,8 +39,8 @@ _MARKS = (b"njit", b"@kernel", b"cfunc")
 _VERSION_DIGITS = 16
 _MARKER = "used"
 _DAY_S = 86400.0
-_held: list[IO[bytes]] = []
-"""The open marker of the directory that this process uses: with it the lock ends."""
+_held: list[int] = []
+"""The descriptor of the open marker of the directory that this process uses: with it the lock ends."""
 
 
 def choose_numba_cache() -> None:
@@ -85,12 +84,14 @@ def _use(directory: Path) -> None:
         marker = directory / _MARKER
         while True:
             is_new = not marker.exists()
-            held = marker.open("ab")
+            held = os.open(marker, os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC, 0o600)
             fcntl.flock(held, fcntl.LOCK_SH)
-            if marker.exists() and os.path.samestat(os.fstat(held.fileno()), marker.stat()):
+            if marker.exists() and os.path.samestat(os.fstat(held), marker.stat()):
                 break
-            held.close()  # it was being removed
+            os.close(held)  # it was being removed
             directory.mkdir(parents=True, exist_ok=True, mode=0o700)
+        for former in _held:
+            os.close(former)
         _held[:] = [held]
         if is_new or _age_days(marker) > LOOK_DAYS:
             os.utime(marker)
