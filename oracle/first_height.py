@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from oracle.compiled import compiled
 from oracle.pose import pose_rotation
-from oracle.profile import R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
+from oracle.profile import LEAD, R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -65,7 +65,7 @@ def nut_top(x: float, y: float, nut: Floats) -> float:
     if r < nut[R_SMALL]:
         return _NONE
     p = nut[P]
-    s = -p * math.atan2(y, x) / _TWO_PI
+    s = -nut[LEAD] * math.atan2(y, x) / _TWO_PI
     half = ridge_half_width(r, nut)
     turns = math.floor(s / p - 0.25 + 0.5)
     centre = p * (0.25 + turns)
@@ -107,7 +107,7 @@ def _height_gap(x: float, y: float, z: float, rot: Floats, bolt: Floats) -> floa
     bx = rot[0, 0] * x + rot[1, 0] * y + rot[2, 0] * z
     by = rot[0, 1] * x + rot[1, 1] * y + rot[2, 1] * z
     bz = rot[0, 2] * x + rot[1, 2] * y + rot[2, 2] * z
-    return radius(bz - bolt[P] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
+    return radius(bz - bolt[LEAD] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
 
 
 @compiled
@@ -116,7 +116,7 @@ def _height(feature: int, u: float, v: float, rot: Floats, bolt: Floats, nut: Fl
     p = bolt[P]
     if feature in (BOLT_EDGE, BOLT_THREAD):
         v = min(max(v, 0.0), p)
-        r = radius(v - p * u / _TWO_PI, bolt)
+        r = radius(v - bolt[LEAD] * u / _TWO_PI, bolt)
         bx, by = r * math.cos(u), r * math.sin(u)
         x = rot[0, 0] * bx + rot[0, 1] * by + rot[0, 2] * v
         y = rot[1, 0] * bx + rot[1, 1] * by + rot[1, 2] * v
@@ -124,7 +124,7 @@ def _height(feature: int, u: float, v: float, rot: Floats, bolt: Floats, nut: Fl
         top = nut_top(x, y, nut)
         return top - z if top > _NONE else _NONE
     v = max(min(v, 0.0), -p)
-    r = radius(v - p * u / _TWO_PI, nut)
+    r = radius(v - nut[LEAD] * u / _TWO_PI, nut)
     x, y = r * math.cos(u), r * math.sin(u)
     if feature == NUT_EDGE:
         return bolt_drop(x, y, 0.0, rot, bolt)
@@ -230,12 +230,11 @@ def first_height(pair: Pair, roll: float, pitch: float, phase: float) -> FirstHe
     # An edge is the border of a surface: only a clearly higher sample of the surface makes it a contact of surfaces.
     feature = int(np.argmax(heights - 1e-11 * np.array([0, 0, 1, 1])))
     h = float(heights[feature])
-    p = pair.thread_pitch
     if feature in (BOLT_EDGE, BOLT_THREAD):
-        r = radius(v[feature] - p * u[feature] / _TWO_PI, bolt)
+        r = radius(v[feature] - bolt[LEAD] * u[feature] / _TWO_PI, bolt)
         point = rot @ np.array([r * math.cos(u[feature]), r * math.sin(u[feature]), v[feature]]) + np.array([0, 0, h])
     else:
-        r = radius(v[feature] - p * u[feature] / _TWO_PI, nut)
+        r = radius(v[feature] - nut[LEAD] * u[feature] / _TWO_PI, nut)
         point = np.array([r * math.cos(u[feature]), r * math.sin(u[feature]), v[feature]])
     x, y, z = (float(c) for c in point)
     features = features_at(pair, rot, h, (x, y, z))
@@ -246,11 +245,11 @@ def first_height(pair: Pair, roll: float, pitch: float, phase: float) -> FirstHe
 def features_at(pair: Pair, rot: Floats, h: float, point: tuple[float, float, float]) -> str:
     """Which features meet at a contact, the bolt's first: each by what the point lies on to 1e-8 in on 1/4-20."""
     near = 1e-8 * pair.nominal_diameter / 0.25
-    bolt, nut, p = bolt_profile(pair), nut_profile(pair), pair.thread_pitch
+    bolt, nut = bolt_profile(pair), nut_profile(pair)
     x, y, z = point
     bx, by, bz = (float(c) for c in rot.T @ np.array([x, y, z - h]))
-    bolt_on_thread = abs(radius(bz - p * math.atan2(by, bx) / _TWO_PI, bolt) - math.hypot(bx, by)) < near
-    nut_on_thread = abs(radius(z - p * math.atan2(y, x) / _TWO_PI, nut) - math.hypot(x, y)) < near
+    bolt_on_thread = abs(radius(bz - bolt[LEAD] * math.atan2(by, bx) / _TWO_PI, bolt) - math.hypot(bx, by)) < near
+    nut_on_thread = abs(radius(z - nut[LEAD] * math.atan2(y, x) / _TWO_PI, nut) - math.hypot(x, y)) < near
     bolt_on_base, nut_on_top = abs(bz) < near, abs(z) < near
     first = "edge" if bolt_on_base and bolt_on_thread else "base" if bolt_on_base else "thread"
     second = "edge" if nut_on_top and nut_on_thread else "surface" if nut_on_top else "thread"

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from oracle.compiled import compiled
-from oracle.profile import R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
+from oracle.profile import LEAD, R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -38,7 +38,7 @@ def _nut_top_near(x: float, y: float, z: float, near: float, nut: Floats) -> flo
     p = nut[P]
     if r < nut[R_SMALL] or z < -p:
         return _NONE
-    start = -p * math.atan2(y, x) / _TWO_PI
+    start = -nut[LEAD] * math.atan2(y, x) / _TWO_PI
     s = start + z
     half = ridge_half_width(r, nut)
     centre = p * (0.25 + math.floor(s / p - 0.25 + 0.5))
@@ -56,7 +56,7 @@ def _height_gap(x: float, y: float, z: float, rot: Floats, bolt: Floats) -> tupl
     bx = rot[0, 0] * x + rot[1, 0] * y + rot[2, 0] * z
     by = rot[0, 1] * x + rot[1, 1] * y + rot[2, 1] * z
     bz = rot[0, 2] * x + rot[1, 2] * y + rot[2, 2] * z
-    return radius(bz - bolt[P] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by), bz
+    return radius(bz - bolt[LEAD] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by), bz
 
 
 @compiled
@@ -97,10 +97,10 @@ def _end(
 ) -> float:
     """The lift at which a sample of a feature stops overlapping, if it overlaps at ``lift`` or did so just below it."""
     if feature == NUT_EDGE:
-        r = radius(-n[P] * u / _TWO_PI, n)
+        r = radius(-n[LEAD] * u / _TWO_PI, n)
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], -t[2], lift, near, rot, b)
     v = min(max(v, 0.0), b[P])
-    r = radius(v - b[P] * u / _TWO_PI, b)
+    r = radius(v - b[LEAD] * u / _TWO_PI, b)
     bx, by = r * math.cos(u), r * math.sin(u)
     x = rot[0, 0] * bx + rot[0, 1] * by + rot[0, 2] * v + t[0]
     y = rot[1, 0] * bx + rot[1, 1] * by + rot[1, 2] * v + t[1]

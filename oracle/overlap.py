@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from oracle.compiled import compiled
-from oracle.profile import P, bolt_profile, nut_profile, radius
+from oracle.profile import LEAD, P, bolt_profile, nut_profile, radius
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -80,14 +80,14 @@ def _bolt_coordinates(x: float, y: float, z: float, rot: Floats, t: Floats) -> t
 @compiled
 def _thread_gap(r: float, c: float, s: float, z: float, rot: Floats, t: Floats, bolt: Floats) -> float:
     bx, by, bz = _bolt_coordinates(r * c, r * s, z, rot, t)
-    return radius(bz - bolt[P] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
+    return radius(bz - bolt[LEAD] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
 
 
 @compiled
 def interval(theta: float, z: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> tuple[float, float, float]:
     """Radius of the nut's thread, radius at which the ray leaves the bolt's thread, and the nut's depth in it."""
     c, s = math.cos(theta), math.sin(theta)
-    inner = radius(z - nut[P] * theta / _TWO_PI, nut)
+    inner = radius(z - nut[LEAD] * theta / _TWO_PI, nut)
     depth = _thread_gap(inner, c, s, z, rot, t, bolt)
     if depth <= 0.0:
         return inner, inner, depth
@@ -122,9 +122,9 @@ def clearance(theta: float, z: float, rot: Floats, t: Floats, bolt: Floats, nut:
     """>= 0 exactly where the ray of ``theta`` and ``z`` meets the overlap; about a depth (see above)."""
     p = nut[P]
     c, s = math.cos(theta), math.sin(theta)
-    inner = radius(z - p * theta / _TWO_PI, nut)
+    inner = radius(z - nut[LEAD] * theta / _TWO_PI, nut)
     bx, by, bz = _bolt_coordinates(inner * c, inner * s, z, rot, t)
-    depth = radius(bz - p * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
+    depth = radius(bz - bolt[LEAD] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
     if depth <= 0.0 or 0.0 <= bz <= p:
         return min(depth, bz, p - bz)
     outward = rot[0, 2] * c + rot[1, 2] * s
@@ -143,7 +143,7 @@ def clearance(theta: float, z: float, rot: Floats, t: Floats, bolt: Floats, nut:
 
 @compiled
 def _edge_point(u: float, rot: Floats, t: Floats, bolt: Floats) -> tuple[float, float, float]:
-    r = radius(-bolt[P] * u / _TWO_PI, bolt)
+    r = radius(-bolt[LEAD] * u / _TWO_PI, bolt)
     bx, by = r * math.cos(u), r * math.sin(u)
     return (
         rot[0, 0] * bx + rot[0, 1] * by + t[0],
@@ -157,7 +157,7 @@ def edge_clearance(u: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats) 
     """How deep the point of the bolt's base outline at bolt azimuth ``u`` lies in the nut, its azimuth, its height."""
     x, y, z = _edge_point(u, rot, t, bolt)
     theta = math.atan2(y, x)
-    inside = math.sqrt(x * x + y * y) - radius(z - nut[P] * theta / _TWO_PI, nut)
+    inside = math.sqrt(x * x + y * y) - radius(z - nut[LEAD] * theta / _TWO_PI, nut)
     return min(inside, -z, z + nut[P]), theta, z
 
 
@@ -237,7 +237,7 @@ def _polish_grid(
                 at_z = min(max(mz + dz * j / 4.0, -p), 0.0)
                 # Steps follow the helix: overlaps of the threads are long along it and thin across.
                 at_t = mt + dt * i / 4.0
-                at_z = min(max(at_z + p * (at_t - mt) / _TWO_PI, -p), 0.0)
+                at_z = min(max(at_z + nut[LEAD] * (at_t - mt) / _TWO_PI, -p), 0.0)
                 v = clearance(at_t, at_z, rot, t, bolt, nut)
                 if v > best:
                     best, theta, z = v, at_t, at_z
@@ -461,7 +461,7 @@ def _flood(
         a, b = queue[head, 0], queue[head, 1]
         head += 1
         here_t = theta[seed] + a * step / r
-        here_z = min(max(z[seed] + b * step + p * a * step / r / _TWO_PI, -p), 0.0)
+        here_z = min(max(z[seed] + b * step + nut[LEAD] * a * step / r / _TWO_PI, -p), 0.0)
         m = _neighbour(seed, here_t, here_z, step, theta, z, value, parent, first_point, rot, t, bolt, nut)
         if m >= 0:
             _join(parent, m, seed)
@@ -472,7 +472,7 @@ def _flood(
                 if (na, nb) in seen or tail >= _FLOOD_CELLS:
                     continue
                 to_t = theta[seed] + na * step / r
-                to_z = min(max(z[seed] + nb * step + p * na * step / r / _TWO_PI, -p), 0.0)
+                to_z = min(max(z[seed] + nb * step + nut[LEAD] * na * step / r / _TWO_PI, -p), 0.0)
                 if clearance(to_t, to_z, rot, t, bolt, nut) < -JOIN:
                     continue
                 if not _open_path(here_t, here_z, to_t, to_z, 3, rot, t, bolt, nut):

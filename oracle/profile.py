@@ -15,7 +15,9 @@ from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 
-P, R_LARGE, R_SMALL, R_PITCH, COT, RHO_LARGE, RHO_SMALL, Q_LARGE, Q_SMALL, Q_FLANK_LARGE, Q_FLANK_SMALL = range(11)
+P, R_LARGE, R_SMALL, R_PITCH, COT, RHO_LARGE, RHO_SMALL, Q_LARGE, Q_SMALL, Q_FLANK_LARGE, Q_FLANK_SMALL, LEAD = range(
+    12
+)
 
 
 def _packed(pair: Pair, small: float, pitch: float, large: float, rho_small: float, rho_large: float) -> Floats:
@@ -40,12 +42,13 @@ def _packed(pair: Pair, small: float, pitch: float, large: float, rho_small: flo
             q_small,
             q_large + rho_large * cos,
             q_small - rho_small * cos,
+            p * pair.starts * (1 if pair.hand == "right" else -1),
         ]
     )
 
 
 def bolt_profile(pair: Pair) -> Floats:
-    """The bolt's packed profile, shape (11,)."""
+    """The bolt's packed profile, shape (12,)."""
     fit, form, p = pair.fit, pair.form, pair.thread_pitch
     return _packed(
         pair,
@@ -58,7 +61,7 @@ def bolt_profile(pair: Pair) -> Floats:
 
 
 def nut_profile(pair: Pair) -> Floats:
-    """The nut's packed profile, shape (11,)."""
+    """The nut's packed profile, shape (12,)."""
     fit, form, p = pair.fit, pair.form, pair.thread_pitch
     return _packed(
         pair,
@@ -111,5 +114,5 @@ def ridge_half_width(r: float, profile: Floats) -> float:
 @compiled
 def thread_gap(x: float, y: float, z: float, profile: Floats) -> float:
     """``f(s) - r`` at a point of the thread's frame: positive inside a bolt's thread, negative inside a nut's."""
-    s = z - profile[P] * math.atan2(y, x) / (2.0 * math.pi)
+    s = z - profile[LEAD] * math.atan2(y, x) / (2.0 * math.pi)
     return radius(s, profile) - math.sqrt(x * x + y * y)

@@ -7,14 +7,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.profile import P, radius
+from oracle.profile import LEAD, P, radius
 
 Floats = NDArray[np.float64]
 
 
 def axial_position(point: Floats, profile: Floats) -> float:
-    """``s = z - p theta / 2 pi`` of a point in the thread's own frame."""
-    return float(point[2] - profile[P] * math.atan2(point[1], point[0]) / (2.0 * math.pi))
+    """``s = z - lead theta / 2 pi`` of a point in the thread's own frame."""
+    return float(point[2] - profile[LEAD] * math.atan2(point[1], point[0]) / (2.0 * math.pi))
 
 
 def outside_thread(point: Floats, profile: Floats) -> float:
@@ -42,15 +42,15 @@ def outward(point: Floats, profile: Floats) -> Floats:
     """Unit normal of the thread's surface that points to greater radii, in the thread's frame."""
     r, azimuth = math.hypot(point[0], point[1]), math.atan2(point[1], point[0])
     steepness = slope(axial_position(point, profile), profile)
-    along = steepness * profile[P] / (2.0 * math.pi * r)
+    along = steepness * profile[LEAD] / (2.0 * math.pi * r)
     c, s = math.cos(azimuth), math.sin(azimuth)
     normal = np.array([c - along * s, s + along * c, -steepness])
     return np.asarray(normal / np.linalg.norm(normal))
 
 
 def edge_tangent(point: Floats, profile: Floats) -> Floats:
-    """Unit counter-clockwise tangent of the edge curve ``r = f(-p theta / 2 pi)`` at a point on it, thread's frame."""
-    azimuth, k = math.atan2(point[1], point[0]), profile[P] / (2.0 * math.pi)
+    """Unit counter-clockwise tangent of the edge ``r = f(-lead theta / 2 pi)`` at a point on it, thread's frame."""
+    azimuth, k = math.atan2(point[1], point[0]), profile[LEAD] / (2.0 * math.pi)
     r, dr = radius(-k * azimuth, profile), -k * slope(-k * azimuth, profile)
     c, s = math.cos(azimuth), math.sin(azimuth)
     tangent = np.array([dr * c - r * s, dr * s + r * c, 0.0])

@@ -68,7 +68,7 @@ def first_tangent(pair: Pair, state: ContactState) -> Floats:
     elif bolt_feature == "edge":
         tangent = rotation @ edge_tangent(np.array(first.point_bolt), bolt_profile(pair))
     else:
-        tangent = np.array([-point[1], point[0], pair.thread_pitch / (2.0 * math.pi)])
+        tangent = np.array([-point[1], point[0], pair.lead / (2.0 * math.pi)])
     counter_clockwise = point[0] * tangent[1] - point[1] * tangent[0]
     return np.asarray(math.copysign(1.0, counter_clockwise) * tangent / np.linalg.norm(tangent))
 

@@ -29,7 +29,7 @@ EDGES = (FeaturePair.EDGE_EDGE, FeaturePair.EDGE_SURFACE)
 def main() -> None:
     """Write the page."""
     network = stored_network(None, LIBRARY)
-    rows = windows_of_histories(network.histories, None, None, network.pair.thread_pitch, 1.0)
+    rows = windows_of_histories(network.histories, None, None, network.pair, 1.0)
     PAGE.write_text(page(network, rows))
 
 

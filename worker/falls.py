@@ -40,13 +40,13 @@ def falls_and_windows(
         name, angle = off_grid[0]
         print_status(f"computed: {name} {number_text(angle)} is not on the grid of library {network.library.id}")
         history = computed_history(pair, roll_deg, pitch_deg, network.options)
-        found = [windows_document(history, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)]
+        found = [windows_document(history, roll_deg, pitch_deg, pair, factor, least_pitches)]
     elif off_grid:
         name, angle = off_grid[0]
         valid = f"one of {', '.join(map(number_text, tilts))} deg; any angle where roll and pitch are both given"
         raise InvalidValueError(f"--{name}", angle, valid)
     else:
-        found = windows_of_histories(network.histories, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)
+        found = windows_of_histories(network.histories, roll_deg, pitch_deg, pair, factor, least_pitches)
     if span_deg == SPAN_DEG:
         return found
     return [

@@ -66,7 +66,7 @@ def get_computed_intervals(roll: RollPath, pitch: PitchPath, asked: RequestedPai
     pair = asked.pair
     shown = unit or pair.unit
     found = computed_history(pair, roll, pitch, asked.options)
-    history = history_document(found, roll, pitch, pair.thread_pitch, conversion_factor(pair.unit, shown))
+    history = history_document(found, roll, pitch, pair, conversion_factor(pair.unit, shown))
     return _computed(
         ComputedIntervals(designation=pair.designation, library=asked.library, unit=shown, history=history)
     )

@@ -111,7 +111,7 @@ def get_intervals(
     """The phase circle of an orientation, cut where any label changes or a height jumps, each boundary solved."""
     shown, factor = _unit(network, unit)
     stored = network.histories.orientations[network.orientation(roll, pitch)]
-    history = history_document(stored, roll, pitch, network.pair.thread_pitch, factor)
+    history = history_document(stored, roll, pitch, network.pair, factor)
     answer = IntervalsAnswer(library=network.library.id, unit=shown, history=history)
     return _json(request, answer, shown)
 
@@ -225,7 +225,7 @@ def list_windows(
 ) -> Response:
     """Where a bolt turned counter-clockwise goes down and how far, where it snaps, where it can go on down."""
     shown, factor = _unit(network, unit)
-    found = windows_of_histories(network.histories, roll, pitch, network.pair.thread_pitch, factor, least)
+    found = windows_of_histories(network.histories, roll, pitch, network.pair, factor, least)
     return _json(request, WindowsAnswer(library=network.library.id, unit=shown, orientations=found), shown)
 
 

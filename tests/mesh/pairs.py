@@ -7,6 +7,7 @@ from dataclasses import replace
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
+from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit
 
@@ -35,4 +36,6 @@ FINE_PITCH = Pair(
 )
 """Many times as wide as its pitch."""
 
-PAIRS = (UNC, M6, SHARP, FINE_PITCH)
+LEFT_OF_TWO_STARTS = replace(M6, designation="left, two starts", starts=2, hand=Hand.LEFT)
+
+PAIRS = (UNC, M6, SHARP, FINE_PITCH, LEFT_OF_TWO_STARTS)

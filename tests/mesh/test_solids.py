@@ -31,7 +31,7 @@ def profile_of(pair: Pair, part: Part) -> Profile:
 
 def thread_gaps(vertices: Floats, profile: Profile) -> Floats:
     """How far points are outside the true thread, along the radius."""
-    s = vertices[:, 2] - profile.thread_pitch * np.arctan2(vertices[:, 1], vertices[:, 0]) / (2.0 * math.pi)
+    s = vertices[:, 2] - profile.lead * np.arctan2(vertices[:, 1], vertices[:, 0]) / (2.0 * math.pi)
     return np.hypot(vertices[:, 0], vertices[:, 1]) - np.array([profile.radius(float(v)) for v in s])
 
 

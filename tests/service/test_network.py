@@ -327,7 +327,7 @@ def test_histories_off_the_grid_are_of_a_librarys_own_pair_and_tolerances(own_cl
         designation="M6x1",
         library=1,
         unit=OWN_PAIR.unit,
-        history=history_document(found, -4.0, 1.5, OWN_PAIR.thread_pitch, 1.0),
+        history=history_document(found, -4.0, 1.5, OWN_PAIR, 1.0),
     )
     curve = computed_heights(OWN_PAIR, -4.0, 1.5, OWN_OPTIONS)
     heights = _json(own_client, "/v1/histories/-4/1.5/heights?library=1")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from threadstate.thread.play import axial_play
@@ -58,8 +56,3 @@ def test_whitworth_is_round_and_its_radius_that_of_the_standard() -> None:
 def test_the_name_of_a_position_means_it(text: str) -> None:
     position = parsed_position(text)
     assert standard_pair(f"M6{position.name}") == pair_at(standard_thread("M6"), position)
-
-
-def test_a_left_hand_thread_is_refused() -> None:
-    with pytest.raises(ValueError, match="right-hand thread"):
-        pair_at(replace(standard_thread("M6"), left_hand=True), Position(0.0, 0.0))

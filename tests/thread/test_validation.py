@@ -152,7 +152,6 @@ def test_the_default_pair_is_that_of_its_classes() -> None:
         ("M6 at nan/0", "'nan/0'", "0.25/0.75"),
         ("M6 at", "'M6 at'", "M6x1-6g/6H"),
         ("M6 at least", "'least'", "minimum material"),
-        ("M6 LH", "'M6x1-6g/6H LH'", "right-hand"),
     ],
 )
 def test_what_names_no_pair_says_what_does(written: str, value: str, valid: str) -> None:

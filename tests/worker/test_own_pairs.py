@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ from tests.worker.conftest import CommandLine
 from threadstate.errors import InvalidValueError
 from threadstate.settings import DATABASE, DATABASE_PASSWORD_FILE, KEY, NAMES, PAIR, PORT, SERVICE
 from threadstate.state.solve import solve_pose
-from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
+from threadstate.thread.catalogue import RootForm, pair_by_designation, quarter_twenty_unc
+from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit
 from worker.pairs.selection import chosen_pair, pair_of_file
@@ -102,6 +104,13 @@ def test_dimensions_alone_make_a_pair(example: Pair) -> None:
     assert chosen_pair("M6x1", dimensions) == example
 
 
+def test_a_known_pair_is_made_left_hand_and_of_two_starts() -> None:
+    pair = chosen_pair("M6 of two starts", ["like=M6", "starts=2", "hand=left"])
+    known = pair_by_designation("M6")
+    assert pair == replace(known, designation="M6 of two starts", starts=2, hand=Hand.LEFT)
+    assert pair.lead == -2.0 * known.thread_pitch
+
+
 def test_without_a_pair_it_is_that_of_the_setting(
     command_line: CommandLine, file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -161,6 +170,10 @@ def test_what_a_file_may_not_say_is_named_with_file_and_key(
             [LIKE, "fit.bolt_major_diameter=0.26"],
             r"--dimension: fit\.bolt_major_diameter is 0.26; valid: at most",
         ),
+        ("own", [LIKE, "starts=0"], "--dimension: starts is 0; valid: a whole number, 1 to 4"),
+        ("own", [LIKE, "starts=5"], "--dimension: starts is 5; valid: a whole number, 1 to 4"),
+        ("own", [LIKE, "starts=1.5"], r"--dimension: starts is 1\.5; valid: a valid integer"),
+        ("own", [LIKE, "hand=both"], "--dimension: hand is 'both'; valid: 'right' or 'left'"),
         ("own", ["unit=mm"], r"--dimension: form\.name is None; valid: a value"),
     ],
 )

@@ -42,7 +42,7 @@ def second_derivative_bound(profile: Array) -> float:
 @kernel()
 def set_bounds(motion: Array, curve_profile: Array, solid_profile: Array, bounds: Array) -> None:
     """The constants of a search for the edge curve of ``curve_profile`` in the solid of ``solid_profile``."""
-    k = curve_profile[pk.P] / TWO_PI
+    k = abs(curve_profile[pk.LEAD]) / TWO_PI
     cot = solid_profile[pk.COT]
     r_low = 0.5 * solid_profile[pk.R_MINOR]
     k_r = k / r_low

@@ -187,11 +187,11 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
     curve = profile_numbers(curve_profile)
     solid = profile_numbers(solid_profile)
     p = curve_profile[pk.P]
-    k = p / TWO_PI
+    k = curve_profile[pk.LEAD] / TWO_PI
     sizes = (
         k,
         curve_profile[pk.R_MAJOR],
-        k * curve_profile[pk.COT],
+        abs(k) * curve_profile[pk.COT],
         solid_profile[pk.COT],
         0.5 * solid_profile[pk.R_MINOR],
     )

@@ -83,7 +83,7 @@ def second_time_derivative(
     At the start ``s`` is the helical coordinate and ``transverse_speed`` the speed across the axis: motion along the
     axis changes the gradient by f'' alone.
     """
-    k_r = profile[pk.P] / (TWO_PI * r_low)
+    k_r = abs(profile[pk.LEAD]) / (TWO_PI * r_low)
     s_rate = (1.0 + k_r) * speed
     low, high = pk.second_derivative_range(s, s_rate * span, profile)
     f2 = larger(high, -low)
@@ -119,7 +119,7 @@ def entry_time(
     end = min(stop, limit)
     speed = path[9]
     time_second_derivative = second_derivative * speed * speed + (lipschitz * speed if is_turn else 0.0)
-    k = profile[pk.P] / TWO_PI
+    k = profile[pk.LEAD] / TWO_PI
     tau = max(start, since)
     certain = False
     for step in range(400):

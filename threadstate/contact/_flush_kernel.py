@@ -36,7 +36,7 @@ def base_outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, 
 def distance_outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
     """How far the bolt's edge at ``theta`` lies outside the nut's outline, radially."""
     x, y, _, _ = base_outline(theta, pose, bolt)
-    return math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
+    return math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
 
 
 @kernel()
@@ -91,7 +91,7 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
         theta[i] = TWO_PI * i / SAMPLES
         x, y, dx, dy = base_outline(theta[i], pose, bolt)
         place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
-        over[i] = math.hypot(x, y) - pk.radius(-nut[pk.P] / TWO_PI * math.atan2(y, x), nut)
+        over[i] = math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
     for i in range(SAMPLES):
         if (over[i] > 0.0) != (over[i + 1] > 0.0):
             t = outline_root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)

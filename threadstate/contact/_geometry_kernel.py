@@ -55,7 +55,7 @@ def motion_scale(motion: Array, profile: Array) -> float:
 @kernel()
 def edge_point(theta: float, profile: Array) -> tuple[float, float, float, float]:
     """The edge point (x, y) at azimuth ``theta`` (rad) and its derivative by ``theta``."""
-    k = profile[pk.P] / TWO_PI
+    k = profile[pk.LEAD] / TWO_PI
     r, d1, _ = pk.jet(-k * theta, profile)
     c = math.cos(theta)
     s = math.sin(theta)
@@ -66,7 +66,7 @@ def edge_point(theta: float, profile: Array) -> tuple[float, float, float, float
 @kernel()
 def phi_and_gradient(x: float, y: float, z: float, profile: Array, sigma: float) -> tuple[float, float, float, float]:
     """``phi = sigma (r - f(s))``, positive inside the thread, and its gradient; undefined on the axis."""
-    k = profile[pk.P] / TWO_PI
+    k = profile[pk.LEAD] / TWO_PI
     r = math.sqrt(x * x + y * y)
     f, d1, _ = pk.jet(z - k * math.atan2(y, x), profile)
     turn = d1 * k / (r * r)

@@ -149,7 +149,7 @@ def edge_point_overlaps_from(
 @kernel()
 def set_edge_point_path(theta: float, motion: Array, curve_profile: Array, path: Array) -> None:
     """Sets the path of the edge point at azimuth ``theta``."""
-    r = pk.radius(-curve_profile[pk.P] / TWO_PI * theta, curve_profile)
+    r = pk.radius(-curve_profile[pk.LEAD] / TWO_PI * theta, curve_profile)
     set_path(r * math.cos(theta), r * math.sin(theta), motion, path)
 
 

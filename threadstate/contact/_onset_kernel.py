@@ -50,7 +50,7 @@ def set_jet(
     """Sets g and phi, whose zeros are onsets, and their derivatives at one edge point and time."""
     is_turn = motion[M_KIND] != 0.0
     sigma = motion[M_SIGMA]
-    k = curve_profile[pk.P] / TWO_PI
+    k = curve_profile[pk.LEAD] / TWO_PI
     r, d1, d2 = pk.jet(-k * theta, curve_profile)
     c = math.cos(theta)
     s = math.sin(theta)

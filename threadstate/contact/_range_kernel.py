@@ -103,7 +103,7 @@ def ranges(
     sin_theta, cos_theta = sine_cosine(theta)
     r, slope, u = radius_and_slope(-k * theta, curve)
     dr = -k * slope
-    r2_low, r2_high = second_derivative_range(u, k * a, curve)
+    r2_low, r2_high = second_derivative_range(u, abs(k) * a, curve)
     r2_low *= k * k
     r2_high *= k * k
     r2_bound = larger(r2_high, -r2_low)
@@ -156,7 +156,7 @@ def ranges(
     c2 = r2_bound + r_bound + 2.0 * r1_bound
     r_low = larger(radius - c1 * a - speed_bound * b, r_floor)
     inverse_r = 1.0 / r_low
-    k_r_bound = k * inverse_r
+    k_r_bound = abs(k) * inverse_r
     azimuth_change = (c1 * a + speed_bound * b) * inverse_r
     direction_change = a + turning * b + azimuth_change
     change_by_time = b * (turning + speed_bound * inverse_r)

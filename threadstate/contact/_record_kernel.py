@@ -58,7 +58,8 @@ P_STAGE, P_PAIR, P_POINT, P_BOLT_POINT, P_NORMAL, P_BOLT_REGION, P_NUT_REGION, P
     14,
 )
 POINT_SIZE = 15
-MAX_RECORD_CONTACTS = 12
+MAX_RECORD_CONTACTS = 16
+"""The corners of four strips of flank, on which a level bolt of four starts rests."""
 RECORD_SIZE = O_CONTACT + MAX_RECORD_CONTACTS * POINT_SIZE
 
 POSITIVE_FLANK = 2
@@ -114,7 +115,7 @@ def append_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Ar
     c[P_POINT], c[P_POINT + 1], c[P_POINT + 2] = x, y, z
     c[P_BOLT_POINT], c[P_BOLT_POINT + 1], c[P_BOLT_POINT + 2] = bx, by, bz
     set_normal(pair, contact, pose, bolt, nut, c)
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     if pair == BASE_EDGE:
         c[P_BOLT_REGION] = FLAT_FACE
         c[P_BOLT_MARGIN] = pk.radius(-k * math.atan2(by, bx), bolt) - math.hypot(bx, by)
@@ -184,7 +185,7 @@ def append_flush_point(
         record[O_STATUS] = UNRESOLVED
         return
     c = record[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     c[P_STAGE] = stage
     c[P_PAIR] = FLUSH
     c[P_POINT], c[P_POINT + 1], c[P_POINT + 2] = x, y, 0.0

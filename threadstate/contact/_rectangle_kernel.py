@@ -71,11 +71,11 @@ def classify_rectangle(
     z = rect[R_Z]
     h = rect[R_HALF_THETA]
     hz = rect[R_HALF_Z]
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     cot = nut[pk.COT]
     c1 = bounds[B_CURVE_DERIVATIVE]
     largest_radius = bolt[pk.R_MAJOR]
-    hs = hz + k * h
+    hs = hz + abs(k) * h
     r_b, slope_b, _ = pk.jet(z - k * theta, bolt)
     cosine = math.cos(theta)
     sine = math.sin(theta)
@@ -90,7 +90,7 @@ def classify_rectangle(
     bolt_f2_low, bolt_f2_high = pk.second_derivative_range(z - k * theta, hs, bolt)
     bolt_f2 = larger(bolt_f2_high, -bolt_f2_low)
     extent = c1 * h + hs * (1.0 + bolt[pk.COT])
-    k_r = k / bounds[B_LEAST_RADIUS]
+    k_r = abs(k) / bounds[B_LEAST_RADIUS]
     curvature_factor = (cot * k_r * 2.0 + 1.0) / bounds[B_LEAST_RADIUS]
     v = path[9] + (extent if is_turn else 0.0)
     fastest = bounds[B_LIPSCHITZ] * v
@@ -123,8 +123,8 @@ def classify_rectangle(
             axis_distance_ratio = (
                 bounds[B_OFFSET] + bounds[B_OFFSET_RATE] * (tau + span) + largest_radius * t * t + (z + hz) * t
             ) / r_low
-            s_hh = t * largest_radius + (k / r_low) * axis_distance_ratio * largest_radius * 4.0
-            s_hz = t * bolt[pk.COT] + (k / r_low) * axis_distance_ratio * (2.0 + bolt[pk.COT])
+            s_hh = t * largest_radius + (abs(k) / r_low) * axis_distance_ratio * largest_radius * 4.0
+            s_hz = t * bolt[pk.COT] + (abs(k) / r_low) * axis_distance_ratio * (2.0 + bolt[pk.COT])
             turn_angle = span if is_turn else 0.0
             s_h = s_h0 + s_hh * h + s_hz * hs + c1 * turn_angle
             s_z = s_z0 + s_hz * h + t * bolt_f2 * hs + (1.0 + bolt[pk.COT]) * turn_angle
@@ -173,7 +173,7 @@ def classify_rectangle(
 def touch_time(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array) -> float:
     """When the middle of a rectangle meets the nut's thread, a little beyond the limit at the most; else NEVER."""
     theta = rect[R_THETA]
-    r = pk.radius(rect[R_Z] - bolt[pk.P] / TWO_PI * theta, bolt)
+    r = pk.radius(rect[R_Z] - bolt[pk.LEAD] / TWO_PI * theta, bolt)
     set_path_from(r * math.cos(theta), r * math.sin(theta), rect[R_Z], motion, path)
     tau, how = entry_time(
         path,

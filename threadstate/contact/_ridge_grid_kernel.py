@@ -82,7 +82,7 @@ def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
         y = grid[G_SIN + j - VECTOR_WIDTH]
         grid[G_COS + j] = x * c - y * s
         grid[G_SIN + j] = x * s + y * c
-    advance = bolt[pk.P] / azimuths
+    advance = bolt[pk.LEAD] / azimuths
     numbers = profile_numbers(bolt)
     for j in range(columns):
         r, _, _ = radius_and_slope(-advance * j, numbers)
@@ -111,8 +111,8 @@ def set_slopes(
     pieces: int, first: int, padded_columns: int, azimuths: int, placement: Array, bolt: Array, nut: Array, grid: Array
 ) -> None:
     """Sets B at all ends of ``pieces`` pieces in ``padded_columns`` columns from ``first`` on."""
-    k = bolt[pk.P] / TWO_PI
-    advance = bolt[pk.P] / azimuths
+    k = bolt[pk.LEAD] / TWO_PI
+    advance = bolt[pk.LEAD] / azimuths
     bolt_numbers = profile_numbers(bolt)
     nut_numbers = profile_numbers(nut)
     placement_values = placement_numbers(placement)
@@ -164,7 +164,7 @@ def locate_crossings(count: int, placement: Array, bolt: Array, nut: Array, cros
 
     The slope at a retained end is reduced as Anderson and Bjorck (1973) do, for superlinear convergence.
     """
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     bolt_numbers = profile_numbers(bolt)
     nut_numbers = profile_numbers(nut)
     placement_values = placement_numbers(placement)

@@ -87,7 +87,7 @@ def nearby_maximum(
     That is done only where phi rises, and by its rate vanishes within ``time_range``. Also returns whether it
     converged.
     """
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     p = bolt[pk.P]
     ascent_steps = 0
     set_jet(theta, z, placement, bolt, nut, jet)
@@ -137,7 +137,7 @@ def follow_maximum(
     ``placement`` is that of the bolt at ``tau``; ``later_placement`` and ``jet`` are scratch. Returns the number of
     contacts found. A point that still moves after 60 steps is not followed further; known ones take far fewer.
     """
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     p = bolt[pk.P]
     step = motion_scale(motion, bolt)
     farthest = MAX_FOLLOW_STEP * step
@@ -204,7 +204,7 @@ def ridge_maxima(
     locate_crossings(listed, placement, bolt, nut, crossings)
     places = list_maxima(
         listed,
-        bolt[pk.P] / azimuths,
+        bolt[pk.LEAD] / azimuths,
         TWO_PI / azimuths,
         MAX_Z_GAP * bolt[pk.P],
         MAX_PHI_GAP * bolt[pk.P],
@@ -250,7 +250,7 @@ def deepest_thread_point(
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
         return False, 0.0, 0.0, 0.0
-    r = pk.radius(at_z - p / TWO_PI * at_theta, bolt)
+    r = pk.radius(at_z - bolt[pk.LEAD] / TWO_PI * at_theta, bolt)
     return True, r * math.cos(at_theta), r * math.sin(at_theta), at_z
 
 

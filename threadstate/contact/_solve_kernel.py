@@ -65,7 +65,7 @@ def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array
         _, _, x, y = edge_point(contact[K_NUT_AZIMUTH], nut)
         z = 0.0
     elif pair == THREAD_THREAD:
-        x, y, z = -contact[K_Y], contact[K_X], bolt[pk.P] / TWO_PI
+        x, y, z = -contact[K_Y], contact[K_X], bolt[pk.LEAD] / TWO_PI
     else:
         _, _, dx, dy = edge_point(contact[K_BOLT_AZIMUTH], bolt)
         x = pose[0] * dx + pose[1] * dy

@@ -202,7 +202,7 @@ def on_bolt_edge(contact: Array, pose: Array, bolt: Array) -> bool:
     if int(contact[K_PAIR]) != BASE_EDGE:
         return abs(pose[2] * x + pose[5] * y + pose[8] * z) < near
     r = math.hypot(pose[0] * x + pose[3] * y + pose[6] * z, pose[1] * x + pose[4] * y + pose[7] * z)
-    return abs(r - pk.radius(-bolt[pk.P] / TWO_PI * contact[K_BOLT_AZIMUTH], bolt)) < near
+    return abs(r - pk.radius(-bolt[pk.LEAD] / TWO_PI * contact[K_BOLT_AZIMUTH], bolt)) < near
 
 
 @kernel()
@@ -212,7 +212,7 @@ def on_nut_edge(contact: Array, nut: Array) -> bool:
     if int(contact[K_PAIR]) != EDGE_SURFACE:
         return abs(contact[K_Z]) < near
     r = math.hypot(contact[K_X], contact[K_Y])
-    return abs(r - pk.radius(-nut[pk.P] / TWO_PI * contact[K_NUT_AZIMUTH], nut)) < near
+    return abs(r - pk.radius(-nut[pk.LEAD] / TWO_PI * contact[K_NUT_AZIMUTH], nut)) < near
 
 
 @kernel()

@@ -65,7 +65,7 @@ def meets_surface_first(pose: Array, bolt: Array, nut: Array, out: Array) -> boo
     px = pose[0] * x + pose[1] * y
     py = pose[3] * x + pose[4] * y
     other = math.atan2(py, px)
-    if not math.hypot(px, py) >= pk.radius(-bolt[pk.P] / TWO_PI * other, nut):
+    if not math.hypot(px, py) >= pk.radius(-bolt[pk.LEAD] / TWO_PI * other, nut):
         return False
     out[K_TIME] = -(pose[6] * x + pose[7] * y)
     out[K_PAIR] = EDGE_SURFACE

@@ -124,7 +124,7 @@ def rotated(x: float, y: float, z: float, placement: Array) -> tuple[float, floa
 @kernel()
 def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array) -> None:
     """Phi and its derivatives at (theta, z) of the bolt's thread, for a placement."""
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     r_b, slope, second_derivative = pk.jet(z - k * theta, bolt)
     cos = math.cos(theta)
     sin = math.sin(theta)
@@ -204,7 +204,7 @@ def newton_tangency(
 
     Returns the number of contacts found.
     """
-    k = bolt[pk.P] / TWO_PI
+    k = bolt[pk.LEAD] / TWO_PI
     theta = theta_start
     z = z_start
     set_placement(motion, tau, placement)

@@ -36,7 +36,7 @@ class LevelContact:
 def level_contact(pair: Pair, phase: float) -> LevelContact:
     """The first contact of a level bolt at ``phase`` (rad); lengths in the pair's unit."""
     p = pair.thread_pitch
-    shift = p * phase / TWO_PI
+    shift = pair.lead * phase / TWO_PI
     shift -= p * math.floor(shift / p + 0.5)
     play = axial_play(pair)
     if abs(shift) < play:
@@ -67,20 +67,21 @@ def solve_level(pair: Pair, phase: float, record: np.ndarray) -> None:
 
 
 def strip_extremes(pair: Pair, height: float) -> tuple[tuple[float, float, float], ...]:
-    """The corners of the strip of flank on which a level bolt in phase rests: four points of the nut's frame.
+    """The corners of the strips of flank on which a level bolt in phase rests, one a start: four points each.
 
-    Lengths, ``height`` of the bolt's origin too, are in the pair's unit.
+    They are in the nut's frame; lengths, ``height`` of the bolt's origin too, are in the pair's unit.
 
-    The strip is where the nut's positive flank lies between the bolt's base and the nut's surface, over the radii at
-    which both profiles are straight: at each end of that range, at the top and at the bottom of the strip.
+    A strip is where the nut's positive flank lies between the bolt's base and the nut's surface, over the radii at
+    which both profiles are straight: at each end of that range, at its top and at its bottom.
     """
-    k = pair.thread_pitch / TWO_PI
+    k, period = pair.nut.advance, TWO_PI / pair.starts
     low = max(pair.bolt.radius(pair.bolt.boundaries[1]), pair.nut.radius(pair.nut.boundaries[1]))
     high = min(pair.bolt.radius(pair.bolt.boundaries[2]), pair.nut.radius(pair.nut.boundaries[2]))
     corners = []
-    for radius in (low, high):
-        s = pair.nut.inverse(radius)
-        for z in (0.0, height):
-            theta = (z - s) / k
-            corners.append((radius * math.cos(theta), radius * math.sin(theta), z))
+    for start in range(pair.starts):
+        for radius in (low, high):
+            s = pair.nut.inverse(radius)
+            for z in (0.0, height):
+                theta = (z - s) / k + start * period
+                corners.append((radius * math.cos(theta), radius * math.sin(theta), z))
     return tuple(corners)

@@ -80,7 +80,7 @@ def fold_near(pair: Pair, roll_deg: float, pitch_deg: float, phase_deg: float, a
 
 def _outline(profile: Profile, azimuth: float) -> tuple[float, float, float]:
     """The radius of a part's edge at an azimuth (rad), and its first and second derivative."""
-    k = profile.thread_pitch / (2.0 * math.pi)
+    k = profile.advance
     radius, slope, bend = profile.derivatives(-k * azimuth)
     return radius, -k * slope, k * k * bend
 

@@ -29,13 +29,13 @@ class Course:
     start_height: float
     end_height: float
 
-    def rate_per_lead(self, thread_pitch: float) -> float:
-        """Mean rate of the height, as a multiple of the lead's thread_pitch / 360 per degree.
+    def rate_per_lead(self, lead: float) -> float:
+        """Mean rate of the height, as a multiple of the lead's per degree; ``lead`` in the pair's unit.
 
         It is 1 where the bolt's edge slides on the nut's thread: the bolt turns about the nut's axis, along which
         its thread repeats itself.
         """
-        return (self.end_height - self.start_height) / (self.end_deg - self.start_deg) * CIRCLE_DEG / thread_pitch
+        return (self.end_height - self.start_height) / (self.end_deg - self.start_deg) * CIRCLE_DEG / lead
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,7 @@ def depths(points: Array, T: Array, profile: Array, sigma: float, out: Array) ->
     ``T`` (4, 4) takes them to the frame of the solid, whose thread is ``profile``; ``sigma`` is +1 for the nut, -1 for
     the bolt.
     """
-    k = profile[pk.P] / TWO_PI
+    k = profile[pk.LEAD] / TWO_PI
     for i in range(points.shape[0]):
         a, b, c = points[i, 0], points[i, 1], points[i, 2]
         x = T[0, 0] * a + T[0, 1] * b + T[0, 2] * c + T[0, 3]

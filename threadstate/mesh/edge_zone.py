@@ -45,8 +45,7 @@ def edge_zone_part(
     rim[far.high + offset] = True
     faces = np.where(rim[thread].any(axis=1), Face.FAR_END, Face.THREAD).astype(np.int8)
     triangles = np.vstack([thread if outward else thread[:, ::-1], cut.triangles[:, ::-1]])
-    # By half a turn about y the thread comes to lie on itself: its profile is symmetric.
-    placed = vertices if outward else vertices * (-1.0, 1.0, -1.0) + 0.0
+    placed = vertices if outward else _turned_upside_down(vertices, profile.starts)
     azimuths = _azimuths(placed[fine.low])
     return Solid(
         vertices=placed,
@@ -54,6 +53,17 @@ def edge_zone_part(
         faces=np.concatenate([faces, np.full(len(cut.triangles), Face.CUT, dtype=np.int8)]),
         edge=fine.low[np.argsort(azimuths)],
     )
+
+
+def _turned_upside_down(vertices: Floats, starts: int) -> Floats:
+    """By half a turn about an axis across it, at an odd multiple of a quarter turn over the starts, a thread comes to
+    lie on itself: its profile is symmetric.
+    """
+    if starts % 2:
+        return np.asarray(vertices * (-1.0, 1.0, -1.0) + 0.0)
+    cosine, sine = math.cos(math.pi / starts), math.sin(math.pi / starts)
+    x, y, z = vertices.T
+    return np.column_stack([cosine * x + sine * y, sine * x - cosine * y, -z])
 
 
 def _joined(low: ThreadSurface, high: ThreadSurface) -> Ints:

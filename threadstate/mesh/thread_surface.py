@@ -15,6 +15,7 @@ import numpy as np
 
 from threadstate.mesh.presets import Tessellation
 from threadstate.mesh.solid import Floats, Ints, strip
+from threadstate.thread.hand import Hand
 from threadstate.thread.profile import Profile
 
 FEWEST_AROUND, FEWEST_ON_FILLET = 16, 2
@@ -46,7 +47,7 @@ def thread_surface(
     is a whole pitch higher.
     """
     cuts = profile_cuts(profile, tessellation, part_size)
-    places = _column_places(cuts, _around(profile, tessellation))
+    places = _column_places(cuts, _around(profile, tessellation), profile.starts)
     columns = [_column(cuts, place, height) for place in places]
     counts = np.array([len(column) for column in columns])
     offsets = np.concatenate([[0], np.cumsum(counts)])
@@ -55,23 +56,27 @@ def thread_surface(
     rise = profile.thread_pitch if height is None else height
     heights = np.concatenate([_heights(s, z_low, rise) for s in axial])
     offset = math.fmod(z_low, profile.thread_pitch)
-    azimuths = np.repeat([2.0 * math.pi * (offset - s[0]) / profile.thread_pitch for s in axial], counts)
+    azimuths = np.repeat([2.0 * math.pi * (offset - s[0]) / profile.lead for s in axial], counts)
     vertices = np.column_stack([radii * np.cos(azimuths), radii * np.sin(azimuths), heights])
 
     triangles: list[tuple[int, int, int]] = []
     for i, column in enumerate(columns):
         after = (i + 1) % len(columns)
-        # One turn on, the same helix is a period of the profile lower.
-        next_column = columns[after] - (len(cuts) - 1 if after == 0 else 0)
+        # One turn on, the same helix is a lead lower.
+        next_column = columns[after] - (profile.starts * (len(cuts) - 1) if after == 0 else 0)
         triangles += strip(column, next_column, int(offsets[i]), int(offsets[after]))
-    return ThreadSurface(vertices, np.array(triangles, dtype=np.int64), offsets[:-1], offsets[1:] - 1)
+    faces, low, high = np.array(triangles, dtype=np.int64), offsets[:-1], offsets[1:] - 1
+    if profile.hand is Hand.LEFT:
+        # Columns follow each other clockwise.
+        faces, low, high = faces[:, ::-1], low[::-1], high[::-1]
+    return ThreadSurface(vertices, faces, low, high)
 
 
 def outline(profile: Profile, tessellation: Tessellation, part_size: float) -> Floats:
     """The points at which a surface that begins at z = 0 is cut there, by growing azimuth; (n, 3), z = 0."""
     cuts = profile_cuts(profile, tessellation, part_size)
-    s = _axial(cuts, np.array(_column_places(cuts, _around(profile, tessellation))))
-    azimuths = -2.0 * math.pi * s / profile.thread_pitch
+    s = _axial(cuts, np.array(_column_places(cuts, _around(profile, tessellation), profile.starts)))
+    azimuths = -2.0 * math.pi * s / profile.lead
     radii = np.array([profile.radius(place) for place in s.tolist()])
     points = np.column_stack([radii * np.cos(azimuths), radii * np.sin(azimuths), np.zeros(len(s))])
     return points[np.argsort(azimuths % (2.0 * math.pi))]
@@ -103,8 +108,8 @@ def _flank_strips(profile: Profile, tessellation: Tessellation) -> int:
     """
     _, flank, crest, _ = profile.boundaries
     slope = 1.0 / math.tan(math.radians(profile.flank_half_angle_deg))
-    lead = profile.thread_pitch / (math.pi * profile.minor_diameter)
-    twist = slope * slope * lead / math.sqrt(1.0 + slope * slope * (1.0 + lead * lead))
+    climb = abs(profile.lead) / (math.pi * profile.minor_diameter)
+    twist = slope * slope * climb / math.sqrt(1.0 + slope * slope * (1.0 + climb * climb))
     d_theta = 2.0 * math.pi / _around(profile, tessellation)
     chord = 0.5 * tessellation.chord_height * profile.thread_pitch
     return max(FEWEST_ON_STRAIGHT, math.ceil((crest - flank) * d_theta * twist / 4.0 / chord))
@@ -134,14 +139,17 @@ def _angle_of_chord(radius: float, chord_height: float) -> float:
     return 2.0 * math.acos(1.0 - min(chord_height / radius, 1.0 - math.sqrt(0.5)))
 
 
-def _column_places(cuts: Floats, around: int) -> list[float]:
-    """Where columns begin, as fractional indices of the cuts, descending: at every cut, and evenly between."""
+def _column_places(cuts: Floats, around: int, starts: int) -> list[float]:
+    """Where columns begin, as fractional indices of the cuts, descending: at every cut, and evenly between.
+
+    They go round once, over as many periods of the profile as there are starts.
+    """
     period = cuts[-1] - cuts[0]
     places = []
     for i in range(len(cuts) - 2, -1, -1):
-        n = math.ceil((cuts[i + 1] - cuts[i]) / period * around - 1e-9)
+        n = math.ceil((cuts[i + 1] - cuts[i]) / period * around / starts - 1e-9)
         places += [i + 1.0] + [i + 1.0 - k / n for k in range(1, n)]
-    return places
+    return [place - turn * (len(cuts) - 1) for turn in range(starts) for place in places]
 
 
 def _column(cuts: Floats, place: float, height: float | None) -> Floats:

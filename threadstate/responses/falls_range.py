@@ -41,7 +41,7 @@ def computed_falls(
     if not 0.0 < span_deg <= LARGEST_SPAN_DEG:
         raise InvalidValueError("span", span_deg, f"above 0, at most {number_text(LARGEST_SPAN_DEG)} deg")
     falls = falls_of(height_curve(pair, roll_deg, pitch_deg, options), pair.thread_pitch, span_deg)
-    return falls_document(falls, roll_deg, pitch_deg, pair.thread_pitch, factor, least_pitches)
+    return falls_document(falls, roll_deg, pitch_deg, pair, factor, least_pitches)
 
 
 def tilts_within(roll_deg: float, pitch_deg: float, tolerance_deg: float, steps: int = STEPS) -> list[Tilt]:

@@ -35,12 +35,12 @@ def computed_history(
 
 
 def history_document(
-    history: StoredHistory, roll_deg: float, pitch_deg: float, thread_pitch: float, factor: float
+    history: StoredHistory, roll_deg: float, pitch_deg: float, pair: Pair, factor: float
 ) -> OrientationHistoryDocument:
     """The document of an orientation's history, lengths multiplied by ``factor``; ``thread_pitch`` before that."""
     keys = [cell.formation.key for cell in history.cells]
     return OrientationHistoryDocument(
-        **dict(windows_document(history, roll_deg, pitch_deg, thread_pitch, factor)),
+        **dict(windows_document(history, roll_deg, pitch_deg, pair, factor)),
         intervals=[
             _interval(cell, heights, factor) for cell, heights in zip(history.cells, history.heights, strict=True)
         ],

@@ -14,17 +14,18 @@ from threadstate.responses.documents import (
     WindowDocument,
 )
 from threadstate.stored_histories.model import StoredHistories, StoredHistory
+from threadstate.thread.pair import Pair
 
 
 def falls_document(
     falls: Falls,
     roll_deg: float,
     pitch_deg: float,
-    thread_pitch: float,
+    pair: Pair,
     factor: float,
     least_pitches: float = SNAP_PITCHES,
 ) -> FallsDocument:
-    """The document of an orientation's falls, lengths multiplied by ``factor``; ``thread_pitch`` before that.
+    """The document of an orientation's falls, lengths in the pair's unit multiplied by ``factor``.
 
     A steepest fall of more than ``least_pitches`` thread pitches is that of a snap.
     """
@@ -34,7 +35,7 @@ def falls_document(
         pitch=pitch_deg + 0.0,
         steepest=0.0 if steepest is None else steepest.fall * factor,
         steepest_from=None if steepest is None else steepest.start_deg,
-        snap=_snap(falls, least_pitches * thread_pitch, factor),
+        snap=_snap(falls, least_pitches * pair.thread_pitch, factor),
         descents=[_descent(descent, factor) for descent in falls.descents],
     )
 
@@ -43,13 +44,13 @@ def windows_document(
     history: StoredHistory,
     roll_deg: float,
     pitch_deg: float,
-    thread_pitch: float,
+    pair: Pair,
     factor: float,
     least_pitches: float = SNAP_PITCHES,
 ) -> OrientationWindowsDocument:
     """The document of an orientation's falls and windows; see :func:`falls_document`."""
-    falls = falls_document(history.falls, roll_deg, pitch_deg, thread_pitch, factor, least_pitches)
-    windows = [_window(window, roll_deg, pitch_deg, thread_pitch, factor) for window in history.windows]
+    falls = falls_document(history.falls, roll_deg, pitch_deg, pair, factor, least_pitches)
+    windows = [_window(window, roll_deg, pitch_deg, pair, factor) for window in history.windows]
     return OrientationWindowsDocument(**dict(falls), windows=windows)
 
 
@@ -57,7 +58,7 @@ def windows_of_histories(
     histories: StoredHistories,
     roll_deg: float | None,
     pitch_deg: float | None,
-    thread_pitch: float,
+    pair: Pair,
     factor: float,
     least_pitches: float = SNAP_PITCHES,
 ) -> list[OrientationWindowsDocument]:
@@ -66,7 +67,7 @@ def windows_of_histories(
     for number, history in enumerate(histories.orientations):
         roll, pitch = histories.tilt_deg(number)
         if roll_deg in (None, roll) and pitch_deg in (None, pitch):
-            found.append(windows_document(history, roll, pitch, thread_pitch, factor, least_pitches))
+            found.append(windows_document(history, roll, pitch, pair, factor, least_pitches))
     return found
 
 
@@ -110,7 +111,7 @@ def _jump(jump: Jump, factor: float) -> JumpDocument:
     )
 
 
-def _window(window: Window, roll_deg: float, pitch_deg: float, thread_pitch: float, factor: float) -> WindowDocument:
+def _window(window: Window, roll_deg: float, pitch_deg: float, pair: Pair, factor: float) -> WindowDocument:
     return WindowDocument(
         roll=roll_deg + 0.0,
         pitch=pitch_deg + 0.0,
@@ -122,16 +123,16 @@ def _window(window: Window, roll_deg: float, pitch_deg: float, thread_pitch: flo
         leave_height=window.leave_height * factor,
         lowest_phase=window.lowest_deg % 360.0,
         lowest_height=window.lowest_height * factor,
-        courses=[_course(course, thread_pitch, factor) for course in window.courses],
+        courses=[_course(course, pair.lead, factor) for course in window.courses],
     )
 
 
-def _course(course: Course, thread_pitch: float, factor: float) -> CourseDocument:
+def _course(course: Course, lead: float, factor: float) -> CourseDocument:
     return CourseDocument(
         features=course.features,
         start=course.start_deg,
         end=course.end_deg,
         start_height=course.start_height * factor,
         end_height=course.end_height * factor,
-        rate=course.rate_per_lead(thread_pitch),
+        rate=course.rate_per_lead(lead),
     )

@@ -96,28 +96,33 @@ STRIP_SAMPLES = 33
 """Points of each of the two curves of a strip's outline."""
 
 
+STRIP_CORNERS = 4
+
+
 def strip_outline(corners: Sequence[Contact]) -> tuple[list[tuple[Vector, Vector]], float]:
-    """Points and normals on the upper and the lower curve of a strip of flank, and how far the strip lies outside.
+    """Points and normals on the upper and the lower curve of strips of flank, and how far a strip lies outside.
 
     On a flank the height grows linearly with radius and azimuth: a curve of one height is a spiral of Archimedes, and
     the normal's slopes along the radius and, times the radius, across it are those of its corners. Between two samples
     points and normals leave their chords by at most an eighth of the step of azimuth squared.
     """
     found, gap = [], 0.0
-    for height in sorted({contact.point[2] for contact in corners}):
-        first, last = (contact for contact in corners if contact.point[2] == height)
-        (azimuth, start), end = _polar(first), _polar(last)[1]
-        ex, ey, ez = first.normal
-        along = (ex * math.cos(azimuth) + ey * math.sin(azimuth)) / ez
-        across = (ey * math.cos(azimuth) - ex * math.sin(azimuth)) / ez * start
-        turn = -along / across * (end - start)
-        for share in np.linspace(0.0, 1.0, STRIP_SAMPLES).tolist():
-            angle, radius = azimuth + share * turn, start + share * (end - start)
-            cosine, sine, side = math.cos(angle), math.sin(angle), across / radius
-            size = math.sqrt(1.0 + along * along + side * side)
-            normal = (along * cosine - side * sine) / size, (along * sine + side * cosine) / size, 1.0 / size
-            found.append(((radius * cosine, radius * sine, height), normal))
-        gap = max(gap, max(start, end) * (turn / (STRIP_SAMPLES - 1)) ** 2 / 8.0)
+    for number in range(0, len(corners), STRIP_CORNERS):
+        strip = corners[number : number + STRIP_CORNERS]
+        for height in sorted({contact.point[2] for contact in strip}):
+            first, last = (contact for contact in strip if contact.point[2] == height)
+            (azimuth, start), end = _polar(first), _polar(last)[1]
+            ex, ey, ez = first.normal
+            along = (ex * math.cos(azimuth) + ey * math.sin(azimuth)) / ez
+            across = (ey * math.cos(azimuth) - ex * math.sin(azimuth)) / ez * start
+            turn = -along / across * (end - start)
+            for share in np.linspace(0.0, 1.0, STRIP_SAMPLES).tolist():
+                angle, radius = azimuth + share * turn, start + share * (end - start)
+                cosine, sine, side = math.cos(angle), math.sin(angle), across / radius
+                size = math.sqrt(1.0 + along * along + side * side)
+                normal = (along * cosine - side * sine) / size, (along * sine + side * cosine) / size, 1.0 / size
+                found.append(((radius * cosine, radius * sine, height), normal))
+            gap = max(gap, max(start, end) * (turn / (STRIP_SAMPLES - 1)) ** 2 / 8.0)
     return found, gap
 
 
@@ -156,7 +161,7 @@ def patch_hull(pair: Pair, pose: StagePose) -> tuple[list[tuple[float, float, fl
 
 def _largest_curvature(pair: Pair) -> float:
     """A bound of the curvature of the bolt's outline ``r = f(-k theta)``, over the pair's length unit."""
-    k = pair.thread_pitch / TWO_PI
+    k = pair.bolt.advance
     slope = k / math.tan(math.radians(pair.form.flank_half_angle_deg))
     low = pair.bolt.minor_diameter / 2.0
     high = pair.bolt.major_diameter / 2.0

@@ -1,8 +1,9 @@
 """The profile as pure functions of a number and the packed parameters.
 
 The parameters are ``Profile.packed``: [p, r_minor, u_flat, u_flank, r_pitch, cot(flank), u_crest, u_top, r_major,
-rho_minor, rho_major], where the ``u`` are the boundaries of the rising half period, -p/4 <= u <= p/4:
-flat | fillet | flank | fillet | flat. The public interface is ``threadstate.thread.profile``.
+rho_minor, rho_major, lead], where the ``u`` are the boundaries of the rising half period, -p/4 <= u <= p/4:
+flat | fillet | flank | fillet | flat, and the ``lead`` is negative of a left-hand thread. The
+public interface is ``threadstate.thread.profile``.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from threadstate._compile import kernel
 
 Array = NDArray[np.float64]
 
-P, R_MINOR, U_FLAT, U_FLANK, R_PITCH, COT, U_CREST, U_TOP, R_MAJOR, RHO_MINOR, RHO_MAJOR = range(11)
-PROFILE_SIZE = 11
+P, R_MINOR, U_FLAT, U_FLANK, R_PITCH, COT, U_CREST, U_TOP, R_MAJOR, RHO_MINOR, RHO_MAJOR, LEAD = range(12)
+PROFILE_SIZE = 12
 
 
 @kernel(inline="always")

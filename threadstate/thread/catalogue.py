@@ -62,7 +62,7 @@ def pair_by_designation(designation: str) -> Pair:
 
     Raises:
         UnknownNameError: no such designation.
-        InvalidValueError: a class that the form does not have, a position that is none, or a left-hand thread.
+        InvalidValueError: a class that the form does not have, or a position that is none.
     """
     written = " ".join(designation.split()).upper()
     for root_form, name in _DESIGNATION.items():

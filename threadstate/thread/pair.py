@@ -10,6 +10,7 @@ from functools import cached_property
 from threadstate.errors import ImpossibleThreadError
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
+from threadstate.thread.hand import Hand
 from threadstate.thread.profile import Profile
 from threadstate.units import LengthUnit
 
@@ -35,6 +36,8 @@ class Pair:
     thread_pitch: float
     form: Form
     fit: Fit
+    starts: int = 1
+    hand: Hand = Hand.RIGHT
 
     def __post_init__(self) -> None:
         for name in ("nominal_diameter", "thread_pitch"):
@@ -42,6 +45,11 @@ class Pair:
             if not (math.isfinite(value) and value > 0.0):
                 raise ImpossibleThreadError(name, value, "a finite length > 0")
         _ = self.bolt, self.nut
+
+    @property
+    def lead(self) -> float:
+        """How far the helix advances along the axis in a turn, in the pair's unit; negative of a left-hand pair."""
+        return self.bolt.lead
 
     @cached_property
     def bolt(self) -> Profile:
@@ -54,6 +62,8 @@ class Pair:
             flank_half_angle_deg=self.form.flank_half_angle_deg,
             minor_fillet_radius=self.form.bolt_root_fillet * self.thread_pitch,
             major_fillet_radius=self.form.bolt_crest_fillet * self.thread_pitch,
+            starts=self.starts,
+            hand=self.hand,
         )
 
     @cached_property
@@ -67,4 +77,6 @@ class Pair:
             flank_half_angle_deg=self.form.flank_half_angle_deg,
             minor_fillet_radius=self.form.nut_crest_fillet * self.thread_pitch,
             major_fillet_radius=self.form.nut_root_fillet * self.thread_pitch,
+            starts=self.starts,
+            hand=self.hand,
         )

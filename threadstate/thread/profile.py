@@ -9,10 +9,15 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from threadstate.errors import ImpossibleThreadError, InvalidValueError
+from threadstate.thread.hand import Hand
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+
+MOST_STARTS = 4
+"""Largest number of ridges side by side that is taken."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +40,8 @@ class Profile:
     flank_half_angle_deg: float
     minor_fillet_radius: float
     major_fillet_radius: float
+    starts: int = 1
+    hand: Hand = Hand.RIGHT
 
     def __post_init__(self) -> None:
         for name in ("thread_pitch", "minor_diameter", "pitch_diameter", "major_diameter"):
@@ -45,6 +52,8 @@ class Profile:
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0.0):
                 raise ImpossibleThreadError(name, value, "a finite length >= 0")
+        if self.starts not in range(1, MOST_STARTS + 1):
+            raise ImpossibleThreadError("starts", self.starts, f"a whole number, 1 to {MOST_STARTS}")
         if not 0.0 < self.flank_half_angle_deg < 90.0:
             raise ImpossibleThreadError("flank_half_angle_deg", self.flank_half_angle_deg, "0 < angle < 90 deg")
         if not self.minor_diameter < self.pitch_diameter < self.major_diameter:
@@ -102,9 +111,19 @@ class Profile:
         t_high = self.major_fillet_radius * math.tan(turn / 2.0)
         return low - t_low, low + t_low * math.cos(turn), high - t_high * math.cos(turn), high + t_high
 
+    @property
+    def lead(self) -> float:
+        """How far the thread's helix advances along the axis in a turn; negative of a left-hand thread."""
+        return (1 if self.hand is Hand.RIGHT else -1) * self.starts * self.thread_pitch
+
+    @property
+    def advance(self) -> float:
+        """The lead per radian, ``k`` in formulas."""
+        return self.lead / (2.0 * math.pi)
+
     @cached_property
     def packed(self) -> NDArray[np.float64]:
-        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (11,)."""
+        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (12,)."""
         import numpy as np
 
         flat, flank, crest, top = self.boundaries
@@ -122,6 +141,7 @@ class Profile:
                 self.major_diameter / 2.0,
                 self.minor_fillet_radius,
                 self.major_fillet_radius,
+                self.lead,
             ]
         )
         packed.setflags(write=False)
@@ -175,7 +195,7 @@ def _finite(s: float) -> float:
 def outline_is_convex(profile: Profile) -> bool:
     """Whether the outline that a cut across the axis leaves is convex, by a bound; False: or the bound does not say.
 
-    The outline is r = f(-p theta / 2 pi). A polar curve is convex where r^2 + 2 r'^2 - r r'' >= 0. With k = p / 2 pi,
+    The outline is r = f(-k theta). A polar curve is convex where r^2 + 2 r'^2 - r r'' >= 0. With k the advance,
     r'' = k^2 f'' is positive on the fillet at the small radius alone, and largest where it meets the flank; elsewhere
     the sum is positive. On that fillet with r = R + rho (1 - cos a), f' = tan a and f'' = 1 / (rho cos^3 a) the sum is
     at least R^2 - r k^2 / (rho cos^3 a), taken over steps of the angle a with r and f'' at each step's far end.
@@ -183,7 +203,7 @@ def outline_is_convex(profile: Profile) -> bool:
     rho = profile.minor_fillet_radius
     if rho == 0.0:
         return False
-    k = profile.thread_pitch / (2.0 * math.pi)
+    k = abs(profile.advance)
     small = profile.minor_diameter / 2.0
     full = math.pi / 2.0 - math.radians(profile.flank_half_angle_deg)
     steps = 400

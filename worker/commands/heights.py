@@ -74,7 +74,7 @@ def heights(
     factor = conversion_factor(threads.unit, shown)
     document = heights_document(found, roll, pitch, threads.thread_pitch, factor)
     if plot is not None and history is not None:
-        windows = windows_document(history, roll, pitch, threads.thread_pitch, factor).windows
+        windows = windows_document(history, roll, pitch, threads, factor).windows
         plot_heights(document, windows, shown, plot)
     if as_json:
         print_json({"unit": shown.value, **document.model_dump(mode="json")})

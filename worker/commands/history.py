@@ -57,7 +57,7 @@ def history(
         else:
             found = computed_history(threads, roll, pitch, source.options)
     shown = unit or threads.unit
-    document = history_document(found, roll, pitch, threads.thread_pitch, conversion_factor(threads.unit, shown))
+    document = history_document(found, roll, pitch, threads, conversion_factor(threads.unit, shown))
     if as_json:
         print_json({"unit": shown.value, **document.model_dump(mode="json", by_alias=True)})
         return

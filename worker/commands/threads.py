@@ -24,7 +24,7 @@ def threads(
 ) -> None:
     r"""List standard threads with the limits of their diameters, each with the classes that are usual for it.
 
-    --pair takes all of these but left-hand ones, with "at minimum material" or the like behind it.
+    --pair takes all of these, with "LH" and "at minimum material" or the like behind it.
 
     \b
     Examples:

@@ -12,6 +12,7 @@ from typing import Annotated, Any, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from threadstate.errors import InvalidValueError
+from threadstate.thread.hand import Hand
 from threadstate.units import LengthUnit
 
 
@@ -97,6 +98,8 @@ class PairPart(Part):
     unit: LengthUnit | None = None
     nominal_diameter: Number | None = None
     thread_pitch: Number | None = None
+    starts: int | None = None
+    hand: Hand | None = None
     form: FormPart | None = None
     fit: FitPart | None = None
     fits: Annotated[list[FitPart], Field(min_length=1)] | None = None

@@ -13,6 +13,7 @@ from threadstate.settings import PAIR, read_settings
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, VALID_DESIGNATIONS, is_known, pair_by_designation
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
+from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from worker.pairs.document import (
     LARGEST_DESIGNATION,
@@ -29,7 +30,7 @@ from worker.pairs.document import (
 
 FILE_ENDING = ".toml"
 
-_WORDS = ("like", "unit", "form.name", "fit.name")
+_WORDS = ("like", "unit", "hand", "form.name", "fit.name")
 _NESTED: dict[str, type[Part]] = {"form": FormPart, "fit": FitPart}
 
 
@@ -149,7 +150,8 @@ def pairs_of(part: PairPart, location: FileLocation) -> Iterator[Pair]:
 def _pair_of_fit(
     part: PairPart, base: Pair | None, form: Form, fit: FitPart | None, location: FileLocation, of_fit: FileLocation
 ) -> Pair:
-    values = _values(part.given(), base, ("unit", "nominal_diameter", "thread_pitch"), location)
+    given = {"starts": 1, "hand": Hand.RIGHT} | part.given() if base is None else part.given()
+    values = _values(given, base, ("unit", "nominal_diameter", "thread_pitch", "starts", "hand"), location)
     fitted = _fit(fit, base, of_fit)
     designation = part.designation if part.fits is None else f"{part.designation} {fitted.name}"
     if is_known(designation):

@@ -71,7 +71,7 @@ STUB_SOURCE = "ASME B1.8: diameters from one source, tolerances those of ASME B1
 TRAPEZOIDAL_SOURCE = "ISO 2903: tables from one source; no published limits to check against"
 WHITWORTH_SOURCE = "BS 84: formulas from two sources, allowances from memory; no published limits to check against"
 
-_LEFT_HAND = re.compile(r"\s+LH\s*$", re.IGNORECASE)
+_LEFT_HAND = re.compile(r"[\s-]*(?<![A-Z])LH\s*(?=-|$)", re.IGNORECASE)
 _BLANKS = re.compile(r"\s+")
 EXAMPLES = "1/4-20 UNC-2A/2B, M6x1-6g/6H, M6, 1/4-16 ACME-2G, Tr 8x1.5-7e/7H or 1/4-20 BSW"
 

@@ -14,6 +14,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.numbers import number, number_text
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
+from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from threadstate.thread.standards.acme import AcmeForm
 from threadstate.thread.standards.designation import StandardThread, standard_thread
@@ -100,7 +101,7 @@ def standard_pair(designation: str) -> Pair:
 
     Raises:
         UnknownNameError: no such size.
-        InvalidValueError: a class that its form does not have, a position that is none, or a left-hand thread.
+        InvalidValueError: a class that its form does not have, or a position that is none.
     """
     found = _POSITION.search(designation)
     position = MAXIMUM_MATERIAL if found is None else parsed_position(found["position"])
@@ -124,13 +125,7 @@ def parsed_position(text: str) -> Position:
 
 
 def pair_at(thread: StandardThread, position: Position) -> Pair:
-    """The pair of a thread at a position.
-
-    Raises:
-        InvalidValueError: a left-hand thread, which the solver does not take.
-    """
-    if thread.left_hand:
-        raise InvalidValueError("designation", thread.designation, "a right-hand thread: others are listed, not solved")
+    """The pair of a thread at a position."""
     bolt, nut, pitch = thread.bolt, thread.nut, thread.thread_pitch
     wanted = rounding(thread)
     tangent = math.tan(math.radians(wanted.flank_half_angle_deg))
@@ -158,7 +153,15 @@ def pair_at(thread: StandardThread, position: Position) -> Pair:
         nut_root_fillet=fitting(wanted.nut_root, fit.nut_major_diameter / 2.0 - nut_radius),
         nut_crest_fillet=fitting(wanted.nut_crest, nut_radius - fit.nut_minor_diameter / 2.0),
     )
-    return Pair(f"{thread.designation}{position.name}", thread.unit, thread.nominal_diameter, pitch, form, fit)
+    return Pair(
+        designation=f"{thread.designation}{position.name}",
+        unit=thread.unit,
+        nominal_diameter=thread.nominal_diameter,
+        thread_pitch=pitch,
+        form=form,
+        fit=fit,
+        hand=Hand.LEFT if thread.left_hand else Hand.RIGHT,
+    )
 
 
 def _bolt_minor(thread: StandardThread, position: float) -> float:
