@@ -70,6 +70,14 @@ ASCENT_STEP = 0.02
 ASCENT_STEP_PITCHES = 0.004
 MAX_ASCENT_STEPS = 8
 """Steps along a ridge (rad) and towards it (thread pitches) where Newton's method does not ascend; the most of them."""
+FIRST_HALF, FIRST_WINDOW = 0.1, 0.06
+LATER_HALF, LATER_WINDOW = 0.02, 0.01
+"""How far from where a maximum is first looked for, and from where it is expected later, it is bracketed where
+Newton's method finds none: azimuth (rad) and thread pitches across the ridge."""
+LEAST_RIDGE_REACH = 1e-6
+"""A ridge is no farther than this part of a pitch from the line between two of its points, beyond their distance."""
+NARROW_AZIMUTHS = 1e-11
+"""A maximum is bracketed to this width (rad)."""
 AXIAL_SAMPLES = 24
 """Intervals of an azimuth at whose ends the bolt's thread is sampled for overlaps that extend beyond it."""
 FOLLOW_RANGE = 3.0 * INSTANT_STEP
@@ -118,6 +126,65 @@ def nearby_maximum(
 
 
 @kernel()
+def ridge_point(
+    theta: float, z_low: float, z_high: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, bool]:
+    """Where phi has a ridge between two points of one azimuth: B falls through zero, however narrow the ridge is.
+
+    By bisection, as at a corner B falls within the width of its fillet. Also returns whether there is one.
+    """
+    set_jet(theta, z_low, placement, bolt, nut, jet)
+    if not jet[J_B] > 0.0:
+        return z_low, False
+    set_jet(theta, z_high, placement, bolt, nut, jet)
+    if not jet[J_B] < 0.0:
+        return z_high, False
+    while True:
+        z = 0.5 * (z_low + z_high)
+        set_jet(theta, z, placement, bolt, nut, jet)
+        if not z_low < z < z_high or jet[J_B] == 0.0:
+            return z, True
+        if jet[J_B] > 0.0:
+            z_low = z
+        else:
+            z_high = z
+
+
+@kernel()
+def bracketed_maximum(
+    theta: float, z: float, half: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, float, bool]:
+    """The highest point of phi along the ridge near (theta, z), within ``half`` (rad) of theta, by bisection.
+
+    It is where A falls through zero along the ridge, which at each azimuth is bracketed to ``window`` either way from
+    the helix through the point, or the line between the brackets' ridge points. Also returns whether there is one.
+    """
+    k = bolt[pk.LEAD] / TWO_PI
+    low, high = theta - half, theta + half
+    z_low, found = ridge_point(low, z - k * half - window, z - k * half + window, placement, bolt, nut, jet)
+    if not found or not jet[J_A] > 0.0:
+        return theta, z, False
+    z_high, found = ridge_point(high, z + k * half - window, z + k * half + window, placement, bolt, nut, jet)
+    if not found or not jet[J_A] < 0.0:
+        return theta, z, False
+    while True:
+        middle = 0.5 * (low + high)
+        between = 0.5 * (z_low + z_high)
+        reach = min(window, abs(z_high - z_low - k * (high - low)) + LEAST_RIDGE_REACH * bolt[pk.P])
+        z, found = ridge_point(middle, between - reach, between + reach, placement, bolt, nut, jet)
+        if not found:
+            z, found = ridge_point(middle, between - window, between + window, placement, bolt, nut, jet)
+        if not found:
+            return middle, between, False
+        if high - low < NARROW_AZIMUTHS:
+            return middle, z, True
+        if jet[J_A] > 0.0:
+            low, z_low = middle, z
+        else:
+            high, z_high = middle, z
+
+
+@kernel()
 def follow_maximum(
     theta: float,
     z: float,
@@ -145,9 +212,16 @@ def follow_maximum(
     for i in range(60):
         if i > 0:
             set_placement(motion, tau, later_placement)
+        start_theta, start_z = theta, z
         theta, z, converged = nearby_maximum(
             theta, z, 2.0 * FOLLOW_RANGE * step, placement if i == 0 else later_placement, bolt, nut, jet
         )
+        if not converged and abs(jet[J_PHI]) < 2.0 * FOLLOW_RANGE * step * jet[J_RATE]:
+            half = FIRST_HALF if i == 0 else LATER_HALF
+            window = (FIRST_WINDOW if i == 0 else LATER_WINDOW) * p
+            theta, z, converged = bracketed_maximum(
+                start_theta, start_z, half, window, placement if i == 0 else later_placement, bolt, nut, jet
+            )
         if not converged or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
             return count
         move = -jet[J_PHI] / jet[J_RATE]
