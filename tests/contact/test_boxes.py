@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,10 +25,13 @@ from threadstate.contact._stage_kernel import rotation, set_motions
 from threadstate.contact._surface_kernel import start_height
 from threadstate.state.model import Contact, ContactState, FeaturePair
 from threadstate.state.solve import solve_poses
+from threadstate.thread import _profile_kernel as pk
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.pair import Pair
 from threadstate.thread.profile import Profile
 
 PAIR = quarter_twenty_unc()
+SHARP = replace(PAIR, form=replace(PAIR.form, bolt_root_fillet=0.0, bolt_crest_fillet=1e-4, nut_root_fillet=1e-3))
 BOLT, NUT = PAIR.bolt.packed, PAIR.nut.packed
 ROUND_OFF = 1e-14
 
@@ -36,15 +40,16 @@ ON_NUT = {FeaturePair.EDGE_EDGE, FeaturePair.BASE_EDGE, FeaturePair.THREAD_EDGE}
 
 
 def edge_motions(
-    pose: Floats, is_turn: bool, coplanar: bool, point: Floats, axis: Floats
+    pose: Floats, is_turn: bool, coplanar: bool, point: Floats, axis: Floats, pair: Pair = PAIR
 ) -> list[tuple[Floats, Floats, Floats]]:
     """The motion of either edge curve, with the curve's profile and the solid's."""
     bolt_motion, nut_motion = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
     set_motions(pose, is_turn, coplanar, point, axis, bolt_motion, nut_motion)
-    return [(bolt_motion, BOLT, NUT), (nut_motion, NUT, BOLT)]
+    bolt, nut = pair.bolt.packed, pair.nut.packed
+    return [(bolt_motion, bolt, nut), (nut_motion, nut, bolt)]
 
 
-def random_motion(rng: np.random.Generator, kind: str) -> tuple[Floats, Floats, Floats]:
+def random_motion(rng: np.random.Generator, kind: str, pair: Pair = PAIR) -> tuple[Floats, Floats, Floats]:
     """A motion of that kind from a random pose, and the profiles of the curve and of the solid."""
     tilt = math.radians(10.0 ** rng.uniform(-8.0, 1.0))
     near = rng.random() < 0.5
@@ -58,7 +63,7 @@ def random_motion(rng: np.random.Generator, kind: str) -> tuple[Floats, Floats, 
         axis = np.array([math.cos(along), math.sin(along), rng.normal(0, 0.05)])
         axis /= np.linalg.norm(axis)
     pose[11] = rng.uniform(-0.005, 0.01)
-    return edge_motions(pose, kind == "turn", False, point, axis)[rng.integers(2)]
+    return edge_motions(pose, kind == "turn", False, point, axis, pair)[rng.integers(2)]
 
 
 def jets(theta: Floats, tau: Floats, motion: Floats, curve: Floats, solid: Floats) -> Floats:
@@ -72,20 +77,21 @@ def jets(theta: Floats, tau: Floats, motion: Floats, curve: Floats, solid: Float
 
 
 @pytest.mark.parametrize("kind", ["turn", "translation"])
-def test_ranges_hold_every_point_of_the_box(kind: str) -> None:
+@pytest.mark.parametrize("pair", [PAIR, SHARP], ids=["filleted", "sharp"])
+def test_ranges_hold_every_point_of_the_box(kind: str, pair: Pair) -> None:
     rng = np.random.default_rng(61)
     for _ in range(600):
-        motion, curve, solid = random_motion(rng, kind)
+        motion, curve, solid = random_motion(rng, kind, pair)
         theta, a = rng.uniform(0, TWO_PI), 10.0 ** rng.uniform(-7, -1)
         start = rng.uniform(0, 0.3) if kind == "turn" else rng.uniform(0, 0.012)
         b = 10.0 ** rng.uniform(-10, -1.6) * (1.0 if kind == "turn" else 0.1)
         x_axis, y_axis, origin, rest = motion_numbers(motion)
-        k = curve[0] / TWO_PI
+        k = curve[pk.LEAD] / TWO_PI
         numbers = profile_numbers(curve), profile_numbers(solid)
         sizes = (k, curve[8], k * curve[5], solid[5], 0.5 * solid[1])
         phi, g, depth = ranges(theta, a, start + b, b, x_axis, y_axis, origin, rest, *numbers, sizes)
         seen = jets(np.linspace(theta - a, theta + a, 5), np.linspace(start, start + 2 * b, 5), motion, curve, solid)
-        for (value, by_theta, by_tau, low, high, mixed, mixed_var, by_tau_twice), columns in (
+        for (value, by_theta, by_tau, low, high, mixed, mixed_var, by_tau_twice, *changes), columns in (
             (phi, (onset.J_PHI, onset.J_PHI_THETA, onset.J_PHI_TAU, onset.J_PHI_THETA_THETA, onset.J_PHI_THETA_TAU)),
             (g, (onset.J_G, onset.J_G_THETA, onset.J_G_TAU, onset.J_G_THETA_THETA, onset.J_G_THETA_TAU)),
         ):
@@ -103,6 +109,8 @@ def test_ranges_hold_every_point_of_the_box(kind: str) -> None:
             for column, (least, most) in zip(columns, allowed, strict=True):
                 assert least - ROUND_OFF <= seen[:, column].min()
                 assert seen[:, column].max() <= most + ROUND_OFF
+            for column, middle, changed in zip(columns[1:], (by_theta, by_tau), changes, strict=False):
+                assert np.abs(seen[:, column] - middle).max() <= changed + ROUND_OFF
         assert (-motion[19] * seen[:, onset.J_Z]).min() >= depth - ROUND_OFF
 
 

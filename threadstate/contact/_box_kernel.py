@@ -66,8 +66,9 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
     In names, ``tt``, ``tv`` and ``vv`` are second derivatives by theta twice, theta and tau, tau twice; ``bound`` is a
     bound on the size, ``var`` on the variation from the value in the middle, ``low`` and ``high`` are the range.
     """
-    phi, phi_theta, phi_tau, phi_tt_low, phi_tt_high, phi_tv_mid, phi_tv_var, phi_vv_bound = of_phi
-    g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound = of_g
+    phi, phi_theta, phi_tau, phi_tt_low, phi_tt_high, phi_tv_mid, phi_tv_var, phi_vv_bound = of_phi[:8]
+    phi_theta_change, phi_tau_change = of_phi[8:]
+    g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound, g_theta_change = of_g
     round_off = ROUND_OFF * p
     phi_tv_bound = abs(phi_tv_mid) + phi_tv_var
     g_tv_bound = abs(g_tv_mid) + g_tv_var
@@ -75,21 +76,22 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
     g_tt_bound = larger(g_tt_high, -g_tt_low)
     phi_theta_bound = abs(phi_theta) + phi_tv_bound * b
     peak_offset = smaller(phi_theta_bound / -phi_tt_high if phi_tt_high < 0.0 else a, a)
-    phi_time_change = abs(phi_tau) * b + 0.5 * phi_vv_bound * b * b
-    phi_high = (
-        phi
-        + phi_time_change
-        + phi_theta_bound * peak_offset
-        + 0.5 * phi_tt_high * peak_offset * peak_offset
-        + round_off
-    )
-    phi_low = phi - phi_time_change - phi_theta_bound * a + 0.5 * smaller(phi_tt_low, 0.0) * a * a - round_off
-    g_linear_change = abs(g_theta) * a + abs(g_tau) * b + g_tv_bound * a * b + 0.5 * g_vv_bound * b * b
-    g_high = g + g_linear_change + 0.5 * larger(g_tt_high, 0.0) * a * a + round_off
-    g_low = g - g_linear_change + 0.5 * smaller(g_tt_low, 0.0) * a * a - round_off
-    phi_theta_var = phi_tt_bound * a + phi_tv_bound * b + round_off
-    phi_tau_var = phi_tv_bound * a + phi_vv_bound * b + round_off
-    g_theta_var = g_tt_bound * a + g_tv_bound * b + round_off
+    phi_time_change = abs(phi_tau) * b + smaller(0.5 * phi_vv_bound * b, phi_tau_change) * b
+    phi_azimuth_change = (abs(phi_theta) + phi_theta_change) * a
+    phi_rise = phi_theta_bound * peak_offset + 0.5 * phi_tt_high * peak_offset * peak_offset
+    phi_fall = phi_theta_bound * a - 0.5 * smaller(phi_tt_low, 0.0) * a * a
+    phi_high = phi + phi_time_change + smaller(phi_rise, phi_azimuth_change) + round_off
+    phi_low = phi - phi_time_change - smaller(phi_fall, phi_azimuth_change) - round_off
+    g_time_change = abs(g_tau) * b + 0.5 * g_vv_bound * b * b
+    g_azimuth_change = (abs(g_theta) + g_theta_change) * a
+    g_linear_change = abs(g_theta) * a + g_tv_bound * a * b
+    g_rise = g_linear_change + 0.5 * larger(g_tt_high, 0.0) * a * a
+    g_fall = g_linear_change - 0.5 * smaller(g_tt_low, 0.0) * a * a
+    g_high = g + g_time_change + smaller(g_rise, g_azimuth_change) + round_off
+    g_low = g - g_time_change - smaller(g_fall, g_azimuth_change) - round_off
+    phi_theta_var = smaller(phi_tt_bound * a + phi_tv_bound * b, phi_theta_change) + round_off
+    phi_tau_var = smaller(phi_tv_bound * a + phi_vv_bound * b, phi_tau_change) + round_off
+    g_theta_var = smaller(g_tt_bound * a + g_tv_bound * b, g_theta_change) + round_off
     g_tau_var = g_tv_bound * a + g_vv_bound * b + round_off
     phi_monotonic = abs(phi_theta) > phi_theta_var
     g_monotonic = abs(g_theta) > g_theta_var
@@ -103,8 +105,16 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
         + phi_tau_var * (abs(g_theta) + g_theta_var)
         + abs(phi_tau) * g_theta_var
     )
-    remainder_g = 0.5 * g_tt_bound * a * a + g_tv_bound * a * b + 0.5 * g_vv_bound * b * b + round_off
-    remainder_phi = 0.5 * phi_tt_bound * a * a + phi_tv_bound * a * b + 0.5 * phi_vv_bound * b * b + round_off
+    remainder_g = (
+        smaller(0.5 * g_tt_bound * a + g_tv_bound * b, g_theta_change) * a + 0.5 * g_vv_bound * b * b + round_off
+    )
+    remainder_phi = (
+        smaller(
+            0.5 * phi_tt_bound * a * a + phi_tv_bound * a * b + 0.5 * phi_vv_bound * b * b,
+            phi_theta_change * a + phi_tau_change * b,
+        )
+        + round_off
+    )
     edge_root_excluded = abs(g * phi_tau - phi * g_tau) > a * abs(jac) + remainder_g * abs(
         phi_tau
     ) + remainder_phi * abs(g_tau) or abs(g * phi_theta - phi * g_theta) > b * abs(jac) + remainder_g * abs(

@@ -29,7 +29,7 @@ from threadstate.contact._box_kernel import (
     X_THETA,
     classify_boxes,
 )
-from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, TWO_PI
+from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, TWO_PI, motion_scale
 from threadstate.contact._onset_kernel import (
     J_G,
     J_PHI,
@@ -72,7 +72,14 @@ LEAST_DIP = 4e-15
 LEAST_DEPTH = 6e-15
 """A box in which the distance from the surface is less lies on it; the bound on the round-off is part of that."""
 
-MAX_BOXES = 4_000
+MAX_BOXES = 16_000
+
+SLENDER = 50.0
+"""A box whose duration, over its half-width, is more than this is split by time: at a corner one of azimuth may leave
+its uncertainty as it is."""
+
+NARROWEST = 1e-16
+"""Half-width (rad) of the narrowest box that is split: of a narrower one the sides are the same number."""
 
 NEWTON_COST = 24
 """Cost of a failure of Newton's method in a narrow box, in evaluations of a box."""
@@ -210,7 +217,7 @@ def onset_only_outside(
     classify_boxes(1, motion, curve_profile, solid_profile, scratch)
     if scratch[X_CLASS] != box_class:
         return scratch[X_CLASS] <= EXCLUDED
-    inside, _, _ = newton_onset(
+    inside, t, tau = newton_onset(
         box_class,
         theta,
         half * ENLARGEMENT,
@@ -222,7 +229,7 @@ def onset_only_outside(
         path,
         jet,
     )
-    return inside
+    return inside and (abs(t - theta) >= half or tau <= start or tau >= end)
 
 
 @kernel()
@@ -305,7 +312,9 @@ def search_edge(
     jet = np.empty(JET_SIZE)
     wedge = np.empty(9)
     p = solid_profile[pk.P]
+    slender = SLENDER * motion_scale(motion, solid_profile)
     evaluated = 0
+    narrowest = math.inf
     n = set_initial_boxes(since, min(until, best + tie_tolerance), boxes)
     while n > 0:
         n = pad_boxes(n, boxes)
@@ -400,9 +409,14 @@ def search_edge(
                 ):
                     continue
                 evaluated += NEWTON_COST if half < AZIMUTH_TOLERANCE else 0
-            by_time = box_class == SPLIT_TIME or (box_class < SPLIT_THETA and end - start > half)
+            by_time = (
+                box_class == SPLIT_TIME
+                or (box_class < SPLIT_THETA and end - start > half)
+                or end - start > slender * half
+            )
+            narrowest = min(narrowest, half)
             m = move_to_front(i, min(end, best + tie_tolerance), by_time, m, boxes)
-        if 2 * m + VECTOR_WIDTH > CAPACITY or evaluated > MAX_BOXES:
+        if 2 * m + VECTOR_WIDTH > CAPACITY or evaluated > MAX_BOXES or narrowest < NARROWEST:
             return count, OVERFLOW, best
         n = split_boxes(m, boxes, spare_boxes)
         boxes, spare_boxes = spare_boxes, boxes

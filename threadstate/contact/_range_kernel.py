@@ -94,7 +94,8 @@ def ranges(
     ``sizes``: k, the curve's largest radius and largest dr / dtheta, the solid's cot of the flank, and a lower bound on
     the radius. Of either function: its value in the middle, its derivatives there by theta and tau, bounds from below
     and above on the second derivative by theta, the mixed one (in the middle, and a bound on its variation), a bound on
-    the size of the second by tau.
+    the size of the second by tau, and one on how far the derivative by theta changes, of phi also that by tau: at a
+    corner, where second derivatives are large, these are what bounds the function.
     """
     turning, sigma, moving, ax, ay, az = rest
     k, r_bound, r1_bound, cot, r_floor = sizes
@@ -153,7 +154,9 @@ def ranges(
     # Bounds on the speed of the curve in the box, and on the change of its directions and of the solid's.
     speed = math.sqrt(v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2])
     speed_bound = speed + turning * c1 * a + turning * b * (speed + c1 * a)
-    c2 = r2_bound + r_bound + 2.0 * r1_bound
+    # Over a corner r' changes by no more than it can as a whole, however large r'' is there.
+    d_r1 = smaller(r2_bound * a, 2.0 * r1_bound)
+    c2_a = d_r1 + (r_bound + 2.0 * r1_bound) * a
     r_low = larger(radius - c1 * a - speed_bound * b, r_floor)
     inverse_r = 1.0 / r_low
     k_r_bound = abs(k) * inverse_r
@@ -181,16 +184,21 @@ def ranges(
     s_tt = abs(flat_s_tt) + r2_bound * abs(ps) + (smaller(near_s_tt, s_tt) if aligned else s_tt)
     s_tv = turning * c1 * (1.0 + k_r_bound) + 2.0 * k_r_bound * c1 * speed_bound * inverse_r
     s_vv = turning * speed_bound * (1.0 + k_r_bound) + 2.0 * k_r_bound * speed_bound * speed_bound * inverse_r
-    s_theta_high = abs(ts) + s_tt * a + s_tv * b
+    d_s_theta = smaller(
+        s_tt * a + s_tv * b,
+        (abs(ps) + (1.0 + k_r_bound) * direction_change) * d_r1
+        + (1.0 + k_r_bound) * (r1_bound * a + c1 * direction_change),
+    )
+    s_theta_high = abs(ts) + d_s_theta
     s_tau_high = abs(vs) + s_tv * a + s_vv * b
-    s_theta_low = larger(abs(ts) - s_tt * a - s_tv * b, 0.0)
+    s_theta_low = larger(abs(ts) - d_s_theta, 0.0)
     reach = s_theta_high * a + s_tau_high * b
     f2_low, f2_high = second_derivative_range(u, reach, solid)
     f2 = larger(f2_high, -f2_low)
     d_f1 = smaller(f2 * reach, 2.0 * cot)
     gradient_bound = 1.0 + smaller(abs(f1) + d_f1, cot) * (1.0 + k_r_bound)
     # Variation of the second derivatives without the terms of r'' and f''.
-    d_t, d_v = c1 * direction_change + r2_bound * a, speed_bound * direction_change + speed_bound - speed
+    d_t, d_v = c1 * direction_change + d_r1, speed_bound * direction_change + speed_bound - speed
     radius_change = ((abs(tr) + c1 * direction_change) * a + (abs(vr) + speed_bound * direction_change) * b) * inverse_r
     curvature_factor = inverse_r * (1.0 + 2.0 * cot * k_r_bound)
     var_tt = (
@@ -203,7 +211,7 @@ def ranges(
     ) * change_by_time
     var_tt = (smaller(near_tt, var_tt) if aligned else var_tt) + d_f1 * abs(flat_s_tt)
     var_tv = (
-        gradient_bound * turning * (c1 * direction_change + c2 * a)
+        gradient_bound * turning * (c1 * direction_change + c2_a)
         + curvature_factor * (c1 * d_v + speed_bound * d_t + c1 * speed_bound * radius_change)
         + d_f1 * (abs(ws) + k_rr * abs(tr * vt + tt * vr))
     )
@@ -235,6 +243,8 @@ def ranges(
         sigma * tv_mid,
         tv_var,
         vv,
+        d_r1 + r1_bound * a + c1 * direction_change + d_f1 * s_theta_high + abs(f1) * d_s_theta,
+        d_v + d_f1 * s_tau_high + abs(f1) * (s_tv * a + s_vv * b),
     )
     # g; where the axis lies in both planes its sign stays that of the start, whose value is used instead.
     m1z = m1[2] if moving > 0.0 else x_axis[2]
@@ -248,6 +258,7 @@ def ranges(
     )
     var_g += r2_bound * (sine * a + turning_moving * b)
     flat_g = 2.0 * dr * q_g - r * p_g
+    tilting = sine * a + turning_moving * b
     of_g = (
         r * p_g - sigma * height,
         dr * p_g + r * q_g,
@@ -255,8 +266,9 @@ def ranges(
         flat_g - var_g + (r2_low if p_g > 0.0 else r2_high) * p_g,
         flat_g + var_g + (r2_high if p_g > 0.0 else r2_low) * p_g,
         -sigma * w_[2] * turning_moving,
-        turning_moving * (c2 * a + c1 * b),
+        turning_moving * (c2_a + c1 * b),
         turning_moving * (abs(a_[2]) + c1 * a + speed_bound * b),
+        d_r1 * (abs(p_g) + tilting) + r1_bound * sine * a + c1 * tilting,
     )
-    sag = c2 * a * a + turning * (c1 * a + speed_bound * b) * b
+    sag = c2_a * a + turning * (c1 * a + speed_bound * b) * b
     return of_phi, of_g, -sigma * z - abs(t_[2]) * a - abs(v_[2]) * b - sag

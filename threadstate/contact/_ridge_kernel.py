@@ -70,14 +70,18 @@ ASCENT_STEP = 0.02
 ASCENT_STEP_PITCHES = 0.004
 MAX_ASCENT_STEPS = 8
 """Steps along a ridge (rad) and towards it (thread pitches) where Newton's method does not ascend; the most of them."""
-FIRST_HALF, FIRST_WINDOW = 0.1, 0.06
-LATER_HALF, LATER_WINDOW = 0.02, 0.01
-"""How far from where a maximum is first looked for, and from where it is expected later, it is bracketed where
-Newton's method finds none: azimuth (rad) and thread pitches across the ridge."""
-LEAST_RIDGE_REACH = 1e-6
-"""A ridge is no farther than this part of a pitch from the line between two of its points, beyond their distance."""
+FIRST_RIDGE_STEP, FIRST_WINDOW = 0.1, 0.06
+LATER_RIDGE_STEP, LATER_WINDOW = 0.02, 0.01
+MAX_RIDGE_STEPS = 5
+"""Steps (rad) along a ridge, and how far across it (thread pitches), in which a maximum is bracketed where Newton's
+method finds none: from where it is first looked for, and from where it is expected later; the most of them."""
+FIRST_PART_OF_WINDOW = 4.0**-9
+"""The part of the window about a point of a ridge in which the ridge is looked for first."""
 NARROW_AZIMUTHS = 1e-11
 """A maximum is bracketed to this width (rad)."""
+SETTLED, SETTLED_FILLET, LEAST_SETTLED = 1e-4, 0.05, 1e-7
+"""The size of Newton's last step towards a maximum: in radians and in thread pitches, and the part of the least fillet
+if that is less, down to a number of radians that round-off on a sharp corner allows."""
 AXIAL_SAMPLES = 24
 """Intervals of an azimuth at whose ends the bolt's thread is sampled for overlaps that extend beyond it."""
 FOLLOW_RANGE = 3.0 * INSTANT_STEP
@@ -97,6 +101,9 @@ def nearby_maximum(
     """
     k = bolt[pk.LEAD] / TWO_PI
     p = bolt[pk.P]
+    fillet = SETTLED_FILLET * min(bolt[pk.RHO_MINOR], bolt[pk.RHO_MAJOR], nut[pk.RHO_MINOR], nut[pk.RHO_MAJOR])
+    settled_z = min(SETTLED * p, fillet)
+    settled_theta = max(min(SETTLED, fillet / p), LEAST_SETTLED)
     ascent_steps = 0
     set_jet(theta, z, placement, bolt, nut, jet)
     for _ in range(20):
@@ -120,68 +127,79 @@ def nearby_maximum(
         theta += du
         z += k * du + dz
         set_jet(theta, z, placement, bolt, nut, jet)
-        if abs(du) < 1e-4 and abs(dz) < 1e-4 * p:
+        if abs(du) < settled_theta and abs(dz) < settled_z:
             return theta, z, True
     return theta, z, False
 
 
 @kernel()
 def ridge_point(
-    theta: float, z_low: float, z_high: float, placement: Array, bolt: Array, nut: Array, jet: Array
+    theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, bool]:
-    """Where phi has a ridge between two points of one azimuth: B falls through zero, however narrow the ridge is.
+    """Where phi has a ridge near z on an azimuth: B falls through zero, however narrow the ridge is.
 
-    By bisection, as at a corner B falls within the width of its fillet. Also returns whether there is one.
+    It is bracketed between z - w and z + w for a growing w, up to ``window``, and then by bisection, as at a corner B
+    falls within the width of its fillet. Also returns whether there is one.
     """
-    set_jet(theta, z_low, placement, bolt, nut, jet)
-    if not jet[J_B] > 0.0:
-        return z_low, False
-    set_jet(theta, z_high, placement, bolt, nut, jet)
-    if not jet[J_B] < 0.0:
-        return z_high, False
+    w = window * FIRST_PART_OF_WINDOW
     while True:
-        z = 0.5 * (z_low + z_high)
-        set_jet(theta, z, placement, bolt, nut, jet)
-        if not z_low < z < z_high or jet[J_B] == 0.0:
-            return z, True
+        set_jet(theta, z - w, placement, bolt, nut, jet)
         if jet[J_B] > 0.0:
-            z_low = z
+            set_jet(theta, z + w, placement, bolt, nut, jet)
+            if jet[J_B] < 0.0:
+                break
+        if w >= window:
+            return z, False
+        w *= 4.0
+    low, high = z - w, z + w
+    while True:
+        middle = 0.5 * (low + high)
+        set_jet(theta, middle, placement, bolt, nut, jet)
+        if not low < middle < high or jet[J_B] == 0.0:
+            return middle, True
+        if jet[J_B] > 0.0:
+            low = middle
         else:
-            z_high = z
+            high = middle
 
 
 @kernel()
 def bracketed_maximum(
-    theta: float, z: float, half: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
+    theta: float, z: float, step: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
-    """The highest point of phi along the ridge near (theta, z), within ``half`` (rad) of theta, by bisection.
+    """The highest point of phi along the ridge near (theta, z), by steps in azimuth uphill and then by bisection.
 
-    It is where A falls through zero along the ridge, which at each azimuth is bracketed to ``window`` either way from
-    the helix through the point, or the line between the brackets' ridge points. Also returns whether there is one.
+    Along the ridge A falls through zero there. At each azimuth the ridge is looked for within ``window`` of where the
+    helix through the point before leads, or of the middle between two ridge points. Also returns whether there is a
+    maximum within ``MAX_RIDGE_STEPS`` of the steps (rad).
     """
     k = bolt[pk.LEAD] / TWO_PI
-    low, high = theta - half, theta + half
-    z_low, found = ridge_point(low, z - k * half - window, z - k * half + window, placement, bolt, nut, jet)
-    if not found or not jet[J_A] > 0.0:
+    z, found = ridge_point(theta, z, window, placement, bolt, nut, jet)
+    if not found:
         return theta, z, False
-    z_high, found = ridge_point(high, z + k * half - window, z + k * half + window, placement, bolt, nut, jet)
-    if not found or not jet[J_A] < 0.0:
+    uphill = math.copysign(step, jet[J_A])
+    after, z_after = theta, z
+    for _ in range(MAX_RIDGE_STEPS):
+        after, z_after = theta + uphill, z + k * uphill
+        z_after, found = ridge_point(after, z_after, window, placement, bolt, nut, jet)
+        if not found:
+            return theta, z, False
+        if not jet[J_A] * uphill > 0.0:
+            break
+        theta, z = after, z_after
+    if jet[J_A] * uphill > 0.0:
         return theta, z, False
     while True:
-        middle = 0.5 * (low + high)
-        between = 0.5 * (z_low + z_high)
-        reach = min(window, abs(z_high - z_low - k * (high - low)) + LEAST_RIDGE_REACH * bolt[pk.P])
-        z, found = ridge_point(middle, between - reach, between + reach, placement, bolt, nut, jet)
+        middle = 0.5 * (theta + after)
+        z_middle, found = ridge_point(middle, 0.5 * (z + z_after), window, placement, bolt, nut, jet)
         if not found:
-            z, found = ridge_point(middle, between - window, between + window, placement, bolt, nut, jet)
-        if not found:
-            return middle, between, False
-        if high - low < NARROW_AZIMUTHS:
-            return middle, z, True
-        if jet[J_A] > 0.0:
-            low, z_low = middle, z
+            return middle, z_middle, False
+        if abs(after - theta) < NARROW_AZIMUTHS:
+            return middle, z_middle, True
+        if jet[J_A] * uphill > 0.0:
+            theta, z = middle, z_middle
         else:
-            high, z_high = middle, z
+            after, z_after = middle, z_middle
 
 
 @kernel()
@@ -217,10 +235,10 @@ def follow_maximum(
             theta, z, 2.0 * FOLLOW_RANGE * step, placement if i == 0 else later_placement, bolt, nut, jet
         )
         if not converged and abs(jet[J_PHI]) < 2.0 * FOLLOW_RANGE * step * jet[J_RATE]:
-            half = FIRST_HALF if i == 0 else LATER_HALF
+            ridge_step = FIRST_RIDGE_STEP if i == 0 else LATER_RIDGE_STEP
             window = (FIRST_WINDOW if i == 0 else LATER_WINDOW) * p
             theta, z, converged = bracketed_maximum(
-                start_theta, start_z, half, window, placement if i == 0 else later_placement, bolt, nut, jet
+                start_theta, start_z, ridge_step, window, placement if i == 0 else later_placement, bolt, nut, jet
             )
         if not converged or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
             return count

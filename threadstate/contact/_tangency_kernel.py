@@ -211,6 +211,9 @@ def newton_tangency(
     set_jet(theta, z, placement, bolt, nut, jet)
     converged = False
     step = motion_scale(motion, bolt)
+    # Round-off in the place on a fillet, over its radius, is that of the slopes there.
+    fillet = min(bolt[pk.RHO_MINOR], bolt[pk.RHO_MAJOR], nut[pk.RHO_MINOR], nut[pk.RHO_MAJOR])
+    settled = max(1e-8, 2.0 * ROUND_OFF * bolt[pk.P] / fillet)
     for _ in range(30):
         phi, a, b, rate = jet[J_PHI], jet[J_A], jet[J_B], jet[J_RATE]
         uu, uz, zz, ut, zt = jet[J_UU], jet[J_UZ], jet[J_ZZ], jet[J_UT], jet[J_ZT]
@@ -235,7 +238,7 @@ def newton_tangency(
         set_placement(motion, tau, placement)
         set_jet(theta, z, placement, bolt, nut, jet)
         small = abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (step + abs(tau))
-        if small or (abs(jet[J_PHI]) < ROUND_OFF * bolt[pk.P] and abs(du) < 1e-8 and abs(dz) < 1e-8 * bolt[pk.P]):
+        if small or (abs(jet[J_PHI]) < ROUND_OFF * bolt[pk.P] and abs(du) < settled and abs(dz) < 1e-8 * bolt[pk.P]):
             converged = True
             break
     # Both parts are one thread pitch long.

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+SHARPEST = 4e-9
+"""Over the thread pitch, the fillet that stands for a sharp corner: heights are within a quarter of it."""
+
 MOST_STARTS = 4
 """Largest number of ridges side by side that is taken."""
 
@@ -105,10 +108,13 @@ class Profile:
     @property
     def boundaries(self) -> tuple[float, float, float, float]:
         """The ``s`` of flat | fillet | flank | fillet | flat on the rising half, -p/4 .. p/4, in the pair's unit."""
+        return self._boundaries(self.minor_fillet_radius, self.major_fillet_radius)
+
+    def _boundaries(self, minor_fillet: float, major_fillet: float) -> tuple[float, float, float, float]:
         turn = math.pi / 2.0 - math.radians(self.flank_half_angle_deg)
         low, high = self._corners
-        t_low = self.minor_fillet_radius * math.tan(turn / 2.0)
-        t_high = self.major_fillet_radius * math.tan(turn / 2.0)
+        t_low = minor_fillet * math.tan(turn / 2.0)
+        t_high = major_fillet * math.tan(turn / 2.0)
         return low - t_low, low + t_low * math.cos(turn), high - t_high * math.cos(turn), high + t_high
 
     @property
@@ -123,10 +129,15 @@ class Profile:
 
     @cached_property
     def packed(self) -> NDArray[np.float64]:
-        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (12,)."""
+        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (12,).
+
+        A corner that is sharper than ``SHARPEST`` has that fillet.
+        """
         import numpy as np
 
-        flat, flank, crest, top = self.boundaries
+        least = SHARPEST * self.thread_pitch
+        minor_fillet, major_fillet = max(self.minor_fillet_radius, least), max(self.major_fillet_radius, least)
+        flat, flank, crest, top = self._boundaries(minor_fillet, major_fillet)
         cot = 1.0 / math.tan(math.radians(self.flank_half_angle_deg))
         packed = np.array(
             [
@@ -139,8 +150,8 @@ class Profile:
                 crest,
                 top,
                 self.major_diameter / 2.0,
-                self.minor_fillet_radius,
-                self.major_fillet_radius,
+                minor_fillet,
+                major_fillet,
                 self.lead,
             ]
         )
