@@ -9,7 +9,7 @@ from fastapi import APIRouter, Depends, Request, Response
 from pydantic import BaseModel, ConfigDict, Field
 
 from service.kernels import require_kernels
-from service.libraries.requested import LIBRARY_DESCRIPTION, solved_pair
+from service.libraries.requested import LIBRARY_DESCRIPTION, AnswerOfPair, solved_pair
 from service.quantities import UNIT_HEADER, Tilt, UnitQuery
 from service.representation import JSON
 from service.strict_json import StrictJsonRoute
@@ -61,11 +61,9 @@ class SolveRequest(BaseModel):
     poses: Annotated[list[PoseToSolve], Field(min_length=1, max_length=LARGEST_POSE_COUNT)]
 
 
-class SolveAnswer(BaseModel):
+class SolveAnswer(AnswerOfPair):
     """The states of the poses, in their order."""
 
-    designation: str
-    library: int | None = Field(description="number of the library whose pair and tolerances these are")
     unit: LengthUnit = Field(description="unit of all lengths in this response")
     states: list[StateDocument]
 
@@ -84,6 +82,7 @@ def solve(request: Request, body: SolveRequest, unit: UnitQuery = None) -> Respo
     states = solve_poses(asked.pair, [(pose.roll, pose.pitch, pose.phase) for pose in body.poses], asked.options)
     answer = {
         "designation": asked.pair.designation,
+        "source": asked.source,
         "library": asked.library,
         "unit": shown.value,
         "states": [state_document(state, factor) for state in states],

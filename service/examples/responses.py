@@ -14,6 +14,7 @@ from threadstate.state.document import StateDocument
 from threadstate.statics.document import StaticsDocument
 from threadstate.statics.stored import LibraryStateDocument
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
+from threadstate.thread.standards.designation import UNIFIED_SOURCE
 
 
 def _document(name: str) -> Any:
@@ -83,7 +84,13 @@ EXAMPLES = (
         _JSON,
         "held",
         "One pose under one load",
-        {"designation": DEFAULT_DESIGNATION, "library": None, "unit": "in", "statics": [STATICS]},
+        {
+            "designation": DEFAULT_DESIGNATION,
+            "source": UNIFIED_SOURCE,
+            "library": None,
+            "unit": "in",
+            "statics": [STATICS],
+        },
     ),
     Example(
         "/v1/solve",
@@ -91,6 +98,12 @@ EXAMPLES = (
         _JSON,
         "solved",
         "Three contacts, one after another",
-        {"designation": DEFAULT_DESIGNATION, "library": None, "unit": "in", "states": [SOLVED_STATE]},
+        {
+            "designation": DEFAULT_DESIGNATION,
+            "source": UNIFIED_SOURCE,
+            "library": None,
+            "unit": "in",
+            "states": [SOLVED_STATE],
+        },
     ),
 )

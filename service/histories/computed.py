@@ -68,7 +68,9 @@ def get_computed_intervals(roll: RollPath, pitch: PitchPath, asked: RequestedPai
     found = computed_history(pair, roll, pitch, asked.options)
     history = history_document(found, roll, pitch, pair, conversion_factor(pair.unit, shown))
     return _computed(
-        ComputedIntervals(designation=pair.designation, library=asked.library, unit=shown, history=history)
+        ComputedIntervals(
+            designation=pair.designation, source=asked.source, library=asked.library, unit=shown, history=history
+        )
     )
 
 
@@ -79,7 +81,11 @@ def get_computed_heights(roll: RollPath, pitch: PitchPath, asked: RequestedPair,
     shown = unit or pair.unit
     found = computed_heights(pair, roll, pitch, asked.options)
     heights = heights_document(found, roll, pitch, pair.thread_pitch, conversion_factor(pair.unit, shown))
-    return _computed(ComputedHeights(designation=pair.designation, library=asked.library, unit=shown, heights=heights))
+    return _computed(
+        ComputedHeights(
+            designation=pair.designation, source=asked.source, library=asked.library, unit=shown, heights=heights
+        )
+    )
 
 
 @router.get("/{roll}/{pitch}/held", summary="Where a load holds along any phase", response_model=ComputedHeld)
@@ -99,7 +105,7 @@ def get_computed_held(
     factor = conversion_factor(pair.unit, unit or pair.unit)
     cells = computed_history(pair, roll, pitch, asked.options).cells
     held = held_documents(pair, asked.options, (roll, pitch), cells, load.with_lengths_over(factor), mus)
-    answer = ComputedHeld(designation=pair.designation, library=asked.library, held=held)
+    answer = ComputedHeld(designation=pair.designation, source=asked.source, library=asked.library, held=held)
     return Response(answer.model_dump_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)
 
 
@@ -130,7 +136,12 @@ def get_computed_falls(
         within = falls_range(falls, roll, pitch, tolerance, tilts_within(roll, pitch, tolerance, steps))
     return _computed(
         ComputedFalls(
-            designation=pair.designation, library=asked.library, unit=shown, falls=falls(roll, pitch), range=within
+            designation=pair.designation,
+            source=asked.source,
+            library=asked.library,
+            unit=shown,
+            falls=falls(roll, pitch),
+            range=within,
         )
     )
 

@@ -7,20 +7,21 @@ from dataclasses import fields, replace
 from datetime import datetime
 
 from fastapi import APIRouter, Request, Response
-from pydantic import BaseModel, Field, TypeAdapter
+from pydantic import BaseModel, Field
 
 from service.database import ReadConnection
 from service.libraries.requested import IdentifiedLibrary
 from service.quantities import UnitQuery
 from service.representation import NOT_MODIFIED, json_response
+from threadstate.library.identity import pair_of
 from threadstate.library.named import slug
 from threadstate.library.read import Counts, LibraryRecord, counts, published_libraries
 from threadstate.library.solver_method import SolverMethod
 from threadstate.state.model import Flag, StateClass
+from threadstate.thread.catalogue import source_of
 from threadstate.thread.pair import Pair
+from threadstate.thread.standards.document import SourceDocument
 from threadstate.units import LengthUnit, conversion_factor
-
-_PAIR = TypeAdapter(Pair)
 
 
 class GridDocument(BaseModel):
@@ -38,6 +39,7 @@ class LibraryDocument(BaseModel):
     id: int
     designation: str = Field(examples=["1/4-20 UNC"])
     slug: str = Field(examples=["1-4-20-unc"])
+    source: SourceDocument
     unit: LengthUnit = Field(description="unit of all lengths in this response")
     stored_unit: LengthUnit = Field(description="unit in which the library was computed and is stored")
     pair: Pair = Field(description="the bolt and the nut; lengths in this answer's unit, fillets per thread pitch")
@@ -75,13 +77,15 @@ class LibraryList(BaseModel):
 def library_document(record: LibraryRecord, unit: LengthUnit | None) -> LibraryDocument:
     """The document of a library, with its lengths in ``unit`` (None: the library's own)."""
     shown = unit or record.length_unit
+    pair = pair_of(record.pair)
     return LibraryDocument(
         id=record.id,
         designation=record.designation,
         slug=slug(record.designation),
+        source=source_of(pair),
         unit=shown,
         stored_unit=record.length_unit,
-        pair=_in_unit(_PAIR.validate_json(record.pair), shown),
+        pair=_in_unit(pair, shown),
         grid=GridDocument(
             tilt_max=record.grid.tilt_max_deg,
             tilt_step=record.grid.tilt_step_deg,

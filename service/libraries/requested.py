@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from fastapi import Depends, Path, Query, Request
+from pydantic import BaseModel, Field
 
 from service.database import ReadConnection, engine_of
 from threadstate.errors import InvalidValueError
@@ -13,8 +14,9 @@ from threadstate.library.identity import options_of, pair_of
 from threadstate.library.named import LATEST, named_library
 from threadstate.library.read import LibraryRecord
 from threadstate.state.options import SolveOptions
-from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
+from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation, source_of
 from threadstate.thread.pair import Pair
+from threadstate.thread.standards.document import SourceDocument
 
 LibraryId = Annotated[
     str,
@@ -56,6 +58,19 @@ class SolvedPair:
     pair: Pair
     options: SolveOptions
     library: int | None
+
+    @property
+    def source(self) -> str | None:
+        """On what the pair's dimensions rest."""
+        return source_of(self.pair)
+
+
+class AnswerOfPair(BaseModel):
+    """Of which pair an answer is."""
+
+    designation: str
+    source: SourceDocument
+    library: int | None = Field(description="number of the library whose pair and tolerances these are")
 
 
 def solved_pair(request: Request, designation: str | None, library: int | str | None) -> SolvedPair:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import BaseModel, Field
 
+from service.libraries.requested import AnswerOfPair
 from threadstate.responses.documents import (
     FallsDocument,
     FallsRangeDocument,
@@ -33,11 +34,9 @@ class IntervalsAnswer(_OfLibrary):
     history: OrientationHistoryDocument
 
 
-class ComputedIntervals(BaseModel):
+class ComputedIntervals(AnswerOfPair):
     """The same of any orientation, computed on request."""
 
-    designation: str
-    library: int | None = Field(description="number of the library whose pair and tolerances these are")
     unit: LengthUnit = Field(description="unit of all lengths in this response")
     history: OrientationHistoryDocument
 
@@ -48,20 +47,16 @@ class HeightsAnswer(_OfLibrary):
     heights: HeightsDocument
 
 
-class ComputedHeights(BaseModel):
+class ComputedHeights(AnswerOfPair):
     """The same of any orientation, computed on request."""
 
-    designation: str
-    library: int | None = Field(description="number of the library whose pair and tolerances these are")
     unit: LengthUnit = Field(description="unit of all lengths in this response")
     heights: HeightsDocument
 
 
-class ComputedFalls(BaseModel):
+class ComputedFalls(AnswerOfPair):
     """The falls of any orientation, and their range where a tolerance was given."""
 
-    designation: str
-    library: int | None
     unit: LengthUnit = Field(description="unit of all lengths in this response")
     falls: FallsDocument
     range: FallsRangeDocument | None
@@ -74,11 +69,9 @@ class HeldAnswer(BaseModel):
     held: list[HeldDocument]
 
 
-class ComputedHeld(BaseModel):
+class ComputedHeld(AnswerOfPair):
     """The same of any orientation, computed on request."""
 
-    designation: str
-    library: int | None = Field(description="number of the library whose pair and tolerances these are")
     held: list[HeldDocument]
 
 

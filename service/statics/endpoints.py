@@ -9,12 +9,12 @@ from itertools import product
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Query, Request, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import ConfigDict, Field
 
 from service.cache.stored import content_location
 from service.database import ReadConnection
 from service.kernels import require_kernels
-from service.libraries.requested import IdentifiedLibrary, RequestedPair, solved_pair
+from service.libraries.requested import AnswerOfPair, IdentifiedLibrary, RequestedPair, solved_pair
 from service.quantities import UNIT_HEADER, PhasePath, PitchPath, RollPath, UnitQuery
 from service.representation import JSON, NOT_MODIFIED, SVG, json_response, representation
 from service.solve import NOT_BOTH, SolveRequest
@@ -37,7 +37,7 @@ from threadstate.state.solve import solve_poses
 from threadstate.statics.document import RequestedStaticsDocument, requested_document
 from threadstate.statics.extras import Extra, extras_of
 from threadstate.statics.jamming import jamming_diagram
-from threadstate.statics.jamming_document import JammingDocument, jamming_document
+from threadstate.statics.jamming_document import ComputedJammingDocument, JammingDocument, jamming_document
 from threadstate.statics.jamming_svg import jamming_svg
 from threadstate.statics.load import DEFAULT_FRICTION, Load
 from threadstate.statics.solve import statics_of
@@ -80,11 +80,9 @@ class StaticsRequest(SolveRequest):
     ]
 
 
-class StaticsAnswer(BaseModel):
+class StaticsAnswer(AnswerOfPair):
     """The statics of each pose under each load: the loads of the first pose in their order, then those of the next."""
 
-    designation: str
-    library: int | None = Field(description="number of the library whose pair and tolerances these are")
     unit: LengthUnit = Field(description="unit of all lengths in this response")
     statics: list[RequestedStaticsDocument]
 
@@ -163,7 +161,7 @@ def get_jamming(
 @router.get(
     "/v1/states/{roll}/{pitch}/{phase}/jamming",
     summary="The jamming diagram of any pose",
-    response_model=JammingDocument,
+    response_model=ComputedJammingDocument,
     responses={200: {"content": {SVG: {"schema": {"type": "string"}}}}},
 )
 def get_computed_jamming(
@@ -183,7 +181,10 @@ def get_computed_jamming(
     (state,) = solve_poses(asked.pair, [(roll, pitch, phase)], asked.options)
     document = _diagram(asked.pair, state, load, mu, shape, factor)
     is_svg = format is DiagramFormat.SVG
-    content = jamming_svg(document) if is_svg else json.dumps(document, separators=(",", ":"), allow_nan=False)
+    answer = ComputedJammingDocument(
+        **document, designation=asked.pair.designation, source=asked.source, library=asked.library
+    )
+    content = jamming_svg(document) if is_svg else json.dumps(answer, separators=(",", ":"), allow_nan=False)
     headers = {UNIT_HEADER: shown.value, "Cache-Control": "no-store"}
     return Response(content, headers=headers, media_type=SVG if is_svg else JSON)
 
@@ -210,6 +211,7 @@ def solve_statics(request: Request, body: StaticsRequest, unit: UnitQuery = None
     states = solve_poses(asked.pair, [(pose.roll, pose.pitch, pose.phase) for pose in body.poses], asked.options)
     answer = {
         "designation": asked.pair.designation,
+        "source": asked.source,
         "library": asked.library,
         "unit": shown.value,
         "statics": [

@@ -36,7 +36,7 @@ RENAMED = {
     name: f"{name}Document"
     for name in (
         *("State", "Pose", "Contact", "Margins", "StoredStatics", "Load", "ContactForce", "Reaction", "NormalRange"),
-        *("Twist", "LoadedContact", "Piece", "Jamming", "ContactWrench", "Limits", "StandardThread"),
+        *("Twist", "LoadedContact", "Piece", "Jamming", "ComputedJamming", "ContactWrench", "Limits", "StandardThread"),
     )
 } | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
 """Models that go by a shorter name than the service's."""

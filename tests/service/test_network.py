@@ -325,6 +325,7 @@ def test_histories_off_the_grid_are_of_a_librarys_own_pair_and_tolerances(own_cl
     intervals = _json(own_client, "/v1/histories/-4/1.5/intervals?library=m6x1")
     assert ComputedIntervals.model_validate(intervals) == ComputedIntervals(
         designation="M6x1",
+        source=None,
         library=1,
         unit=OWN_PAIR.unit,
         history=history_document(found, -4.0, 1.5, OWN_PAIR, 1.0),
@@ -333,6 +334,7 @@ def test_histories_off_the_grid_are_of_a_librarys_own_pair_and_tolerances(own_cl
     heights = _json(own_client, "/v1/histories/-4/1.5/heights?library=1")
     assert ComputedHeights.model_validate(heights) == ComputedHeights(
         designation="M6x1",
+        source=None,
         library=1,
         unit=OWN_PAIR.unit,
         heights=heights_document(curve, -4.0, 1.5, OWN_PAIR.thread_pitch, 1.0),

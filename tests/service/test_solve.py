@@ -15,6 +15,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
+from threadstate.thread.standards.designation import UNIFIED_SOURCE, WHITWORTH_SOURCE
 from threadstate.units import MILLIMETRES_PER_INCH
 
 pytestmark = pytest.mark.sqlite_alone
@@ -33,10 +34,25 @@ def test_answer_is_the_exact_solvers(client: TestClient) -> None:
     assert response.headers["Cache-Control"] == "no-store"
     assert response.json() == {
         "designation": "1/4-20 UNC",
+        "source": UNIFIED_SOURCE,
         "library": None,
         "unit": "in",
         "states": [state_document(state) for state in solve_poses(quarter_twenty_unc(), POSES)],
     }
+
+
+def test_every_answer_says_on_what_its_dimensions_rest(own_client: TestClient, client: TestClient) -> None:
+    for path in ("/v1/libraries/latest", "/v1/states/1/0/30/jamming?library=latest"):
+        assert own_client.get(path).json()["source"] is None, path
+    assert client.get("/v1/libraries/latest?unit=mm").json()["source"] == UNIFIED_SOURCE
+    whitworth = {"designation": "1/4-20 BSW"}
+    for answer in (
+        client.post("/v1/solve", json=body(POSES[0], **whitworth)),
+        client.post("/v1/statics", json=body(POSES[1], loads=[{}], **whitworth)),
+        client.get("/v1/states/4/0/185/jamming", params=whitworth),
+        client.get("/v1/histories/4/0/falls", params=whitworth),
+    ):
+        assert (answer.json()["designation"], answer.json()["source"]) == ("1/4-20 BSW-medium/normal", WHITWORTH_SOURCE)
 
 
 def test_stored_states_are_what_solving_gives(solved_client: TestClient, solved: StoredLibrary) -> None:
@@ -49,7 +65,7 @@ def test_stored_states_are_what_solving_gives(solved_client: TestClient, solved:
 def test_lengths_are_in_the_unit_asked_for(client: TestClient) -> None:
     response = client.post("/v1/solve", params={"unit": "mm"}, json=body(POSES[1]))
     expected = state_document(solve_poses(quarter_twenty_unc(), POSES[1:2])[0], MILLIMETRES_PER_INCH)
-    assert response.json() == {"designation": "1/4-20 UNC", "library": None, "unit": "mm", "states": [expected]}
+    assert (response.json()["unit"], response.json()["states"]) == ("mm", [expected])
     assert response.headers["Length-Unit"] == "mm"
 
 
@@ -65,7 +81,7 @@ def test_a_librarys_own_pair_and_tolerances_are_solved(own_client: TestClient) -
     assert expected != [state_document(state) for state in solve_poses(OWN_PAIR, POSES)]
     for name in (1, "latest", "m6x1", OWN_PAIR.designation):
         answer = own_client.post("/v1/solve", json=body(*POSES, library=name)).json()
-        assert answer == {"designation": "M6x1", "library": 1, "unit": "mm", "states": expected}, name
+        assert answer == {"designation": "M6x1", "source": None, "library": 1, "unit": "mm", "states": expected}, name
 
 
 def test_the_known_thread_stays_where_no_library_is_named(own_client: TestClient) -> None:

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from threadstate.thread.catalogue import pair_by_designation, source_of
 from threadstate.thread.play import axial_play
-from threadstate.thread.standards.designation import standard_thread, standard_threads
+from threadstate.thread.standards.designation import (
+    ACME_SOURCE,
+    UNIFIED_SOURCE,
+    WHITWORTH_SOURCE,
+    standard_thread,
+    standard_threads,
+)
 from threadstate.thread.standards.pairs import Position, pair_at, parsed_position, standard_pair
 
 
@@ -56,3 +65,21 @@ def test_whitworth_is_round_and_its_radius_that_of_the_standard() -> None:
 def test_the_name_of_a_position_means_it(text: str) -> None:
     position = parsed_position(text)
     assert standard_pair(f"M6{position.name}") == pair_at(standard_thread("M6"), position)
+
+
+@pytest.mark.parametrize(
+    ("designation", "source"),
+    [
+        ("1/4-20 UNC", UNIFIED_SOURCE),
+        ("1/4-20 UNC-3A/3B LH at 0.25/0.5", UNIFIED_SOURCE),
+        ("1/4-20 UNC newer root", f"{UNIFIED_SOURCE}; the bolt's minor diameter from newer editions"),
+        ("1/4-16 acme at middle", ACME_SOURCE),
+        ("1/4-20 BSW", WHITWORTH_SOURCE),
+    ],
+)
+def test_a_pair_rests_on_its_standard_while_every_number_is_the_standards(designation: str, source: str) -> None:
+    pair = pair_by_designation(designation)
+    assert source_of(pair) == source
+    fit = replace(pair.fit, nut_minor_diameter=pair.fit.nut_minor_diameter * (1.0 + 1e-12))
+    assert source_of(replace(pair, fit=fit)) is None
+    assert source_of(replace(pair, designation="a thread of one's own")) is None

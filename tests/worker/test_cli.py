@@ -19,8 +19,9 @@ from threadstate.mesh.solve import solve_poses_by_mesh
 from threadstate.state.document import state_document
 from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose, solve_poses
-from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc, source_of
 from threadstate.thread.pair import Pair
+from threadstate.thread.standards.designation import UNIFIED_SOURCE
 from threadstate.units import LengthUnit, conversion_factor
 from worker.cli import PROGRAM, command_group
 from worker.commands.solve import BATCH
@@ -32,10 +33,10 @@ UNC = quarter_twenty_unc()
 POSE = ["--roll", "4", "--pitch", "0", "--phase", "185"]
 
 
-def _line(state: ContactState, unit: LengthUnit = LengthUnit.INCH) -> str:
+def _line(state: ContactState, unit: LengthUnit = LengthUnit.INCH, source: str = UNIFIED_SOURCE) -> str:
     """The line that a state is printed as."""
     document = state_document(state, conversion_factor(LengthUnit.INCH, unit))
-    return json.dumps({**document, "unit": unit.value}, separators=(",", ":")) + "\n"
+    return json.dumps({**document, "unit": unit.value, "source": source}, separators=(",", ":")) + "\n"
 
 
 COMMANDS = sorted(command_group().commands)
@@ -141,7 +142,10 @@ def test_poses_of_a_file_are_one_object_a_line_in_its_order(command_line: Comman
 def test_a_named_pair_is_solved(command_line: CommandLine) -> None:
     name = "1/4-20 UNC newer root"
     _, out, _ = command_line.here("solve", *POSE, "--pair", name, "--json")
-    assert out == _line(solve_pose(pair_by_designation(name), 4.0, 0.0, 185.0))
+    pair = pair_by_designation(name)
+    source = source_of(pair)
+    assert source is not None
+    assert out == _line(solve_pose(pair, 4.0, 0.0, 185.0), source=source)
 
 
 @pytest.mark.slow

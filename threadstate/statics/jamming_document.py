@@ -13,6 +13,7 @@ from threadstate.state.model import ContactState
 from threadstate.statics.cone_slice import SliceKind
 from threadstate.statics.document import LoadDocument
 from threadstate.statics.jamming import Axis, JammingDiagram, LoadedContact, Mode, Piece, Side
+from threadstate.thread.standards.document import SourceDocument
 
 PlanePointDocument = Annotated[list[float], Field(min_length=2, max_length=2)]
 
@@ -62,6 +63,14 @@ class JammingDocument(TypedDict):
     hull_gap: Annotated[float, Field(description="the hull of a true patch reaches beyond its contacts by no more")]
     wedged: Annotated[list[int], Field(description="contacts that can press against each other without a load")]
     penetrating: Annotated[bool, Field(description="whether the solids overlap, so that no forces can be real")]
+
+
+class ComputedJammingDocument(JammingDocument):
+    """The same of any pose, computed on request."""
+
+    designation: str
+    source: SourceDocument
+    library: Annotated[int | None, Field(description="number of the library whose pair and tolerances these are")]
 
 
 def jamming_document(state: ContactState, diagram: JammingDiagram, length_factor: float = 1.0) -> JammingDocument:

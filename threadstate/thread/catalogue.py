@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from enum import StrEnum
+from functools import lru_cache
 
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.pair import Pair
 from threadstate.thread.standards.designation import EXAMPLES
-from threadstate.thread.standards.pairs import standard_pair
+from threadstate.thread.standards.pairs import standard_pair, standard_source
 from threadstate.units import LengthUnit
 
 
@@ -79,6 +80,22 @@ def pair_by_designation(designation: str) -> Pair:
 
 
 VALID_DESIGNATIONS = f"a standard thread, such as {EXAMPLES}, or {_DESIGNATION[RootForm.NEWER]}"
+
+
+@lru_cache(maxsize=256)
+def source_of(pair: Pair) -> str | None:
+    """On what the dimensions of a pair rest: its standard, and how far that was checked; None of a pair of one's own.
+
+    A pair is the catalogue's where it has every number of the one that has its designation.
+    """
+    try:
+        if pair_by_designation(pair.designation) != pair:
+            return None
+    except InvalidValueError:
+        return None
+    if pair.designation == _DESIGNATION[RootForm.NEWER]:
+        return f"{standard_source(DEFAULT_DESIGNATION)}; the bolt's minor diameter from newer editions"
+    return standard_source(pair.designation)
 
 
 def is_known(designation: str) -> bool:

@@ -57,6 +57,7 @@ def heights(
     from threadstate.responses.heights import computed_heights, heights_document, stored_heights
     from threadstate.responses.histories import computed_history
     from threadstate.responses.windows import windows_document
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.history_table import print_heights
     from worker.library_source import orientation_source
@@ -77,6 +78,6 @@ def heights(
         windows = windows_document(history, roll, pitch, threads, factor).windows
         plot_heights(document, windows, shown, plot)
     if as_json:
-        print_json({"unit": shown.value, **document.model_dump(mode="json")})
+        print_json({"unit": shown.value, "source": source_of(threads), **document.model_dump(mode="json")})
         return
     print_heights(document, shown)

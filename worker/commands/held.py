@@ -49,6 +49,7 @@ def held(
     from threadstate.responses.held import held_documents
     from threadstate.responses.histories import computed_history
     from threadstate.responses.query import parse_frictions
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.history_table import print_held
     from worker.library_source import orientation_source
@@ -65,6 +66,6 @@ def held(
     load = chosen_load(force, moment, point, conversion_factor(threads.unit, unit or threads.unit))
     for document in held_documents(threads, options, (roll, pitch), found.cells, load, frictions):
         if as_json:
-            print_json(document.model_dump(mode="json"))
+            print_json({**document.model_dump(mode="json"), "source": source_of(threads)})
         else:
             print_held(document)

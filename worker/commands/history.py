@@ -45,6 +45,7 @@ def history(
       threadstate history --roll 2.5 --pitch -1.2 --pair examples/m6x1.toml
     """
     from threadstate.responses.histories import computed_history, history_document
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.history_table import print_history
     from worker.library_source import orientation_source
@@ -59,6 +60,8 @@ def history(
     shown = unit or threads.unit
     document = history_document(found, roll, pitch, threads, conversion_factor(threads.unit, shown))
     if as_json:
-        print_json({"unit": shown.value, **document.model_dump(mode="json", by_alias=True)})
+        print_json(
+            {"unit": shown.value, "source": source_of(threads), **document.model_dump(mode="json", by_alias=True)}
+        )
         return
     print_history(document, shown)

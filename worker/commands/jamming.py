@@ -70,6 +70,7 @@ def jamming(
     from threadstate.statics.jamming import TOLERANCE, jamming_diagram
     from threadstate.statics.jamming_document import jamming_document
     from threadstate.statics.jamming_svg import jamming_svg
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
     from worker.tables import print_jamming
@@ -93,6 +94,6 @@ def jamming(
     if plot is not None:
         plot.write_text(jamming_svg(document))
     if as_json:
-        print_json(document)
+        print_json({**document, "source": source_of(threads)})
     else:
         print_jamming(document)

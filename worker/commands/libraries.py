@@ -88,12 +88,15 @@ def _pin(database: str, name: str | None) -> None:
 
 
 def _document(record: LibraryRecord, *, is_latest: bool) -> dict[str, object]:
+    from threadstate.library.identity import pair_of
     from threadstate.library.named import slug
+    from threadstate.thread.catalogue import source_of
 
     return {
         "id": record.id,
         "designation": record.designation,
         "slug": slug(record.designation),
+        "source": source_of(pair_of(record.pair)),
         "method": record.method.value,
         "unit": record.length_unit.value,
         "tilt_max": record.grid.tilt_max_deg,

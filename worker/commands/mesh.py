@@ -61,6 +61,7 @@ def mesh(
     """
     from threadstate.mesh.export import file_ending, mesh_report, write_mesh
     from threadstate.mesh.scene import scene_part
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
 
@@ -84,6 +85,7 @@ def mesh(
                 "part": part.value,
                 "scene": scene.value,
                 "pair": threads.designation,
+                "source": source_of(threads),
                 "unit": shown.value,
                 "file": str(out),
                 "format": ending,

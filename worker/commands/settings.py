@@ -21,12 +21,14 @@ def settings(pair: PairName = None, dimension: Dimensions = None, as_json: Json 
     """
     from dataclasses import asdict
 
+    from threadstate.thread.catalogue import source_of
     from worker.effective_settings import effective_settings
     from worker.pairs.selection import chosen_pair
     from worker.tables import table
 
     found = effective_settings()
-    dimensions = asdict(chosen_pair(pair, dimension or ()))
+    threads = chosen_pair(pair, dimension or ())
+    dimensions = {**asdict(threads), "source": source_of(threads)}
     if as_json:
         entries = [{"name": one.name, "value": one.value, "source": one.source.value} for one in found]
         print_json({"settings": entries, "pair": dimensions})

@@ -70,6 +70,7 @@ def solve(
     from threadstate.state.document import state_document
     from threadstate.state.model import ContactState
     from threadstate.state.solve import solve_poses
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
     from worker.tables import print_contacts, print_states
@@ -86,7 +87,7 @@ def solve(
     if as_json:
         for start in range(0, len(wanted), batch):
             for state in found(threads, wanted[start : start + batch]):
-                print_json({**state_document(state, factor), "unit": shown.value})
+                print_json({**state_document(state, factor), "unit": shown.value, "source": source_of(threads)})
         return
     states = found(threads, wanted) if wanted else []
     print_states(states, shown, factor)

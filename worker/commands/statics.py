@@ -56,6 +56,7 @@ def statics(
     from threadstate.statics.document import requested_document
     from threadstate.statics.extras import extras_of, requested_extras
     from threadstate.statics.solve import statics_of
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.pairs.selection import chosen_pair
     from worker.tables import print_statics
@@ -71,6 +72,6 @@ def statics(
             found = statics_of(threads, state, load, mu)
             extras = extras_of(threads, state, found, requested) if requested else None
             if as_json:
-                print_json(requested_document(found, extras, factor))
+                print_json({**requested_document(found, extras, factor), "source": source_of(threads)})
             else:
                 print_statics(found, extras, shown, factor)

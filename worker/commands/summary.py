@@ -32,19 +32,23 @@ def summary(
     if library is not None and method is not None:
         raise InvalidValueError("--method", method.value, "without --library, which names one library")
 
+    from threadstate.library.identity import pair_of
     from threadstate.library.named import LATEST, LATEST_MESH
     from threadstate.library.read import counts, undecided_reasons
+    from threadstate.thread.catalogue import source_of
     from worker.library_source import connected_library
 
     name = library or (LATEST_MESH if method is SolverMethod.MESH else LATEST)
     with connected_library(database, name) as (connection, record):
         counted = counts(connection, record.id)
         reasons = undecided_reasons(connection, record.id)
+    source = source_of(pair_of(record.pair))
     if as_json:
         print_json(
             {
                 "library": record.id,
                 "pair": record.designation,
+                "source": source,
                 "unit": record.length_unit.value,
                 "input_sha256": record.input_sha256,
                 "content_sha256": record.content_sha256,
@@ -60,6 +64,7 @@ def summary(
         return
     method_and_unit = f"{record.method.value} method, unit {record.length_unit}"
     print_line(f"library {record.id}: {record.designation}, {record.state_count} states, {method_and_unit}")
+    print_line(f"dimensions: {source or 'of a pair of its own'}")
     print_line(f"published {record.published_at:%Y-%m-%d %H:%M:%S} UTC by {record.code_version}")
     print_line(f"inputs  {record.input_sha256}")
     print_line(f"content {record.content_sha256}")

@@ -53,6 +53,7 @@ def windows(
       threadstate windows --plot falls.svg
     """
     from threadstate.responses.falls_range import computed_falls, falls_range, tilts_within
+    from threadstate.thread.catalogue import source_of
     from threadstate.units import conversion_factor
     from worker.falls import falls_and_windows
     from worker.history_table import print_falls, print_falls_range, print_windows
@@ -85,7 +86,7 @@ def windows(
         plot_map(falls, f"{network.pair.designation}: fall of the snap", shown, plot)
     if as_json:
         entries = [one.model_dump(mode="json", by_alias=True) for one in found]
-        of = {"library": network.library.id, "unit": shown.value}
+        of = {"library": network.library.id, "unit": shown.value, "source": source_of(network.pair)}
         given = {} if within is None else {"range": within.model_dump(mode="json")}
         print_json({**of, "orientations": entries, **given})
         return

@@ -17,7 +17,7 @@ from threadstate.client.call import (
     post,
 )
 from threadstate.client.loads import LoadToBear, checked_load, load_query
-from threadstate.client.models.statics import ComputedHeld, HeldAnswer, Jamming, Statics, StaticsAnswer
+from threadstate.client.models.statics import ComputedHeld, ComputedJamming, HeldAnswer, Jamming, Statics, StaticsAnswer
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
 from threadstate.statics.load import DEFAULT_FRICTION, checked_friction
@@ -102,7 +102,7 @@ def computed_jamming(
     designation: str | None = None,
     library: LibraryName | None = None,
     unit: str | None = None,
-) -> Call[Jamming]:
+) -> Call[ComputedJamming]:
     """As ``jamming``, of any pose, computed on request, of a known thread or of a library's pair.
 
     Raises:
@@ -110,7 +110,7 @@ def computed_jamming(
     """
     query = load_query(mu, force, moment, point) | _shape(axes, contacts, window, tolerance)
     path = path_of("v1", "states", roll, pitch, phase, "jamming")
-    return get(path, Jamming, **query, designation=designation, library=library, unit=unit)
+    return get(path, ComputedJamming, **query, designation=designation, library=library, unit=unit)
 
 
 def jamming_svg(

@@ -21,11 +21,15 @@ class GridDocument(Answer):
 
 
 class LibraryDocument(Answer):
-    """A published library: its inputs and its counts; lengths of the ``pair`` in ``unit``."""
+    """A published library: its inputs and its counts; lengths of the ``pair`` in ``unit``.
+
+    ``source`` is on what the pair's dimensions rest; None of a pair of one's own.
+    """
 
     id: int
     designation: str
     slug: str
+    source: str | None
     unit: LengthUnit
     stored_unit: LengthUnit
     pair: Pair

@@ -33,6 +33,7 @@ class ComputedIntervals(Answer):
     """The same of any orientation, computed on request."""
 
     designation: str
+    source: str | None
     library: int | None
     unit: LengthUnit
     history: OrientationHistoryDocument
@@ -50,6 +51,7 @@ class ComputedHeights(Answer):
     """The same of any orientation, computed on request."""
 
     designation: str
+    source: str | None
     library: int | None
     unit: LengthUnit
     heights: HeightsDocument
@@ -59,6 +61,7 @@ class ComputedFalls(Answer):
     """The falls of any orientation, computed on request; their range where a tolerance was given."""
 
     designation: str
+    source: str | None
     library: int | None
     unit: LengthUnit
     falls: FallsDocument

@@ -99,6 +99,7 @@ class SolveAnswer(Answer):
     """The states of poses that were solved, in the order of the poses."""
 
     designation: str
+    source: str | None
     library: int | None
     unit: LengthUnit
     states: tuple[State, ...]

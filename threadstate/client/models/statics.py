@@ -123,6 +123,7 @@ class StaticsAnswer(Answer):
     """The statics of each pose under each load: the loads of the first pose in their order, then those of the next."""
 
     designation: str
+    source: str | None
     library: int | None
     unit: LengthUnit
     statics: tuple[Statics, ...]
@@ -179,6 +180,14 @@ class Jamming(Answer):
     penetrating: bool
 
 
+class ComputedJamming(Jamming):
+    """The same of any pose, computed on request."""
+
+    designation: str
+    source: str | None
+    library: int | None
+
+
 class HeldAnswer(Answer):
     """What a load does along the phase of an orientation, at each friction."""
 
@@ -190,5 +199,6 @@ class ComputedHeld(Answer):
     """The same of any orientation, computed on request."""
 
     designation: str
+    source: str | None
     library: int | None
     held: tuple[HeldDocument, ...]

@@ -66,8 +66,10 @@ UNIFIED_SOURCE = "ASME B1.1: formulas, rounded as its tables are; checked agains
 METRIC_SOURCE = (
     "ISO 965-1: formulas with the smoothing and the exceptions of its tables; checked against published limits"
 )
-ACME_SOURCE = "ASME B1.5: formulas, rounded as its tables are; checked against published limits"
-STUB_SOURCE = "ASME B1.8: diameters from one source, tolerances those of ASME B1.5, from memory"
+ACME_SOURCE = (
+    "ASME B1.5: formulas, rounded as its tables are; checked against published limits; fillets of roots from memory"
+)
+STUB_SOURCE = "ASME B1.8: diameters from one source; tolerances, those of ASME B1.5, and fillets of roots from memory"
 TRAPEZOIDAL_SOURCE = "ISO 2903: tables from one source; no published limits to check against"
 WHITWORTH_SOURCE = "BS 84: formulas from two sources, allowances from memory; no published limits to check against"
 

@@ -18,6 +18,15 @@ BoundsDocument = Annotated[
 ]
 
 
+SourceDocument = Annotated[
+    str | None,
+    Field(
+        description="on what the pair's dimensions rest: its standard, and how far that was checked; null of a pair of "
+        "one's own"
+    ),
+]
+
+
 class LimitsDocument(TypedDict):
     """The diameters of a bolt's or a nut's thread."""
 

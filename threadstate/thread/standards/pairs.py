@@ -108,6 +108,16 @@ def standard_pair(designation: str) -> Pair:
     return pair_at(standard_thread(_POSITION.sub("", designation)), position)
 
 
+def standard_source(designation: str) -> str:
+    """On what the numbers of a designation's pair rest, whatever its position.
+
+    Raises:
+        UnknownNameError: no such size.
+        InvalidValueError: a class that its form does not have.
+    """
+    return standard_thread(_POSITION.sub("", designation)).source
+
+
 def parsed_position(text: str) -> Position:
     """A position as it is written.
 
