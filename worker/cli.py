@@ -31,6 +31,7 @@ from worker.commands.mesh import mesh
 from worker.commands.migrate import migrate
 from worker.commands.network import network
 from worker.commands.path import path
+from worker.commands.profiles import profiles
 from worker.commands.rebuild import rebuild
 from worker.commands.run import run
 from worker.commands.serve import serve
@@ -72,6 +73,7 @@ COMMANDS = (
     windows,
     compare,
     threads,
+    profiles,
     transitions,
     network,
     formation,

@@ -6,12 +6,13 @@ import math
 import shutil
 import sys
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from threadstate.numbers import number_text
 from threadstate.state.model import ContactState
-from threadstate.units import LengthUnit, scale_length
+from threadstate.thread.pair import Pair, Part
+from threadstate.units import LengthUnit, conversion_factor, scale_length
 from worker.output import print_line
 
 if TYPE_CHECKING:
@@ -30,6 +31,8 @@ LENGTH_DECIMALS = {LengthUnit.INCH: 6, LengthUnit.MILLIMETRE: 5}
 """Decimals of a length in a table: finer than any measurement, coarser than round-off."""
 ANGLE_DECIMALS = 6
 
+OWN_DIMENSIONS = "dimensions of one's own"
+"""Where no standard is the source of a pair."""
 PAST_360 = "-> "
 """Stands before the end of an interval that goes on past phase 360."""
 
@@ -218,6 +221,39 @@ def print_threads(threads: Sequence[StandardThread]) -> None:
 def _limits(diameter: Diameter) -> str:
     least, greatest = ("..." if bound is None else number_text(bound) for bound in (diameter.least, diameter.greatest))
     return f"{least} to {greatest}"
+
+
+def print_profiles(pairs: Sequence[Pair], unit: LengthUnit | None) -> None:
+    """Diameters, fillets and play of pairs, one a column; lengths in ``unit`` (None: each in its own)."""
+    from threadstate.thread.catalogue import source_of
+    from threadstate.thread.play import play_of
+
+    rows = table("pair", *(one.designation for one in pairs))
+
+    def add(name: str, lengths: Iterable[float | None]) -> None:
+        """A length of each pair, in a row."""
+        cells = []
+        for one, value in zip(pairs, lengths, strict=True):
+            shown = unit or one.unit
+            cells.append(length(scale_length(value, conversion_factor(one.unit, shown)), shown))
+        rows.add_row(name, *cells)
+
+    rows.add_row("lengths in", *(unit or one.unit for one in pairs))
+    add("thread pitch", [one.thread_pitch for one in pairs])
+    for diameter in ("major", "pitch", "minor"):
+        for part in Part:
+            add(f"{part}, {diameter} diameter", [getattr(one.fit, f"{part}_{diameter}_diameter") for one in pairs])
+    for where in ("crest", "root"):
+        for part in Part:
+            radii = [getattr(one.form, f"{part}_{where}_fillet") * one.thread_pitch for one in pairs]
+            add(f"{part}, {where} fillet", radii)
+    plays = [play_of(one) for one in pairs]
+    add("radial play at the bolt's crest", [play.crest for play in plays])
+    add("radial play at the bolt's root", [play.root for play in plays])
+    add("axial play, either way", [play.axial for play in plays])
+    rows.print()
+    for one in pairs:
+        print_line(f"{one.designation}: {source_of(one) or OWN_DIMENSIONS}")
 
 
 def print_jamming(document: JammingDocument) -> None:

@@ -20,6 +20,7 @@ from threadstate.statics.document import RequestedStaticsDocument, statics_docum
 from threadstate.statics.load import LARGEST_NUMBER, Load
 from threadstate.statics.solve import statics_of
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.standards.designation import UNIFIED_SOURCE
 from worker.cli import run_command_line
 
 pytestmark = pytest.mark.sqlite_alone
@@ -28,6 +29,8 @@ POST = "/v1/statics"
 THREE, PATCH, PENETRATING = (-4.0, -4.0, 180.0), (0.0, -4.0, 180.0), (-4.0, -4.0, 0.0)
 LOAD = {"force": "0.1,0,-10", "moment": "0,0.5,0", "point": "0,0,0.1", "mu": "1.5"}
 """As query parameters."""
+DEFAULT_SOURCE = {"source": UNIFIED_SOURCE}
+"""Of the default pair; the document of a library has it, not every answer below it."""
 
 
 def path(pose: tuple[float, float, float], library: str = "latest") -> str:
@@ -60,7 +63,7 @@ def test_a_stored_state_is_answered_as_on_the_command_line(
     angles = [f"--{name}={angle}" for name, angle in zip(("roll", "pitch", "phase"), pose, strict=True)]
     capsys.readouterr()
     assert run_command_line(["statics", *angles, *options, "--json"]) == 0
-    assert response.json() == json.loads(capsys.readouterr().out)
+    assert {**response.json(), **DEFAULT_SOURCE} == json.loads(capsys.readouterr().out)
     shape = TypeAdapter(RequestedStaticsDocument)
     assert shape.dump_python(shape.validate_python(response.json()), mode="json") == response.json()
 
@@ -76,7 +79,7 @@ def test_what_is_requested_beside_is_added(
     angles = [f"--{name}={angle}" for name, angle in zip(("roll", "pitch", "phase"), pose, strict=True)]
     capsys.readouterr()
     assert run_command_line(["statics", *angles, "--mu=0.1", "--unit=mm", f"--include={names}", "--json"]) == 0
-    assert response.json() == json.loads(capsys.readouterr().out)
+    assert {**response.json(), **DEFAULT_SOURCE} == json.loads(capsys.readouterr().out)
     assert (response.json()["modes"] is None) == (pose == PATCH)
     asked = body(pose, loads=[{"mu": 0.1}], library=1, include=["modes", "reaction", "wrenches", "forces_range"])
     assert solved_client.post(POST, params={"unit": "mm"}, json=asked).json()["statics"] == [response.json()]
@@ -111,7 +114,7 @@ def test_a_jamming_diagram_is_that_of_the_command_line(
     capsys.readouterr()
     drawn = tmp_path / "jamming.svg"
     assert run_command_line(["jamming", *angles, *options, f"--plot={drawn}", "--json"]) == 0
-    assert response.json() == json.loads(capsys.readouterr().out)
+    assert {**response.json(), **DEFAULT_SOURCE} == json.loads(capsys.readouterr().out)
     assert drawn.read_text() == picture.text
     assert response.headers["Content-Location"] == path(THREE, "1").replace("/statics", "/jamming")
 
@@ -119,10 +122,12 @@ def test_a_jamming_diagram_is_that_of_the_command_line(
 def test_any_pose_has_the_diagram_of_a_stored_one(solved_client: TestClient) -> None:
     stored = path(THREE).replace("/statics", "/jamming")
     computed = stored.removeprefix("/v1/libraries/latest").join(("/v1", ""))
-    for parameters in ({}, {"format": "svg"}):
-        asked = solved_client.get(computed, params={"library": "latest", **parameters})
-        assert asked.text == solved_client.get(stored, params=parameters).text
-        assert asked.headers["Cache-Control"] == "no-store"
+    asked = solved_client.get(computed, params={"library": "latest"})
+    of_pair = {"designation": "1/4-20 UNC", "library": 1, **DEFAULT_SOURCE}
+    assert asked.json() == {**solved_client.get(stored).json(), **of_pair}
+    assert asked.headers["Cache-Control"] == "no-store"
+    picture = solved_client.get(computed, params={"library": "latest", "format": "svg"})
+    assert picture.text == solved_client.get(stored, params={"format": "svg"}).text
 
 
 @pytest.mark.parametrize(
@@ -175,7 +180,7 @@ def test_stored_states_and_poses_have_the_same_statics(solved_client: TestClient
             for pose in (THREE, PATCH, PENETRATING)
             for load in loads
         ]
-        assert answer == {"designation": "1/4-20 UNC", "library": 1, "unit": unit, "statics": stored}
+        assert answer == {"designation": "1/4-20 UNC", "library": 1, "unit": unit, "statics": stored, **DEFAULT_SOURCE}
 
 
 def test_poses_between_those_of_a_grid_are_solved_with_a_librarys_pair(
@@ -187,7 +192,7 @@ def test_poses_between_those_of_a_grid_are_solved_with_a_librarys_pair(
     response = client.post(POST, json=body(pose, loads=[{"force": [0, 0, -5], "mu": 0.3}], library=7))
     state = solve_pose(OWN_PAIR, *pose, options=OWN_OPTIONS)
     expected = statics_document(statics_of(OWN_PAIR, state, Load(force=(0.0, 0.0, -5.0)), 0.3))
-    assert response.json() == {"designation": "M6x1", "library": 7, "unit": "mm", "statics": [expected]}
+    assert response.json() == {"designation": "M6x1", "source": None, "library": 7, "unit": "mm", "statics": [expected]}
     assert response.headers["Length-Unit"] == "mm"
     assert response.headers["Cache-Control"] == "no-store"
 

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
@@ -84,3 +85,39 @@ def test_an_answer_is_made_once(client: TestClient, monkeypatch: pytest.MonkeyPa
     for _ in range(2):
         assert client.get(THREADS, params={"search": "m10x1.25"}).status_code == 200
     assert asked == ["m10x1.25"]
+
+
+PICTURE = f"{THREADS}/profiles.svg"
+
+
+def test_the_picture_of_a_pair_is_what_the_command_draws(client: TestClient, tmp_path: Path) -> None:
+    response = client.get(PICTURE, params={"designation": "m6 at minimum material", "unit": "in"})
+    assert response.status_code == 200, response.text
+    assert response.headers["Content-Type"] == "image/svg+xml"
+    assert response.headers["Length-Unit"] == "in"
+    path = tmp_path / "profiles.svg"
+    pair = ["--pair", "M6x1-6g/6H at minimum material"]
+    assert run_command_line(["profiles", *pair, "--unit", "in", "--plot", str(path)]) == 0
+    assert response.text == path.read_text()
+    again = client.get(response.url, headers={"If-None-Match": response.headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+def test_the_picture_of_a_librarys_own_pair_names_no_standard(own_client: TestClient) -> None:
+    text = own_client.get(PICTURE, params={"library": "latest"}).text
+    assert "<title>Thread profiles: M6x1</title>" in text
+    assert "ISO" not in text
+
+
+@pytest.mark.parametrize(
+    ("query", "location"),
+    [
+        ("designation=M7x9", "designation"),
+        ("designation=M6&library=1", "library"),
+        ("pair=M6", "query pair"),
+        ("designation=M6&designation=M8", "query designation"),
+    ],
+)
+def test_a_picture_of_no_known_pair_is_refused(client: TestClient, query: str, location: str) -> None:
+    (error,) = problem(client.get(f"{PICTURE}?{query}"), 400).errors
+    assert error.location == location

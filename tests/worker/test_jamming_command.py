@@ -23,7 +23,7 @@ def test_a_diagram_is_one_object_and_a_picture(command_line: CommandLine, tmp_pa
     found = json.loads(out)
     assert list(found) == [
         *("roll", "pitch", "phase", "mu", "axes", "load", "load_at", "contacts", "kind", "dimension", "vertices"),
-        *("pieces", "rays", "window", "gap", "hull_gap", "wedged", "penetrating"),
+        *("pieces", "rays", "window", "gap", "hull_gap", "wedged", "penetrating", "source"),
     ]
     assert (found["axes"], found["kind"], found["load_at"]) == (["fx", "my"], "bounded", [0.0, 0.0])
     firsts = [piece["first"] for piece in found["pieces"]]

@@ -230,3 +230,35 @@ def test_settings_shows_no_secret(command_line: CommandLine, monkeypatch: pytest
         assert code == 0
         assert "somebody:***@host.example/threads" in out
         assert not re.search("of-the-", out)
+
+
+def test_profiles_of_ones_own_pair_are_printed_with_their_play(command_line: CommandLine, example: Pair) -> None:
+    code, out, _ = command_line.here("profiles", "--pair", EXAMPLE, "--pair", "1/4-20 UNC", "--unit", "mm", "--json")
+    assert code == 0
+    own, known = json.loads(out)["profiles"]
+    assert (own["designation"], own["source"], own["unit"], own["hand"]) == ("M6x1", None, "mm", "right")
+    assert own["bolt"]["major_fillet_radius"] == example.form.bolt_crest_fillet * example.thread_pitch
+    assert own["play"]["crest"] == pytest.approx((6.0 - example.fit.bolt_major_diameter) / 2.0)
+    assert own["play"]["axial"] > 0.0
+    assert "ASME B1.1" in known["source"]
+    # Parallel flanks: tan 30 deg of half the difference of the pitch diameters.
+    assert known["play"]["axial"] == pytest.approx(25.4 * math.tan(math.radians(30.0)) * 0.00055)
+    code, out, _ = command_line.here("profiles", "--pair", EXAMPLE)
+    assert code == 0
+    assert f"axial play, either way           {own['play']['axial']:.5f}" in out
+    assert "M6x1: dimensions of one's own" in out
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--pair", "a", "--pair", "b", "--dimension", LIKE), "with one --pair"),
+        (("--plot", "profiles.png"), "a name that ends in .svg"),
+    ],
+)
+def test_profiles_that_cannot_be_shown_are_refused(
+    command_line: CommandLine, options: tuple[str, ...], message: str
+) -> None:
+    code, _, err = command_line.here("profiles", *options)
+    assert code == 2
+    assert message in err

@@ -21,7 +21,7 @@ def test_a_pose_is_one_object(command_line: CommandLine) -> None:
     found = json.loads(out)
     assert list(found) == [
         *("roll", "pitch", "phase", "load", "mu", "penetrating", "supported", "support_margin", "mu_hold", "mu_wedge"),
-        *("turn_effort_ccw", "turn_effort_cw", "forces", "verdict"),
+        *("turn_effort_ccw", "turn_effort_cw", "forces", "verdict", "source"),
     ]
     assert found["load"]["force"] == [0.1, 0.0, -10.0]
     assert found["load"]["frame"] == "nut"
@@ -53,7 +53,7 @@ def test_poses_of_a_file_are_one_object_a_line(command_line: CommandLine, tmp_pa
 def test_more_is_added_on_request_alone(command_line: CommandLine) -> None:
     asked = ("--mu", "1.5", "--include", "modes,reaction,forces_range", "--json")
     found = json.loads(command_line.here("statics", *POSE, *asked)[1])
-    assert list(found)[-4:] == ["reaction", "forces_range", "internal_dimension", "modes"]
+    assert list(found)[-5:] == ["reaction", "forces_range", "internal_dimension", "modes", "source"]
     assert (found["reaction"]["size"], found["internal_dimension"]) == (0.0, 3)
     for force, limits in zip(found["forces"], found["forces_range"], strict=True):
         assert limits["normal_min"] <= force["normal"] + 1e-6 <= limits["normal_max"] + 2e-6

@@ -20,6 +20,7 @@ Model = TypeVar("Model", bound=BaseModel)
 
 QueryValue = str | float | bool | None
 JSON = "application/json"
+SVG = "image/svg+xml"
 LATEST = "latest"
 LibraryName = int | str
 """A library's number, ``latest``, ``latest-mesh``, or the designation of a thread or its slug."""

@@ -65,8 +65,8 @@ PHYSICS = (
 )
 """With those of histories, windows and falls: what is stored by the exact method."""
 MESH_PHYSICS = (*STATES, "mesh/*.py")
-NOT_PHYSICS = ("thread/catalogue.py", "history/heights.py")
-"""Files of these folders that no stored row is computed by: pairs, which are inputs, and what is read out of rows."""
+NOT_PHYSICS = ("thread/catalogue.py", "thread/profiles_svg.py", "history/heights.py")
+"""Files of these folders that no stored row is computed by: pairs, which are inputs, and what is read out of them."""
 COMPUTING = ("llvmlite", "numba", "numpy")
 """Libraries whose code ends in the bits, by either method."""
 MESH_COMPUTING = (*COMPUTING, "scipy")

@@ -37,6 +37,7 @@ def summary(
     from threadstate.library.read import counts, undecided_reasons
     from threadstate.thread.catalogue import source_of
     from worker.library_source import connected_library
+    from worker.tables import OWN_DIMENSIONS
 
     name = library or (LATEST_MESH if method is SolverMethod.MESH else LATEST)
     with connected_library(database, name) as (connection, record):
@@ -64,7 +65,7 @@ def summary(
         return
     method_and_unit = f"{record.method.value} method, unit {record.length_unit}"
     print_line(f"library {record.id}: {record.designation}, {record.state_count} states, {method_and_unit}")
-    print_line(f"dimensions: {source or 'of a pair of its own'}")
+    print_line(f"rests on: {source or OWN_DIMENSIONS}")
     print_line(f"published {record.published_at:%Y-%m-%d %H:%M:%S} UTC by {record.code_version}")
     print_line(f"inputs  {record.input_sha256}")
     print_line(f"content {record.content_sha256}")

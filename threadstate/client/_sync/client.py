@@ -170,6 +170,7 @@ class Client:
     locate = _answered(network_calls.locate)
 
     threads = _answered(thread_calls.threads)
+    profiles_svg = _answered(thread_calls.profiles_svg)
 
     ask = _watched(job_calls.ask)
     jobs = _listed(job_calls.jobs)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from threadstate.client.call import (
     LATEST,
+    SVG,
     Call,
     LibraryName,
     QueryValue,
@@ -24,9 +25,6 @@ from threadstate.statics.load import DEFAULT_FRICTION, checked_friction
 
 MOST_COMBINATIONS = 1000
 """Of poses with loads in a request."""
-
-
-SVG = "image/svg+xml"
 
 
 def statics(
