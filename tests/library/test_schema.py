@@ -131,7 +131,7 @@ def test_another_revision_names_its_cure(writer: Engine, revision: str, cure: st
 
 def test_two_migrations_at_once_make_one_schema(databases: Databases) -> None:
     database = databases.new()
-    migrations_begin = Barrier(2)
+    migrations_begin = Barrier(2, timeout=60.0)
 
     def migrated() -> Migration:
         with writing(database) as engine:

@@ -11,6 +11,8 @@ ONLY).
 
 from __future__ import annotations
 
+import sqlite3
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -24,6 +26,8 @@ from threadstate.library.address import database_url, is_sqlite, masked_url, sql
 from threadstate.settings import database_password
 
 BUSY_TIMEOUT_S = 30.0
+RETRY_S = 0.01
+"""How often a lock that SQLite does not wait for is asked for again."""
 WRITER_CACHE_KIB = 65536
 WRITER_CHECKPOINT_PAGES = 8192
 CONNECT_TIMEOUT_S = 10
@@ -89,13 +93,13 @@ def sqlite_writer(url: URL, lock_timeout_s: float | None = None) -> Engine:
         sqlite_path(url).parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InvalidValueError("database", masked_url(url), f"a file in a folder that can be made ({error})") from None
-    engine = create_engine(url, connect_args={"timeout": BUSY_TIMEOUT_S if lock_timeout_s is None else lock_timeout_s})
+    wait_s = BUSY_TIMEOUT_S if lock_timeout_s is None else lock_timeout_s
+    engine = create_engine(url, connect_args={"timeout": wait_s})
 
     @event.listens_for(engine, "connect")
     def prepare(connection: Any, _record: object) -> None:
         connection.isolation_level = None
-        # Readers go on reading while a chunk is written; a killed process loses no committed chunk.
-        connection.execute("PRAGMA journal_mode = WAL")
+        _use_write_ahead_log(connection, wait_s)
         connection.execute("PRAGMA synchronous = NORMAL")
         connection.execute("PRAGMA foreign_keys = ON")
         # Orientations fall in order into the tables and all over the indexes: those are to stay in memory.
@@ -108,6 +112,22 @@ def sqlite_writer(url: URL, lock_timeout_s: float | None = None) -> Engine:
         connection.exec_driver_sql("BEGIN IMMEDIATE")
 
     return engine
+
+
+def _use_write_ahead_log(connection: sqlite3.Connection, wait_s: float) -> None:
+    """Readers go on reading while a chunk is written then; a killed process loses no committed chunk.
+
+    Of two that make a new file at once SQLite refuses one without waiting.
+    """
+    until = time.monotonic() + wait_s
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode = WAL")
+            return
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY or time.monotonic() > until:
+                raise
+            time.sleep(RETRY_S)
 
 
 def sqlite_reader(url: URL) -> Engine:
