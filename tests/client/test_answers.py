@@ -127,6 +127,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "path": {"source": key, "moves": ["ccw", "roll+"], "objective": "transitions"},
         "locate": {"contact": ["1:*:*:edge-edge"], "ordered": True, "verdict": "can_stay", "mu": 0.15},
         "threads": {"search": "M6-4g6g/5H"},
+        "profiles_svg": {"designation": "M6"},
         "health": {},
         "readiness": {},
     }

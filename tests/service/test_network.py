@@ -35,7 +35,7 @@ from threadstate.responses.heights import computed_heights, heights_document
 from threadstate.responses.histories import computed_history, history_document
 from threadstate.responses.loaded_network import LoadedNetwork
 from threadstate.state.solve import solve_pose
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.catalogue import quarter_twenty_unc, source_of
 from worker.cli import run_command_line
 
 pytestmark = pytest.mark.sqlite_alone
@@ -406,7 +406,8 @@ def test_under_a_load_it_answers_as_the_command_line(
     where = [*LOADED, f"--database={network_database}"]
     held = _json(network_client, f"{LIBRARY}/histories/0/-3/held?{UNDER.replace('0.15', '0.1,0.15')}")["held"]
     tilt = ["--roll=0", "--pitch=-3", "--library=latest"]
-    assert held == _printed(capsys, "held", *tilt, *where, "--mu=0.1,0.15")
+    printed_held = _printed(capsys, "held", *tilt, *where, "--mu=0.1,0.15")
+    assert [{**one, "source": source_of(quarter_twenty_unc())} for one in held] == printed_held
     assert {one["verdict"] for one in held[1]["stretches"]} == {"moves", "can_stay"}
     summary = _json(network_client, f"{LIBRARY}/network/loaded?{UNDER}&avoid=held,wedged")["network"]
     assert [summary] == _printed(capsys, "network", *where, "--avoid=held,wedged")
