@@ -14,6 +14,7 @@ from prometheus_client import CollectorRegistry
 from starlette.middleware.cors import CORSMiddleware
 
 import service.builds
+import service.compare
 import service.docs.endpoints
 import service.explorer.endpoints
 import service.export
@@ -142,6 +143,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.states.endpoints,
         service.statics.endpoints,
         service.orientations,
+        service.compare,
         service.histories.endpoints,
         service.undecided,
         service.export,

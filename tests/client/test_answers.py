@@ -98,6 +98,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "library": {"unit": "mm"},
         "building": {},
         "orientations": {},
+        "compare": {"libraries": ["latest", "latest"]},
         "mesh": {"part": "bolt"},
         "state": {"roll": 0, "pitch": -3, "phase": 180},
         "history": {"roll": 0, "pitch": -3},

@@ -46,6 +46,7 @@ ARGUMENTS: dict[str, object] = {
     "pitch": -2.0,
     "phase": 3.0,
     "library": 7,
+    "libraries": [7, "m6"],
     "part": "bolt",
     "key": "0123456789",
     "source": "0123456789",

@@ -51,6 +51,7 @@ READ = {
         f"{MADE_UP}/states/{pose}" for pose in ("0/0/0", "-1/1/330?unit=mm", "1/1/5", "9/9/0")
     ],
     "/v1/libraries/{id}/orientations": [f"{MADE_UP}/orientations", f"{WITH_HISTORIES}/orientations?unit=mm"],
+    "/v1/compare": [f"/v1/compare?libraries={WITH_HISTORIES.rpartition('/')[2]},latest", "/v1/compare?libraries=,"],
     "/v1/libraries/{id}/histories/{roll}/{pitch}": [
         f"{MADE_UP}/histories/{tilt}" for tilt in ("0/0", "1/-1?format=frames", "1/1?unit=mm", "3/3")
     ],

@@ -140,6 +140,43 @@ def test_what_cannot_be_answered_says_what_can(
     assert message in err
 
 
+def test_libraries_are_compared_over_all_orientations(ask: Callable[..., str]) -> None:
+    first, second = json.loads(ask("compare", "--library", "1", "--library", "latest", "--json"))["libraries"]
+    assert first == second
+    windows = json.loads(ask("windows", "--json"))["orientations"]
+    pitch = first["thread_pitch"]
+    for one, found in zip(first["orientations"], windows, strict=True):
+        assert (one["roll"], one["pitch"]) == (found["roll"], found["pitch"])
+        widths = [window["width"] for window in found["windows"]]
+        assert one["window"] == pytest.approx(sum(widths), abs=1e-9)
+        assert one["widest"] == pytest.approx(max(widths, default=0.0), abs=1e-9)
+        assert one["fall"] == pytest.approx(found["steepest"] / pitch, rel=1e-12)
+        assert one["snaps"] == (found["snap"] is not None)
+    assert (first["snaps"], first["windows"]) == (
+        sum(one["snap"] is not None for one in windows),
+        sum(bool(one["windows"]) for one in windows),
+    )
+    counted = json.loads(ask("summary", "--json"))
+    assert first["states"] == counted["states"]
+    assert first["classes"] == {name: count / counted["states"] for name, count in counted["classes"].items()}
+    shown = ask("compare", "--library", "1", "--library", "latest", "--each").splitlines()
+    (falls,) = [line for line in shown if line.startswith("steepest fall")]
+    assert falls.count(f"{first['fall']['median']:.4f} (") == 2
+    assert sum(line.count("snaps") for line in shown) - 1 == 2 * first["snaps"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [(["--unit", "mm"], "in thread pitches"), (["--each", "--tilt", "0,-3"], "without --tilt")],
+)
+def test_what_a_comparison_does_not_take(
+    command_line_on: Callable[[str], CommandLine], database: str, arguments: list[str], message: str
+) -> None:
+    code, _, err = command_line_on(database).here("compare", "--database", database, *arguments)
+    assert code == 2
+    assert message in err
+
+
 def test_orientations_are_compared_side_by_side(ask: Callable[..., str]) -> None:
     asked = ("compare", "--tilt", "0,-3", "--tilt", "2.5,-1.2", "--library", "1", "--library", "latest")
     found = json.loads(ask(*asked, "--json"))["orientations"]

@@ -134,6 +134,7 @@ class Client:
     library = _answered(library_calls.library)
     building = _answered(library_calls.building)
     orientations = _answered(library_calls.orientations)
+    compare = _answered(library_calls.compare)
     mesh = _answered(library_calls.mesh)
 
     state = _answered(state_calls.state)

@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
-from threadstate.client.call import LATEST, Call, LibraryName, get, get_content, library_path, path_of
-from threadstate.client.models.libraries import BuildingList, LibraryDetail, LibraryList, OrientationsAnswer
+from collections.abc import Sequence
+
+from threadstate.client.call import LATEST, Call, LibraryName, get, get_content, joined, library_path, path_of
+from threadstate.client.models.libraries import (
+    BuildingList,
+    ComparisonDocument,
+    LibraryDetail,
+    LibraryList,
+    OrientationsAnswer,
+)
 from threadstate.client.models.service import Health, Readiness
 
 GLB = "model/gltf-binary"
@@ -27,6 +35,11 @@ def building() -> Call[BuildingList]:
 def orientations(*, library: LibraryName = LATEST, unit: str | None = None) -> Call[OrientationsAnswer]:
     """Each orientation over all phases: the number of states of each class, and extremes of the lengths."""
     return get(library_path(library, "orientations"), OrientationsAnswer, unit=unit)
+
+
+def compare(libraries: Sequence[LibraryName] = (LATEST,)) -> Call[ComparisonDocument]:
+    """Windows, snaps, classes, frictions and embedment of libraries side by side; lengths in thread pitches."""
+    return get(path_of("v1", "compare"), ComparisonDocument, libraries=joined(map(str, libraries)))
 
 
 def mesh(part: str, *, library: LibraryName = LATEST) -> Call[bytes]:

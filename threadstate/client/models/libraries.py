@@ -95,6 +95,65 @@ class OrientationDocument(Answer):
     support_margin_most: float | None
 
 
+class SpreadDocument(Answer):
+    """A number of the orientations that have one."""
+
+    least: float
+    median: float
+    most: float
+
+
+class HeldShareDocument(Answer):
+    """What share of all states holds a push at a coefficient of friction."""
+
+    mu: float
+    share: float
+
+
+class ComparedOrientationDocument(Answer):
+    """An orientation of a library; windows in degrees of phase, lengths in thread pitches."""
+
+    roll: float
+    pitch: float
+    window: float
+    widest: float
+    fall: float
+    snaps: bool
+    embedment_most: float | None
+    mu_hold_least: float | None
+    mu_wedge_least: float | None
+
+
+class ComparedLibraryDocument(Answer):
+    """A library beside others; windows in degrees of phase, lengths in thread pitches."""
+
+    library: int
+    designation: str
+    source: str | None
+    unit: LengthUnit
+    thread_pitch: float
+    axial_play: float
+    states: int
+    undecided: int
+    classes: dict[StateClass, float]
+    windows: int
+    snaps: int
+    window: SpreadDocument
+    widest: SpreadDocument
+    fall: SpreadDocument
+    embedment_most: SpreadDocument | None
+    mu_hold_least: SpreadDocument | None
+    mu_wedge_least: SpreadDocument | None
+    held: tuple[HeldShareDocument, ...]
+    orientations: tuple[ComparedOrientationDocument, ...]
+
+
+class ComparisonDocument(Answer):
+    """Libraries side by side, in the order in which they were named."""
+
+    libraries: tuple[ComparedLibraryDocument, ...]
+
+
 class OrientationsAnswer(Answer):
     """All orientations of a library, in the order of roll and pitch."""
 
