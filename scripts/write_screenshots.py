@@ -49,6 +49,7 @@ SHOTS = (
         "roll=2&pitch=0&phase=345&theme=light&nut=glass&tab=load&mu=0.3&fx=0.1&quantity=mu_hold",
         "#jamming .edge",
     ),
+    Shot("laptop-threads", LAPTOP, "theme=light&tab=threads&thread=M6+at+minimum+material", "#profiles img + img"),
     Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light&tab=network", "#network .way .stop"),
     Shot(
         "desktop-light",

@@ -46,6 +46,7 @@ def test_axe_finds_nothing_serious(explorer: Explorer, repository_root: Path, th
         ("network", "#network .way .ring-in"),
         ("locate", "#locate-form select"),
         ("poses", "#poses-text"),
+        ("threads", "#compared table"),
     ],
 )
 def test_axe_finds_nothing_serious_in_a_tab(explorer: Explorer, repository_root: Path, tab: str, shown: str) -> None:

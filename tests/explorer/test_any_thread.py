@@ -193,6 +193,37 @@ def test_measured_poses_are_listed_and_marked_and_lead_there(page: Explorer, tmp
     page.wait(lambda: not page.all("#map .pose"), "the marks stay")
 
 
+def test_threads_are_compared_and_any_other_is_shown_in_section(page: Explorer) -> None:
+    page.click("#tab-threads")
+    page.wait(lambda: len(page.all("#compared thead button")) == 2, "the libraries are not compared")
+    found = page.fetched(f"/v1/compare?libraries={OWN},{UNC}")["libraries"]
+    assert [one.text for one in page.all("#compared thead button")] == [
+        f"{one['library']}: {one['designation']}" for one in found
+    ]
+    rows = {one.find_element("css selector", "th").text: one.text for one in page.all("#compared tbody tr")}
+    assert f"{found[0]['snaps']} of 9 {found[1]['snaps']} of 9" in rows["snaps"]
+    assert f"{100.0 * found[1]['fall']['median']:.1f} %" in rows["steepest fall"]
+
+    def pictures() -> list[int]:
+        return page.run("return [...document.querySelectorAll('#profiles img')].map((one) => one.naturalWidth)")
+
+    page.wait(lambda: [width > 100 for width in pictures()] == [True], "the library's thread is not shown")
+    page.choose("#thread", "m6 at 7")
+    page.one("#thread").submit()
+    page.wait_for_text("#thread-problem", "position in the tolerance is '7'")
+    assert ["400 (Bad Request)" in complaint for complaint in page.complaints()] == [True]
+    page.choose("#thread", "1/4-16 acme with sharp corners")
+    page.one("#thread").submit()
+    page.wait(lambda: [width > 100 for width in pictures()] == [True, True], "the other thread is not shown")
+    assert page.text("#thread-problem") == ""
+    wait_for_address(page, "thread=1%2F4-16%20acme%20with%20sharp%20corners")
+    page.click("#compared thead th:last-child button")
+    wait_for_address(page, f"library={UNC}")
+    page.wait(lambda: len(page.all("#compared thead button")) == 2, "the comparison is gone")
+    page.click("#thread-clear")
+    page.wait(lambda: len(pictures()) == 1, "the other thread stays")
+
+
 def test_what_was_observed_is_located(page: Explorer) -> None:
     page.click("#tab-locate")
     page.choose('#locate-form [name="class"]', "unstable_two_point")
@@ -247,7 +278,7 @@ def test_a_tolerance_gives_the_range_of_the_falls_and_nothing_is_wider_than_a_sm
         assert page.run("return document.querySelector('#beside-library').value") == str(UNC)
         for width in (390, 768):
             resize(page.chromium, width, 844)
-            for tab in ("state", "regions", "follows", "network", "locate", "poses"):
+            for tab in ("state", "regions", "follows", "network", "locate", "poses", "threads"):
                 page.click(f"#tab-{tab}")
                 assert (
                     page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth") <= 0

@@ -345,8 +345,8 @@ def test_network_shows_every_formation_and_the_way_from_here(explorer: Explorer)
 def test_tabs_are_part_of_the_view_and_obey_arrows(explorer: Explorer) -> None:
     explorer.click("#tab-state")
     explorer.one("#tab-state").send_keys(Keys.ARROW_LEFT)
-    explorer.one("#poses-text")
-    explorer.wait(lambda: "tab=poses" in explorer.chromium.current_url, "the address does not follow the tab")
+    explorer.one("#compared table")
+    explorer.wait(lambda: "tab=threads" in explorer.chromium.current_url, "the address does not follow the tab")
     explorer.open("/#tab=regions")
     explorer.one("#disks .disk")
     assert [one.get_attribute("id") for one in explorer.all('[role="tabpanel"]') if one.is_displayed()] == [
@@ -362,7 +362,7 @@ def test_map_depth_and_solids_are_seen_at_once_and_nothing_is_cut(explorer: Expl
     try:
         explorer.one("#scene canvas")
         explorer.one("#depth .curve")
-        for tab in ("state", "regions", "follows", "network", "locate", "poses"):
+        for tab in ("state", "regions", "follows", "network", "locate", "poses", "threads"):
             explorer.click(f"#tab-{tab}")
             assert explorer.run(OUTSIDE) == [], tab
     finally:

@@ -20,7 +20,10 @@ from threadstate.client.models.states import State
 pytestmark = pytest.mark.slow
 
 PNG = b"\x89PNG\r\n\x1a\n"
-TABS = {"disks": "regions", "follows": "follows", "path": "follows", "network": "network", "state": "state"}
+TABS = {"disks": "regions", "follows": "follows", "path": "follows", "network": "network"} | {
+    "state": "state",
+    "compared": "threads",
+}
 Save = Callable[[str, str], bytes]
 
 
@@ -89,6 +92,10 @@ def test_tables_are_saved_with_the_numbers_of_the_interface(save: Save, explorer
     assert [(row[0], float(row[2])) for row in rows("network")[1:]] == [
         (one["key"], one["share"]) for one in formations
     ]
+    ((head, compared), (one,)) = rows("compared"), explorer.fetched("/v1/compare")["libraries"]
+    numbers = dict(zip(head, compared, strict=True))
+    assert float(numbers["fall_median"]) == one["fall"]["median"]
+    assert float(numbers["share_held_at_0.2"]) == one["held"][1]["share"]
 
 
 def test_table_of_the_state_has_every_number_of_it(save: Save, explorer: Explorer) -> None:

@@ -79,6 +79,11 @@ export class Api {
     return this.#fetchJson(addressOf(`/v1/states/${roll}/${pitch}/${phase}/jamming`, parameters));
   }
 
+  /** The text at a path with these parameters. */
+  async text(path, parameters) {
+    return (await this.#fetch(addressOf(path, parameters))).text();
+  }
+
   /** The bytes at a path. */
   async bytes(path) {
     return (await this.#fetch(path)).arrayBuffer();

@@ -167,7 +167,7 @@ function chosenText(model, view, cell, onGrid) {
     return own === null ? place : `${place}: ${className(own.state.class)} at phase ${angleNumber(own.pose.phase)}`;
   }
   if (cell === undefined) return "";
-  const differs = !needsSummaries(view) && own !== null && own.pose.phase !== model.map?.phase && own.state.class !== cell.value;
+  const differs = !needsSummaries(view) && own !== null && model.map !== null && own.pose.phase !== model.map.phase && own.state.class !== cell.value;
   if (view.quantity !== "class" || !differs) return cell.text;
   return `${cell.text} at phase ${angleNumber(model.map.phase)}; ${className(own.state.class)} at ${angleNumber(own.pose.phase)}`;
 }

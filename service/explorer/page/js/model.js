@@ -24,8 +24,10 @@ const NOT_FOUND = 404;
 /** The parts that belong to one library. */
 const OF_LIBRARY = [
   "orientations", "windows", "map", "history", "depth", "state", "node", "path", "formations", "falls",
-  "measured", "located", "statics", "jamming",
+  "measured", "located", "statics", "jamming", "comparison", "profiles",
 ];
+const MOST_COMPARED = 20;
+const INVALID = 400;
 
 /** The parts of the model, each null until it has arrived. */
 export class Model {
@@ -49,6 +51,9 @@ export class Model {
   /** What the view's load does to its pose, and the jamming diagram there: with `problem`, in words, where it is not known. */
   statics = null;
   jamming = null;
+  /** Figures of libraries side by side, and the sections of the library's thread and of the view's: with `problem` where that has none. */
+  comparison = null;
+  profiles = null;
 
   #api;
   #busy;
@@ -191,6 +196,25 @@ export class Model {
   /** Requests all formations of the network; null where the library has none. */
   followNetwork() {
     this.#request("formations", `${this.library.id}`, async () => (await this.#optional(this.#api.get(`${this.root}/network/formations`)))?.formations ?? null);
+  }
+
+  /** Requests the figures of the libraries that have histories, the present one first, and the sections of threads. */
+  followThreads({ library, unit, thread }) {
+    if (this.library.id !== library || this.libraries === null) return;
+    const others = this.libraries.all.filter(({ id, method }) => method === "exact" && id !== library).map(({ id }) => id);
+    const compared = [...(this.library.method === "exact" ? [library] : []), ...others].slice(0, MOST_COMPARED);
+    this.#request("comparison", `${compared}`, () => (compared.length === 0 ? null : this.#api.get("/v1/compare", { libraries: compared.join() })));
+    this.#request("profiles", `${library} ${unit} ${thread}`, async () => {
+      const ofLibrary = { name: this.library.designation, svg: await this.#api.text("/v1/threads/profiles.svg", { library, unit }) };
+      if (thread === "") return { pictures: [ofLibrary], problem: null };
+      try {
+        const ofThread = { name: thread, svg: await this.#api.text("/v1/threads/profiles.svg", { designation: thread, unit }) };
+        return { pictures: [ofLibrary, ofThread], problem: null };
+      } catch (error) {
+        if (!(error instanceof ProblemError) || error.status !== INVALID) throw error;
+        return { pictures: [ofLibrary], problem: error.message };
+      }
+    });
   }
 
   #followTolerance({ unit, library, roll, pitch, tolerance }) {

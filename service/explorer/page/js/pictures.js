@@ -31,7 +31,7 @@ const TILT_FIELDS = ["roll", "pitch"];
 const NO_NETWORK = "No network: the library was computed by meshes, or the phase is undecided.";
 const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not have it. The way below is by turning alone.";
 /** Parts of the model that are seen in the tabs behind the first one alone. */
-const TAB_PARTS = ["statics", "jamming", "node", "path", "formations", "located", "measured"];
+const TAB_PARTS = ["statics", "jamming", "node", "path", "formations", "located", "measured", "comparison", "profiles"];
 const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
 
 /** The pictures, and what is played in them. */
@@ -97,6 +97,8 @@ export class Pictures {
       observe: (observed) => view.set({ observed }),
       measure: (poses) => view.set({ poses }),
       load: (parts) => view.set(parts),
+      chooseLibrary: (library) => view.set({ library }),
+      chooseThread: (thread) => view.set({ thread }),
     });
     this.#showTab();
     for (const part of this.#missed) this.redraw(part);
@@ -133,6 +135,8 @@ export class Pictures {
       if (TAB_PARTS.includes(part)) this.#missed.add(part);
       return;
     }
+    if (part === "libraries") this.#followThreads();
+    if (["comparison", "profiles"].includes(part)) this.#drawThreads();
     if (part === "statics") this.#drawLoad();
     if (part === "jamming") this.#tabs.load.showJamming(this.#model.jamming);
     if (part === "node") this.#drawFollowing();
@@ -154,6 +158,7 @@ export class Pictures {
     if (has(...TILT_FIELDS)) this.#showSnap();
     if (has("stage", "nut", "azimuth", "elevation", "distance")) this.#drawScene();
     if (has("tab")) this.#showTab();
+    if (has("thread", "library", "unit")) this.#followThreads();
     if (has(...LOAD_FIELDS, "plane", ...TILT_FIELDS, "phase", "unit")) this.#followLoad();
     if (has(...TILT_FIELDS, "stage") && !["stages", "phase"].includes(this.#player.playing)) this.#player.stop();
   }
@@ -209,6 +214,17 @@ export class Pictures {
     if (this.#isSeen("load")) this.#model.followLoad(this.#view.value);
   }
 
+  /** Requests the libraries' figures and the sections where these are seen. */
+  #followThreads() {
+    this.#tabs?.threads.show(this.#view.value);
+    if (this.#isSeen("threads")) this.#model.followThreads(this.#view.value);
+  }
+
+  #drawThreads() {
+    this.#tabs.threads.showProfiles(this.#model.profiles);
+    this.#tabs.threads.list(this.#model.comparison, this.#model.library.id);
+  }
+
   #drawLoad() {
     this.#tabs.load.showStatics(this.#model.statics, this.#view.value.unit);
     this.#drawScene();
@@ -226,6 +242,7 @@ export class Pictures {
   /** Draws what a tab holds that has become visible. */
   #showTab() {
     this.#followLoad();
+    this.#followThreads();
     if (this.#isSeen("network")) this.#model.followNetwork();
     this.#drawCurves();
     if (!this.#isSeen("state")) this.#beginTabs();

@@ -4,7 +4,7 @@ import { html } from "./html.js";
 import { showToast } from "./messages.js";
 import { lastStage } from "./resting.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
-import { depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable } from "./tables.js";
+import { comparisonTable, depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable } from "./tables.js";
 
 const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg", jamming: "#jamming svg" };
 const TABLES = {
@@ -17,6 +17,7 @@ const TABLES = {
   jamming: jammingTable,
   state: stateTable,
   poses: poseTable,
+  compared: comparisonTable,
 };
 const NAMES = {
   map: "orientations",
@@ -29,6 +30,7 @@ const NAMES = {
   scene: "bolt-and-nut",
   state: "state",
   poses: "measured-poses",
+  compared: "threads",
 };
 
 /** Fills every place for save buttons; `sceneOf` returns the scene, or null. */

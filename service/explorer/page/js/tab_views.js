@@ -8,9 +8,10 @@ import { LocateView } from "./locate_view.js";
 import { NetworkView } from "./network_view.js";
 import { drawPath, pathText } from "./path_view.js";
 import { PosesView } from "./poses_view.js";
+import { ThreadsView } from "./threads_view.js";
 
-/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, poses, or a load. */
-export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure, load }) {
+/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, poses, a load, a library or a thread. */
+export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure, load, chooseLibrary, chooseThread }) {
   return {
     load: new LoadView(load),
     disks: new DisksView(byId("disks"), choosePhase),
@@ -22,6 +23,7 @@ export function tabViews({ choosePhase, choosePose, chooseFormation, observe, me
     ),
     locate: new LocateView(observe, choosePose),
     poses: new PosesView(measure, choosePose),
+    threads: new ThreadsView(chooseLibrary, chooseThread),
     showPath: (path, isShown, chooseStep) => {
       byId("path-text").textContent = isShown ? pathText(path) : "";
       byId("path").replaceChildren();

@@ -99,3 +99,21 @@ function poseRows(name, { rotation, translation }, unit) {
     ...translation.map((value, k) => [name, `t${AXES[k]}`, value, unit]),
   ];
 }
+
+/** The figures of libraries side by side. */
+export function comparisonTable({ comparison: { libraries } }) {
+  const spreads = ["window", "widest", "fall", "embedment_most", "mu_hold_least", "mu_wedge_least"];
+  const ends = ["least", "median", "most"];
+  const rows = libraries.map((one) => [
+    one.library, one.designation, one.axial_play, one.orientations.length, one.windows, one.snaps,
+    ...Object.values(one.classes), ...one.held.map(({ share }) => share),
+    ...spreads.flatMap((name) => ends.map((end) => one[name]?.[end] ?? null)), one.states, one.undecided,
+  ]);
+  const [{ classes, held }] = libraries;
+  const head = [
+    "library", "designation", "axial_play_pitches", "orientations", "with_windows", "snaps",
+    ...Object.keys(classes).map((name) => `share_${name}`), ...held.map(({ mu }) => `share_held_at_${mu}`),
+    ...spreads.flatMap((name) => ends.map((end) => `${name}_${end}`)), "states", "undecided",
+  ];
+  return [head, ...rows];
+}

@@ -7,7 +7,7 @@ import { QUANTITIES } from "./quantities.js";
 import { TABS } from "./tabs.js";
 import { TILT_LIMIT, TOLERANCE_LIMIT } from "./grid.js";
 import { wrapAngle, parseDecimal } from "./units.js";
-import { DEFAULTS, LOAD_LIMITS } from "./view.js";
+import { DEFAULTS, LOAD_LIMITS, THREAD_LENGTH } from "./view.js";
 
 const finite = (text) => (Number.isFinite(parseDecimal(text)) ? parseDecimal(text) + 0 : undefined);
 const between = (low, high, unit = "") => ({
@@ -45,6 +45,10 @@ const READERS = {
   poses: { read: checkedPoses, valid: "poses as the page writes them" },
   ...Object.fromEntries(Object.entries(LOAD_LIMITS).map(([name, limits]) => [name, between(...limits)])),
   plane: among(...Object.keys(PLANES)),
+  thread: {
+    read: (text) => (text.trim() !== "" && text.length <= THREAD_LENGTH ? text.trim() : undefined),
+    valid: `the designation of a thread, of up to ${THREAD_LENGTH} characters`,
+  },
   observed: { read: checkedObservation, valid: "an observation as the page writes it" },
 };
 

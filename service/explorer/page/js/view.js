@@ -36,7 +36,12 @@ export const DEFAULTS = Object.freeze({
   my: 0,
   mz: 0,
   plane: "fx,my",
+  /** Designation of a thread whose section is shown beside the library's. */
+  thread: "",
 });
+
+/** Most characters of a designation. */
+export const THREAD_LENGTH = 100;
 
 const PART_LIMITS = [-100, 100];
 /** The least and the largest value of the load's numbers. */
