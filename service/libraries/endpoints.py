@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import fields, replace
 from datetime import datetime
 
 from fastapi import APIRouter, Request, Response
@@ -21,7 +20,7 @@ from threadstate.state.model import Flag, StateClass
 from threadstate.thread.catalogue import source_of
 from threadstate.thread.pair import Pair
 from threadstate.thread.standards.document import SourceDocument
-from threadstate.units import LengthUnit, conversion_factor
+from threadstate.units import LengthUnit
 
 
 class GridDocument(BaseModel):
@@ -85,7 +84,7 @@ def library_document(record: LibraryRecord, unit: LengthUnit | None) -> LibraryD
         source=source_of(pair),
         unit=shown,
         stored_unit=record.length_unit,
-        pair=_in_unit(pair, shown),
+        pair=pair.in_unit(shown),
         grid=GridDocument(
             tilt_max=record.grid.tilt_max_deg,
             tilt_step=record.grid.tilt_step_deg,
@@ -109,21 +108,6 @@ def library_detail(record: LibraryRecord, counts: Counts, unit: LengthUnit | Non
     document = library_document(record, unit)
     return LibraryDetail(
         **dict(document), counts=CountsDocument(classes=dict(counts.of_class), flags=dict(counts.of_flag))
-    )
-
-
-def _in_unit(pair: Pair, unit: LengthUnit) -> Pair:
-    """The same pair with its lengths in ``unit``."""
-    factor = conversion_factor(pair.unit, unit)
-    diameters = {
-        field.name: getattr(pair.fit, field.name) * factor for field in fields(pair.fit) if field.name != "name"
-    }
-    return replace(
-        pair,
-        unit=unit,
-        nominal_diameter=pair.nominal_diameter * factor,
-        thread_pitch=pair.thread_pitch * factor,
-        fit=replace(pair.fit, **diameters),
     )
 
 

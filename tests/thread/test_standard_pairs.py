@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from threadstate.errors import InvalidValueError
 from threadstate.thread.catalogue import pair_by_designation, source_of
 from threadstate.thread.play import axial_play
 from threadstate.thread.standards.designation import (
     ACME_SOURCE,
+    OF_ONE_START,
     UNIFIED_SOURCE,
     WHITWORTH_SOURCE,
     standard_thread,
@@ -83,3 +85,56 @@ def test_a_pair_rests_on_its_standard_while_every_number_is_the_standards(design
     fit = replace(pair.fit, nut_minor_diameter=pair.fit.nut_minor_diameter * (1.0 + 1e-12))
     assert source_of(replace(pair, fit=fit)) is None
     assert source_of(replace(pair, designation="a thread of one's own")) is None
+
+
+@pytest.mark.parametrize(
+    ("written", "designation", "starts"),
+    [
+        ("M6xPh2P1", "M6x1-6g/6H 2 starts", 2),
+        ("m6 x ph3p1 - 6h/6H lh", "M6x1-6h/6H LH 3 starts", 3),
+        ("Tr 8x3(P1.5)", "Tr 8x1.5-7e/7H 2 starts", 2),
+        ("tr8x3 P1.5-8c/8H at middle", "Tr 8x1.5-8c/8H 2 starts at middle", 2),
+        ("1/4-16 ACME-2G 2 starts", "1/4-16 ACME-2G 2 starts", 2),
+        ("1/4-16 acme, 4-start", "1/4-16 ACME-2G 4 starts", 4),
+        ("M6 1 start", "M6x1-6g/6H", 1),
+    ],
+)
+def test_several_starts_are_written_as_a_number_or_as_lead_and_pitch(
+    written: str, designation: str, starts: int
+) -> None:
+    pair = pair_by_designation(written)
+    assert (pair.designation, pair.starts) == (designation, starts)
+    assert abs(pair.lead) == starts * pair.thread_pitch
+    assert pair_by_designation(pair.designation) == pair
+    assert str(source_of(pair)).endswith(OF_ONE_START) == (starts > 1)
+
+
+@pytest.mark.parametrize(
+    ("designation", "valid"),
+    [
+        ("M6 0 starts", "starts is 0; valid: 1 to 4"),
+        ("M6 5 starts", "starts is 5; valid: 1 to 4"),
+        ("M6xPh2.5P1", r"lead is '2\.5'; valid: a whole number of pitches"),
+        ("M6xPh2P1 2 starts", "lead is '2'"),
+        ("Tr 8x3(P0)", "lead is '3'"),
+        ("1/4-20 BSW with sharp corners", "none of Whitworth threads, which are round"),
+    ],
+)
+def test_starts_and_corners_that_no_thread_has_are_refused(designation: str, valid: str) -> None:
+    with pytest.raises(InvalidValueError, match=valid):
+        pair_by_designation(designation)
+
+
+def test_sharp_corners_are_a_named_choice_of_roots_and_crests() -> None:
+    rounded = pair_by_designation("1/4-16 ACME-2G at minimum material")
+    crests = pair_by_designation("1/4-16 acme with sharp crests at minimum material")
+    sharp = pair_by_designation("1/4-16 ACME-2G, sharp corners at minimum material")
+    assert crests.designation == "1/4-16 ACME-2G with sharp crests at minimum material"
+    assert sharp.designation == "1/4-16 ACME-2G with sharp corners at minimum material"
+    names = ("bolt_crest_fillet", "nut_crest_fillet", "bolt_root_fillet", "nut_root_fillet")
+    of = {pair: [getattr(pair.form, name) for name in names] for pair in (rounded, crests, sharp)}
+    assert of[crests] == [0.0, 0.0, *of[rounded][2:]]
+    assert of[sharp] == [0.0] * 4
+    assert crests.fit == sharp.fit == rounded.fit
+    assert {source_of(pair) for pair in (rounded, crests, sharp)} == {ACME_SOURCE}
+    assert [pair_by_designation(pair.designation) for pair in (crests, sharp)] == [crests, sharp]

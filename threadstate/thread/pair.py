@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from functools import cached_property
 
@@ -12,7 +12,7 @@ from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.hand import Hand
 from threadstate.thread.profile import Profile
-from threadstate.units import LengthUnit
+from threadstate.units import LengthUnit, conversion_factor
 
 
 class Part(StrEnum):
@@ -45,6 +45,20 @@ class Pair:
             if not (math.isfinite(value) and value > 0.0):
                 raise ImpossibleThreadError(name, value, "a finite length > 0")
         _ = self.bolt, self.nut
+
+    def in_unit(self, unit: LengthUnit) -> Pair:
+        """The same pair with its lengths in ``unit``."""
+        factor = conversion_factor(self.unit, unit)
+        diameters = {
+            field.name: getattr(self.fit, field.name) * factor for field in fields(self.fit) if field.name != "name"
+        }
+        return replace(
+            self,
+            unit=unit,
+            nominal_diameter=self.nominal_diameter * factor,
+            thread_pitch=self.thread_pitch * factor,
+            fit=replace(self.fit, **diameters),
+        )
 
     @property
     def lead(self) -> float:

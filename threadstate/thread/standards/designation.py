@@ -1,18 +1,21 @@
 """Designations of standard threads as people write them, and the limits that they name.
 
 A designation is a size, its form where the size does not say it, and classes of bolt and nut after a hyphen, both
-separated by a slash; ``LH`` at the end is a left-hand thread. Case does not matter, nor do blanks round its parts.
+separated by a slash; ``LH`` at the end is a left-hand thread, ``2 starts`` one of several starts, of which ISO threads
+may have lead and pitch instead (``M6xPh2P1``, ``Tr 8x3(P1.5)``). Case does not matter, nor do blanks round its parts.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 
 from threadstate.errors import InvalidValueError, UnknownNameError
-from threadstate.numbers import number_text
+from threadstate.numbers import number, number_text
+from threadstate.thread.profile import MOST_STARTS
 from threadstate.thread.standards import acme, metric, trapezoidal, unified, whitworth
 from threadstate.thread.standards.limits import Limits
 from threadstate.units import LengthUnit
@@ -31,6 +34,7 @@ class StandardThread:
         bolt, nut: limits of the diameters.
         source: the standard, and on what the numbers rest.
         left_hand: whether it turns the other way.
+        starts: how many threads run side by side; the lead is so many thread pitches.
     """
 
     designation: str
@@ -43,6 +47,7 @@ class StandardThread:
     nut: Limits
     source: str
     left_hand: bool
+    starts: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +78,14 @@ STUB_SOURCE = "ASME B1.8: diameters from one source; tolerances, those of ASME B
 TRAPEZOIDAL_SOURCE = "ISO 2903: tables from one source; no published limits to check against"
 WHITWORTH_SOURCE = "BS 84: formulas from two sources, allowances from memory; no published limits to check against"
 
+OF_ONE_START = "tolerances of one start"
+"""Added to the source of a thread of several: what standards change for these is not applied."""
+
+_STARTS = re.compile(r"[\s,-]*(?<![\w.])(?P<starts>\d+)[\s-]*starts?\b", re.IGNORECASE)
+_LEAD_AND_PITCH = re.compile(
+    r"^(?P<size>\s*(?:M|Tr)\s*[\d.]+)\s*x\s*(?:Ph)?\s*(?P<lead>[\d.]+)\s*\(?\s*P\s*(?P<pitch>[\d.]+)\s*\)?",
+    re.IGNORECASE,
+)
 _LEFT_HAND = re.compile(r"[\s-]*(?<![A-Z])LH\s*(?=-|$)", re.IGNORECASE)
 _BLANKS = re.compile(r"\s+")
 EXAMPLES = "1/4-20 UNC-2A/2B, M6x1-6g/6H, M6, 1/4-16 ACME-2G, Tr 8x1.5-7e/7H or 1/4-20 BSW"
@@ -81,7 +94,7 @@ EXAMPLES = "1/4-20 UNC-2A/2B, M6x1-6g/6H, M6, 1/4-16 ACME-2G, Tr 8x1.5-7e/7H or 
 def standard_threads() -> Iterator[StandardThread]:
     """All sizes of the catalogue with the classes that are usual for them, form by form, the smallest first."""
     for size in catalogue():
-        yield _thread(size, size.classes, left_hand=False)
+        yield _thread(size, size.classes, left_hand=False, starts=1)
 
 
 def standard_thread(designation: str) -> StandardThread:
@@ -89,13 +102,14 @@ def standard_thread(designation: str) -> StandardThread:
 
     Raises:
         UnknownNameError: no such size.
-        InvalidValueError: a class that its form does not have.
+        InvalidValueError: a class that its form does not have, or a number of starts that is none.
     """
-    text = _LEFT_HAND.sub("", designation)
+    of_one_start, starts = _without_starts(designation)
+    text = _LEFT_HAND.sub("", of_one_start)
     by_key = _by_key()
     for name, classes in _splits(text):
         if (size := by_key.get(_key(name))) is not None:
-            return _thread(size, _classes(size, classes), left_hand=text != designation)
+            return _thread(size, _classes(size, classes), left_hand=text != of_one_start, starts=starts)
     raise UnknownNameError("designation", designation, f"a standard thread, such as {EXAMPLES}")
 
 
@@ -116,6 +130,25 @@ def found_threads(search: str | None) -> list[StandardThread]:
         if not found or not words:
             raise
         return found
+
+
+def _without_starts(designation: str) -> tuple[str, int]:
+    """The designation of one start, and how many there are.
+
+    Raises:
+        InvalidValueError: no thread has so many, or the lead is no multiple of the pitch.
+    """
+    text, starts = designation, 1
+    if found := _STARTS.search(text):
+        text, starts = _STARTS.sub("", text, count=1), int(found["starts"])
+    if found := _LEAD_AND_PITCH.match(text):
+        lead, pitch = (number(found[name]) for name in ("lead", "pitch"))
+        if starts != 1 or not pitch > 0.0 or not math.isclose(lead / pitch, round(lead / pitch), abs_tol=1e-9):
+            raise InvalidValueError("lead", found["lead"], "a whole number of pitches, which are the starts")
+        text, starts = f"{found['size']}x{found['pitch']}{text[found.end() :]}", round(lead / pitch)
+    if not 1 <= starts <= MOST_STARTS:
+        raise InvalidValueError("starts", starts, f"1 to {MOST_STARTS}")
+    return text, starts
 
 
 def _splits(text: str) -> Iterator[tuple[str, str | None]]:
@@ -178,11 +211,12 @@ def _named(given: list[str]) -> tuple[str, str]:
     return given[0].lower(), given[-1].lower()
 
 
-def _thread(size: _Size, classes: tuple[str, str], *, left_hand: bool) -> StandardThread:
+def _thread(size: _Size, classes: tuple[str, str], *, left_hand: bool, starts: int) -> StandardThread:
     bolt, nut = classes
     written = bolt if bolt == nut else f"{bolt}/{nut}"
+    ending = f"{' LH' if left_hand else ''}{f' {starts} starts' if starts > 1 else ''}"
     return StandardThread(
-        designation=f"{size.name}-{written}{' LH' if left_hand else ''}",
+        designation=f"{size.name}-{written}{ending}",
         form=size.form,
         classes=written,
         unit=size.unit,
@@ -190,8 +224,9 @@ def _thread(size: _Size, classes: tuple[str, str], *, left_hand: bool) -> Standa
         thread_pitch=size.pitch,
         bolt=size.bolt(bolt),
         nut=size.nut(nut),
-        source=size.source,
+        source=size.source if starts == 1 else f"{size.source}; {OF_ONE_START}",
         left_hand=left_hand,
+        starts=starts,
     )
 
 

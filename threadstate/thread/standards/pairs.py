@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from enum import StrEnum
 
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number, number_text
@@ -21,6 +22,7 @@ from threadstate.thread.standards.designation import StandardThread, standard_th
 from threadstate.thread.standards.limits import Diameter
 from threadstate.thread.standards.trapezoidal import crest_clearance_mm
 
+_CORNERS = re.compile(r"[\s,]+(?:with\s+)?sharp\s+(?P<which>corners|crests)\b", re.IGNORECASE)
 _POSITION = re.compile(r"\s+at\s+(?P<position>.*)$", re.IGNORECASE | re.DOTALL)
 _NAMED = {"maximum": 0.0, "middle": 0.5, "minimum": 1.0}
 POSITIONS = (
@@ -57,6 +59,14 @@ class Position:
 MAXIMUM_MATERIAL = Position(0.0, 0.0)
 
 
+class Corners(StrEnum):
+    """Which corners of a pair are sharp, and how it ends a designation; by default none is."""
+
+    ROUNDED = ""
+    SHARP_CRESTS = " with sharp crests"
+    SHARP = " with sharp corners"
+
+
 @dataclass(frozen=True, slots=True)
 class Rounding:
     """Flank half-angle and wanted fillet radii of a form, over the thread pitch; infinite: the largest that fits."""
@@ -68,13 +78,26 @@ class Rounding:
     nut_crest: float
 
 
-def rounding(thread: StandardThread) -> Rounding:
-    """Those of a thread's form.
+def rounding(thread: StandardThread, corners: Corners = Corners.ROUNDED) -> Rounding:
+    """Those of a thread's form, with fillets of 0 where its corners are sharp.
 
     Unified: the root's as in method, section 1. ISO metric: a full root radius, from H / 6 at maximum material to P / 8
     at minimum material. Acme: roots at the limit from memory. Trapezoidal: the standard's greatest radii, the bolt's
     for the nut's crest, too. Whitworth: its one radius.
+
+    Raises:
+        InvalidValueError: sharp corners of a form that is round.
     """
+    of_form = _rounding_of_form(thread)
+    if corners is Corners.ROUNDED:
+        return of_form
+    if of_form.bolt_crest == WHITWORTH:
+        raise InvalidValueError("corners", corners.strip(), f"none of {thread.form} threads, which are round")
+    sharp = replace(of_form, bolt_crest=0.0, nut_crest=0.0)
+    return sharp if corners is Corners.SHARP_CRESTS else replace(sharp, bolt_root=0.0, nut_root=0.0)
+
+
+def _rounding_of_form(thread: StandardThread) -> Rounding:
     pitch = thread.thread_pitch
     match thread.form:
         case "UN":
@@ -97,25 +120,36 @@ METRIC_ROOT = 0.577350
 
 
 def standard_pair(designation: str) -> Pair:
-    """The pair of a designation, with a position after ``at``; without one at maximum material.
+    """The pair of a designation, with sharp corners or crests where it says so and a position after ``at``.
+
+    Without these at maximum material, with the fillets of its form.
 
     Raises:
         UnknownNameError: no such size.
-        InvalidValueError: a class that its form does not have, or a position that is none.
+        InvalidValueError: a class or corners that its form does not have, or a position that is none.
     """
-    found = _POSITION.search(designation)
-    position = MAXIMUM_MATERIAL if found is None else parsed_position(found["position"])
-    return pair_at(standard_thread(_POSITION.sub("", designation)), position)
+    size, corners, position = _parts(designation)
+    return pair_at(standard_thread(size), MAXIMUM_MATERIAL if position is None else parsed_position(position), corners)
 
 
 def standard_source(designation: str) -> str:
-    """On what the numbers of a designation's pair rest, whatever its position.
+    """On what the numbers of a designation's pair rest, whatever its corners and its position.
 
     Raises:
         UnknownNameError: no such size.
         InvalidValueError: a class that its form does not have.
     """
-    return standard_thread(_POSITION.sub("", designation)).source
+    return standard_thread(_parts(designation)[0]).source
+
+
+def _parts(designation: str) -> tuple[str, Corners, str | None]:
+    """The designation of a thread, its corners, and what is written of a position."""
+    corners = Corners.ROUNDED
+    if found := _CORNERS.search(designation):
+        corners = Corners.SHARP if found["which"].lower() == "corners" else Corners.SHARP_CRESTS
+        designation = _CORNERS.sub("", designation, count=1)
+    found = _POSITION.search(designation)
+    return _POSITION.sub("", designation), corners, None if found is None else found["position"]
 
 
 def parsed_position(text: str) -> Position:
@@ -134,10 +168,14 @@ def parsed_position(text: str) -> Position:
     return Position(bolt, nut)
 
 
-def pair_at(thread: StandardThread, position: Position) -> Pair:
-    """The pair of a thread at a position."""
+def pair_at(thread: StandardThread, position: Position, corners: Corners = Corners.ROUNDED) -> Pair:
+    """The pair of a thread at a position.
+
+    Raises:
+        InvalidValueError: its form has no such corners.
+    """
     bolt, nut, pitch = thread.bolt, thread.nut, thread.thread_pitch
-    wanted = rounding(thread)
+    wanted = rounding(thread, corners)
     tangent = math.tan(math.radians(wanted.flank_half_angle_deg))
     fit = Fit(
         name=f"{thread.classes}{position.name}",
@@ -164,12 +202,13 @@ def pair_at(thread: StandardThread, position: Position) -> Pair:
         nut_crest_fillet=fitting(wanted.nut_crest, nut_radius - fit.nut_minor_diameter / 2.0),
     )
     return Pair(
-        designation=f"{thread.designation}{position.name}",
+        designation=f"{thread.designation}{corners}{position.name}",
         unit=thread.unit,
         nominal_diameter=thread.nominal_diameter,
         thread_pitch=pitch,
         form=form,
         fit=fit,
+        starts=thread.starts,
         hand=Hand.LEFT if thread.left_hand else Hand.RIGHT,
     )
 
