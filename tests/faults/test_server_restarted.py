@@ -95,13 +95,18 @@ def test_workers_end_a_job_whole_after_restarts(
         command = [*COMMAND, "worker", "--workers", "1", "--until-idle"]
         with said.open("ab") as stderr:
             workers = [subprocess.Popen(command, env=environment, stderr=stderr) for _ in range(2)]
-        for least in range(1, RESTARTS + 1):
-            _wait_for(lambda least=least: _count(engine, chunk) >= 2 * least)  # type: ignore[misc]
-            server.stop()
-            _wait_for(lambda told=told: said.read_text().count(FAILS) > told)  # type: ignore[misc]
-            told = said.read_text().count(FAILS)
-            server.start()
-        assert [worker.wait(TIMEOUT_S) for worker in workers] == [0, 0], said.read_text()
+        try:
+            for least in range(1, RESTARTS + 1):
+                _wait_for(lambda least=least: _count(engine, chunk) >= 2 * least)  # type: ignore[misc]
+                server.stop()
+                _wait_for(lambda told=told: said.read_text().count(FAILS) > told)  # type: ignore[misc]
+                told = said.read_text().count(FAILS)
+                server.start()
+            assert [worker.wait(TIMEOUT_S) for worker in workers] == [0, 0], said.read_text()
+        finally:
+            for worker in workers:
+                worker.kill()
+                worker.wait()
         assert published(engine) == [expected_content]
         assert (_count(engine, chunk), _count(engine, state)) == (GRID.orientation_count, GRID.pose_count)
         with engine.connect() as connection:
