@@ -10,7 +10,8 @@
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make statics    what a push does to the states, docs/statics.md and its maps
-# make threads  what class, fit, form and size of a thread change, docs/threads-compared.md
+# make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
+# make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
 # make witness    the numbers of 10,000 loaded states beside a conic solver's, docs/statics-witness.md
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
 # make client     make the blocking client of the asynchronous one
@@ -33,7 +34,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test check bench client load paper chart stability docs lock designer statics witness threads histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test check bench client load paper chart stability docs lock designer statics witness threads forms histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -88,6 +89,9 @@ witness: setup
 
 threads: setup
 	$(BIN)/python -m studies.threads
+
+forms: setup $(VENV)/.oracle
+	$(BIN)/python -m studies.forms
 
 histories: setup
 	$(BIN)/python -m studies.history

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,7 @@ from oracle.solids import (
     outside_bolt,
     outside_nut,
     outside_thread,
-    outward,
+    outward_of_faces,
 )
 from threadstate.state.model import Contact, FeaturePair, StagePose
 from threadstate.thread.pair import Pair
@@ -94,8 +95,8 @@ def normal_faults(touch: Touch) -> list[str]:
     if abs(np.linalg.norm(normal) - 1.0) > 1e-12:
         faults.append("not of unit length")
     base_inward = touch.rotation @ ABOVE
-    thread_inward = -(touch.rotation @ outward(touch.point_bolt, touch.bolt))
-    nut_outward = -outward(touch.point, touch.nut)
+    thread_inward = [-(touch.rotation @ face) for face in outward_of_faces(touch.point_bolt, touch.bolt)]
+    nut_outward = [-face for face in outward_of_faces(touch.point, touch.nut)]
     bolt_feature, nut_feature = touch.features
     if (bolt_feature, nut_feature) == ("edge", "edge") and touch.contact.features is not FeaturePair.FLUSH:
         bolt_edge = touch.rotation @ edge_tangent(touch.point_bolt, touch.bolt)
@@ -105,25 +106,32 @@ def normal_faults(touch: Touch) -> list[str]:
         # It separates the solids where it lies between the two faces that meet at each edge.
         faults += [
             f"not between the faces at the {name}'s edge"
-            for name, faces in (("bolt", (base_inward, thread_inward)), ("nut", (ABOVE, nut_outward)))
+            for name, faces in (("bolt", (base_inward, *thread_inward)), ("nut", (ABOVE, *nut_outward)))
             if not _between(normal, *faces)
         ]
         return faults
-    expected: list[Floats] = []
+    expected: list[list[Floats]] = []
     if nut_feature == "surface" or (touch.contact.features is FeaturePair.FLUSH and nut_feature == "edge"):
-        expected.append(ABOVE)
+        expected.append([ABOVE])
     if bolt_feature == "base":
-        expected.append(base_inward)
+        expected.append([base_inward])
     if bolt_feature == "thread":
         expected.append(thread_inward)
     if nut_feature == "thread":
         expected.append(nut_outward)
-    faults += ["not across the face" for face in expected if np.abs(face - normal).max() > NORMAL_TOLERANCE]
+    faults += ["not across the face" for faces in expected if not _across(normal, faces)]
     return faults
 
 
-def _between(normal: Floats, first: Floats, second: Floats) -> bool:
-    faces = np.column_stack([first, second])
+def _across(normal: Floats, faces: Sequence[Floats]) -> bool:
+    """Whether a normal is that of a face, or lies between those of the two faces of a sharp corner."""
+    if len(faces) == 1:
+        return bool(np.abs(faces[0] - normal).max() <= NORMAL_TOLERANCE)
+    return _between(normal, *faces)
+
+
+def _between(normal: Floats, *normals: Floats) -> bool:
+    faces = np.column_stack(normals)
     shares = np.linalg.lstsq(faces, normal, rcond=None)[0]
     return bool(shares.min() > -NORMAL_TOLERANCE and np.abs(faces @ shares - normal).max() < 10 * NORMAL_TOLERANCE)
 

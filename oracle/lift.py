@@ -2,9 +2,9 @@
 
 While the bolt rises, a point of its surface is inside the nut during intervals of height that are known in closed form,
 and a point of the nut's outline is inside the bolt during intervals found by a march. The lift grows to the greatest
-end of an interval that holds it, over samples of the bolt's base outline, the nut's top outline and the bolt's thread
-surface, each polished; once no interval holds it the solids are apart. The first such lift counts, even if a greater
-one would make them meet again.
+end of an interval that holds it, over samples of the bolt's base outline, the nut's top outline, the bolt's thread
+surface and, as overlaps at sharp corners are narrow, the helices of both crests' corners, each polished; once no
+interval holds it the solids are apart. The first such lift counts, even if a greater one would make them meet again.
 
 Resolution: overlaps that end within ``NEAR`` thread pitches below the lift at some sample are polished; a sample that
 lies in a hole narrower than that counts as inside.
@@ -18,13 +18,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from oracle.compiled import compiled
-from oracle.profile import LEAD, R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
+from oracle.profile import (
+    LEAD,
+    Q_FLANK_LARGE,
+    Q_FLANK_SMALL,
+    Q_LARGE,
+    Q_SMALL,
+    R_SMALL,
+    P,
+    bolt_profile,
+    nut_profile,
+    radius,
+    ridge_half_width,
+)
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 
 NEAR = 0.01
-BOLT_EDGE, NUT_EDGE, BOLT_THREAD = range(3)
+BOLT_EDGE, NUT_EDGE, BOLT_THREAD, BOLT_CORNER, OTHER_BOLT_CORNER, NUT_CORNER, OTHER_NUT_CORNER = range(7)
 EDGE_SAMPLES, AROUND, ALONG = 2880, 480, 48
 _STEPS = 100
 _NONE = -1e9
@@ -92,6 +104,12 @@ def _leaves_bolt(x: float, y: float, z: float, lift: float, near: float, rot: Fl
 
 
 @compiled
+def _corner(q: float, rising: bool, profile: Floats) -> float:
+    """The axial position of a corner at distance ``q`` from the middle of the ridge, on one side of it."""
+    return 0.25 * profile[P] + (-q if rising else q)
+
+
+@compiled
 def _end(
     feature: int, u: float, v: float, lift: float, near: float, rot: Floats, t: Floats, b: Floats, n: Floats
 ) -> float:
@@ -99,6 +117,14 @@ def _end(
     if feature == NUT_EDGE:
         r = radius(-n[LEAD] * u / _TWO_PI, n)
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], -t[2], lift, near, rot, b)
+    if feature >= NUT_CORNER:
+        s = _corner(0.5 * (n[Q_FLANK_SMALL] + n[Q_SMALL]), feature == NUT_CORNER, n)
+        r, z = radius(s, n), s + n[LEAD] * u / _TWO_PI
+        z -= n[P] * (math.floor(z / n[P]) + 1.0)
+        return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], z - t[2], lift, near, rot, b)
+    if feature >= BOLT_CORNER:
+        v = _corner(0.5 * (b[Q_LARGE] + b[Q_FLANK_LARGE]), feature == BOLT_CORNER, b) + b[LEAD] * u / _TWO_PI
+        v -= b[P] * math.floor(v / b[P])
     v = min(max(v, 0.0), b[P])
     r = radius(v - b[LEAD] * u / _TWO_PI, b)
     bx, by = r * math.cos(u), r * math.sin(u)
@@ -137,7 +163,7 @@ def _zoom(
 @compiled
 def _greatest_end(lift: float, near: float, rot: Floats, t: Floats, b: Floats, n: Floats) -> float:
     best = _NONE
-    for feature in range(3):
+    for feature in range(7):
         rows = 1 if feature != BOLT_THREAD else ALONG
         count = AROUND if feature == BOLT_THREAD else EDGE_SAMPLES
         e = np.empty((count, rows))

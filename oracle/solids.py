@@ -7,9 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.profile import LEAD, P, radius
+from oracle.profile import COT, LEAD, Q_FLANK_LARGE, Q_FLANK_SMALL, Q_LARGE, Q_SMALL, RHO_LARGE, RHO_SMALL, P, radius
 
 Floats = NDArray[np.float64]
+
+CORNER_PITCHES = 1e-7
+"""A point as near to a sharp corner, in thread pitches along the axis, is on it."""
 
 
 def axial_position(point: Floats, profile: Floats) -> float:
@@ -32,10 +35,37 @@ def outside_nut(point: Floats, nut: Floats) -> float:
     return max(-outside_thread(point, nut), float(point[2]), -float(point[2] + nut[P]))
 
 
+def at_sharp_corner(point: Floats, profile: Floats) -> bool:
+    """Whether a point of the thread is on a corner without a fillet, or as near to it as makes no difference."""
+    x = (axial_position(point, profile) - 0.25 * profile[P]) / profile[P]
+    q = profile[P] * abs(x - math.floor(x + 0.5))
+    corners = (profile[RHO_LARGE], profile[Q_LARGE]), (profile[RHO_SMALL], profile[Q_SMALL])
+    return any(rho == 0.0 and abs(q - at) < CORNER_PITCHES * profile[P] for rho, at in corners)
+
+
 def slope(s: float, profile: Floats) -> float:
-    """``f'`` by differences; good to 1e-8 off the boundaries of regions."""
-    step = 1e-7 * profile[P]
-    return (radius(s + step, profile) - radius(s - step, profile)) / (2.0 * step)
+    """``f'``; at a sharp corner that of the flat beside it."""
+    p = profile[P]
+    x = (s - 0.25 * p) / p
+    x -= math.floor(x + 0.5)
+    q, falling = p * abs(x), math.copysign(1.0, -x)
+    if q <= profile[Q_LARGE] or q >= profile[Q_SMALL]:
+        return 0.0
+    if q < profile[Q_FLANK_LARGE]:
+        d = q - profile[Q_LARGE]
+        return falling * d / math.sqrt(profile[RHO_LARGE] ** 2 - d * d)
+    if q <= profile[Q_FLANK_SMALL]:
+        return falling * profile[COT]
+    d = profile[Q_SMALL] - q
+    return falling * d / math.sqrt(profile[RHO_SMALL] ** 2 - d * d)
+
+
+def outward_of_faces(point: Floats, profile: Floats) -> tuple[Floats, ...]:
+    """As :func:`outward`; at a sharp corner the normals of both faces that meet there."""
+    if not at_sharp_corner(point, profile):
+        return (outward(point, profile),)
+    beside = 2.0 * CORNER_PITCHES * profile[P]
+    return tuple(outward(point + np.array([0.0, 0.0, shift]), profile) for shift in (-beside, beside))
 
 
 def outward(point: Floats, profile: Floats) -> Floats:

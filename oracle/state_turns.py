@@ -8,11 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from oracle.overlap import LARGEST_TILT_DEG, clearance, excluded_rows, free_component
-from oracle.profile import bolt_profile, nut_profile
-from oracle.solids import Floats, edge_tangent
+from oracle.profile import P, bolt_profile, nut_profile
+from oracle.solids import Floats, at_sharp_corner, edge_tangent, outward
 from oracle.turn import contact_components_along_turn, turned_pose
 from threadstate.state.model import Contact, ContactState
 from threadstate.thread.pair import Pair
+
+AZIMUTHS_OF_WAY, HEIGHTS_OF_WAY = 100, 41
+WAY_HALF_WIDTH = 0.03
+"""Samples on the way from a contact to a point, and how far from the straight way, in thread pitches."""
+ON_SURFACE = 1e-8
+"""A clearance of less, in thread pitches, is none: a contact at a sharp corner is at a fillet of 4e-9."""
 
 
 @dataclass(frozen=True)
@@ -63,10 +69,16 @@ def first_tangent(pair: Pair, state: ContactState) -> Floats:
     first = state.contacts[0]
     point, rotation = np.array(first.point), np.array(state.poses[0].rotation)
     bolt_feature, nut_feature = first.features.value.split("-")
+    bolt, nut, point_bolt = bolt_profile(pair), nut_profile(pair), np.array(first.point_bolt)
     if nut_feature == "edge":
-        tangent = edge_tangent(point, nut_profile(pair))
+        # An edge's corner has the tangent that the other part's face has in the edge's plane: it rolls on that face.
+        at_corner = bolt_feature == "thread" and at_sharp_corner(point, nut)
+        face = rotation @ outward(point_bolt, bolt)
+        tangent = np.cross(face, [0.0, 0.0, 1.0]) if at_corner else edge_tangent(point, nut)
     elif bolt_feature == "edge":
-        tangent = rotation @ edge_tangent(np.array(first.point_bolt), bolt_profile(pair))
+        at_corner = nut_feature == "thread" and at_sharp_corner(point_bolt, bolt)
+        face = outward(point, nut)
+        tangent = np.cross(face, rotation[:, 2]) if at_corner else rotation @ edge_tangent(point_bolt, bolt)
     else:
         tangent = np.array([-point[1], point[0], pair.lead / (2.0 * math.pi)])
     counter_clockwise = point[0] * tangent[1] - point[1] * tangent[0]
@@ -131,6 +143,56 @@ def deepest_near(pair: Pair, turn: Turn, turn_deg: float, point: Floats, reach: 
         best, centre = max(best, values[highest]), around[highest]
         size *= 0.5
     return best
+
+
+def spreads_from_contact(pair: Pair, turn: Turn, turn_deg: float) -> bool:
+    """Whether what the brute force takes for a component of its own is the overlap of a known contact.
+
+    Along a crest's corner, and where a bolt is nearly in phase, an overlap spreads thinner than samples are apart. It
+    is followed from the contact to the deepest of what no known contact is seen in: at each azimuth between, some point
+    near the straight way overlaps.
+    """
+    bolt, nut = bolt_profile(pair), nut_profile(pair)
+    rotation, translation = turn.pose_after(turn_deg)
+    rotation = np.ascontiguousarray(rotation)
+    _, theta, z = free_component(rotation, translation, bolt, nut, excluded_rows(rotation, translation, turn.known))
+    p = pair.thread_pitch
+    for known in turn.known:
+        begin = math.atan2(known[1], known[0])
+        far = math.remainder(theta - begin, 2.0 * math.pi)
+        if all(
+            _greatest_clearance(begin + part * far, known[2] + part * (z - known[2]), rotation, translation, bolt, nut)
+            > -ON_SURFACE * p
+            for part in np.linspace(0.0, 1.0, AZIMUTHS_OF_WAY).tolist()
+        ):
+            return True
+    return False
+
+
+def _greatest_clearance(
+    theta: float, z: float, rotation: Floats, translation: Floats, bolt: Floats, nut: Floats
+) -> float:
+    """The greatest clearance at an azimuth near ``z``: the best of samples, then of ever narrower ones about it."""
+    best, half = -math.inf, WAY_HALF_WIDTH * nut[P]
+    while half > 1e-11 * nut[P]:
+        for at in np.linspace(z - half, z + half, HEIGHTS_OF_WAY).tolist():
+            value = clearance(theta, min(at, 0.0), rotation, translation, bolt, nut)
+            if value > best:
+                best, z = value, at
+        half *= 4.0 / HEIGHTS_OF_WAY
+    return best
+
+
+def begins_at(pair: Pair, turn: Turn, point: Floats, before_and_after_deg: float, reach_pitches: float) -> bool:
+    """Whether an overlap begins about a point at the end of a turn: just before it there is none, just after there is.
+
+    It is looked for within ``reach_pitches`` thread pitches of the point.
+    """
+    assert turn.turn_deg is not None
+    reach = reach_pitches * pair.thread_pitch
+    before = deepest_near(pair, turn, turn.turn_deg - before_and_after_deg, point, reach)
+    after = deepest_near(pair, turn, turn.turn_deg + before_and_after_deg, point, reach)
+    return before < 0.0 < after
 
 
 @dataclass(frozen=True)

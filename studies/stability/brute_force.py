@@ -19,7 +19,7 @@ from oracle.first_height import first_height
 from oracle.overlap import excluded_rows, free_component
 from oracle.pose import pose_rotation
 from oracle.profile import Floats, bolt_profile, nut_profile
-from oracle.state_turns import Turn, earlier_appearance, turns_of
+from oracle.state_turns import Turn, earlier_appearance, spreads_from_contact, turns_of
 from studies.stability.change import SolvedCase, allowed, change_between, leading_contacts, pivot_lever
 from threadstate.state.model import Contact, ContactState, Flag
 from threadstate.thread.pair import Pair
@@ -161,8 +161,9 @@ def _is_free(solved: SolvedCase, turn: Turn, turn_deg: float) -> bool:
 
 
 def _passes_an_onset(solved: SolvedCase, turn: Turn) -> bool:
-    seen = earlier_appearance(solved.case.pair, turn, LIMIT_DEG, STEPS)
-    return seen is not None and seen.depth < SPLIT_INCH
+    pair = solved.case.pair
+    seen = earlier_appearance(pair, turn, LIMIT_DEG, STEPS)
+    return seen is not None and seen.depth < SPLIT_INCH and not spreads_from_contact(pair, turn, seen.turn_deg)
 
 
 def missed_first(solved: SolvedCase) -> bool:

@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from studies.methods import Case, scaled, with_dimensions
+from threadstate.errors import ImpossibleThreadError
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
@@ -46,7 +47,7 @@ def perturbations(centres: list[Case], first: int) -> list[Trial]:
     """Changes of pose and of dimensions about centres of one pair; the first has the number ``first`` in its place.
 
     Each centre has directions of its own; degrees and thread pitches are multiplied by the size. Changed pairs are the
-    same for all, so that many poses are solved with each.
+    same for all, so that many poses are solved with each; dimensions that no thread can have are left out.
     """
     found = []
     for i, centre in enumerate(centres):
@@ -58,7 +59,10 @@ def perturbations(centres: list[Case], first: int) -> list[Trial]:
                 found.append(Trial(i, replace(centre, pose_deg=(roll, pitch, phase)), Kind.POSE, decade))
     for decade in DECADES:
         for direction in range(DIMENSION_DIRECTIONS):
-            pair = changed_pair(centres[0].pair, decade, direction)
+            try:
+                pair = changed_pair(centres[0].pair, decade, direction)
+            except ImpossibleThreadError:
+                continue
             found += [Trial(i, replace(centre, pair=pair), Kind.DIMENSIONS, decade) for i, centre in enumerate(centres)]
     return found
 

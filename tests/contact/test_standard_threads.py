@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from oracle.first_height import first_height
+from oracle.lift import least_lift
 from oracle.profile import bolt_profile, nut_profile, radius
-from oracle.state_turns import deepest_near, earlier_appearance, turns_of, within_brute_force
+from oracle.state_turns import begins_at, earlier_appearance, turns_of, within_brute_force
 from tests.contact.samples import random_poses
 from threadstate.contact import _record_kernel as rk
 from threadstate.errors import InvalidValueError
@@ -72,9 +73,7 @@ def test_heights_and_turns_are_those_of_the_brute_force(designation: str) -> Non
             if turn.turn_deg is None or turn.turn_deg < 1e-4 or not within_brute_force(turn):
                 continue
             for point in (np.array(contact.point) for contact in turn.found if contact.features.value != "flush"):
-                before = deepest_near(pair, turn, turn.turn_deg - 1e-4, point, 1e-3 * pitch)
-                after = deepest_near(pair, turn, turn.turn_deg + 1e-4, point, 1e-3 * pitch)
-                assert before < 0.0 < after, (pose, turn.stage)
+                assert begins_at(pair, turn, point, 1e-4, 1e-3), (pose, turn.stage)
 
 
 @pytest.mark.parametrize(
@@ -132,7 +131,7 @@ def of_fillets(designation: str, radius: float) -> Pair:
 
 @pytest.mark.parametrize("designation", ["1/4-16 ACME-2G", "M6", "1/4-20 UNC-1A/1B at minimum material"])
 def test_heights_of_sharp_corners_are_those_of_the_brute_force(designation: str) -> None:
-    sharp = of_fillets(designation, 0.0)
+    sharp = pair_by_designation(f"{designation} with sharp corners")
     pitch = sharp.thread_pitch
     poses = random_poses(1821, 5, tilt_deg=4.0)
     poses[::2, 2] = poses[::2, 2] % 40.0 - 20.0
@@ -160,3 +159,42 @@ def test_flanks_flatter_than_the_largest_tilt_are_refused() -> None:
     flat = replace(pair, form=replace(of_fillets("1/4-16 ACME-2G", 0.0).form, flank_half_angle_deg=7.0))
     with pytest.raises(InvalidValueError, match=r"flank_half_angle_deg is 7\.0; valid: at least 14\.2 deg"):
         solve_pose(flat, 1.0, 2.0, 3.0)
+
+
+@pytest.mark.parametrize(
+    ("pose", "mu_deg"),
+    [
+        ((1.4076287827948257, 3.834881868549828, -105.64747773500358), 0.347125994266),
+        ((-3.303835790379943, 3.831965939614628, -105.44283522125892), 0.244713646734),
+    ],
+)
+def test_threads_that_meet_early_in_a_turn_that_no_edge_ends_are_found(
+    pose: tuple[float, float, float], mu_deg: float
+) -> None:
+    """The overlap is 6e-5 in deep a hundredth of a degree later; at instants 1.5 deg apart it was missed altogether."""
+    pair = pair_by_designation("1/4-16 STUB ACME-2G at minimum material")
+    state = solve_pose(pair, *pose)
+    assert state.mu_deg == pytest.approx(mu_deg, abs=1e-9)
+    third = [contact.features.value for contact in state.contacts if contact.stage == 3]
+    assert third == ["thread-thread"]
+    turn = turns_of(pair, state)[1]
+    assert begins_at(pair, turn, np.array(turn.found[0].point), 1e-4, 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("designation", "pose"),
+    [
+        ("1/4-16 ACME-2G with sharp corners", (2.0519332317019057, 1.1946532945972077, -51.09686706890932)),
+        ("1/4-16 ACME-2G with sharp corners", (0.23977845224520422, 2.407406132980718, -54.96453360620363)),
+        ("Tr 8x1.5-7e/7H with sharp corners", (-1.2100988496689258, 1.752333858483543, -50.38106869414966)),
+        ("Tr 8x1.5-7e/7H with sharp corners", (-3.7173620104085936, 1.9222839960679199, -63.235591506409406)),
+    ],
+)
+def test_embedment_at_a_sharp_corner_is_the_least_lift(designation: str, pose: tuple[float, float, float]) -> None:
+    """An overlap along the corner's helix is narrow: some of these were 0, and the bolt at rest."""
+    pair = pair_by_designation(designation)
+    state = solve_pose(pair, *pose)
+    last = state.poses[2]
+    expected = least_lift(pair, np.array(last.rotation), np.array(last.translation))
+    assert expected > 1e-5 * pair.thread_pitch
+    assert state.embedment == pytest.approx(expected, abs=2e-7 * pair.thread_pitch)

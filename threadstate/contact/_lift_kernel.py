@@ -48,6 +48,7 @@ from threadstate.contact._stage_kernel import (
     set_motions,
 )
 from threadstate.contact._surface_kernel import start_height
+from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, set_placement
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -196,6 +197,18 @@ def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array,
 
 
 @kernel()
+def crests_overlap(pose: Array, lift: float, bolt: Array, nut: Array, work: Work) -> bool:
+    """Whether the corner of a crest is found inside the other part at ``lift``."""
+    _, _, _, _, bolt_motion, nut_motion, _, _, _ = work
+    placement = np.empty(PLACEMENT_SIZE)
+    up = np.array([0.0, 0.0, 1.0])
+    set_motions(pose, False, False, up, up, bolt_motion, nut_motion)
+    set_placement(bolt_motion, lift, placement)
+    depth, _, _ = ridge.deepest_corner_point(placement, bolt, nut)
+    return depth > WITNESS_DEPTH * bolt[pk.P]
+
+
+@kernel()
 def contact_below(
     pose: Array,
     lift: float,
@@ -227,11 +240,31 @@ def least_lift(
 ) -> tuple[float, int]:
     """The least lift after which the solids of an overlapping pose do not overlap, and a status.
 
-    Every lift below it is proved to overlap, but for stretches shorter than ``RETRY_OFFSET`` thread pitches.
+    Every lift below it is proved to overlap, but for stretches shorter than ``RETRY_OFFSET`` thread pitches. Threads
+    whose touch on the way down was missed still overlap just above it; from there witness follows witness.
     """
     height = start_height(pose, bolt) - pose[11]
     if height <= 0.0:
         return 0.0, RESOLVED
+    lift, status = lift_to_last_touch(pose, height, tie_tolerance, bolt, nut, search, work, found)
+    above = lift + RETRY_OFFSET * bolt[pk.P]
+    if status != RESOLVED or not crests_overlap(pose, above, bolt, nut, work):
+        return lift, status
+    return climb_witnesses(pose, above, height, height, height, tie_tolerance, bolt, nut, search, work, found)
+
+
+@kernel()
+def lift_to_last_touch(
+    pose: Array,
+    height: float,
+    tie_tolerance: float,
+    bolt: Array,
+    nut: Array,
+    search: Search,
+    work: Work,
+    found: Array,
+) -> tuple[float, int]:
+    """The least lift as the touches found on the way down from ``height`` have it, and a status."""
     count, last, status = contact_below(pose, height, height, tie_tolerance, bolt, nut, search, work, found)
     if last <= 1e-8 * bolt[pk.P]:
         return 0.0, status
@@ -245,12 +278,13 @@ def least_lift(
         )
     if proved_from <= 0.0 or status != RESOLVED:
         return last, status
-    return climb_witnesses(pose, proved_from, last, height, tie_tolerance, bolt, nut, search, work, found)
+    return climb_witnesses(pose, 0.0, proved_from, last, height, tie_tolerance, bolt, nut, search, work, found)
 
 
 @kernel()
 def climb_witnesses(
     pose: Array,
+    lift: float,
     proved_from: float,
     last: float,
     height: float,
@@ -261,9 +295,8 @@ def climb_witnesses(
     work: Work,
     found: Array,
 ) -> tuple[float, int]:
-    """The least lift, from witness to witness; from ``proved_from`` up to the ``last`` touch every lift overlaps."""
+    """The least lift from ``lift`` on, witness by witness; from ``proved_from`` to the ``last`` touch all overlap."""
     near = LEAST_GAP * bolt[pk.P]
-    lift = 0.0
     for _ in range(MAX_WITNESSES):
         if lift >= proved_from:
             return last, RESOLVED

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._edge_search_kernel import E_THETA, E_TIME, E_Z
-from threadstate.contact._geometry_kernel import TWO_PI, motion_scale
+from threadstate.contact._geometry_kernel import M_KIND, TWO_PI, motion_scale
 from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
     GRID_SIZE,
@@ -44,6 +44,7 @@ from threadstate.contact._tangency_kernel import (
     PLACEMENT_OFF,
     PLACEMENT_ROT,
     PLACEMENT_SIZE,
+    T_TIME,
     newton_tangency,
     set_jet,
     set_placement,
@@ -60,6 +61,17 @@ LATE_INSTANT_STEP = math.radians(0.2)
 Beyond it maxima of phi are narrow, and come and go within tenths of a degree; there all azimuths are used. Angles (rad)
 of a turn; of a translation, multiples of its ``motion_scale``.
 """
+LONG_TURN = math.radians(20.0)
+BEGINNING = 2.0 * INSTANT_STEP
+BEGINNING_INSTANTS, BEGINNING_AZIMUTHS = 12, 64
+"""Where nothing is found in the first ``LONG_TURN`` (rad) of a turn its beginning is searched at more instants: a
+maximum that rises fast there is followed back from few of the later ones, and all of these can miss it."""
+CORNER_SAMPLES = 64
+"""Points of a crest's corner, all round, between which its deepest points are bracketed."""
+CORNER_REACH = 1e-3
+"""Depth below zero, in thread pitches, down to which the greatest depth between samples of a corner is looked for."""
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+CORNER_BISECTIONS = 60
 MAX_FOLLOW_STEP = math.radians(0.5)
 """Largest step in time of following a maximum of phi; in the same unit."""
 MAX_Z_GAP = 0.06
@@ -310,13 +322,79 @@ def ridge_maxima(
 
 
 @kernel()
+def depth_at_corner(
+    angle: float, s: float, of_nut: bool, placement: Array, bolt: Array, nut: Array
+) -> tuple[float, float, float]:
+    """How deep a crest's helix is in the other part: the depth, and the place (theta, z) on the bolt's thread.
+
+    The helix is the bolt's or the nut's, at the axial position ``s`` of its profile; ``angle`` is the azimuth there.
+    """
+    p = bolt[pk.P]
+    k = bolt[pk.LEAD] / TWO_PI
+    z = s + k * angle
+    z -= p * math.floor(z / p)
+    m = placement[PLACEMENT_ROT : PLACEMENT_ROT + 9]
+    off = placement[PLACEMENT_OFF : PLACEMENT_OFF + 3]
+    if of_nut:
+        r = pk.radius(s, nut)
+        x, y, up = r * math.cos(angle) - off[0], r * math.sin(angle) - off[1], z - p - off[2]
+        bx, by = m[0] * x + m[3] * y + m[6] * up, m[1] * x + m[4] * y + m[7] * up
+        bz = m[2] * x + m[5] * y + m[8] * up
+        theta = math.atan2(by, bx)
+        return min(pk.radius(bz - k * theta, bolt) - math.hypot(bx, by), bz, p - bz), theta, bz
+    r = pk.radius(s, bolt)
+    bx, by = r * math.cos(angle), r * math.sin(angle)
+    x, y = m[0] * bx + m[1] * by + m[2] * z + off[0], m[3] * bx + m[4] * by + m[5] * z + off[1]
+    up = m[6] * bx + m[7] * by + m[8] * z + off[2]
+    return min(math.hypot(x, y) - pk.radius(up - k * math.atan2(y, x), nut), -up, p + up), angle, z
+
+
+@kernel()
+def deepest_corner_point(placement: Array, bolt: Array, nut: Array) -> tuple[float, float, float]:
+    """The greatest depth found along the corners of both crests, and its place (theta, z) on the bolt's thread.
+
+    It is the depth of the bolt's crest in the nut or that of the nut's crest in the bolt. Along a corner it is as
+    smooth as the other part's flank, however sharp the corner is; across it phi has a ridge that samples step over.
+    """
+    p = bolt[pk.P]
+    deepest, at_theta, at_z = -math.inf, 0.0, 0.0
+    step = TWO_PI / CORNER_SAMPLES
+    for part in range(2):
+        of_nut = part == 1
+        corner = 0.5 * (nut[pk.U_FLAT] + nut[pk.U_FLANK]) if of_nut else 0.5 * (bolt[pk.U_CREST] + bolt[pk.U_TOP])
+        for side in range(2):
+            s = corner if side == 0 else 0.5 * p - corner
+            before, _, _ = depth_at_corner(-step, s, of_nut, placement, bolt, nut)
+            here, theta, z = depth_at_corner(0.0, s, of_nut, placement, bolt, nut)
+            for i in range(CORNER_SAMPLES):
+                after, next_theta, next_z = depth_at_corner((i + 1) * step, s, of_nut, placement, bolt, nut)
+                if here > deepest:
+                    deepest, at_theta, at_z = here, theta, z
+                if here >= before and here >= after and here > -CORNER_REACH * p:
+                    low, high = (i - 1) * step, (i + 1) * step
+                    for _ in range(CORNER_BISECTIONS):
+                        left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+                        at_left, _, _ = depth_at_corner(left, s, of_nut, placement, bolt, nut)
+                        at_right, _, _ = depth_at_corner(right, s, of_nut, placement, bolt, nut)
+                        if at_left > at_right:
+                            high = right
+                        else:
+                            low = left
+                    peak, peak_theta, peak_z = depth_at_corner(0.5 * (low + high), s, of_nut, placement, bolt, nut)
+                    if peak > deepest:
+                        deepest, at_theta, at_z = peak, peak_theta, peak_z
+                before, here, theta, z = here, after, next_theta, next_z
+    return deepest, at_theta, at_z
+
+
+@kernel()
 def deepest_thread_point(
     motion: Array, shallow: float, azimuths: int, bolt: Array, nut: Array
 ) -> tuple[bool, float, float, float]:
     """The deepest point found of the bolt's thread, in its frame: inside the nut by more than ``shallow``, or none.
 
     The maxima of phi are examined and, as an overlap may extend beyond the bolt's top or the nut's bottom, a grid of
-    points of the whole thread.
+    points of the whole thread; and last the corners of both crests, at which overlaps are narrow.
     """
     grid = np.empty(GRID_SIZE)
     placement = np.empty(PLACEMENT_SIZE)
@@ -341,7 +419,10 @@ def deepest_thread_point(
             if converged and depth > deepest and 0.0 <= z <= p:
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
-        return False, 0.0, 0.0, 0.0
+        depth, theta, z = deepest_corner_point(placement, bolt, nut)
+        if not depth > shallow:
+            return False, 0.0, 0.0, 0.0
+        at_theta, at_z = theta, z
     r = pk.radius(at_z - bolt[pk.LEAD] / TWO_PI * at_theta, bolt)
     return True, r * math.cos(at_theta), r * math.sin(at_theta), at_z
 
@@ -350,18 +431,25 @@ def deepest_thread_point(
 def ridge_contacts(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
     """Contacts of thread with thread along a motion before ``limit``, earliest first; returns their number.
 
-    ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MAX_AZIMUTHS`` at the most, is a resolution and not a
-    bound: docs/decisions/0001-contacts.md says how it was checked.
+    ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MAX_AZIMUTHS`` at the most, is a resolution (of short
+    motions; long turns have a finer one) and not a bound: docs/decisions/0001-contacts.md says how it was checked.
     """
     step = motion_scale(motion, bolt)
-    late_start = LATE_TURN * step
-    early_end = min(limit, late_start)
-    count = contacts_at_instants(
-        0.0, early_end, 1 + int(early_end / (INSTANT_STEP * step)), azimuths, motion, bolt, nut, limit, found, 0
-    )
-    if limit > late_start:
-        instants = 1 + int((limit - late_start) / (LATE_INSTANT_STEP * step))
-        count = contacts_at_instants(late_start, limit, instants, MAX_AZIMUTHS, motion, bolt, nut, limit, found, count)
+    late_start = min(limit, LATE_TURN * step)
+    instants = 1 + int(late_start / (INSTANT_STEP * step))
+    late_instants = int((limit - late_start) / (LATE_INSTANT_STEP * step)) + (1 if limit > late_start else 0)
+    count = 0
+    # One call for all, as it is compiled into each place from which it is called.
+    for i in range(3):
+        start, end, n, columns = 0.0, late_start, instants, azimuths
+        if i == 1:
+            start, end, n, columns = late_start, limit, late_instants, MAX_AZIMUTHS
+        elif i == 2:
+            earliest = found[0, T_TIME] if count > 0 else limit
+            if not (motion[M_KIND] > 0.0 and earliest > LONG_TURN):
+                break
+            end, n, columns = BEGINNING, BEGINNING_INSTANTS, BEGINNING_AZIMUTHS
+        count = contacts_at_instants(start, end, n, columns, motion, bolt, nut, limit, found, count)
     return count
 
 

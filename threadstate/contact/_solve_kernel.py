@@ -11,7 +11,7 @@ from threadstate._compile import kernel
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
-from threadstate.contact._lift_kernel import least_lift
+from threadstate.contact._lift_kernel import RETRY_OFFSET, crests_overlap, least_lift
 from threadstate.contact._search_kernel import Search, search_address, search_at
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
@@ -398,7 +398,11 @@ def append_third_pose(
             add_flag(record, rk.FLAG_GRAZING)
     record[rk.O_DROP] = drop
     record[rk.O_EMBEDMENT] = 0.0
-    if threads_touch(contacts) or edges_overlap(third, contacts, 2 + simultaneous, bolt, nut, work):
+    if (
+        threads_touch(contacts)
+        or edges_overlap(third, contacts, 2 + simultaneous, bolt, nut, work)
+        or crests_overlap(third, RETRY_OFFSET * bolt[pk.P], bolt, nut, work)
+    ):
         lift, status = least_lift(third, tie_tolerance, bolt, nut, search, work, found)
         record[rk.O_EMBEDMENT] = lift
         if status != RESOLVED:
