@@ -162,17 +162,21 @@ def test_flanks_flatter_than_the_largest_tilt_are_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("pose", "mu_deg"),
+    ("designation", "pose", "mu_deg"),
     [
-        ((1.4076287827948257, 3.834881868549828, -105.64747773500358), 0.347125994266),
-        ((-3.303835790379943, 3.831965939614628, -105.44283522125892), 0.244713646734),
+        ("1/4-16 STUB ACME-2G", (1.4076287827948257, 3.834881868549828, -105.64747773500358), 0.347125994266),
+        ("1/4-16 STUB ACME-2G", (-3.303835790379943, 3.831965939614628, -105.44283522125892), 0.244713646734),
+        ("1/4-16 ACME-2G", (-2.476317625618872, 2.3989105495521468, -70.8415375385481), 0.000152266781),
     ],
 )
 def test_threads_that_meet_early_in_a_turn_that_no_edge_ends_are_found(
-    pose: tuple[float, float, float], mu_deg: float
+    designation: str, pose: tuple[float, float, float], mu_deg: float
 ) -> None:
-    """The overlap is 6e-5 in deep a hundredth of a degree later; at instants 1.5 deg apart it was missed altogether."""
-    pair = pair_by_designation("1/4-16 STUB ACME-2G at minimum material")
+    """The overlap is 6e-5 in deep a hundredth of a degree later; at instants 1.5 deg apart it was missed altogether.
+
+    One begins so early that a step of Newton's method back to it ends before the turn begins.
+    """
+    pair = pair_by_designation(f"{designation} at minimum material")
     state = solve_pose(pair, *pose)
     assert state.mu_deg == pytest.approx(mu_deg, abs=1e-9)
     third = [contact.features.value for contact in state.contacts if contact.stage == 3]

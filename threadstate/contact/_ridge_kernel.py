@@ -96,6 +96,9 @@ SETTLED, SETTLED_FILLET, LEAST_SETTLED = 1e-4, 0.05, 1e-7
 if that is less, down to a number of radians that round-off on a sharp corner allows."""
 AXIAL_SAMPLES = 24
 """Intervals of an azimuth at whose ends the bolt's thread is sampled for overlaps that extend beyond it."""
+OVERSHOOT, MAX_OVERSHOOTS = 0.25, 16
+"""A step that ends before the motion begins by less than this part of the time goes half-way there instead, so often at
+most: the contact may be so early that the step has passed it."""
 FOLLOW_RANGE = 3.0 * INSTANT_STEP
 """A maximum of phi that by its rate reaches zero farther away in time than this is left to nearer instants."""
 
@@ -239,6 +242,7 @@ def follow_maximum(
     step = motion_scale(motion, bolt)
     farthest = MAX_FOLLOW_STEP * step
     start = tau
+    overshoots = 0
     for i in range(60):
         if i > 0:
             set_placement(motion, tau, later_placement)
@@ -260,6 +264,9 @@ def follow_maximum(
         if abs(move) < 1e-6 * step:
             return newton_tangency(theta, z, tau + move, limit, motion, bolt, nut, later_placement, jet, found, count)
         move = min(max(move, -farthest), farthest)
+        if tau + move <= 0.0 and tau + move > -OVERSHOOT * tau and overshoots < MAX_OVERSHOOTS:
+            overshoots += 1
+            move = -0.5 * tau
         tau += move
         if tau <= 0.0 or tau > limit + farthest:
             return count

@@ -10,3 +10,7 @@ class Hand(StrEnum):
 
     RIGHT = "right"
     LEFT = "left"
+
+
+MOST_STARTS = 4
+"""Largest number of ridges side by side that is taken."""

@@ -9,7 +9,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from threadstate.errors import ImpossibleThreadError, InvalidValueError
-from threadstate.thread.hand import Hand
+from threadstate.thread.hand import MOST_STARTS, Hand
 
 if TYPE_CHECKING:
     import numpy as np
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
 SHARPEST = 4e-9
 """Over the thread pitch, the fillet that stands for a sharp corner: heights are within a quarter of it."""
-
-MOST_STARTS = 4
-"""Largest number of ridges side by side that is taken."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from functools import cache, partial
 
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.numbers import number, number_text
-from threadstate.thread.profile import MOST_STARTS
+from threadstate.thread.hand import MOST_STARTS
 from threadstate.thread.standards import acme, metric, trapezoidal, unified, whitworth
 from threadstate.thread.standards.limits import Limits
 from threadstate.units import LengthUnit
