@@ -1,10 +1,10 @@
 """Connected components of the overlap of bolt and nut, in any pose with a tilt of at most 25 deg, by brute force.
 
 A horizontal ray from the nut's axis meets the nut's thread once, and leaves the bolt's thread once (its flanks are
-60 deg from the ray; that holds up to a tilt of 25 deg and is checked). On the ray of azimuth ``theta`` at height ``z``
-the overlap is therefore one interval of radii, which varies continuously: the components of the overlap in space are
-those of the set of ``(theta, z)``, -p <= z <= 0, whose interval is not empty. ``clearance`` is a length that is >= 0
-exactly there: the least of
+60 deg from the ray; that holds up to a tilt of 25 deg, which is checked, and of flatter flanks up to their half-angle).
+On the ray of azimuth ``theta`` at height ``z`` the overlap is therefore one interval of radii, which varies
+continuously: the components of the overlap in space are those of the set of ``(theta, z)``, -p <= z <= 0, whose
+interval is not empty. ``clearance`` is a length that is >= 0 exactly there: the least of
 
 - how far the nut's thread lies inside the bolt's, in radius;
 - how far the interval reaches above the bolt's base, and below its top, along the bolt's axis.

@@ -65,7 +65,7 @@ def contacts_of_stage(state: ContactState, stage: int) -> tuple[Contact, ...]:
 
 
 def first_tangent(pair: Pair, state: ContactState) -> Floats:
-    """``t0``: counter-clockwise tangent at CP0 of the nut's edge, else of the bolt's, else of the nut's helix."""
+    """``t0``, counter-clockwise: tangent at CP0 of the nut's edge, else of the bolt's; else of a thread's helix."""
     first = state.contacts[0]
     point, rotation = np.array(first.point), np.array(state.poses[0].rotation)
     bolt_feature, nut_feature = first.features.value.split("-")
@@ -79,6 +79,8 @@ def first_tangent(pair: Pair, state: ContactState) -> Floats:
         at_corner = nut_feature == "thread" and at_sharp_corner(point_bolt, bolt)
         face = outward(point, nut)
         tangent = np.cross(face, rotation[:, 2]) if at_corner else rotation @ edge_tangent(point_bolt, bolt)
+    elif nut_feature == "surface":
+        tangent = rotation @ np.array([-point_bolt[1], point_bolt[0], pair.lead / (2.0 * math.pi)])
     else:
         tangent = np.array([-point[1], point[0], pair.lead / (2.0 * math.pi)])
     counter_clockwise = point[0] * tangent[1] - point[1] * tangent[0]

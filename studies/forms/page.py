@@ -14,7 +14,6 @@ BESIDE = ("pair", "heights", "above", "refused", "contacts", "turns", "onsets", 
 CHANGED = (
     "pair",
     "centres",
-    "left out",
     "changed",
     "refused",
     "same contacts",
@@ -63,8 +62,7 @@ thread pitches, with the normal and the regions that belong there, and the other
 
 Centres are changed as in the [stability study](stability.md): poses and dimensions by 1e-12 to 1e-3 deg and thread
 pitches. A changed answer has to follow from its centre's, by steady steps and across events that the brute force
-explains; what does not is a silent failure. *Left out* are centres at which a turn tilts the bolt by more than the
-flank's half-angle: there the method does not look for every contact ([method, section 9](method.md#9-limits)).
+explains; what does not is a silent failure.
 
 {table(CHANGED, [_changed(form, one) for form, one in rows])}
 {_listed("Faults", faults)}{_listed("Silent failures", silent)}"""
@@ -79,7 +77,6 @@ def _changed(form: str, one: Found) -> list[str]:
     tally = one.perturbed
     numbers = (
         tally.centres,
-        one.beyond,
         tally.trials,
         tally.refused,
         tally.same_contacts,

@@ -5,7 +5,6 @@ All is in inches, in which the tolerances of the brute force are; every form is 
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -14,7 +13,7 @@ import numpy as np
 
 from oracle.first_height import first_height
 from oracle.state_turns import begins_at, turns_of, within_brute_force
-from studies.methods import Answer, Case, ExactMethod, PoseDeg, Refusal
+from studies.methods import Case, ExactMethod, PoseDeg, Refusal
 from studies.stability.brute_force import missed_later
 from studies.stability.change import SolvedCase
 from studies.stability.laws import broken_laws
@@ -77,13 +76,11 @@ class Found:
     """What was found of a form; two of them add up. Faults are poses and what is wrong, in words.
 
     ``proved`` heights are above the samples', which stepped over a narrow pocket: the contact lies on both surfaces.
-    ``beyond`` centres end at a tilt of more than the flank's half-angle, for which the method does not answer (section
-    9), and are left out. ``corners`` are the contacts on a fillet, or on the corner in its place, by part and region.
+    ``corners`` are the contacts on a fillet, or on the corner in its place, by part and region.
     """
 
     heights: int = 0
     refused: int = 0
-    beyond: int = 0
     proved: int = 0
     contacts: int = 0
     turns: int = 0
@@ -94,7 +91,7 @@ class Found:
 
     def add(self, other: Found) -> None:
         """Add what was found in other poses."""
-        for name in ("heights", "refused", "beyond", "proved", "contacts", "turns", "onsets"):
+        for name in ("heights", "refused", "proved", "contacts", "turns", "onsets"):
             setattr(self, name, getattr(self, name) + getattr(other, name))
         self.corners.update(other.corners)
         self.faults += other.faults
@@ -142,14 +139,8 @@ def done(task: Task, forms: tuple[str, ...] = FORMS) -> Found:
     pair = pair_of(forms[task.form])
     cases = [Case(pair, pose) for pose in task.poses]
     if task.perturb:
-        within = [
-            case for case, answer in zip(cases, METHOD.answers(cases), strict=True) if not _is_beyond(case, answer)
-        ]
-        beyond = len(cases) - len(within)
-        if not within:
-            return Found(beyond=beyond)
-        chunk = Chunk(forms[task.form], task.first, tuple(within), tuple(perturbations(within, task.first)))
-        return Found(beyond=beyond, perturbed=study(METHOD, chunk))
+        chunk = Chunk(forms[task.form], task.first, tuple(cases), tuple(perturbations(cases, task.first)))
+        return Found(perturbed=study(METHOD, chunk))
     found = Found()
     for number, (case, answer) in enumerate(zip(cases, METHOD.answers(cases), strict=True)):
         if isinstance(answer, Refusal):
@@ -160,13 +151,6 @@ def done(task: Task, forms: tuple[str, ...] = FORMS) -> Found:
         if number < task.turns and not {Flag.TIE, Flag.BALANCED} & {*answer.flags}:
             _look_at_turns(solved, found)
     return found
-
-
-def _is_beyond(case: Case, answer: Answer) -> bool:
-    if isinstance(answer, Refusal):
-        return False
-    largest = max(math.degrees(math.acos(min(1.0, pose.rotation[2][2]))) for pose in answer.poses)
-    return largest > case.pair.form.flank_half_angle_deg
 
 
 def _look_at(solved: SolvedCase, found: Found) -> None:

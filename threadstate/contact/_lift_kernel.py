@@ -42,6 +42,7 @@ from threadstate.contact._stage_kernel import (
     RIDGE_AZIMUTHS,
     RIDGES_ONLY,
     THREAD_EDGE,
+    THREAD_SURFACE,
     THREAD_THREAD,
     UNRESOLVED,
     Work,
@@ -49,6 +50,7 @@ from threadstate.contact._stage_kernel import (
 )
 from threadstate.contact._surface_kernel import start_height
 from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, set_placement
+from threadstate.contact._thread_surface_kernel import deepest_lowest_point
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -120,7 +122,7 @@ def contact_overlaps_from(
 ) -> float:
     """The least lift from which the point that touches at ``lift`` is proved to overlap up to there."""
     pair = int(contact[K_PAIR])
-    if pair == THREAD_THREAD:
+    if pair == THREAD_THREAD or pair == THREAD_SURFACE:
         x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
         dx, dy, dz = x - bolt_motion[9], y - bolt_motion[10], z - bolt_motion[11] - lift
         set_path_from(
@@ -198,14 +200,15 @@ def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array,
 
 @kernel()
 def crests_overlap(pose: Array, lift: float, bolt: Array, nut: Array, work: Work) -> bool:
-    """Whether the corner of a crest is found inside the other part at ``lift``."""
+    """Whether a crest is found inside the other part at ``lift``: its corner, or the bolt's lowest in the nut."""
     _, _, _, _, bolt_motion, nut_motion, _, _, _ = work
     placement = np.empty(PLACEMENT_SIZE)
     up = np.array([0.0, 0.0, 1.0])
     set_motions(pose, False, False, up, up, bolt_motion, nut_motion)
     set_placement(bolt_motion, lift, placement)
     depth, _, _ = ridge.deepest_corner_point(placement, bolt, nut)
-    return depth > WITNESS_DEPTH * bolt[pk.P]
+    lowest_depth, _, _ = deepest_lowest_point(placement, bolt, nut)
+    return max(depth, lowest_depth) > WITNESS_DEPTH * bolt[pk.P]
 
 
 @kernel()

@@ -22,6 +22,7 @@ from threadstate.contact._stage_kernel import (
     K_Y,
     K_Z,
     THREAD_EDGE,
+    THREAD_SURFACE,
     THREAD_THREAD,
     UNRESOLVED,
 )
@@ -123,7 +124,7 @@ def append_contact(stage: int, contact: Array, pose: Array, bolt: Array, nut: Ar
         index, margin = pk.region_index((0.0 if on_bolt_edge else bz) - k * math.atan2(by, bx), bolt)
         c[P_BOLT_REGION] = index
         c[P_BOLT_MARGIN] = margin
-    if pair == EDGE_SURFACE:
+    if pair == EDGE_SURFACE or pair == THREAD_SURFACE:
         c[P_NUT_REGION] = FLAT_FACE
         c[P_NUT_MARGIN] = math.hypot(x, y) - pk.radius(-k * math.atan2(y, x), nut)
     else:
@@ -149,7 +150,7 @@ def set_normal(pair: int, contact: Array, pose: Array, bolt: Array, nut: Array, 
         by = pose[10] + 0.5 * bolt[pk.P] * pose[5] - y
         bz = pose[11] + 0.5 * bolt[pk.P] * pose[8] - z
         flip = nx * bx + ny * by + nz * bz < 0.0
-    elif pair == EDGE_SURFACE or pair == FLUSH:
+    elif pair == EDGE_SURFACE or pair == THREAD_SURFACE or pair == FLUSH:
         nx, ny, nz = 0.0, 0.0, 1.0
         flip = False
     elif pair == BASE_EDGE:

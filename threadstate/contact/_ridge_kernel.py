@@ -49,6 +49,7 @@ from threadstate.contact._tangency_kernel import (
     set_jet,
     set_placement,
 )
+from threadstate.contact._thread_surface_kernel import deepest_lowest_point
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -401,7 +402,8 @@ def deepest_thread_point(
     """The deepest point found of the bolt's thread, in its frame: inside the nut by more than ``shallow``, or none.
 
     The maxima of phi are examined and, as an overlap may extend beyond the bolt's top or the nut's bottom, a grid of
-    points of the whole thread; and last the corners of both crests, at which overlaps are narrow.
+    points of the whole thread; and last the corners of both crests, at which overlaps are narrow, and the lowest points
+    of a thread that is tilted by more than its flanks.
     """
     grid = np.empty(GRID_SIZE)
     placement = np.empty(PLACEMENT_SIZE)
@@ -427,6 +429,8 @@ def deepest_thread_point(
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
         depth, theta, z = deepest_corner_point(placement, bolt, nut)
+        if not depth > shallow:
+            depth, theta, z = deepest_lowest_point(placement, bolt, nut)
         if not depth > shallow:
             return False, 0.0, 0.0, 0.0
         at_theta, at_z = theta, z

@@ -24,11 +24,13 @@ from threadstate.contact._stage_kernel import (
     K_TIME,
     K_X,
     K_Y,
+    K_Z,
     MAX_CONTACTS,
     PROVED,
     RESOLVED,
     RIDGES,
     THREAD_EDGE,
+    THREAD_SURFACE,
     THREAD_THREAD,
     UNRESOLVED,
     Work,
@@ -66,6 +68,12 @@ def second_axis(contact: Array, pose: Array, bolt: Array, nut: Array, out: Array
         z = 0.0
     elif pair == THREAD_THREAD:
         x, y, z = -contact[K_Y], contact[K_X], bolt[pk.LEAD] / TWO_PI
+    elif pair == THREAD_SURFACE:
+        bx, by, _ = rk.in_bolt_frame(pose, contact[K_X], contact[K_Y], contact[K_Z])
+        k = bolt[pk.LEAD] / TWO_PI
+        x = -pose[0] * by + pose[1] * bx + pose[2] * k
+        y = -pose[3] * by + pose[4] * bx + pose[5] * k
+        z = 0.0
     else:
         _, _, dx, dy = edge_point(contact[K_BOLT_AZIMUTH], bolt)
         x = pose[0] * dx + pose[1] * dy

@@ -11,6 +11,7 @@ from threadstate._compile import kernel
 from threadstate.contact import _rectangle_kernel as rect
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _tangency_kernel as tk
+from threadstate.contact import _thread_surface_kernel as ts
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
@@ -39,7 +40,7 @@ Array = NDArray[np.float64]
 Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array]
 
 # Pairs of features, in the order of ``FeaturePair``.
-EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, FLUSH = range(7)
+EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, THREAD_SURFACE, FLUSH = range(8)
 
 # A contact of a stage: time, pair, azimuth on the bolt, azimuth on the nut, point in the nut's frame.
 K_TIME, K_PAIR, K_BOLT_AZIMUTH, K_NUT_AZIMUTH, K_X, K_Y, K_Z = range(7)
@@ -209,7 +210,8 @@ def on_bolt_edge(contact: Array, pose: Array, bolt: Array) -> bool:
 def on_nut_edge(contact: Array, nut: Array) -> bool:
     """Whether a contact of the nut's thread or surface is on the nut's edge, too, within ``AZIMUTH_TOLERANCE``."""
     near = AZIMUTH_TOLERANCE * nut[pk.R_MAJOR]
-    if int(contact[K_PAIR]) != EDGE_SURFACE:
+    pair = int(contact[K_PAIR])
+    if pair != EDGE_SURFACE and pair != THREAD_SURFACE:
         return abs(contact[K_Z]) < near
     r = math.hypot(contact[K_X], contact[K_Y])
     return abs(r - pk.radius(-nut[pk.LEAD] / TWO_PI * contact[K_NUT_AZIMUTH], nut)) < near
@@ -276,6 +278,7 @@ def earliest(
     thread on thread is searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
     boxes, spare_boxes, bolt_found, nut_found, bolt_motion, nut_motion, rectangles, tangencies, entries = work
+    on_surface = np.empty((ts.MAX_FOUND, tk.TANGENCY_SIZE))
     bolt_azimuths = np.empty(2)
     nut_azimuths = np.empty(2)
     bolt_azimuth_count, nut_azimuth_count = set_contact_azimuths(
@@ -347,7 +350,10 @@ def earliest(
             tangency_count = ridge.contacts_behind_entries(
                 entries, reach, bolt_motion, bolt, nut, tangencies, tangency_count
             )
-    if thread_search == PROVED or (thread_search == RIDGES and unexplained and tangency_count == 0):
+    on_surface_count = ts.thread_surface_contacts(bolt_motion, bolt, nut, reach, on_surface, 0)
+    if thread_search == PROVED or (
+        thread_search == RIDGES and unexplained and tangency_count == 0 and on_surface_count == 0
+    ):
         # Where no edge contact explains the earliest entry, the threads must have met before it.
         tangency_count, rectangles_evaluated = rect.tangencies(bolt_motion, bolt, nut, reach, rectangles, tangencies)
         if rectangles_evaluated == rect.OVERFLOW:
@@ -393,6 +399,19 @@ def earliest(
                 count,
                 out,
             )
+    for i in range(on_surface_count):
+        x, y = on_surface[i, tk.T_X], on_surface[i, tk.T_Y]
+        count = insert_contact(
+            on_surface[i, tk.T_TIME],
+            THREAD_SURFACE,
+            on_surface[i, tk.T_THETA],
+            math.atan2(y, x),
+            x,
+            y,
+            0.0,
+            count,
+            out,
+        )
     # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best

@@ -22,10 +22,11 @@ _FEATURES = {
     (frozenset({Face.CUT}), frozenset({Face.THREAD})): stage.BASE_EDGE,
     (frozenset({Face.THREAD}), EDGE): stage.THREAD_EDGE,
     (frozenset({Face.THREAD}), frozenset({Face.THREAD})): stage.THREAD_THREAD,
-    (frozenset({Face.THREAD}), frozenset({Face.CUT})): stage.EDGE_SURFACE,
+    (frozenset({Face.THREAD}), frozenset({Face.CUT})): stage.THREAD_SURFACE,
 }
 """Features by the faces whose triangles collide: a part's edge is where its thread and its cut end both do. A thread
-alone against a plane touches it with its edge, where it is cut off."""
+alone against the base touches it with its edge, where it is cut off; so does one that reaches its edge, against the
+surface."""
 
 
 class NoContactPointError(Exception):
@@ -87,6 +88,8 @@ def _features(cluster: Cluster, bolt: Solid, nut: Solid) -> int:
     on_bolt = frozenset(Face(face) for face in bolt.faces[cluster.pairs[:, 0]].tolist())
     on_nut = frozenset(Face(face) for face in nut.faces[cluster.pairs[:, 1]].tolist())
     features = _FEATURES.get((on_bolt, on_nut))
+    if features == stage.THREAD_SURFACE and np.isin(bolt.triangles[cluster.pairs[:, 0]], bolt.edge).any():
+        return stage.EDGE_SURFACE
     if features is None:
         names = [" and ".join(sorted(face.name.lower() for face in faces)) for faces in (on_bolt, on_nut)]
         raise NoContactPointError(f"the bolt's {names[0]} against the nut's {names[1]} is not a contact of the method")

@@ -28,6 +28,7 @@ class FeaturePair(StrEnum):
     EDGE_THREAD = "edge-thread"
     THREAD_EDGE = "thread-edge"
     THREAD_THREAD = "thread-thread"
+    THREAD_SURFACE = "thread-surface"
     FLUSH = "flush"
 
 

@@ -43,7 +43,7 @@ export const FLAGS = {
 };
 
 /** Pairs of features that can touch, the bolt's first. */
-export const FEATURES = ["edge-edge", "edge-surface", "base-edge", "edge-thread", "thread-edge", "thread-thread", "flush"];
+export const FEATURES = ["edge-edge", "edge-surface", "base-edge", "edge-thread", "thread-edge", "thread-thread", "thread-surface", "flush"];
 
 /** The meaning of a state's numbers. */
 export const TERMS = {
