@@ -30,8 +30,11 @@ def upgrade() -> None:
 
 def downgrade() -> None:
     """Let them be no more; libraries that have such contacts go."""
-    with_such = " UNION ".join(f"SELECT library_id FROM {table} WHERE features = 'thread-surface'" for table in _TABLES)
-    op.execute(f"DELETE FROM library WHERE id IN ({with_such})")
+    library = sa.table("library", sa.column("id"))
+    for name in _TABLES:
+        such = sa.table(name, sa.column("library_id"), sa.column("features"))
+        with_such = sa.select(such.c.library_id).where(such.c.features == "thread-surface")
+        op.execute(sa.delete(library).where(library.c.id.in_(with_such)))
     for table in _TABLES:
         _replace(table, _AFTER, _BEFORE)
 

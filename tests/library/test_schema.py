@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from datetime import UTC, datetime
 from pathlib import Path
 from threading import Barrier
 
@@ -9,8 +10,8 @@ import pytest
 from alembic import command
 from alembic.config import Config
 from alembic.script import ScriptDirectory
-from sqlalchemy import Engine, String, inspect, text
-from sqlalchemy.exc import DBAPIError
+from sqlalchemy import Connection, Engine, String, inspect, text
+from sqlalchemy.exc import DBAPIError, IntegrityError
 
 import migrations
 from harness.databases import Databases
@@ -19,6 +20,47 @@ from threadstate.library.engine import reader_engine, reading, writer_engine, wr
 from threadstate.library.schema import MIGRATE_COMMAND, SCHEMA_REVISION, check_schema, stored_revision
 from threadstate.tables import metadata
 from worker.migrate import Migration, migrate
+
+_WINDOW = {"library_id": 1, "orientation": 0, "position": 0}
+_HEIGHTS = {"enter_height": 0.0, "leave_height": 0.0, "lowest_height": 0.0}
+ROWS_OF_A_COURSE: dict[str, dict[str, object]] = {
+    "library": {
+        "id": 1,
+        "designation": "M6",
+        "length_unit": "mm",
+        "input_sha256": "a",
+        "pair": "{}",
+        "method": "exact",
+        "options": "{}",
+        "code_version": "0",
+        "tilt_max_deg": 0.0,
+        "tilt_step_deg": 1.0,
+        "phase_step_deg": 360.0,
+        "tilt_count": 1,
+        "phase_count": 1,
+        "state_count": 1,
+        "created_at": datetime(2026, 1, 1, tzinfo=UTC),
+    },
+    "chunk": {
+        "library_id": 1,
+        "orientation": 0,
+        "roll_deg": 0.0,
+        "pitch_deg": 0.0,
+        "state_count": 1,
+        "content_sha256": "a",
+    },
+    "clearance_window": {**_WINDOW, **_HEIGHTS, "enter_deg": 0.0, "leave_deg": 1.0, "lowest_deg": 0.5},
+    "clearance_window_course": {
+        **_WINDOW,
+        "place": 0,
+        "features": "thread-surface",
+        "start_deg": 0.0,
+        "end_deg": 1.0,
+        "start_height": 0.0,
+        "end_height": 0.0,
+    },
+}
+"""A library with one stretch of a window on a pair of features of revision 0010."""
 
 
 @pytest.fixture
@@ -106,6 +148,32 @@ def test_downgrading_leaves_nothing_behind(writer: Engine) -> None:
         config.attributes["connection"] = connection
         command.downgrade(config, "base")
     assert inspect(writer).get_table_names() == ["alembic_version"]
+
+
+def test_features_that_came_later_are_taken_after_a_migration_and_go_with_their_library(writer: Engine) -> None:
+    config = _config(writer)
+
+    def to(revision: str) -> None:
+        with writer.begin() as connection:
+            config.attributes["connection"] = connection
+            move = command.upgrade if revision == SCHEMA_REVISION else command.downgrade
+            move(config, revision)
+
+    def add_course(connection: Connection) -> None:
+        for table, values in ROWS_OF_A_COURSE.items():
+            connection.execute(metadata.tables[table].insert().values(values))
+
+    before = _schema(writer)
+    to("0009")
+    with pytest.raises(IntegrityError, match="features_known"), writer.begin() as connection:
+        add_course(connection)
+    to(SCHEMA_REVISION)
+    assert _schema(writer) == before
+    with writer.begin() as connection:
+        add_course(connection)
+    to("0009")
+    with writer.connect() as connection:
+        assert connection.scalars(text("SELECT id FROM library")).all() == []
 
 
 def test_a_migration_that_fails_leaves_nothing_behind(empty: Engine) -> None:
