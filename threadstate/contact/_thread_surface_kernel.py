@@ -43,7 +43,8 @@ most of the order of the square of that."""
 TOUCHING = 1e-12
 """Height (thread pitches) up to which a lowest point counts as touching already: an earlier contact's is round-off."""
 
-MAX_FOUND = 8
+MAX_FOUND = 11
+"""One contact of each turn that is followed, of the most starts that a thread may have (``most_turns``)."""
 
 MAX_RADIUS_STEPS = 60
 """Steps to the radius of a lowest point. Each brings it nearer by a factor of some ``rho k^2 / f^3``, 1e-4 or less."""
@@ -214,7 +215,7 @@ def follow_turn(
                     x, y = point_in_nut(lowest, placement, bolt)
                     azimuth = math.atan2(y, x)
                     over_nut = math.hypot(x, y) > pk.radius(-nut[pk.LEAD] / TWO_PI * azimuth, nut)
-                    if over_nut and count < found.shape[0]:
+                    if over_nut:
                         found[count, T_TIME] = high
                         found[count, T_THETA] = lowest[L_THETA]
                         found[count, T_Z] = lowest[L_Z]

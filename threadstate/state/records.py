@@ -47,7 +47,7 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats) -> Float
 
 LEAST_FLANK_HALF_ANGLE_DEG = 7.0
 """Of flatter flanks overlaps of thread with thread are too narrow for the search: embedments of 3 deg were too small by
-up to 3e-4 thread pitches."""
+up to 2e-4 thread pitches."""
 
 LARGEST_TILT_DEG = 14.2
 """Roll and pitch of 10 deg each tilt the bolt by 14.11 deg. Flatter flanks can meet the nut's surface first."""
