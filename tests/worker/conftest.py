@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import TracebackType
 
 import pytest
 
@@ -29,6 +30,17 @@ ONE_ORIENTATION = ["--tilt-max", "0", "--phase-step", "15"]
 """The level one, in 24 phases."""
 
 
+class CommandProcess(subprocess.Popen[str]):
+    """A command's process. Where a test fails before it has ended it is killed, even if it is stopped."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is not None:
+            self.kill()
+        super().__exit__(kind, error, trace)
+
+
 class CommandLine:
     """Runs commands on a database of the test's own, in this process or in one of their own."""
 
@@ -44,9 +56,9 @@ class CommandLine:
         out, err = self._capsys.readouterr()
         return code, out, err
 
-    def start(self, *arguments: str) -> subprocess.Popen[str]:
+    def start(self, *arguments: str) -> CommandProcess:
         """A command in a process, and a process group, of its own."""
-        return subprocess.Popen(
+        return CommandProcess(
             [*COMMAND, *arguments],
             env=self._environment,
             stdout=subprocess.PIPE,

@@ -8,9 +8,11 @@ from __future__ import annotations
 import os
 import random
 import signal
+import sqlite3
 import subprocess
 import time
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -18,7 +20,7 @@ from sqlalchemy import Engine, select
 
 from harness.databases import Databases
 from tests.faults.conftest import Unwatched
-from tests.worker.conftest import GRID, SHORT_TURNS, CommandLine
+from tests.worker.conftest import GRID, SHORT_TURNS, CommandLine, CommandProcess
 from threadstate.jobs.model import JobRecord
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.queue import cancel, events_after, job_by_id, submit_job
@@ -47,8 +49,25 @@ class Jobs:
         self.engine = engine
         self.command_line = command_line
 
-    def start(self) -> subprocess.Popen[str]:
+    def start(self) -> CommandProcess:
         return self.command_line.start("worker", "--workers", "1", "--until-idle")
+
+    def stop_between_writes(self, worker: CommandProcess) -> None:
+        """SIGSTOP at a moment at which the worker does not hold SQLite's lock, with which nobody else could go on."""
+        database = self.engine.url.database
+        assert database is not None
+        with closing(sqlite3.connect(database, timeout=0.0, isolation_level=None)) as connection:
+            while True:
+                os.kill(worker.pid, signal.SIGSTOP)
+                os.waitpid(worker.pid, os.WUNTRACED)
+                try:
+                    connection.execute("BEGIN IMMEDIATE")
+                except sqlite3.OperationalError:
+                    os.kill(worker.pid, signal.SIGCONT)
+                    time.sleep(0.01)
+                else:
+                    connection.execute("ROLLBACK")
+                    return
 
     def job(self, job_id: int = 1) -> JobRecord:
         with self.engine.connect() as connection:
@@ -134,7 +153,7 @@ def test_a_worker_that_was_asleep_begins_anew_and_nothing_is_doubled(jobs: Jobs,
     submit_job(jobs.engine, INPUTS)
     with jobs.start() as asleep:
         _wait_for(lambda: jobs.job().lease_count > 0)
-        os.kill(asleep.pid, signal.SIGSTOP)
+        jobs.stop_between_writes(asleep)
         (sleeping,) = beats(jobs.engine)
         with jobs.start() as other:
             _wait_for(lambda: sleeping not in beats(jobs.engine))
