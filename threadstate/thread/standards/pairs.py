@@ -82,8 +82,9 @@ def rounding(thread: StandardThread, corners: Corners = Corners.ROUNDED) -> Roun
     """Those of a thread's form, with fillets of 0 where its corners are sharp.
 
     Unified: the root's as in method, section 1. ISO metric: a full root radius, from H / 6 at maximum material to P / 8
-    at minimum material. Acme: roots at the limit from memory. Trapezoidal: the standard's greatest radii, the bolt's
-    for the nut's crest, too. Whitworth: its one radius.
+    at minimum material; UNJ, MJ: full, too, from the greatest to the least controlled radius. Acme: roots at the limit
+    from memory. Trapezoidal: the standard's greatest radii, the bolt's for the nut's crest, too. Whitworth: its one
+    radius.
 
     Raises:
         InvalidValueError: sharp corners of a form that is round.
@@ -104,6 +105,8 @@ def _rounding_of_form(thread: StandardThread) -> Rounding:
             return Rounding(30.0, 0.108, 0.054, 0.054, 0.108)
         case "M":
             return Rounding(30.0, math.inf, 0.054, 0.054, 0.108)
+        case "UNJ" | "MJ":
+            return Rounding(30.0, math.inf, 0.054, 0.054, 0.135)
         case AcmeForm.ACME | AcmeForm.STUB:
             return Rounding(14.5, ACME_ROOT, ACME_CREST, ACME_ROOT, ACME_CREST)
         case "Tr":
