@@ -19,17 +19,19 @@ from numpy.typing import NDArray
 
 from oracle.compiled import compiled
 from oracle.profile import (
+    FALLING,
     LEAD,
     Q_FLANK_LARGE,
     Q_FLANK_SMALL,
     Q_LARGE,
     Q_SMALL,
     R_SMALL,
+    RISING,
     P,
     bolt_profile,
     nut_profile,
     radius,
-    ridge_half_width,
+    ridge_at,
 )
 from threadstate.thread.pair import Pair
 
@@ -52,14 +54,13 @@ def _nut_top_near(x: float, y: float, z: float, near: float, nut: Floats) -> flo
         return _NONE
     start = -nut[LEAD] * math.atan2(y, x) / _TWO_PI
     s = start + z
-    half = ridge_half_width(r, nut)
-    centre = p * (0.25 + math.floor(s / p - 0.25 + 0.5))
-    if abs(s - centre) >= half:
+    ridge, end = ridge_at(r, s, nut)
+    if not ridge < s < end:
         # In the nut's material, which goes up to the next ridge of the hole or to the nut's surface.
-        ahead = centre if s < centre else centre + p
-        top = min(0.0, ahead - half - start)
+        ahead = ridge if s <= ridge else ridge + p
+        top = min(0.0, ahead - start)
         return top if z - top < near else _NONE
-    top = min(0.0, centre - half - start)
+    top = min(0.0, ridge - start)
     return top if z - top < near and top >= -p else _NONE
 
 
@@ -104,9 +105,10 @@ def _leaves_bolt(x: float, y: float, z: float, lift: float, near: float, rot: Fl
 
 
 @compiled
-def _corner(q: float, rising: bool, profile: Floats) -> float:
-    """The axial position of a corner at distance ``q`` from the middle of the ridge, on one side of it."""
-    return 0.25 * profile[P] + (-q if rising else q)
+def _corner(inner: int, outer: int, side: int, profile: Floats) -> float:
+    """The axial position midway between two boundaries of a side, those at a corner."""
+    q = 0.5 * (profile[inner + side] + profile[outer + side])
+    return 0.25 * profile[P] + (-q if side == RISING else q)
 
 
 @compiled
@@ -118,12 +120,13 @@ def _end(
         r = radius(-n[LEAD] * u / _TWO_PI, n)
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], -t[2], lift, near, rot, b)
     if feature >= NUT_CORNER:
-        s = _corner(0.5 * (n[Q_FLANK_SMALL] + n[Q_SMALL]), feature == NUT_CORNER, n)
+        s = _corner(Q_FLANK_SMALL, Q_SMALL, RISING if feature == NUT_CORNER else FALLING, n)
         r, z = radius(s, n), s + n[LEAD] * u / _TWO_PI
         z -= n[P] * (math.floor(z / n[P]) + 1.0)
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], z - t[2], lift, near, rot, b)
     if feature >= BOLT_CORNER:
-        v = _corner(0.5 * (b[Q_LARGE] + b[Q_FLANK_LARGE]), feature == BOLT_CORNER, b) + b[LEAD] * u / _TWO_PI
+        side = RISING if feature == BOLT_CORNER else FALLING
+        v = _corner(Q_LARGE, Q_FLANK_LARGE, side, b) + b[LEAD] * u / _TWO_PI
         v -= b[P] * math.floor(v / b[P])
     v = min(max(v, 0.0), b[P])
     r = radius(v - b[LEAD] * u / _TWO_PI, b)
