@@ -13,6 +13,7 @@ from threadstate.thread.standards.designation import standard_thread, standard_t
 from threadstate.thread.standards.pairs import Position, pair_at, parsed_position, standard_pair
 from threadstate.thread.standards.sizes import (
     ACME_SOURCE,
+    BUTTRESS_SOURCE,
     MJ_SOURCE,
     OF_ONE_START,
     UNIFIED_SOURCE,
@@ -74,6 +75,20 @@ def test_where_no_limit_was_found_the_known_one_stands_at_every_position() -> No
     assert tight.nut_pitch_diameter < loose.nut_pitch_diameter
 
 
+def test_a_screw_that_is_pulled_bears_on_the_flank_that_faces_its_head() -> None:
+    pull, push = (standard_pair(f"1/2-16 {symbol} LH at middle").form for symbol in ("BUTT", "PUSH-BUTT"))
+    assert (pull.flank_half_angle_deg, pull.flank_half_angle_neg_deg) == (45.0, 7.0)
+    assert (push.flank_half_angle_deg, push.flank_half_angle_neg_deg) == (7.0, 45.0)
+    assert replace(pull, name="", flank_half_angle_deg=7.0, flank_half_angle_neg_deg=45.0) == replace(push, name="")
+
+
+@pytest.mark.parametrize(("position", "radius"), [("maximum", 0.0714), ("minimum", 0.0357)])
+def test_a_buttress_root_is_an_arc_within_the_radii_of_the_standard(position: str, radius: float) -> None:
+    form = standard_pair(f"1/2-16 BUTT at {position}").form
+    assert form.bolt_root_fillet == pytest.approx(radius, abs=1e-3)
+    assert form.nut_root_fillet == pytest.approx(radius, abs=1e-3)
+
+
 def test_whitworth_is_round_and_its_radius_that_of_the_standard() -> None:
     form = standard_pair("1/4-20 BSW-close/close").form
     assert form.flank_half_angle_deg == 27.5
@@ -96,6 +111,8 @@ def test_the_name_of_a_position_means_it(text: str) -> None:
         ("1/4-20 BSW", WHITWORTH_SOURCE),
         ("1/4-28 UNJF at minimum material", UNJ_SOURCE),
         ("MJ6 at middle", MJ_SOURCE),
+        ("1/2-16 BUTT-3A", BUTTRESS_SOURCE),
+        ("1/2-16 PUSH-BUTT with sharp crests", BUTTRESS_SOURCE),
     ],
 )
 def test_a_pair_rests_on_its_standard_while_every_number_is_the_standards(designation: str, source: str) -> None:
@@ -112,6 +129,7 @@ def test_a_pair_rests_on_its_standard_while_every_number_is_the_standards(design
         ("M6xPh2P1", "M6x1-6g/6H 2 starts", 2),
         ("m6 x ph3p1 - 6h/6H lh", "M6x1-6h/6H LH 3 starts", 3),
         ("MJ6xPh2P1", "MJ6x1-4h6h/4H5H 2 starts", 2),
+        ("1/2-16 BUTT-2A 3 starts", "1/2-16 BUTT-2A/2B 3 starts", 3),
         ("Tr 8x3(P1.5)", "Tr 8x1.5-7e/7H 2 starts", 2),
         ("tr8x3 P1.5-8c/8H at middle", "Tr 8x1.5-8c/8H 2 starts at middle", 2),
         ("1/4-16 ACME-2G 2 starts", "1/4-16 ACME-2G 2 starts", 2),

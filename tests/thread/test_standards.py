@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,10 +11,11 @@ import pytest
 
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.thread.catalogue import quarter_twenty_unc
-from threadstate.thread.standards import acme, metric, trapezoidal, unified, whitworth
+from threadstate.thread.standards import acme, buttress, metric, trapezoidal, unified, whitworth
 from threadstate.thread.standards.designation import found_threads, standard_thread, standard_threads
 from threadstate.thread.standards.document import standard_thread_document
-from threadstate.thread.standards.limits import Limits
+from threadstate.thread.standards.limits import Limits, rounded
+from threadstate.thread.standards.pairs import standard_pair
 from worker.cli import run_command_line
 
 PUBLISHED = Path(__file__).parent / "published"
@@ -91,6 +93,23 @@ def trapezoidal_10c_rows() -> Iterator[Row]:
         yield f"{diameter}, {pitch}", numbers(values), found
 
 
+def buttress_rows() -> Iterator[Row]:
+    for threads, *values in rows("buttress"):
+        of_ranges = [buttress.ButtressSize("", greatest, int(threads)) for greatest in buttress.RANGES[1:]]
+        yield threads, numbers(values), [buttress.tolerance(one, "2") for one in of_ranges[: len(values)]]
+
+
+def buttress_form_rows() -> Iterator[Row]:
+    """From the constants that the limits are made of, the angles of the flanks, and the fillet of a pair's root."""
+    tangents = sum(math.tan(math.radians(one)) for one in (buttress.LOAD_FLANK_DEG, buttress.CLEARANCE_FLANK_DEG))
+    height, sharp, beyond = buttress.HEIGHT, 1.0 / tangents, buttress.ROOT_BEYOND / 2.0
+    root = standard_pair("1/2-16 BUTT").form.bolt_root_fillet
+    heights = [height, sharp, (sharp - height) / 2.0, height + beyond, (sharp - height) / 2.0 - beyond]
+    for threads, *values in rows("buttress_form"):
+        ratios = [*heights, root, 0.5 - height / 2.0 * tangents]
+        yield threads, numbers(values), [rounded(ratio / float(threads), 4) for ratio in ratios]
+
+
 def whitworth_rows() -> Iterator[Row]:
     by_name = {(str(series), one.name): one for series in whitworth.Series for one in whitworth.sizes(series)}
 
@@ -115,6 +134,8 @@ TABLES = {
     "trapezoidal": (trapezoidal_rows, 77),
     "trapezoidal_10c": (trapezoidal_10c_rows, 143),
     "whitworth": (whitworth_rows, 72),
+    "buttress": (buttress_rows, 19),
+    "buttress_form": (buttress_form_rows, 19),
 }
 
 
@@ -132,7 +153,7 @@ def test_every_published_value_is_met(name: str) -> None:
 
 def test_all_sizes_have_limits_in_order() -> None:
     found = list(standard_threads())
-    assert len({one.designation for one in found}) == len(found) == 379
+    assert len({one.designation for one in found}) == len(found) == 501
     for one in found:
         for part in (one.bolt, one.nut):
             for diameter in (part.major, part.pitch, part.minor):
@@ -189,6 +210,10 @@ def test_the_default_pair_is_its_standards_at_maximum_material() -> None:
         ("MJ5x0.8-4h6h", "MJ5x0.8-4h6h/4H6H"),
         ("MJ6x1-4g6g LH", "MJ6x1-4g6g/4H5H LH"),
         ("M6 6g/6H", "M6x1-6g/6H"),
+        ("2.5-8 BUTT-2A/2B", "2 1/2-8 BUTT-2A/2B"),
+        ("1/2-16 butt", "1/2-16 BUTT-2A/2B"),
+        ("1/2-16 Pull-Butt-3A", "1/2-16 BUTT-3A/3B"),
+        ("2.500-8 PUSH-BUTT-2A-LH", "2 1/2-8 PUSH-BUTT-2A/2B LH"),
     ],
 )
 def test_a_designation_is_read_as_people_write_it(written: str, meant: str) -> None:
@@ -221,6 +246,10 @@ def test_a_designation_is_read_as_people_write_it(written: str, meant: str) -> N
         ("1/4-28 UNJF-3A/2B", InvalidValueError, "3B for a nut with a UNJ thread"),
         ("MJ6x1-4k6k", InvalidValueError, "e, f, g or h"),
         ("MJ6x1-4h6h/4H9H", InvalidValueError, "4, 5, 6, 7, 8 of the crest"),
+        ("1/2-16 BUTT-1A", InvalidValueError, "2A or 3A for a screw with a buttress thread"),
+        ("1/2-16 PUSH-BUTT-2A/1B", InvalidValueError, "2B or 3B for a nut with a buttress thread"),
+        ("1/2-16 BUTT-2", InvalidValueError, "2A or 3A for a screw with a buttress thread"),
+        ("1/2-17 BUTT", UnknownNameError, "1/4-20 UNC-2A/2B"),
         ("0.3-20 UNC", UnknownNameError, "1/4-20 UNC-2A/2B"),
     ],
 )
@@ -282,6 +311,6 @@ def test_the_command_prints_one_object_or_a_table(capsys: pytest.CaptureFixture[
     (found,) = json.loads(capsys.readouterr().out)["threads"]
     assert found["bolt"]["minor"] == [0.1802, 0.1894]
     assert run_command_line(["threads"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) > 379
+    assert len(capsys.readouterr().out.splitlines()) > 501
     assert run_command_line(["threads", "--search", "M6-6k"]) != 0
     assert "tolerance class" in capsys.readouterr().err

@@ -69,8 +69,12 @@ EXAMPLES = "1/4-20 UNC-2A/2B, M6x1-6g/6H, M6, 1/4-16 ACME-2G, Tr 8x1.5-7e/7H or 
 
 def standard_threads() -> Iterator[StandardThread]:
     """All sizes of the catalogue with the classes that are usual for them, form by form, the smallest first."""
-    for size in catalogue():
-        yield _thread(size, size.classes, left_hand=False, starts=1)
+    yield from _usual_threads()
+
+
+@cache
+def _usual_threads() -> tuple[StandardThread, ...]:
+    return tuple(_thread(size, size.classes, left_hand=False, starts=1) for size in catalogue())
 
 
 def standard_thread(designation: str) -> StandardThread:

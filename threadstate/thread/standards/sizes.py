@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 
 from threadstate.numbers import number_text
-from threadstate.thread.standards import acme, controlled_root, metric, trapezoidal, unified, whitworth
+from threadstate.thread.standards import acme, buttress, controlled_root, metric, trapezoidal, unified, whitworth
 from threadstate.thread.standards.limits import Limits
 from threadstate.units import LengthUnit
 
@@ -33,6 +33,10 @@ TRAPEZOIDAL_SOURCE = (
     "limits of nuts to check against"
 )
 WHITWORTH_SOURCE = "BS 84: formulas from two sources, allowances from memory; no published limits to check against"
+BUTTRESS_SOURCE = (
+    "ASME B1.9: formulas from one source, tolerances of class 2 checked against published ones; those of class 3, the "
+    "allowance and which flank leads from memory"
+)
 
 OF_ONE_START = "tolerances of one start"
 """Added to the source of a thread of several: what standards change for these is not applied."""
@@ -82,7 +86,7 @@ class Size:
 @cache
 def catalogue() -> tuple[Size, ...]:
     """All sizes, form by form, the smallest first."""
-    return (*_unified(), *_unj(), *_metric(), *_mj(), *_acme(), *_trapezoidal(), *_whitworth())
+    return (*_unified(), *_unj(), *_metric(), *_mj(), *_acme(), *_trapezoidal(), *_whitworth(), *_buttress())
 
 
 def _unified_classes(given: list[str]) -> tuple[str, str]:
@@ -249,4 +253,22 @@ def _whitworth() -> Iterator[Size]:
                 nut=partial(whitworth.nut_limits, one),
                 chosen=_named,
                 source=WHITWORTH_SOURCE,
+            )
+
+
+def _buttress() -> Iterator[Size]:
+    for form in buttress.ButtressForm:
+        for one in buttress.sizes():
+            yield Size(
+                name=f"{one.name} {buttress.SYMBOL[form]}",
+                form=form,
+                unit=LengthUnit.INCH,
+                diameter=one.diameter,
+                pitch=one.thread_pitch,
+                classes=("2A", "2B"),
+                bolt=partial(buttress.screw_limits, one),
+                nut=partial(buttress.nut_limits, one),
+                chosen=_unified_classes,
+                source=BUTTRESS_SOURCE,
+                aliases=(f"{one.name} PULL-BUTT",) if form is buttress.ButtressForm.PULL else (),
             )
