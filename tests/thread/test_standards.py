@@ -127,13 +127,13 @@ def whitworth_rows() -> Iterator[Row]:
 
 
 TABLES = {
-    "unified": (unified_rows, 372),
+    "unified": (unified_rows, 374),
     "metric": (metric_rows, 249),
     "metric_minor": (metric_minor_rows, 27),
     "acme": (acme_rows, 88),
     "trapezoidal": (trapezoidal_rows, 77),
     "trapezoidal_10c": (trapezoidal_10c_rows, 143),
-    "whitworth": (whitworth_rows, 72),
+    "whitworth": (whitworth_rows, 74),
     "buttress": (buttress_rows, 19),
     "buttress_form": (buttress_form_rows, 19),
 }
