@@ -15,7 +15,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
-from threadstate.thread.standards.designation import UNIFIED_SOURCE, WHITWORTH_SOURCE
+from threadstate.thread.standards.sizes import UNIFIED_SOURCE, WHITWORTH_SOURCE
 from threadstate.units import MILLIMETRES_PER_INCH
 
 pytestmark = pytest.mark.sqlite_alone

@@ -18,6 +18,7 @@ from threadstate.thread.form import Form, flank_half_angles
 from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from threadstate.thread.standards.acme import AcmeForm
+from threadstate.thread.standards.buttress import CLEARANCE_FLANK_DEG, LOAD_FLANK_DEG, ButtressForm
 from threadstate.thread.standards.designation import StandardThread, standard_thread
 from threadstate.thread.standards.limits import Diameter
 from threadstate.thread.standards.trapezoidal import crest_clearance_mm
@@ -88,8 +89,9 @@ def rounding(thread: StandardThread, corners: Corners = Corners.ROUNDED) -> Roun
     """Those of a thread's form, with fillets of 0 where its corners are sharp.
 
     Unified: the root's as in method, section 1. ISO metric: a full root radius, from H / 6 at maximum material to P / 8
-    at minimum material. Acme: roots at the limit from memory. Trapezoidal: the standard's greatest radii, the bolt's
-    for the nut's crest, too. Whitworth: its one radius.
+    at minimum material; UNJ, MJ: full, too, from the greatest to the least controlled radius. Acme: roots at the limit
+    from memory. Trapezoidal: the standard's greatest radii, the bolt's for the nut's crest, too. Whitworth: its one
+    radius. Buttress: full roots; the negative flank, towards the head, bears the load of a screw that is pulled.
 
     Raises:
         InvalidValueError: sharp corners of a form that is round.
@@ -110,6 +112,12 @@ def _rounding_of_form(thread: StandardThread) -> Rounding:
             return Rounding(30.0, 0.108, 0.054, 0.054, 0.108)
         case "M":
             return Rounding(30.0, math.inf, 0.054, 0.054, 0.108)
+        case "UNJ" | "MJ":
+            return Rounding(30.0, math.inf, 0.054, 0.054, 0.135)
+        case ButtressForm.PULL:
+            return _buttress(CLEARANCE_FLANK_DEG, LOAD_FLANK_DEG)
+        case ButtressForm.PUSH:
+            return _buttress(LOAD_FLANK_DEG, CLEARANCE_FLANK_DEG)
         case AcmeForm.ACME | AcmeForm.STUB:
             return Rounding(14.5, ACME_ROOT, ACME_CREST, ACME_ROOT, ACME_CREST)
         case "Tr":
@@ -119,8 +127,13 @@ def _rounding_of_form(thread: StandardThread) -> Rounding:
             return Rounding(27.5, WHITWORTH, WHITWORTH, WHITWORTH, WHITWORTH)
 
 
+def _buttress(positive_deg: float, negative_deg: float) -> Rounding:
+    return Rounding(positive_deg, math.inf, BUTTRESS_CREST, math.inf, BUTTRESS_CREST, negative_deg)
+
+
 ACME_ROOT, ACME_CREST = 0.06, 0.02
 WHITWORTH = 0.137329
+BUTTRESS_CREST = 0.062
 METRIC_ROOT = 0.577350
 """Below the greatest pitch diameter, over the pitch: the minor diameter of a full root radius of H / 6."""
 
