@@ -16,6 +16,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
+from threadstate.state.flat_base import require_flat_base
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
@@ -79,12 +80,18 @@ MESH_CODE = (MESH_PHYSICS, MESH_COMPUTING)
 class LibraryInputs:
     """All that a library's content depends on; with ``mesh`` the solver method is that of meshes, else the exact
     one.
+
+    Raises:
+        InvalidValueError: the pair's bolt has a chamfer, for whose contacts the tables have no region.
     """
 
     pair: Pair
     grid: Grid
     options: SolveOptions
     mesh: MeshOptions | None = None
+
+    def __post_init__(self) -> None:
+        require_flat_base(self.pair, "a stored library")
 
     @property
     def method(self) -> SolverMethod:
@@ -163,7 +170,13 @@ def _flat(value: object) -> dict[str, object]:
 
 def _plain(value: object, name: str) -> object:
     if is_dataclass(value) and not isinstance(value, type):
-        return {field.name: _plain(getattr(value, field.name), field.name) for field in fields(value)}
+        given = {field: getattr(value, field.name) for field in fields(value)}
+        # An optional part (a chamfer) that is not there is not named: all other documents and hashes stay as they are.
+        return {
+            field.name: _plain(part, field.name)
+            for field, part in given.items()
+            if not (part is None and field.default is None)
+        }
     if isinstance(value, bool | None):
         return value
     if isinstance(value, int | float):

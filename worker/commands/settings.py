@@ -29,6 +29,8 @@ def settings(pair: PairName = None, dimension: Dimensions = None, as_json: Json 
     found = effective_settings()
     threads = chosen_pair(pair, dimension or ())
     dimensions = {**asdict(threads), "source": source_of(threads)}
+    if threads.chamfer is None:
+        del dimensions["chamfer"]
     if as_json:
         entries = [{"name": one.name, "value": one.value, "source": one.source.value} for one in found]
         print_json({"settings": entries, "pair": dimensions})
