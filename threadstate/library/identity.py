@@ -170,13 +170,9 @@ def _flat(value: object) -> dict[str, object]:
 
 def _plain(value: object, name: str) -> object:
     if is_dataclass(value) and not isinstance(value, type):
-        given = {field: getattr(value, field.name) for field in fields(value)}
-        # An optional part (a chamfer) that is not there is not named: all other documents and hashes stay as they are.
-        return {
-            field.name: _plain(part, field.name)
-            for field, part in given.items()
-            if not (part is None and field.default is None)
-        }
+        named = {field.name: (getattr(value, field.name), field.default) for field in fields(value)}
+        # What may be absent, and is, is not written: a flank's own angle, say.
+        return {name: _plain(one, name) for name, (one, default) in named.items() if (one, default) != (None, None)}
     if isinstance(value, bool | None):
         return value
     if isinstance(value, int | float):

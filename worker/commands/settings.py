@@ -28,7 +28,9 @@ def settings(pair: PairName = None, dimension: Dimensions = None, as_json: Json 
 
     found = effective_settings()
     threads = chosen_pair(pair, dimension or ())
-    dimensions = {**asdict(threads), "source": source_of(threads)}
+    # A flank's own angle and a chamfer are there only where a pair has them.
+    form = {name: value for name, value in asdict(threads.form).items() if value is not None}
+    dimensions = {**asdict(threads), "form": form, "source": source_of(threads)}
     if threads.chamfer is None:
         del dimensions["chamfer"]
     if as_json:
