@@ -14,6 +14,8 @@ SIZE_IN = (9.0, 4.2)
 COLOURS = ("#00493a", "#d55e00", "#175582", "#b38600")
 SHOWN = (0.0, 0.5, 1.0, 1.1)
 """End diameters whose heights are drawn along the phase."""
+SHOWN_LARGEST = (0.0, 1.0, 1.1)
+"""End diameters of which the largest fall is shown."""
 KINDS = {
     "outline-surface": "the base's edge on the surface",
     "outline-edge": "the base's edge on the nut's edge",
@@ -62,6 +64,10 @@ All are medians over the orientations. The flat bolts' windows and snaps are tho
 
 {tables}
 
+The largest fall of all orientations:
+
+{_largest(found, names)}
+
 ![Median window and fall over the end diameter.](chamfer/windows.svg)
 
 ![Height of first contact along the phase for four end diameters.](chamfer/courses.svg)
@@ -78,9 +84,10 @@ Shares of all phases (%), by end diameter.
   flat one is, and the falls are the same. One that ends below the minor diameter, as standards have it, changes what
   touches first: the base's edge never does, at most phases the cone or its edge rests on the nut's edge, and the bolt
   sits deeper.
-- Then windows are clearly wider, and the median of the steepest falls is about three times as large: a bolt that is
-  turned back until it falls gives a clearer signal in the orientations in which a flat one hardly falls. The snaps are
-  nearly as many as before.
+- Then windows are clearly wider, and falls more even: the median of the steepest ones is about three times as large, so
+  that a bolt turned back until it falls gives a clearer signal where a flat one hardly falls; but where a flat one
+  snaps hardest, the chamfer takes most of the snap, as the base's edge that dropped off the nut's is gone. A device
+  that listens for the snap is to be tried with the bolt's own chamfer.
 - Heights and labels of the flat bolt do not hold for one with a standard chamfer. A library of contact states is for
   bolts that are cut flat; of bolts with a chamfer that ends above the minor diameter it gives the heights of most
   phases.
@@ -111,6 +118,16 @@ def _table(rows: Sequence[Found]) -> str:
     return "\n".join([head, *lines])
 
 
+def _largest(found: Sequence[Found], names: Sequence[str]) -> str:
+    """The largest falls of flat bolts and of those that end at the minor diameter or below."""
+    lines = ["| pair | flat | at the minor diameter | a tenth of the way below |", "|---|---|---|---|"]
+    for name in names:
+        rows = {one.end: one for one in _of(found, name)}
+        falls = " | ".join(f"{100 * rows[end].largest:.1f} %" for end in SHOWN_LARGEST)
+        lines.append(f"| {name} | {falls} |")
+    return "\n".join(lines)
+
+
 def _kinds(rows: Sequence[Found]) -> str:
     head = f"| first contact | {' | '.join(_end_text(one) for one in rows)} |"
     lines = [head, "|---" * (len(rows) + 1) + "|"]
@@ -127,10 +144,12 @@ def _conclusions(found: Sequence[Found], names: Sequence[str]) -> str:
     for name in names:
         rows = {one.end: one for one in _of(found, name)}
         flat, full = rows[0.0], rows[1.1]
+        fit, pitch = pair_by_designation(name).fit, pair_by_designation(name).thread_pitch
+        below = (full.end - 1.0) * (fit.bolt_major_diameter - fit.bolt_minor_diameter) / pitch
         mouth = sum(full.share(kind) for kind in ("cone-edge", "rim-edge", "rim-surface"))
         lines.append(
             f"- **{name}**: flat, the median window is {flat.window_deg:.0f} deg, the steepest fall "
-            f"{100 * flat.steepest:.1f} % of the pitch; with a chamfer to a tenth of the pitch below the minor "
+            f"{100 * flat.steepest:.1f} % of the pitch; with an end {100 * below:.0f} % of the pitch below the minor "
             f"diameter {full.window_deg:.0f} deg and {100 * full.steepest:.1f} %, {full.snaps} snaps of "
             f"{len(full.courses)} for {flat.snaps}. At {100 * mouth:.0f} % of the phases the bolt then rests at the "
             f"mouth with its cone or the cone's edge; at its highest it is lower by "

@@ -130,6 +130,9 @@ METRIC_ROOT = 0.577350
 CHAMFER_BELOW_MINOR = 0.1
 """In thread pitches, how much less the end diameter of the chamfer of 45 deg of a designation is than the minor one."""
 
+OF_CHAMFER = "the chamfer a choice here"
+"""Added to the source of a pair whose bolt has one."""
+
 
 def standard_pair(designation: str) -> Pair:
     """The pair of a designation, with sharp corners or crests or a chamfer where it says so, a position after ``at``.
@@ -161,7 +164,9 @@ def standard_source(designation: str) -> str:
         UnknownNameError: no such size.
         InvalidValueError: a class that its form does not have.
     """
-    return standard_thread(_parts(_CHAMFER.sub("", designation, count=1))[0]).source
+    cut_flat = _CHAMFER.sub("", designation, count=1)
+    source = standard_thread(_parts(cut_flat)[0]).source
+    return source if cut_flat == designation else f"{source}; {OF_CHAMFER}"
 
 
 def _parts(designation: str) -> tuple[str, Corners, str | None]:
