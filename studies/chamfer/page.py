@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from studies.chamfer.study import ANGLE_DEG, ENDS, TILTS_DEG, Found
+from studies.chamfer.study import ANGLE_DEG, ENDS, TILTS_DEG, Found, orientations
 from studies.pictures import picture
 from threadstate.thread.catalogue import pair_by_designation
 
@@ -14,8 +14,8 @@ SIZE_IN = (9.0, 4.2)
 COLOURS = ("#00493a", "#d55e00", "#175582", "#b38600")
 SHOWN = (0.0, 0.5, 1.0, 1.1)
 """End diameters whose heights are drawn along the phase."""
-SHOWN_LARGEST = (0.0, 1.0, 1.1)
-"""End diameters of which the largest fall is shown."""
+BELOW_MINOR = 1.1
+"""The end diameter of those in ``ENDS`` that is nearest to that of the designation ``with chamfer``."""
 KINDS = {
     "outline-surface": "the base's edge on the surface",
     "outline-edge": "the base's edge on the nut's edge",
@@ -64,13 +64,15 @@ All are medians over the orientations. The flat bolts' windows and snaps are tho
 
 {tables}
 
-The largest fall of all orientations:
-
-{_largest(found, names)}
-
 ![Median window and fall over the end diameter.](chamfer/windows.svg)
 
 ![Height of first contact along the phase for four end diameters.](chamfer/courses.svg)
+
+## By orientation
+
+{names[0]}, flat and with an end diameter below the minor one:
+
+{_by_orientation(_of(found, names[0]))}
 
 ## What touches first
 
@@ -80,17 +82,18 @@ Shares of all phases (%), by end diameter.
 
 ## What follows for a designer
 
-- A chamfer that ends above the minor diameter takes only the crest off the base: at its highest the bolt is where the
-  flat one is, and the falls are the same. One that ends below the minor diameter, as standards have it, changes what
-  touches first: the base's edge never does, at most phases the cone or its edge rests on the nut's edge, and the bolt
-  sits deeper.
-- Then windows are clearly wider, and falls more even: the median of the steepest ones is about three times as large, so
-  that a bolt turned back until it falls gives a clearer signal where a flat one hardly falls; but where a flat one
-  snaps hardest, the chamfer takes most of the snap, as the base's edge that dropped off the nut's is gone. A device
-  that listens for the snap is to be tried with the bolt's own chamfer.
-- Heights and labels of the flat bolt do not hold for one with a standard chamfer. A library of contact states is for
-  bolts that are cut flat; of bolts with a chamfer that ends above the minor diameter it gives the heights of most
-  phases.
+- A chamfer that ends above the minor diameter takes only the crest off the base: at its highest the bolt is about where
+  the flat one is, with as many snaps and the same median fall. One that ends below the minor diameter, as standards
+  have it, changes what touches first: the base's edge never does, at most phases the cone or its edge rests on the
+  nut's edge, and the bolt sits deeper.
+- Then the median window is clearly wider (in a few orientations it is gone) and the median of the steepest falls about
+  three times as large. That hides what matters to a device that turns the bolt back until it falls: the snaps are in
+  other orientations. A flat bolt snaps where the pitch is negative. The chamfered one hardly falls at roll and pitch
+  -4, where the flat one falls by 19 % of the pitch, and snaps at positive rolls at nearly every pitch, where the flat
+  one does so at negative pitch alone. The tilt at which a device waits for the snap is to be chosen for the bolt's own
+  end.
+- Heights and labels of the flat bolt do not hold for one with a standard chamfer: a library of contact states is for
+  bolts that are cut flat.
 {_conclusions(found, names)}
 """
 
@@ -118,13 +121,19 @@ def _table(rows: Sequence[Found]) -> str:
     return "\n".join([head, *lines])
 
 
-def _largest(found: Sequence[Found], names: Sequence[str]) -> str:
-    """The largest falls of flat bolts and of those that end at the minor diameter or below."""
-    lines = ["| pair | flat | at the minor diameter | a tenth of the way below |", "|---|---|---|---|"]
-    for name in names:
-        rows = {one.end: one for one in _of(found, name)}
-        falls = " | ".join(f"{100 * rows[end].largest:.1f} %" for end in SHOWN_LARGEST)
-        lines.append(f"| {name} | {falls} |")
+def _by_orientation(rows: Sequence[Found]) -> str:
+    """Falls and windows of the flat bolt and of one that ends below the minor diameter, by orientation."""
+    by_end = {one.end: one for one in rows}
+    flat, full = by_end[0.0], by_end[BELOW_MINOR]
+    lines = [
+        f"| roll | pitch | fall (%), flat | {_end_text(full)} | window (deg), flat | {_end_text(full)} |",
+        "|---|---|---|---|---|---|",
+    ]
+    for (roll, pitch), one, other in zip(orientations(), flat.courses, full.courses, strict=False):
+        lines.append(
+            f"| {roll:.0f} | {pitch:.0f} | {100 * one.steepest:.1f} | {100 * other.steepest:.1f} "
+            f"| {one.window_deg:.1f} | {other.window_deg:.1f} |"
+        )
     return "\n".join(lines)
 
 
@@ -143,7 +152,7 @@ def _conclusions(found: Sequence[Found], names: Sequence[str]) -> str:
     lines = []
     for name in names:
         rows = {one.end: one for one in _of(found, name)}
-        flat, full = rows[0.0], rows[1.1]
+        flat, full = rows[0.0], rows[BELOW_MINOR]
         fit, pitch = pair_by_designation(name).fit, pair_by_designation(name).thread_pitch
         below = (full.end - 1.0) * (fit.bolt_major_diameter - fit.bolt_minor_diameter) / pitch
         mouth = sum(full.share(kind) for kind in ("cone-edge", "rim-edge", "rim-surface"))

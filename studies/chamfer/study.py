@@ -66,11 +66,6 @@ class Found:
         return median(one.steepest for one in self.courses)
 
     @property
-    def largest(self) -> float:
-        """The largest of the steepest falls."""
-        return max(one.steepest for one in self.courses)
-
-    @property
     def snaps(self) -> int:
         """Orientations whose steepest fall is that of a snap."""
         return sum(one.steepest > SNAP_PITCHES for one in self.courses)

@@ -82,7 +82,7 @@ def test_every_bolt_is_on_the_page() -> None:
         assert text.count(row) == len(PAIRS), row
     assert re.search(r"\| the cone on the nut's edge \|( 75\.0 \|){7}", text)
     assert "0.2489 in, major: flat" in text
-    assert f"| {PAIRS[0]} | 15.0 % | 15.0 % | 15.0 % |" in text
+    assert "| -4 | -4 | 15.0 | 15.0 | 10.0 | 11.1 |" in text
     assert window_picture(found) == window_picture(found)
     assert "phase (deg)" in course_picture(found)
     assert replace(found[0], courses=found[0].courses[:1]).window_deg == 10.0
