@@ -28,7 +28,7 @@ def poses(count: int, seed: int) -> list[tuple[float, float, float]]:
 @pytest.mark.parametrize("pair", [UNC, pair_by_designation("M6 LH 2 starts")], ids=lambda pair: pair.designation)
 def test_a_chamfer_that_removes_nothing_gives_the_flat_bolts_heights(pair: Pair) -> None:
     nothing = replace(pair, chamfer=Chamfer(pair.fit.bolt_major_diameter))
-    for pose in poses(12, 1):
+    for pose in poses(5, 1):
         expected = first_height(pair, *pose)
         found = chamfered_height(nothing, *pose)
         assert found.height == pytest.approx(expected.height, abs=1e-9 * pair.thread_pitch), pose
@@ -48,7 +48,7 @@ def test_a_level_bolt_rests_with_its_cone_on_the_nuts_crest() -> None:
 def test_denser_samples_find_nothing_higher() -> None:
     pair = replace(UNC, chamfer=Chamfer(0.1844))
     dense = Samples(edge=5760, around=1080, along=90, steps=400)
-    for pose in poses(6, 2):
+    for pose in poses(3, 2):
         found = chamfered_height(pair, *pose)
         assert chamfered_height(pair, *pose, dense).height == pytest.approx(found.height, abs=1e-8 * 0.05), pose
 
