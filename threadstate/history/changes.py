@@ -1,9 +1,11 @@
 """Where an integer code changes along many lines at once, and where numbers jump although it does not.
 
 The search knows codes and numbers alone, not what they stand for. Each line is sampled at even steps; a stretch between
-two samples whose codes differ is bisected, and both halves are tested in the same way, down to the resolution. What
-then lies between two changes is sampled in its middle, too, and searched where the code there differs from its ends.
-All stretches of all lines are halved together, so that one call samples one point of each.
+two samples whose codes differ is cut, and its parts are tested in the same way, down to the resolution. It is cut in
+its middle, or on both sides of where one who knows more estimates the change to be, so close that what is between is
+narrow enough: an estimate decides what is sampled and nothing else. What then lies between two changes is sampled in
+its middle, too, and searched where the code there differs from its ends. All stretches of all lines are cut together,
+so that few calls sample many points.
 
 Resolution: a code that differs from both its neighbours is certain to be found where it lasts for a start step or
 longer, and where it lies between two different codes that are seen. One that comes and goes between two samples of the
@@ -12,6 +14,7 @@ same code may be missed. A jump by more than 1 is found where the numbers bend b
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -31,6 +34,24 @@ Of the rise of a root the steeper half has 0.71.
 LASTING_SHARE = 0.9
 """The share of a rise that one half has to have."""
 
+MOST_FAILURES = 4
+"""After so many estimates beside which there was no change a stretch is bisected."""
+
+WIDENING = 16.0
+"""Ratio of the distances from an estimate that failed at which the next samples are taken."""
+
+ASIDE = 0.4
+"""How far on either side of an estimate samples are taken, as a share of the width that is wanted."""
+
+NARROWING = 100.0
+"""By how much at most a stretch that is narrow already is narrowed by one estimate: towards the last digits samples
+may be undecided, and an undecided stretch is not narrowed."""
+
+ROUNDING = 8.0
+PRECISION = 1024.0
+"""Estimates are rounded to one part, and wanted to within the other, of the width that is wanted: so searches of the
+same change sample the same places."""
+
 UNDECIDED_CODE = -1
 """The code of an undecided place; the ends of undecided stretches have a resolution of their own."""
 
@@ -42,9 +63,20 @@ class Samples:
     codes: Integers
     values: Floats
 
+    def __getitem__(self, chosen: Integers) -> Samples:
+        return Samples(self.codes[chosen], self.values[chosen])
+
 
 Sampler = Callable[[Integers, Floats], Samples]
 """Samples lines (integers of shape (n,)) at places (of shape (n,)); the same line and place give the same sample."""
+
+Estimator = Callable[[Integers, Floats, Floats, Floats], Floats]
+"""Estimates of where stretches of lines change: from the lines, both ends, which were sampled, and how near they are to
+be.
+
+All are of shape (n,). NaN where there is none, infinite where numbers rise and nothing jumps. The same stretch gives
+the same estimate.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,13 +85,15 @@ class Resolution:
 
     ``step`` is that of the first samples; ``width`` is the final width of a change, ``jump_width`` that of a jump of
     the first number, ``undecided_width`` that of the ends of an undecided stretch. A jump is a change of a number by
-    more than 1.
+    more than 1. Stretches wider than ``aimed_width`` are bisected whatever is estimated: changes come in clusters, and
+    a code that comes and goes near another change is met so.
     """
 
     step: float
     width: float
     jump_width: float
     undecided_width: float
+    aimed_width: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +116,9 @@ class Changes:
 class _Stretches:
     """Stretches between two sampled places, and how the numbers rise beside them (NaN: not known).
 
-    ``lasting`` says over how many halvings in a row the rise has stayed in one half.
+    ``lasting`` says over how many halvings in a row the rise has stayed in one part, ``failures`` how many estimates
+    failed. After one that did, ``from_low`` or ``from_high`` is how far from that end the next sample is taken; else 0.
+    ``explained`` is whether the rise is known to be none of a jump.
     """
 
     line: Integers
@@ -95,6 +131,10 @@ class _Stretches:
     low_slope: Floats
     high_slope: Floats
     lasting: Integers
+    failures: Integers
+    from_low: Floats
+    from_high: Floats
+    explained: NDArray[np.bool_]
 
     def __len__(self) -> int:
         return len(self.line)
@@ -107,19 +147,22 @@ class _Stretches:
         return _Stretches(*(np.concatenate([getattr(p, name) for p in parts]) for name in _Stretches.__slots__))
 
 
-def changes_on_circles(sample: Sampler, line_count: int, period: float, resolution: Resolution) -> Changes:
+def changes_on_circles(
+    sample: Sampler, line_count: int, period: float, resolution: Resolution, estimate: Estimator | None = None
+) -> Changes:
     """All changes on the lines 0 to ``line_count`` - 1, each from 0 to ``period``, where it joins its start.
 
-    ``resolution.step`` is shortened to divide the period. Ends of stretches are in [0, period].
+    ``resolution.step`` is shortened to divide the period. Ends of stretches are in [0, period]. Without an estimator
+    stretches are bisected.
     """
     stretches = _start(sample, line_count, period, resolution.step)
     counts = np.bincount(stretches.line, minlength=line_count)
-    every = _narrowed(sample, stretches, resolution, counts)
+    every = _narrowed(sample, stretches, resolution, counts, estimate)
     unsure = np.ones(line_count, dtype=np.bool_)
     while unsure.any():
         more = _unlike_their_middle(sample, every[unsure[every.line]], counts)
         unsure = np.bincount(more.line, minlength=line_count) > 0
-        every = _Stretches.joined([every, _narrowed(sample, more, resolution, counts)])
+        every = _Stretches.joined([every, _narrowed(sample, more, resolution, counts, estimate)])
     order = np.lexsort((every.low, every.line))
     return Changes(
         every.line[order],
@@ -131,8 +174,10 @@ def changes_on_circles(sample: Sampler, line_count: int, period: float, resoluti
     )
 
 
-def _narrowed(sample: Sampler, stretches: _Stretches, resolution: Resolution, counts: Integers) -> _Stretches:
-    """The changes within stretches, bisected down to the resolution; samples are added to the lines' ``counts``."""
+def _narrowed(
+    sample: Sampler, stretches: _Stretches, resolution: Resolution, counts: Integers, estimate: Estimator | None
+) -> _Stretches:
+    """The changes within stretches, cut down to the resolution; samples are added to the lines' ``counts``."""
     found: list[_Stretches] = []
     while True:
         changing = (stretches.low_code != stretches.high_code) | _jumps(stretches)
@@ -147,9 +192,78 @@ def _narrowed(sample: Sampler, stretches: _Stretches, resolution: Resolution, co
         wide = stretches[changing & ~narrow]
         if not len(wide):
             return _Stretches.joined(found)
-        middle = 0.5 * (wide.low + wide.high)
-        counts += np.bincount(wide.line, minlength=len(counts))
-        stretches = _halved(wide, middle, sample(wide.line, middle))
+        first, second = _places_to_cut(wide, resolution, estimate)
+        stretches = _cut(sample, wide, first, second, counts)
+
+
+def _places_to_cut(wide: _Stretches, resolution: Resolution, estimate: Estimator | None) -> tuple[Floats, Floats]:
+    """Where stretches are cut: before and after an estimate, or at one place alone, the other one NaN.
+
+    That one is beside an estimate that failed, or in the middle. What estimates say of stretches is set in ``wide``.
+    """
+    half = 0.5 * (wide.high - wide.low)
+    middle = 0.5 * (wide.low + wide.high)
+    beside_low, beside_high = ((one > 0.0) & (one < half) for one in (wide.from_low, wide.from_high))
+    first = np.where(beside_low, wide.low + wide.from_low, np.where(beside_high, wide.high - wide.from_high, middle))
+    second = np.full_like(first, np.nan)
+    decided = (wide.low_code != UNDECIDED_CODE) & (wide.high_code != UNDECIDED_CODE)
+    decided &= 2.0 * half <= resolution.aimed_width
+    aimed = np.flatnonzero(decided & (wide.failures < MOST_FAILURES) & (wide.from_low == 0.0) & (wide.from_high == 0.0))
+    if estimate is None or not len(aimed):
+        return first, second
+    low, high = wide.low[aimed], wide.high[aimed]
+    least = np.maximum((high - low) / NARROWING, resolution.jump_width)
+    target = np.where(high - low > resolution.width, resolution.width, least)
+    place = estimate(wide.line[aimed], low, high, target / PRECISION)
+    wide.explained[aimed] = np.isposinf(place)
+    # Rounded to a power of two, which is exact.
+    grain = 2.0 ** np.floor(np.log2(target / ROUNDING))
+    place = np.round(place / grain) * grain
+    before, after = place - ASIDE * target, place + ASIDE * target
+    has_before, has_after = ((low < aside) & (aside < high) for aside in (before, after))
+    first[aimed] = np.where(has_before, before, np.where(has_after, after, first[aimed]))
+    second[aimed] = np.where(has_before & has_after, after, np.nan)
+    # Beside an end one cut may be too far from the estimate: it counts as a failure, so that it is not tried for ever.
+    wide.failures[aimed] += has_before != has_after
+    return first, second
+
+
+def _cut(sample: Sampler, wide: _Stretches, first: Floats, second: Floats, counts: Integers) -> _Stretches:
+    """The parts of every stretch, cut at one or at two places (see :func:`_places_to_cut`)."""
+    twice = ~np.isnan(second)
+    lines = np.concatenate([wide.line, wide.line[twice]])
+    counts += np.bincount(lines, minlength=len(counts))
+    samples = sample(lines, np.concatenate([first, second[twice]]))
+    once = wide[~twice]
+    lower, upper = _parts(once, first[~twice], samples[np.flatnonzero(~twice)])
+    half = 0.5 * (once.high - once.low)
+    upper.from_low = np.where(once.from_low < half, WIDENING * once.from_low, 0.0)
+    lower.from_high = np.where(once.from_high < half, WIDENING * once.from_high, 0.0)
+    before, after = samples[np.flatnonzero(twice)], samples[np.arange(len(wide), len(lines))]
+    return _Stretches.joined(
+        [lower, upper, *_parts_of_two_cuts(wide[twice], first[twice], second[twice], before, after)]
+    )
+
+
+def _parts_of_two_cuts(
+    whole: _Stretches, first: Floats, second: Floats, before: Samples, after: Samples
+) -> list[_Stretches]:
+    """The three parts of every stretch, cut before and after an estimate.
+
+    Where a sample is undecided the stretch is left as it is, to be bisected: so it is narrowed as far as it can be.
+    """
+    undecided = (before.codes == UNDECIDED_CODE) | (after.codes == UNDECIDED_CODE)
+    left = whole[undecided]
+    left.failures[:] = MOST_FAILURES
+    decided = np.flatnonzero(~undecided)
+    whole, first, second = whole[~undecided], first[decided], second[decided]
+    before, after = before[decided], after[decided]
+    failed = (before.codes == after.codes) & ~(np.nan_to_num(np.abs(after.values - before.values)) > 1.0).any(axis=1)
+    whole.failures = np.where(failed, whole.failures + 1, 0)
+    lower, upper = _parts(whole, second, after)
+    lowest, middle = _parts(lower, first, before)
+    upper.from_low = lowest.from_high = np.where(failed, WIDENING * 0.5 * (second - first), 0.0)
+    return [left, lowest, middle, upper]
 
 
 def _unlike_their_middle(sample: Sampler, found: _Stretches, counts: Integers) -> _Stretches:
@@ -173,13 +287,13 @@ def _unlike_their_middle(sample: Sampler, found: _Stretches, counts: Integers) -
         found.low_value[before],
         np.full_like(found.low_slope[after], np.nan),
         np.full_like(found.low_slope[after], np.nan),
-        np.zeros_like(found.lasting[after]),
+        *_unsearched(len(after)),
     )
     middle = 0.5 * (whole.low + whole.high)
     counts += np.bincount(whole.line, minlength=len(counts))
     samples = sample(whole.line, middle)
     unlike = samples.codes != whole.low_code
-    return _halved(whole[unlike], middle[unlike], Samples(samples.codes[unlike], samples.values[unlike]))
+    return _Stretches.joined(_parts(whole[unlike], middle[unlike], samples[np.flatnonzero(unlike)]))
 
 
 def _start(sample: Sampler, line_count: int, period: float, step: float) -> _Stretches:
@@ -204,13 +318,19 @@ def _start(sample: Sampler, line_count: int, period: float, step: float) -> _Str
         next_values.reshape(-1, width),
         np.roll(slope, 1, axis=1).reshape(-1, width),
         np.roll(slope, -1, axis=1).reshape(-1, width),
-        np.zeros_like(line),
+        *_unsearched(len(line)),
     )
     # Beside a stretch of another code the slope is not that of this code's numbers.
     before, after = np.roll(codes, 1, axis=1).ravel(), np.roll(next_codes, -1, axis=1).ravel()
     stretches.low_slope[before != stretches.low_code] = np.nan
     stretches.high_slope[after != stretches.high_code] = np.nan
     return stretches
+
+
+def _unsearched(count: int) -> tuple[Integers, Integers, Floats, Floats, NDArray[np.bool_]]:
+    """How the search of stretches begins: ``lasting`` and what comes after it."""
+    numbers = np.zeros((2, count), dtype=np.int64)
+    return *numbers, *np.zeros((2, count)), np.zeros(count, dtype=np.bool_)
 
 
 def _jumps(stretches: _Stretches) -> NDArray[np.bool_]:
@@ -221,31 +341,40 @@ def _jumps(stretches: _Stretches) -> NDArray[np.bool_]:
     high = np.abs(rise - stretches.high_slope * width)
     unexplained = np.fmin(low, high)
     unexplained = np.where(np.isnan(unexplained), np.abs(rise), unexplained)
-    same = stretches.low_code == stretches.high_code
+    same = (stretches.low_code == stretches.high_code) & ~stretches.explained
     return same & (np.nan_to_num(unexplained, nan=0.0) > 1.0).any(axis=1)
 
 
-def _halved(whole: _Stretches, middle: Floats, samples: Samples) -> _Stretches:
-    """Both halves of every stretch."""
-    below = (samples.values - whole.low_value) / (middle - whole.low)[:, np.newaxis]
-    above = (whole.high_value - samples.values) / (whole.high - middle)[:, np.newaxis]
+def _parts(whole: _Stretches, place: Floats, samples: Samples) -> list[_Stretches]:
+    """The lower and the upper parts of every stretch, cut at a place that was sampled."""
+    below = (samples.values - whole.low_value) / (place - whole.low)[:, np.newaxis]
+    above = (whole.high_value - samples.values) / (whole.high - place)[:, np.newaxis]
     below[samples.codes != whole.low_code] = np.nan
     above[samples.codes != whole.high_code] = np.nan
-    first = _Stretches(
+    none = np.zeros(len(whole))
+    # Of a rise that is explained a sample in between confirms that it goes no detour.
+    rise = np.abs(whole.high_value - whole.low_value) + 1.0
+    detour = np.fmax(np.abs(samples.values - whole.low_value), np.abs(whole.high_value - samples.values)) > rise
+    explained = whole.explained & ~detour.any(axis=1)
+    lower = _Stretches(
         whole.line,
         whole.low,
-        middle,
+        place,
         whole.low_code,
         samples.codes,
         whole.low_value,
         samples.values,
         whole.low_slope,
         above,
-        _lasting(whole, samples.values - whole.low_value),
+        _lasting(whole, place - whole.low, samples.values - whole.low_value),
+        whole.failures,
+        none,
+        none,
+        explained,
     )
-    second = _Stretches(
+    upper = _Stretches(
         whole.line,
-        middle,
+        place,
         whole.high,
         samples.codes,
         whole.high_code,
@@ -253,13 +382,18 @@ def _halved(whole: _Stretches, middle: Floats, samples: Samples) -> _Stretches:
         whole.high_value,
         below,
         whole.high_slope,
-        _lasting(whole, whole.high_value - samples.values),
+        _lasting(whole, whole.high - place, whole.high_value - samples.values),
+        whole.failures,
+        none,
+        none,
+        explained,
     )
-    return _Stretches.joined([first, second])
+    return [lower, upper]
 
 
-def _lasting(whole: _Stretches, rise: Floats) -> Integers:
-    """Over how many halvings the whole's rise has stayed in one half, if that is the one of this ``rise``."""
+def _lasting(whole: _Stretches, width: Floats, rise: Floats) -> Integers:
+    """Over how many halvings the whole's rise has stayed in one part, if that is the one of this width and rise."""
     all_of_it = np.nan_to_num(np.abs(whole.high_value - whole.low_value)).max(axis=1)
     stays = np.nan_to_num(np.abs(rise)).max(axis=1) >= LASTING_SHARE * all_of_it
-    return np.where(stays, whole.lasting + 1, 0)
+    halvings = np.rint(np.log2((whole.high - whole.low) / width)).astype(np.int64)
+    return np.where(stays, whole.lasting + halvings, 0)

@@ -14,12 +14,16 @@ import numpy as np
 from threadstate.history.falls import SPAN_DEG, Descent, Falls, Jump, SteepestFall
 from threadstate.history.height_curve import Gap, HeightCurve, Segment
 from threadstate.history.model import CIRCLE_DEG
+from threadstate.history.roots import narrowed_root
 
 LEAST_FALL = 2e-8
 """A descent by no more than this many thread pitches is ignored: 1e-9 in of 1/4-20."""
 
 NARROW_DEG = 0.25
-"""Stretches on which the steepest fall may lie are bisected to this width, and then searched by slope."""
+"""Stretches on which the steepest fall may lie are cut to this width, and then searched by slope."""
+
+WHOLE_DEG = 1.0
+"""Stretches are cut at multiples of this while they can be, where a library has its states."""
 
 STEEPEST_DEG = 1e-8
 """Resolution of the phase of the steepest fall where the slopes at its two ends agree."""
@@ -100,7 +104,7 @@ class _Steepest:
 
     Over a stretch of phase both ends of the span stay within one segment each. As these are monotone, the fall there is
     at most the difference of the heights at the stretch's ends: stretches that cannot hold more than was found are left
-    out, the others halved. On narrow ones the fall is largest at an end, or where the slopes at the span's ends agree.
+    out, the others cut in two. On narrow ones the fall is largest at an end, or where slopes at the span's ends agree.
     """
 
     def __init__(self, curve: HeightCurve, span_deg: float) -> None:
@@ -153,26 +157,18 @@ class _Steepest:
             if not max(heights) - min(later) > self._fall + self._curve.round_off:
                 continue
             if high - low > NARROW_DEG:
-                middle = 0.5 * (low + high)
+                middle = _middle(low, high)
                 waiting += [(middle, high), (low, middle)]
-            elif self._grows(low) and not self._grows(high):
-                start = self._where_slopes_agree(low, high)
+            elif (grows := self._growth(low)) > 0.0 >= (falls := self._growth(high)):
+                low, high = narrowed_root(self._growth, low, high, grows, falls, STEEPEST_DEG)
+                start = 0.5 * (low + high)
                 (height, _), (lower, _) = self._heights(start, start)
                 self._offer(height - lower, start, start + self._span)
 
-    def _where_slopes_agree(self, low: float, high: float) -> float:
-        while high - low > STEEPEST_DEG:
-            middle = 0.5 * (low + high)
-            if self._grows(middle):
-                low = middle
-            else:
-                high = middle
-        return 0.5 * (low + high)
-
-    def _grows(self, start: float) -> bool:
-        """Whether the fall grows as the span is moved on."""
+    def _growth(self, start: float) -> float:
+        """How much the fall grows, per degree, as the span is moved on; 0 where a slope is unknown."""
         at_start, at_end = self._curve.slope(np.array([start, start + self._span])).tolist()
-        return bool(at_start > at_end)
+        return float(np.nan_to_num(at_start - at_end))
 
     def _heights(self, low: float, high: float) -> tuple[list[float], list[float]]:
         heights = self._curve.height(np.array([low, high, low + self._span, high + self._span])).tolist()
@@ -197,6 +193,13 @@ def _fall_within(curve: HeightCurve, descent: Descent, start_deg: float, end_deg
             lower = descent.end_height if high <= end_deg else ends[1]
             largest = max(largest, upper - lower)
     return largest
+
+
+def _middle(low: float, high: float) -> float:
+    """The middle of a stretch, or the multiple of WHOLE_DEG next to it if one is inside."""
+    middle = 0.5 * (low + high)
+    whole = round(middle / WHOLE_DEG) * WHOLE_DEG
+    return whole if low < whole < high else middle
 
 
 def _turned(segment: Segment) -> Segment:
