@@ -189,3 +189,35 @@ def test_a_jump_is_narrowed_to_its_own_width_by_estimates() -> None:
     assert aimed.low[0] < place <= aimed.high[0]
     assert aimed.high[0] - aimed.low[0] <= 1e-11
     assert aimed.sample_counts[0] < 0.3 * usual.sample_counts[0]
+
+
+def test_a_rise_that_is_said_to_be_none_of_a_jump_is_sampled_once() -> None:
+    sampled: list[float] = []
+
+    def sample(line: Integers, places: Floats) -> Samples:
+        sampled.extend(places.tolist())
+        numbers = 50.0 * np.tanh((places - 5.3) * 9.0) - 50.0 * np.tanh((places - 8.3) * 9.0)
+        return Samples(np.zeros(len(line), dtype=np.int64), numbers[:, np.newaxis])
+
+    def without_a_jump(line: Integers, _low: Floats, _high: Floats, _within: Floats) -> Floats:
+        return np.full(len(line), np.inf)
+
+    resolution = Resolution(1.0, 1e-6, 1e-9, 1e-3)
+    usual = changes_on_circles(sample, 1, PERIOD, resolution)
+    count = len(sampled)
+    told = changes_on_circles(sample, 1, PERIOD, resolution, without_a_jump)
+    assert len(told.line) == len(usual.line) == 0
+    assert count > 10 + 2
+    assert len(sampled) - count == 10 + 2
+
+
+def test_a_detour_shows_that_a_rise_is_that_of_jumps() -> None:
+    def sample(line: Integers, places: Floats) -> Samples:
+        numbers = np.select([places < 5.2, places < 5.7, places < 8.3], [0.0, 9.0, 3.0], 0.0)
+        return Samples(np.zeros(len(line), dtype=np.int64), numbers[:, np.newaxis])
+
+    def at_first_without_a_jump(_line: Integers, low: Floats, high: Floats, _within: Floats) -> Floats:
+        return np.where((high - low > 0.9) & (low < 6.0), np.inf, np.nan)
+
+    changes = changes_on_circles(sample, 1, PERIOD, Resolution(1.0, 1e-6, 1e-9, 1e-3), at_first_without_a_jump)
+    assert changes.low == pytest.approx([5.2, 5.7, 8.3], abs=1e-6)

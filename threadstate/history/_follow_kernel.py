@@ -19,6 +19,7 @@ from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
+from threadstate.contact._edge_search_kernel import ROUND_OFF, joined_to_contact
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE, copy_numbers
 from threadstate.contact._onset_kernel import (
     J_G,
@@ -62,6 +63,7 @@ from threadstate.contact._stage_kernel import (
     THREAD_THREAD,
     axis_in_both_planes,
     rotation,
+    set_contact_azimuths,
     set_motions,
     turned,
 )
@@ -69,7 +71,7 @@ from threadstate.contact._surface_kernel import start_height
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array]
+Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array, Array]
 
 # A candidate: its stage (0: none), height of the bolt or turn, pair, azimuths, axial position on the bolt's thread.
 F_STAGE, F_TIME, F_PAIR, F_BOLT_AZIMUTH, F_NUT_AZIMUTH, F_BOLT_Z = range(6)
@@ -93,7 +95,8 @@ SAME_PLACE = 1e-6
 
 COMPARED_FLAGS = rk.FLAG_FLUSH | rk.FLAG_GRAZING | rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD
 
-MOST_HALVINGS = 60
+MOST_STEPS = 200
+MOST_DOUBTFUL = 64
 
 
 @kernel()
@@ -108,6 +111,8 @@ def new_work() -> Work:
         np.empty(tk.PLACEMENT_SIZE),
         np.empty(tk.JET_SIZE),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
+        np.empty(2),
+        np.empty(2),
     )
 
 
@@ -138,13 +143,15 @@ def follow_edge_point(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
+    contact_azimuths: Array,
+    azimuth_count: int,
     work: Work,
 ) -> tuple[bool, float, float]:
     """The contact of one kind near an azimuth and a time of an edge: whether there is one, its azimuth and time.
 
-    The point is left in the jet.
+    ``contact_azimuths`` are those of earlier contacts on the edge. The point is left in the jet.
     """
-    _, _, path, jet, wedge, _, _, _ = work
+    _, _, path, jet, wedge, _, _, _, _, _ = work
     span = REACH_TURN if motion[12] > 0.0 else REACH_HEIGHT * solid_profile[pk.P]
     found, t, time = newton_onset(
         kind, theta, REACH_AZIMUTH, tau - span, tau + span, motion, curve_profile, solid_profile, path, jet
@@ -161,15 +168,33 @@ def follow_edge_point(
         is_peak = jet[J_G_THETA_THETA] < 0.0 and jet[J_PHI] >= 0.0
     if not is_peak or not rises(kind, jet):
         return False, t, time
+    noise = ROUND_OFF * solid_profile[pk.P]
+    if azimuth_count > 0:
+        if joined_to_contact(
+            t, time, motion, curve_profile, solid_profile, contact_azimuths, azimuth_count, noise, path, jet
+        ):
+            return False, t, time
+        set_jet(t, time, motion, curve_profile, solid_profile, path, jet)
     return is_contact(kind, t, time, motion, curve_profile, solid_profile, jet, wedge), t, time
 
 
 @kernel()
 def follow_candidate(
-    candidate: Array, tau: float, limit: float, bolt: Array, nut: Array, work: Work, contact: Array
+    candidate: Array,
+    tau: float,
+    limit: float,
+    bolt_azimuth_count: int,
+    nut_azimuth_count: int,
+    bolt: Array,
+    nut: Array,
+    work: Work,
+    contact: Array,
 ) -> bool:
-    """Sets the contact of a motion, the one in ``work``, that is near a candidate; False where there is none."""
-    bolt_motion, nut_motion, _, jet, _, placement, tangency_jet, tangencies = work
+    """Sets the contact of a motion that is near a candidate; False where there is none.
+
+    The motion and the azimuths of earlier contacts, so many on each edge, are in ``work``.
+    """
+    bolt_motion, nut_motion, _, jet, _, placement, tangency_jet, tangencies, bolt_azimuths, nut_azimuths = work
     pair = int(candidate[F_PAIR])
     contact[K_PAIR] = pair
     if pair == THREAD_THREAD:
@@ -188,14 +213,18 @@ def follow_candidate(
         return True
     if pair == BASE_EDGE or pair == THREAD_EDGE:
         kind = int(ONE_PLANE) if pair == BASE_EDGE else int(ONE_THREAD)
-        found, theta, time = follow_edge_point(kind, candidate[F_NUT_AZIMUTH], tau, nut_motion, nut, bolt, work)
+        found, theta, time = follow_edge_point(
+            kind, candidate[F_NUT_AZIMUTH], tau, nut_motion, nut, bolt, nut_azimuths, nut_azimuth_count, work
+        )
         r = pk.radius(-nut[pk.LEAD] / (2.0 * math.pi) * theta, nut)
         contact[K_BOLT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
         contact[K_NUT_AZIMUTH] = theta
         contact[K_X], contact[K_Y], contact[K_Z] = r * math.cos(theta), r * math.sin(theta), 0.0
     else:
         kind = int(ONE_EDGE) if pair == EDGE_EDGE else int(ONE_PLANE) if pair == EDGE_SURFACE else int(ONE_THREAD)
-        found, theta, time = follow_edge_point(kind, candidate[F_BOLT_AZIMUTH], tau, bolt_motion, bolt, nut, work)
+        found, theta, time = follow_edge_point(
+            kind, candidate[F_BOLT_AZIMUTH], tau, bolt_motion, bolt, nut, bolt_azimuths, bolt_azimuth_count, work
+        )
         contact[K_BOLT_AZIMUTH] = theta
         contact[K_NUT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
         contact[K_X], contact[K_Y], contact[K_Z] = jet[J_X], jet[J_Y], jet[J_Z]
@@ -223,13 +252,16 @@ def earliest_candidate(
     """
     is_turn = stage > 1
     set_motions(pose, is_turn, axis_in_both_planes(known, stage - 1), point, axis, work[0], work[1])
+    on_bolt_count, on_nut_count = set_contact_azimuths(known, stage - 1, pose, bolt, nut, work[8], work[9])
     one = np.empty(CONTACT_SIZE)
     contact[K_TIME] = math.inf
     for i in range(CANDIDATES):
         if candidates[i, F_STAGE] != stage:
             continue
         tau = candidates[i, F_TIME] if is_turn else pose[11] - candidates[i, F_TIME]
-        if not follow_candidate(candidates[i], tau, limit, bolt, nut, work, one) or one[K_TIME] >= contact[K_TIME]:
+        if not follow_candidate(candidates[i], tau, limit, on_bolt_count, on_nut_count, bolt, nut, work, one):
+            continue
+        if one[K_TIME] >= contact[K_TIME]:
             continue
         is_known = False
         for j in range(stage - 1):
@@ -399,6 +431,54 @@ def most_fallen(one: Array, other: Array, first_only: bool) -> float:
 
 
 @kernel()
+def is_near(one: Array, other: Array, first_only: bool, limits: Array) -> bool:
+    """Whether two records have the same labels, and contacts and heights no farther apart than if nothing jumps."""
+    return (
+        labels_agree(one, other, first_only)
+        and most_apart(one, other, first_only) < limits[L_STEADY_PLACE]
+        and most_fallen(one, other, first_only) < limits[L_STEADY_HEIGHT]
+    )
+
+
+@kernel()
+def is_one_throughout(
+    roll: float,
+    pitch: float,
+    low: float,
+    high: float,
+    low_record: Array,
+    high_record: Array,
+    first_only: bool,
+    limits: Array,
+    candidates: Array,
+    bolt: Array,
+    nut: Array,
+    work: Work,
+    record: Array,
+) -> bool:
+    """Whether the state at either end of a stretch, followed alone, is that at the other; in the middle they meet."""
+    candidates[:, F_STAGE] = 0.0
+    middle = record.copy()
+    turn_limit = limits[L_TURN_LIMIT]
+    of_one = candidates[: rk.MAX_RECORD_CONTACTS]
+    for step in range(2):
+        end, other_record = (high, high_record) if step == 0 else (low, low_record)
+        set_candidates(low_record if step == 0 else high_record, of_one)
+        half_way = math.radians(0.5 * (low + high))
+        if not follow_pose(roll, pitch, half_way, turn_limit, candidates, bolt, nut, work, record):
+            return False
+        if step == 0:
+            copy_numbers(record, middle)
+        elif not is_near(record, middle, first_only, limits):
+            return False
+        if not follow_pose(roll, pitch, math.radians(end), turn_limit, candidates, bolt, nut, work, record):
+            return False
+        if not is_near(record, other_record, first_only, limits):
+            return False
+    return True
+
+
+@kernel()
 def place_of_change(
     roll: float,
     pitch: float,
@@ -420,19 +500,30 @@ def place_of_change(
 
     It is certain, of what is followed, to ``width``.
     """
+    e_low, e_high = low_record[rk.O_EMBEDMENT], high_record[rk.O_EMBEDMENT]
+    low_class = class_number(low_record, e_low, limits)
+    # Where contacts have the same labels on both sides, the class alone may differ, or a contact be another one.
+    by_place = labels_agree(low_record, high_record, first_only)
+    by_class = by_place and not first_only and low_class != class_number(high_record, e_high, limits)
+    by_place = by_place and not by_class
+    if by_place and is_one_throughout(
+        roll, pitch, low, high, low_record, high_record, first_only, limits, candidates, bolt, nut, work, record
+    ):
+        return math.inf
     of_low, of_high = candidates[: rk.MAX_RECORD_CONTACTS], candidates[rk.MAX_RECORD_CONTACTS :]
     set_candidates(low_record, of_low)
     set_candidates(high_record, of_high)
-    e_low, e_high = low_record[rk.O_EMBEDMENT], high_record[rk.O_EMBEDMENT]
-    low_class = class_number(low_record, e_low, limits)
-    by_class = not first_only and low_class != class_number(high_record, e_high, limits)
-    by_place = not by_class and labels_agree(low_record, high_record, first_only)
     low_side, high_side = low_record.copy(), high_record.copy()
-    a, b = low, high
-    for step in range(MOST_HALVINGS):
-        if step > 1 and b - a <= width:
+    a = low
+    # Phases at which the labels were others, the nearest last: seen from far, where a contact may have been lost.
+    others = np.empty(MOST_DOUBTFUL)
+    others[0] = high
+    count = 1
+    for step in range(MOST_STEPS):
+        again = step > 0 and others[count - 1] - a <= width
+        if again and by_place:
             break
-        phase = low if step == 0 else high if step == 1 else 0.5 * (a + b)
+        phase = low if step == 0 else others[count - 1] if again else 0.5 * (a + others[count - 1])
         followed = follow_pose(
             roll, pitch, math.radians(phase), limits[L_TURN_LIMIT], candidates, bolt, nut, work, record
         )
@@ -443,25 +534,33 @@ def place_of_change(
             like = class_number(record, e, limits) == low_class
         if like and by_place:
             like = most_apart(record, low_side, first_only) <= most_apart(record, high_side, first_only)
-        if (step == 0 and not like) or (step == 1 and like):
+        if step == 0 and not like:
             return math.nan
         if like:
             a = phase
             copy_numbers(record, low_side)
             set_candidates(record, of_low)
+            if again:
+                count -= 1
+            if count == 0:
+                break
         else:
-            b = phase
             if followed and labels_agree(record, high_record, first_only):
                 copy_numbers(record, high_side)
                 set_candidates(record, of_high)
+            if again or count == MOST_DOUBTFUL:
+                break
+            others[count] = phase
+            count += 1
+    if count == 0:
+        return math.nan
     if by_place:
-        apart = most_apart(low_side, high_side, first_only)
-        fall = most_fallen(low_side, high_side, first_only)
-        if apart < limits[L_STEADY_PLACE] and fall < limits[L_STEADY_HEIGHT]:
+        if is_near(low_side, high_side, first_only, limits):
             return math.inf
-        if apart < limits[L_PLACE] and fall < 2.0 * limits[L_STEADY_HEIGHT]:
+        jumps = most_fallen(low_side, high_side, first_only) > 2.0 * limits[L_STEADY_HEIGHT]
+        if not jumps and most_apart(low_side, high_side, first_only) < limits[L_PLACE]:
             return math.nan
-    return 0.5 * (a + b)
+    return 0.5 * (a + others[count - 1])
 
 
 @kernel(nogil=True)

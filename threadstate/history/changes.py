@@ -3,9 +3,10 @@
 The search knows codes and numbers alone, not what they stand for. Each line is sampled at even steps; a stretch between
 two samples whose codes differ is cut, and its parts are tested in the same way, down to the resolution. It is cut in
 its middle, or on both sides of where one who knows more estimates the change to be, so close that what is between is
-narrow enough: an estimate decides what is sampled and nothing else. What then lies between two changes is sampled in
-its middle, too, and searched where the code there differs from its ends. All stretches of all lines are cut together,
-so that few calls sample many points.
+narrow enough: such an estimate decides what is sampled and nothing else. Where it is said that a number rises without a
+jump that is believed once a sample in between confirms it. What then lies between two changes is sampled in its middle,
+too, and searched where the code there differs from its ends. All stretches of all lines are cut together, so that few
+calls sample many points.
 
 Resolution: a code that differs from both its neighbours is certain to be found where it lasts for a start step or
 longer, and where it lies between two different codes that are seen. One that comes and goes between two samples of the
@@ -43,7 +44,7 @@ WIDENING = 16.0
 ASIDE = 0.4
 """How far on either side of an estimate samples are taken, as a share of the width that is wanted."""
 
-NARROWING = 100.0
+NARROWING = 1000.0
 """By how much at most a stretch that is narrow already is narrowed by one estimate: towards the last digits samples
 may be undecided, and an undecided stretch is not narrowed."""
 

@@ -118,12 +118,14 @@ class _Steepest:
         self._between_ends()
         this_turn = self._curve.segments
         next_turn = [_turned(segment) for segment in this_turn]
+        stretches = []
         for low in this_turn:
             for high in (*this_turn, *next_turn):
                 start = max(low.start_deg, high.start_deg - self._span)
                 end = min(low.end_deg, high.end_deg - self._span)
                 if start < end and _highest(low) - _lowest(high) > self._fall + self._curve.round_off:
-                    self._within(start, end)
+                    stretches.append((start, end))
+        self._within(stretches)
         return self._fall, self._start, self._end
 
     def _between_ends(self) -> None:
@@ -146,33 +148,45 @@ class _Steepest:
                     break
                 self._offer(height - lower, start, end)
 
-    def _within(self, start_deg: float, end_deg: float) -> None:
-        """Falls that begin within a stretch and are a whole span wide."""
-        waiting = [(start_deg, end_deg)]
-        while waiting:
-            low, high = waiting.pop()
-            heights, later = self._heights(low, high)
-            self._offer(heights[0] - later[0], low, low + self._span)
-            self._offer(heights[1] - later[1], high, high + self._span)
-            if not max(heights) - min(later) > self._fall + self._curve.round_off:
-                continue
-            if high - low > NARROW_DEG:
-                middle = _middle(low, high)
-                waiting += [(middle, high), (low, middle)]
-            elif (grows := self._growth(low)) > 0.0 >= (falls := self._growth(high)):
-                low, high = narrowed_root(self._growth, low, high, grows, falls, STEEPEST_DEG)
-                start = 0.5 * (low + high)
-                (height, _), (lower, _) = self._heights(start, start)
-                self._offer(height - lower, start, start + self._span)
+    def _within(self, stretches: list[tuple[float, float]]) -> None:
+        """Falls that begin within stretches and are a whole span wide."""
+        while stretches:
+            heights = self._heights(stretches)
+            for (low, high), (at_low, at_high, later_low, later_high) in zip(stretches, heights, strict=True):
+                self._offer(at_low - later_low, low, low + self._span)
+                self._offer(at_high - later_high, high, high + self._span)
+            parts = []
+            for (low, high), (at_low, at_high, later_low, later_high) in zip(stretches, heights, strict=True):
+                if not max(at_low, at_high) - min(later_low, later_high) > self._fall + self._curve.round_off:
+                    continue
+                if high - low > NARROW_DEG:
+                    middle = _middle(low, high)
+                    parts += [(low, middle), (middle, high)]
+                else:
+                    self._where_slopes_agree(low, high)
+            stretches = parts
+
+    def _where_slopes_agree(self, low: float, high: float) -> None:
+        """The fall that is largest within a narrow stretch, if one is."""
+        at_low, at_high = self._growth(low), self._growth(high)
+        if at_low > 0.0 >= at_high:
+            low, high = narrowed_root(self._growth, low, high, at_low, at_high, STEEPEST_DEG)
+            start = 0.5 * (low + high)
+            ((height, _, lower, _),) = self._heights([(start, start)])
+            self._offer(height - lower, start, start + self._span)
 
     def _growth(self, start: float) -> float:
         """How much the fall grows, per degree, as the span is moved on; 0 where a slope is unknown."""
         at_start, at_end = self._curve.slope(np.array([start, start + self._span])).tolist()
         return float(np.nan_to_num(at_start - at_end))
 
-    def _heights(self, low: float, high: float) -> tuple[list[float], list[float]]:
-        heights = self._curve.height(np.array([low, high, low + self._span, high + self._span])).tolist()
-        return heights[:2], heights[2:]
+    def _heights(self, stretches: list[tuple[float, float]]) -> list[list[float]]:
+        """The heights at both ends of every stretch, and a span later."""
+        ends = np.array(stretches)
+        heights: list[list[float]] = (
+            self._curve.height(np.hstack([ends, ends + self._span]).ravel()).reshape(-1, 4).tolist()
+        )
+        return heights
 
     def _offer(self, fall: float, start: float, end: float) -> None:
         """Store a fall that is larger than the one found before, or as large within a narrower stretch."""
