@@ -135,8 +135,9 @@ CODES = [[0, 1, 2, 3, 4, 0], [5, 6, 7]]
 
 
 def test_estimates_spare_samples_and_find_the_same() -> None:
-    usual = found_in(EDGES, CODES)
-    aimed = found_in(EDGES, CODES, estimate=estimates_of(EDGES, 0.0))
+    edges = [[0.0, 1.23456789, 3.5, 5.51, 7.4, 9.9], EDGES[1]]
+    usual = found_in(edges, CODES)
+    aimed = found_in(edges, CODES, estimate=estimates_of(edges, 0.0))
     assert aimed.low_code.tolist() == usual.low_code.tolist()
     assert aimed.high_code.tolist() == usual.high_code.tolist()
     assert (aimed.high - aimed.low <= RESOLUTION.width).all()
@@ -221,3 +222,10 @@ def test_a_detour_shows_that_a_rise_is_that_of_jumps() -> None:
 
     changes = changes_on_circles(sample, 1, PERIOD, Resolution(1.0, 1e-6, 1e-9, 1e-3), at_first_without_a_jump)
     assert changes.low == pytest.approx([5.2, 5.7, 8.3], abs=1e-6)
+
+
+def test_what_comes_and_goes_beside_a_cluster_is_found() -> None:
+    edges, codes = [[0.0, 4.3, 4.3001, 4.30015, 4.32, 9.0]], [[0, 1, 2, 3, 2, 0]]
+    changes = found_in(edges, codes, estimate=estimates_of(edges, 0.0))
+    assert changes.low_code.tolist() == [0, 1, 2, 3, 2]
+    assert changes.low == pytest.approx(edges[0][1:], abs=2e-9)

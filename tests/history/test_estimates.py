@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 from threadstate.history.brackets import Bracket, brackets_of
-from threadstate.history.build import RESOLUTION, histories_of
+from threadstate.history.build import RESOLUTION, history_of
 from threadstate.history.changes import Floats, Integers, Samples, changes_on_circles
 from threadstate.history.codes import LabelCodes
 from threadstate.history.estimates import ChangeEstimates
@@ -27,28 +29,38 @@ SPREAD_DEG = 2e-6
 """So far round-off moves where a region of a flush patch changes, or a contact beside an earlier one begins."""
 
 
-def _bisected(tilt: tuple[float, float], *, first_contact_only: bool = False) -> tuple[list[Bracket], Integers]:
-    """The brackets of an orientation as bisecting whole solves alone has them, and how many were solved."""
-    codes = LabelCodes(PAIR, OPTIONS, RecordStore(PAIR, OPTIONS), first_contact_only=first_contact_only)
+def _searched(tilt: tuple[float, float], *, with_estimates: bool) -> tuple[list[Bracket], int]:
+    """The brackets of an orientation, and how many poses were solved for them."""
+    store = RecordStore(PAIR, OPTIONS)
+    codes, estimates = LabelCodes(PAIR, OPTIONS, store), ChangeEstimates(PAIR, OPTIONS, store)
 
     def sample(line: Integers, phases: Floats) -> Samples:
         return codes.samples(np.column_stack([np.full((len(line), 2), tilt), phases]))
 
-    changes = changes_on_circles(sample, 1, CIRCLE_DEG, RESOLUTION)
-    return brackets_of(changes, 0), changes.sample_counts
+    def estimate(_: Integers, low: Floats, high: Floats, within: Floats) -> Floats:
+        return estimates.places(np.full((len(low), 2), tilt), low, high, within)
+
+    changes = changes_on_circles(sample, 1, CIRCLE_DEG, RESOLUTION, estimate if with_estimates else None)
+    return [one for one in brackets_of(changes, 0) if one.decided], int(changes.sample_counts[0])
 
 
 @pytest.mark.parametrize("tilt", TILTS)
 def test_brackets_are_those_of_bisected_whole_solves(tilt: tuple[float, float]) -> None:
-    (history,) = histories_of(PAIR, [(tilt[0], tilt[1])])
-    brackets, (count,) = _bisected(tilt)
-    found = [Bracket(one.low_deg, one.high_deg, 0, 0) for one in history.boundaries if one.decided]
-    narrow = [one for one in found if one.width <= POINT_DEG]
-    usual = [one for one in brackets if one.decided]
-    assert len(narrow) > 15
-    assert max(_apart(one, usual) for one in narrow) <= SPREAD_DEG
-    assert max(_apart(one, found) for one in usual) <= SPREAD_DEG
-    assert history.solve_count - 360 < 0.6 * (count - 360)
+    # The history's, which are wider where round-off decides.
+    found = [Bracket(one.low_deg, one.high_deg, 0, 0) for one in history_of(PAIR, *tilt).boundaries if one.decided]
+    sharp = [one for one in found if one.width <= POINT_DEG]
+    bisected, _ = _searched(tilt, with_estimates=False)
+    assert len(sharp) > 15
+    assert max(_apart(one, bisected) for one in sharp) <= SPREAD_DEG
+    assert max(_apart(one, found) for one in bisected) <= SPREAD_DEG
+
+
+@pytest.mark.parametrize("tilt", TILTS)
+def test_estimates_spare_whole_solves(tilt: tuple[float, float]) -> None:
+    found, count = _searched(tilt, with_estimates=True)
+    _, usual_count = _searched(tilt, with_estimates=False)
+    assert max(one.width for one in found) <= POINT_DEG
+    assert count - CIRCLE_DEG < 0.5 * (usual_count - CIRCLE_DEG)
 
 
 def _apart(bracket: Bracket, others: list[Bracket]) -> float:
@@ -57,18 +69,25 @@ def _apart(bracket: Bracket, others: list[Bracket]) -> float:
 
 
 def test_a_jump_is_estimated_at_its_fold() -> None:
-    low, high = 357.0, 358.0
+    low, high = 357.3805, 357.3815
     first = solve_pose(PAIR, 0.0, -4.0, low).contacts[0]
-    azimuth = float(np.arctan2(first.point_bolt[1], first.point_bolt[0]))
-    fold = fold_near(PAIR, 0.0, -4.0, low, azimuth)
+    fold = fold_near(PAIR, 0.0, -4.0, low, math.atan2(first.point_bolt[1], first.point_bolt[0]))
     assert fold is not None
+    assert low < fold.phase_deg < high
     estimates = ChangeEstimates(PAIR, OPTIONS, RecordStore(PAIR, OPTIONS), first_contact_only=True)
-    (place,) = estimates.places(np.array([[0.0, -4.0]]), np.array([low]), np.array([high]), np.array([1e-9]))
-    assert place == pytest.approx(fold.phase_deg, abs=2e-9)
+    (place,) = estimates.places(np.array([[0.0, -4.0]]), np.array([low]), np.array([high]), np.array([1e-10]))
+    assert place == pytest.approx(fold.phase_deg, abs=2e-10)
 
 
-def test_there_is_no_estimate_where_nothing_changes_and_where_a_contact_is_a_patch() -> None:
+def test_one_contact_throughout_is_said_to_be_one() -> None:
     estimates = ChangeEstimates(PAIR, OPTIONS, RecordStore(PAIR, OPTIONS))
-    orientations = np.array([[2.0, 3.0], [0.0, 0.0]])
-    places = estimates.places(orientations, np.array([40.0, 0.0]), np.array([40.0, 90.0]), np.full(2, 1e-9))
-    assert np.isnan(places).all()
+    state, other = (solve_pose(PAIR, 2.0, 3.0, phase) for phase in (40.0, 40.5))
+    assert [contact.features for contact in state.contacts] == [contact.features for contact in other.contacts]
+    (place,) = estimates.places(np.array([[2.0, 3.0]]), np.array([40.0]), np.array([40.5]), np.array([1e-9]))
+    assert place == np.inf
+
+
+def test_there_is_no_estimate_where_a_contact_is_a_patch() -> None:
+    estimates = ChangeEstimates(PAIR, OPTIONS, RecordStore(PAIR, OPTIONS))
+    (place,) = estimates.places(np.zeros((1, 2)), np.array([0.5]), np.array([90.0]), np.array([1e-9]))
+    assert np.isnan(place)

@@ -10,7 +10,7 @@ import pytest
 from threadstate.history.roots import narrowed_root
 
 WIDTH = 1e-9
-FUNCTIONS = {
+FUNCTIONS: dict[str, tuple[Callable[[float], float], float]] = {
     "line": (lambda x: x - 0.3, 0.3),
     "falling": (lambda x: math.exp(-x) - 0.5, math.log(2.0)),
     "steep": (lambda x: math.tanh(1e4 * (x - 0.123456)), 0.123456),

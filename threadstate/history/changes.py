@@ -5,7 +5,7 @@ two samples whose codes differ is cut, and its parts are tested in the same way,
 its middle, or on both sides of where one who knows more estimates the change to be, so close that what is between is
 narrow enough: such an estimate decides what is sampled and nothing else. Where it is said that a number rises without a
 jump that is believed once a sample in between confirms it. What then lies between two changes is sampled in its middle,
-too, and searched where the code there differs from its ends. All stretches of all lines are cut together, so that few
+too, and near its end where changes are crowded there, and searched where the code differs from its ends. All stretches of all lines are cut together, so that few
 calls sample many points.
 
 Resolution: a code that differs from both its neighbours is certain to be found where it lasts for a start step or
@@ -41,10 +41,15 @@ MOST_FAILURES = 4
 WIDENING = 16.0
 """Ratio of the distances from an estimate that failed at which the next samples are taken."""
 
+CLUSTERED = 0.5
+CLUSTER_FACTORS = tuple(4.0**power for power in range(-1, 8))
+"""Changes nearer to each other than this share of half the stretch beside them are a cluster; multiples of their distance
+at which that stretch is sampled, up to its middle."""
+
 ASIDE = 0.4
 """How far on either side of an estimate samples are taken, as a share of the width that is wanted."""
 
-NARROWING = 1000.0
+NARROWING = 100.0
 """By how much at most a stretch that is narrow already is narrowed by one estimate: towards the last digits samples
 may be undecided, and an undecided stretch is not narrowed."""
 
@@ -161,7 +166,7 @@ def changes_on_circles(
     every = _narrowed(sample, stretches, resolution, counts, estimate)
     unsure = np.ones(line_count, dtype=np.bool_)
     while unsure.any():
-        more = _unlike_their_middle(sample, every[unsure[every.line]], counts)
+        more = _unlike_their_ends(sample, every[unsure[every.line]], counts)
         unsure = np.bincount(more.line, minlength=line_count) > 0
         every = _Stretches.joined([every, _narrowed(sample, more, resolution, counts, estimate)])
     order = np.lexsort((every.low, every.line))
@@ -267,17 +272,22 @@ def _parts_of_two_cuts(
     return [left, lowest, middle, upper]
 
 
-def _unlike_their_middle(sample: Sampler, found: _Stretches, counts: Integers) -> _Stretches:
-    """Both halves of every stretch between changes in whose middle the code is another than at its ends."""
+def _unlike_their_ends(sample: Sampler, found: _Stretches, counts: Integers) -> _Stretches:
+    """The parts of every stretch between changes within which the code is sampled to be another than at its ends.
+
+    It is sampled in the middle, and near an end beyond which another change is near, as changes come in clusters.
+    """
     order = np.lexsort((found.low, found.line))
-    after, before = order[:-1], order[1:]
+    line, low, high = found.line[order], found.low[order], found.high[order]
+    gap = np.where(line[1:] == line[:-1], low[1:] - high[:-1], np.inf)
     between = (
-        (found.line[after] == found.line[before])
-        & (found.high_code[after] == found.low_code[before])
-        & (found.high_code[after] != UNDECIDED_CODE)
-        & (found.low[before] > found.high[after])
+        (gap > 0.0)
+        & (gap < np.inf)
+        & (found.high_code[order[:-1]] == found.low_code[order[1:]])
+        & (found.high_code[order[:-1]] != UNDECIDED_CODE)
     )
-    after, before = after[between], before[between]
+    number = np.flatnonzero(between)
+    after, before = order[number], order[number + 1]
     whole = _Stretches(
         found.line[after],
         found.high[after],
@@ -290,11 +300,38 @@ def _unlike_their_middle(sample: Sampler, found: _Stretches, counts: Integers) -
         np.full_like(found.low_slope[after], np.nan),
         *_unsearched(len(after)),
     )
-    middle = 0.5 * (whole.low + whole.high)
-    counts += np.bincount(whole.line, minlength=len(counts))
-    samples = sample(whole.line, middle)
-    unlike = samples.codes != whole.low_code
-    return _Stretches.joined(_parts(whole[unlike], middle[unlike], samples[np.flatnonzero(unlike)]))
+    gaps = np.concatenate([[np.inf], gap, [np.inf]])
+    which, places = _places_between(whole.low, whole.high, gaps[number], gaps[number + 2])
+    counts += np.bincount(whole.line[which], minlength=len(counts))
+    samples = sample(whole.line[which], places)
+    unlike = np.unique(which[samples.codes != whole.low_code[which]])
+    parts = [whole[np.zeros(len(whole), dtype=np.bool_)]]
+    for one in unlike.tolist():
+        rest = whole[np.arange(len(whole)) == one]
+        for place in np.flatnonzero(which == one):
+            lower, rest = _parts(rest, places[[place]], samples[np.array([place])])
+            parts.append(lower)
+        parts.append(rest)
+    return _Stretches.joined(parts)
+
+
+def _places_between(low: Floats, high: Floats, gap_low: Floats, gap_high: Floats) -> tuple[Integers, Floats]:
+    """Where stretches between changes are sampled: the stretches' numbers, and places, in order of both.
+
+    ``gap_low`` and ``gap_high`` are the widths of the stretches before and after.
+    """
+    half = 0.5 * (high - low)
+    number = np.arange(len(low))
+    chosen, places = [number], [0.5 * (low + high)]
+    for end, gap, sign in ((low, gap_low, 1.0), (high, gap_high, -1.0)):
+        for factor in CLUSTER_FACTORS:
+            distance = np.where(gap < CLUSTERED * half, factor * gap, np.inf)
+            inside = distance < half
+            chosen.append(number[inside])
+            places.append((end + sign * distance)[inside])
+    which, where = np.concatenate(chosen), np.concatenate(places)
+    order = np.lexsort((where, which))
+    return which[order], where[order]
 
 
 def _start(sample: Sampler, line_count: int, period: float, step: float) -> _Stretches:
