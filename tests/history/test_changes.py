@@ -5,16 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from threadstate.history.changes import (
-    UNDECIDED_CODE,
-    Changes,
-    Estimator,
-    Floats,
-    Integers,
-    Resolution,
-    Samples,
-    changes_on_circles,
-)
+from threadstate.history.changes import Changes, Estimator, Resolution, changes_on_circles
+from threadstate.history.stretches import UNDECIDED_CODE, Floats, Integers, Samples
 
 PERIOD = 10.0
 RESOLUTION = Resolution(step=1.0, width=1e-9, jump_width=1e-9, undecided_width=1e-3)

@@ -9,12 +9,13 @@ import pytest
 
 from threadstate.history.brackets import Bracket, brackets_of
 from threadstate.history.build import RESOLUTION, history_of
-from threadstate.history.changes import Floats, Integers, Samples, changes_on_circles
+from threadstate.history.changes import changes_on_circles
 from threadstate.history.codes import LabelCodes
 from threadstate.history.estimates import ChangeEstimates
 from threadstate.history.fold import fold_near
 from threadstate.history.model import CIRCLE_DEG, POINT_DEG
 from threadstate.history.records import RecordStore
+from threadstate.history.stretches import Floats, Integers, Samples
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc

@@ -7,15 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from threadstate.history.brackets import Bracket, brackets_of
-from threadstate.history.changes import (
-    UNDECIDED_CODE,
-    Floats,
-    Integers,
-    Resolution,
-    Sampler,
-    Samples,
-    changes_on_circles,
-)
+from threadstate.history.changes import Resolution, Sampler, changes_on_circles
 from threadstate.history.codes import LabelCodes
 from threadstate.history.differences import contact_changes
 from threadstate.history.estimates import ChangeEstimates
@@ -23,6 +15,7 @@ from threadstate.history.flicker import widened
 from threadstate.history.labels import labels_of
 from threadstate.history.model import CIRCLE_DEG, Boundary, Interval, SolvedHistory
 from threadstate.history.records import RecordStore
+from threadstate.history.stretches import UNDECIDED_CODE, Floats, Integers, Samples
 from threadstate.state.decode import decoded_answers
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions

@@ -5,8 +5,8 @@ two samples whose codes differ is cut, and its parts are tested in the same way,
 its middle, or on both sides of where one who knows more estimates the change to be, so close that what is between is
 narrow enough: such an estimate decides what is sampled and nothing else. Where it is said that a number rises without a
 jump that is believed once a sample in between confirms it. What then lies between two changes is sampled in its middle,
-too, and near its end where changes are crowded there, and searched where the code differs from its ends. All stretches of all lines are cut together, so that few
-calls sample many points.
+too, and near an end where changes are crowded, and searched where the code differs from its ends. All stretches of all
+lines are cut together, so that few calls sample many points.
 
 Resolution: a code that differs from both its neighbours is certain to be found where it lasts for a start step or
 longer, and where it lies between two different codes that are seen. One that comes and goes between two samples of the
@@ -20,20 +20,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
-
-
-LASTING_HALVINGS = 3
-"""Number of bisections over which a jump stays in one half; a steep rise, as where a square root begins, spreads.
-
-Of the rise of a root the steeper half has 0.71.
-"""
-
-LASTING_SHARE = 0.9
-"""The share of a rise that one half has to have."""
+from threadstate.history.stretches import (
+    LASTING_HALVINGS,
+    UNDECIDED_CODE,
+    Floats,
+    Integers,
+    Samples,
+    Stretches,
+    jumps,
+    parts_of,
+    unsearched,
+)
 
 MOST_FAILURES = 4
 """After so many estimates beside which there was no change a stretch is bisected."""
@@ -43,8 +41,8 @@ WIDENING = 16.0
 
 CLUSTERED = 0.5
 CLUSTER_FACTORS = tuple(4.0**power for power in range(-1, 8))
-"""Changes nearer to each other than this share of half the stretch beside them are a cluster; multiples of their distance
-at which that stretch is sampled, up to its middle."""
+"""Changes nearer to each other than this share of half the stretch beside them are a cluster; at these multiples of
+their distance that stretch is sampled, up to its middle."""
 
 ASIDE = 0.4
 """How far on either side of an estimate samples are taken, as a share of the width that is wanted."""
@@ -57,21 +55,6 @@ ROUNDING = 8.0
 PRECISION = 1024.0
 """Estimates are rounded to one part, and wanted to within the other, of the width that is wanted: so searches of the
 same change sample the same places."""
-
-UNDECIDED_CODE = -1
-"""The code of an undecided place; the ends of undecided stretches have a resolution of their own."""
-
-
-@dataclass(frozen=True, slots=True)
-class Samples:
-    """Codes of shape (n,), UNDECIDED_CODE where undecided, and numbers of shape (n, k), NaN where a code has none."""
-
-    codes: Integers
-    values: Floats
-
-    def __getitem__(self, chosen: Integers) -> Samples:
-        return Samples(self.codes[chosen], self.values[chosen])
-
 
 Sampler = Callable[[Integers, Floats], Samples]
 """Samples lines (integers of shape (n,)) at places (of shape (n,)); the same line and place give the same sample."""
@@ -118,41 +101,6 @@ class Changes:
     sample_counts: Integers
 
 
-@dataclass(slots=True)
-class _Stretches:
-    """Stretches between two sampled places, and how the numbers rise beside them (NaN: not known).
-
-    ``lasting`` says over how many halvings in a row the rise has stayed in one part, ``failures`` how many estimates
-    failed. After one that did, ``from_low`` or ``from_high`` is how far from that end the next sample is taken; else 0.
-    ``explained`` is whether the rise is known to be none of a jump.
-    """
-
-    line: Integers
-    low: Floats
-    high: Floats
-    low_code: Integers
-    high_code: Integers
-    low_value: Floats
-    high_value: Floats
-    low_slope: Floats
-    high_slope: Floats
-    lasting: Integers
-    failures: Integers
-    from_low: Floats
-    from_high: Floats
-    explained: NDArray[np.bool_]
-
-    def __len__(self) -> int:
-        return len(self.line)
-
-    def __getitem__(self, chosen: NDArray[np.bool_]) -> _Stretches:
-        return _Stretches(*(getattr(self, name)[chosen] for name in self.__slots__))
-
-    @staticmethod
-    def joined(parts: list[_Stretches]) -> _Stretches:
-        return _Stretches(*(np.concatenate([getattr(p, name) for p in parts]) for name in _Stretches.__slots__))
-
-
 def changes_on_circles(
     sample: Sampler, line_count: int, period: float, resolution: Resolution, estimate: Estimator | None = None
 ) -> Changes:
@@ -168,7 +116,7 @@ def changes_on_circles(
     while unsure.any():
         more = _unlike_their_ends(sample, every[unsure[every.line]], counts)
         unsure = np.bincount(more.line, minlength=line_count) > 0
-        every = _Stretches.joined([every, _narrowed(sample, more, resolution, counts, estimate)])
+        every = Stretches.joined([every, _narrowed(sample, more, resolution, counts, estimate)])
     order = np.lexsort((every.low, every.line))
     return Changes(
         every.line[order],
@@ -181,12 +129,12 @@ def changes_on_circles(
 
 
 def _narrowed(
-    sample: Sampler, stretches: _Stretches, resolution: Resolution, counts: Integers, estimate: Estimator | None
-) -> _Stretches:
+    sample: Sampler, stretches: Stretches, resolution: Resolution, counts: Integers, estimate: Estimator | None
+) -> Stretches:
     """The changes within stretches, cut down to the resolution; samples are added to the lines' ``counts``."""
-    found: list[_Stretches] = []
+    found: list[Stretches] = []
     while True:
-        changing = (stretches.low_code != stretches.high_code) | _jumps(stretches)
+        changing = (stretches.low_code != stretches.high_code) | jumps(stretches)
         decided = (stretches.low_code != UNDECIDED_CODE) & (stretches.high_code != UNDECIDED_CODE)
         jumping = np.abs(stretches.high_value[:, 0] - stretches.low_value[:, 0]) > 1.0
         wanted = np.where(jumping, resolution.jump_width, resolution.width)
@@ -197,12 +145,12 @@ def _narrowed(
         found.append(stretches[changing & narrow])
         wide = stretches[changing & ~narrow]
         if not len(wide):
-            return _Stretches.joined(found)
+            return Stretches.joined(found)
         first, second = _places_to_cut(wide, resolution, estimate)
         stretches = _cut(sample, wide, first, second, counts)
 
 
-def _places_to_cut(wide: _Stretches, resolution: Resolution, estimate: Estimator | None) -> tuple[Floats, Floats]:
+def _places_to_cut(wide: Stretches, resolution: Resolution, estimate: Estimator | None) -> tuple[Floats, Floats]:
     """Where stretches are cut: before and after an estimate, or at one place alone, the other one NaN.
 
     That one is beside an estimate that failed, or in the middle. What estimates say of stretches is set in ``wide``.
@@ -234,26 +182,26 @@ def _places_to_cut(wide: _Stretches, resolution: Resolution, estimate: Estimator
     return first, second
 
 
-def _cut(sample: Sampler, wide: _Stretches, first: Floats, second: Floats, counts: Integers) -> _Stretches:
+def _cut(sample: Sampler, wide: Stretches, first: Floats, second: Floats, counts: Integers) -> Stretches:
     """The parts of every stretch, cut at one or at two places (see :func:`_places_to_cut`)."""
     twice = ~np.isnan(second)
     lines = np.concatenate([wide.line, wide.line[twice]])
     counts += np.bincount(lines, minlength=len(counts))
     samples = sample(lines, np.concatenate([first, second[twice]]))
     once = wide[~twice]
-    lower, upper = _parts(once, first[~twice], samples[np.flatnonzero(~twice)])
+    lower, upper = parts_of(once, first[~twice], samples[np.flatnonzero(~twice)])
     half = 0.5 * (once.high - once.low)
     upper.from_low = np.where(once.from_low < half, WIDENING * once.from_low, 0.0)
     lower.from_high = np.where(once.from_high < half, WIDENING * once.from_high, 0.0)
     before, after = samples[np.flatnonzero(twice)], samples[np.arange(len(wide), len(lines))]
-    return _Stretches.joined(
+    return Stretches.joined(
         [lower, upper, *_parts_of_two_cuts(wide[twice], first[twice], second[twice], before, after)]
     )
 
 
 def _parts_of_two_cuts(
-    whole: _Stretches, first: Floats, second: Floats, before: Samples, after: Samples
-) -> list[_Stretches]:
+    whole: Stretches, first: Floats, second: Floats, before: Samples, after: Samples
+) -> list[Stretches]:
     """The three parts of every stretch, cut before and after an estimate.
 
     Where a sample is undecided the stretch is left as it is, to be bisected: so it is narrowed as far as it can be.
@@ -266,13 +214,13 @@ def _parts_of_two_cuts(
     before, after = before[decided], after[decided]
     failed = (before.codes == after.codes) & ~(np.nan_to_num(np.abs(after.values - before.values)) > 1.0).any(axis=1)
     whole.failures = np.where(failed, whole.failures + 1, 0)
-    lower, upper = _parts(whole, second, after)
-    lowest, middle = _parts(lower, first, before)
+    lower, upper = parts_of(whole, second, after)
+    lowest, middle = parts_of(lower, first, before)
     upper.from_low = lowest.from_high = np.where(failed, WIDENING * 0.5 * (second - first), 0.0)
     return [left, lowest, middle, upper]
 
 
-def _unlike_their_ends(sample: Sampler, found: _Stretches, counts: Integers) -> _Stretches:
+def _unlike_their_ends(sample: Sampler, found: Stretches, counts: Integers) -> Stretches:
     """The parts of every stretch between changes within which the code is sampled to be another than at its ends.
 
     It is sampled in the middle, and near an end beyond which another change is near, as changes come in clusters.
@@ -288,7 +236,7 @@ def _unlike_their_ends(sample: Sampler, found: _Stretches, counts: Integers) -> 
     )
     number = np.flatnonzero(between)
     after, before = order[number], order[number + 1]
-    whole = _Stretches(
+    whole = Stretches(
         found.line[after],
         found.high[after],
         found.low[before],
@@ -298,7 +246,7 @@ def _unlike_their_ends(sample: Sampler, found: _Stretches, counts: Integers) -> 
         found.low_value[before],
         np.full_like(found.low_slope[after], np.nan),
         np.full_like(found.low_slope[after], np.nan),
-        *_unsearched(len(after)),
+        *unsearched(len(after)),
     )
     gaps = np.concatenate([[np.inf], gap, [np.inf]])
     which, places = _places_between(whole.low, whole.high, gaps[number], gaps[number + 2])
@@ -309,10 +257,10 @@ def _unlike_their_ends(sample: Sampler, found: _Stretches, counts: Integers) -> 
     for one in unlike.tolist():
         rest = whole[np.arange(len(whole)) == one]
         for place in np.flatnonzero(which == one):
-            lower, rest = _parts(rest, places[[place]], samples[np.array([place])])
+            lower, rest = parts_of(rest, places[[place]], samples[np.array([place])])
             parts.append(lower)
         parts.append(rest)
-    return _Stretches.joined(parts)
+    return Stretches.joined(parts)
 
 
 def _places_between(low: Floats, high: Floats, gap_low: Floats, gap_high: Floats) -> tuple[Integers, Floats]:
@@ -331,10 +279,14 @@ def _places_between(low: Floats, high: Floats, gap_low: Floats, gap_high: Floats
             places.append((end + sign * distance)[inside])
     which, where = np.concatenate(chosen), np.concatenate(places)
     order = np.lexsort((where, which))
-    return which[order], where[order]
+    which, where = which[order], where[order]
+    # Of a stretch a few numbers wide two of them may be the same.
+    is_new = np.append(True, (np.diff(which) != 0) | (np.diff(where) > 0.0))[: len(which)]
+    kept = is_new & (low[which] < where) & (where < high[which])
+    return which[kept], where[kept]
 
 
-def _start(sample: Sampler, line_count: int, period: float, step: float) -> _Stretches:
+def _start(sample: Sampler, line_count: int, period: float, step: float) -> Stretches:
     """The stretches between evenly spaced samples of every line."""
     steps = int(np.ceil(period / step - 1e-9))
     places = np.arange(steps + 1) * (period / steps)
@@ -346,7 +298,7 @@ def _start(sample: Sampler, line_count: int, period: float, step: float) -> _Str
     slope = (next_values - values) * (steps / period)
     slope[codes != next_codes] = np.nan
     width = values.shape[2]
-    stretches = _Stretches(
+    stretches = Stretches(
         line,
         np.tile(places[:-1], line_count),
         np.tile(places[1:], line_count),
@@ -356,82 +308,10 @@ def _start(sample: Sampler, line_count: int, period: float, step: float) -> _Str
         next_values.reshape(-1, width),
         np.roll(slope, 1, axis=1).reshape(-1, width),
         np.roll(slope, -1, axis=1).reshape(-1, width),
-        *_unsearched(len(line)),
+        *unsearched(len(line)),
     )
     # Beside a stretch of another code the slope is not that of this code's numbers.
     before, after = np.roll(codes, 1, axis=1).ravel(), np.roll(next_codes, -1, axis=1).ravel()
     stretches.low_slope[before != stretches.low_code] = np.nan
     stretches.high_slope[after != stretches.high_code] = np.nan
     return stretches
-
-
-def _unsearched(count: int) -> tuple[Integers, Integers, Floats, Floats, NDArray[np.bool_]]:
-    """How the search of stretches begins: ``lasting`` and what comes after it."""
-    numbers = np.zeros((2, count), dtype=np.int64)
-    return *numbers, *np.zeros((2, count)), np.zeros(count, dtype=np.bool_)
-
-
-def _jumps(stretches: _Stretches) -> NDArray[np.bool_]:
-    """Where the code is the same at both ends, but a number changes by more than the slopes beside explain."""
-    rise = stretches.high_value - stretches.low_value
-    width = (stretches.high - stretches.low)[:, np.newaxis]
-    low = np.abs(rise - stretches.low_slope * width)
-    high = np.abs(rise - stretches.high_slope * width)
-    unexplained = np.fmin(low, high)
-    unexplained = np.where(np.isnan(unexplained), np.abs(rise), unexplained)
-    same = (stretches.low_code == stretches.high_code) & ~stretches.explained
-    return same & (np.nan_to_num(unexplained, nan=0.0) > 1.0).any(axis=1)
-
-
-def _parts(whole: _Stretches, place: Floats, samples: Samples) -> list[_Stretches]:
-    """The lower and the upper parts of every stretch, cut at a place that was sampled."""
-    below = (samples.values - whole.low_value) / (place - whole.low)[:, np.newaxis]
-    above = (whole.high_value - samples.values) / (whole.high - place)[:, np.newaxis]
-    below[samples.codes != whole.low_code] = np.nan
-    above[samples.codes != whole.high_code] = np.nan
-    none = np.zeros(len(whole))
-    # Of a rise that is explained a sample in between confirms that it goes no detour.
-    rise = np.abs(whole.high_value - whole.low_value) + 1.0
-    detour = np.fmax(np.abs(samples.values - whole.low_value), np.abs(whole.high_value - samples.values)) > rise
-    explained = whole.explained & ~detour.any(axis=1)
-    lower = _Stretches(
-        whole.line,
-        whole.low,
-        place,
-        whole.low_code,
-        samples.codes,
-        whole.low_value,
-        samples.values,
-        whole.low_slope,
-        above,
-        _lasting(whole, place - whole.low, samples.values - whole.low_value),
-        whole.failures,
-        none,
-        none,
-        explained,
-    )
-    upper = _Stretches(
-        whole.line,
-        place,
-        whole.high,
-        samples.codes,
-        whole.high_code,
-        samples.values,
-        whole.high_value,
-        below,
-        whole.high_slope,
-        _lasting(whole, whole.high - place, whole.high_value - samples.values),
-        whole.failures,
-        none,
-        none,
-        explained,
-    )
-    return [lower, upper]
-
-
-def _lasting(whole: _Stretches, width: Floats, rise: Floats) -> Integers:
-    """Over how many halvings the whole's rise has stayed in one part, if that is the one of this width and rise."""
-    all_of_it = np.nan_to_num(np.abs(whole.high_value - whole.low_value)).max(axis=1)
-    stays = np.nan_to_num(np.abs(rise)).max(axis=1) >= LASTING_SHARE * all_of_it
-    halvings = np.rint(np.log2((whole.high - whole.low) / width)).astype(np.int64)
-    return np.where(stays, whole.lasting + halvings, 0)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.history import _follow_kernel as fk
+from threadstate.history import _change_kernel as ck
 from threadstate.history.codes import HEIGHT_JUMP, PLACE_JUMP
 from threadstate.history.model import CIRCLE_DEG
 from threadstate.history.records import RecordStore
@@ -33,13 +33,13 @@ class ChangeEstimates:
         self._pair = pair
         self._store = store
         self._first_contact_only = first_contact_only
-        limits = np.zeros(fk.LIMITS_SIZE)
-        limits[fk.L_TURN_LIMIT] = math.radians(options.turn_limit_deg)
-        limits[fk.L_EMBEDMENT] = options.embedment_tolerance * pair.thread_pitch
-        limits[fk.L_PIVOT] = options.quasi_stable_fraction * pair.nominal_diameter / 2.0
-        limits[fk.L_PLACE] = MOVED_SHARE * PLACE_JUMP * pair.thread_pitch
-        limits[fk.L_STEADY_PLACE] = STEADY_SHARE * PLACE_JUMP * pair.thread_pitch
-        limits[fk.L_STEADY_HEIGHT] = MOVED_SHARE * HEIGHT_JUMP * pair.thread_pitch
+        limits = np.zeros(ck.LIMITS_SIZE)
+        limits[ck.L_TURN_LIMIT] = math.radians(options.turn_limit_deg)
+        limits[ck.L_EMBEDMENT] = options.embedment_tolerance * pair.thread_pitch
+        limits[ck.L_PIVOT] = options.quasi_stable_fraction * pair.nominal_diameter / 2.0
+        limits[ck.L_PLACE] = MOVED_SHARE * PLACE_JUMP * pair.thread_pitch
+        limits[ck.L_STEADY_PLACE] = STEADY_SHARE * PLACE_JUMP * pair.thread_pitch
+        limits[ck.L_STEADY_HEIGHT] = MOVED_SHARE * HEIGHT_JUMP * pair.thread_pitch
         self._limits = limits
 
     def places(self, orientations_deg: Floats, low_deg: Floats, high_deg: Floats, within_deg: Floats) -> Floats:
@@ -50,7 +50,7 @@ class ChangeEstimates:
         near an estimate is to be to where what is followed changes.
         """
         places = np.empty(len(low_deg))
-        fk.places_of_changes(
+        ck.places_of_changes(
             orientations_deg * (math.pi / 180.0),
             low_deg,
             high_deg,
@@ -77,4 +77,4 @@ def load_estimates(pair: Pair) -> None:
 
 def estimates_are_compiled() -> bool:
     """Whether the cache contains the kernels."""
-    return any(Path(str(fk.places_of_changes.stats.cache_path)).glob("_follow_kernel.places_of_changes-*.nbc"))
+    return any(Path(str(ck.places_of_changes.stats.cache_path)).glob("_change_kernel.places_of_changes-*.nbc"))

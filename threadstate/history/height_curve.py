@@ -24,13 +24,14 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact._stage_kernel import BASE_EDGE, EDGE_EDGE, THREAD_EDGE
 from threadstate.history.brackets import Bracket, brackets_of
 from threadstate.history.build import RESOLUTION
-from threadstate.history.changes import UNDECIDED_CODE, Samples, changes_on_circles
+from threadstate.history.changes import changes_on_circles
 from threadstate.history.codes import HEIGHT_JUMP, LabelCodes
 from threadstate.history.estimates import ChangeEstimates
 from threadstate.history.limits import fold_in
 from threadstate.history.model import CIRCLE_DEG
 from threadstate.history.records import Floats, Integers, RecordStore
 from threadstate.history.roots import narrowed_root
+from threadstate.history.stretches import UNDECIDED_CODE, Samples
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
