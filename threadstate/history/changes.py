@@ -40,9 +40,12 @@ WIDENING = 16.0
 """Ratio of the distances from an estimate that failed at which the next samples are taken."""
 
 CLUSTERED = 0.5
-CLUSTER_FACTORS = tuple(4.0**power for power in range(-1, 8))
-"""Changes nearer to each other than this share of half the stretch beside them are a cluster; at these multiples of
-their distance that stretch is sampled, up to its middle."""
+CLUSTERED_WIDTH = 1.0 / 16.0
+"""Changes nearer to each other than this share of half the stretch beside them, and than this part of the width down to
+which stretches are bisected, are a cluster."""
+
+CLUSTER_FACTORS = (0.25, 4.0, 64.0, 1024.0)
+"""Multiples of the distance of such changes at which the stretch beside them is sampled, up to its middle."""
 
 ASIDE = 0.4
 """How far on either side of an estimate samples are taken, as a share of the width that is wanted."""
@@ -112,9 +115,10 @@ def changes_on_circles(
     stretches = _start(sample, line_count, period, resolution.step)
     counts = np.bincount(stretches.line, minlength=line_count)
     every = _narrowed(sample, stretches, resolution, counts, estimate)
+    widest = CLUSTERED_WIDTH * resolution.aimed_width
     unsure = np.ones(line_count, dtype=np.bool_)
     while unsure.any():
-        more = _unlike_their_ends(sample, every[unsure[every.line]], counts)
+        more = _unlike_their_ends(sample, every[unsure[every.line]], widest, counts)
         unsure = np.bincount(more.line, minlength=line_count) > 0
         every = Stretches.joined([every, _narrowed(sample, more, resolution, counts, estimate)])
     order = np.lexsort((every.low, every.line))
@@ -220,10 +224,11 @@ def _parts_of_two_cuts(
     return [left, lowest, middle, upper]
 
 
-def _unlike_their_ends(sample: Sampler, found: Stretches, counts: Integers) -> Stretches:
+def _unlike_their_ends(sample: Sampler, found: Stretches, widest: float, counts: Integers) -> Stretches:
     """The parts of every stretch between changes within which the code is sampled to be another than at its ends.
 
-    It is sampled in the middle, and near an end beyond which another change is near, as changes come in clusters.
+    It is sampled in the middle, and near an end beyond which another change is near, as changes come in clusters, no
+    wider than ``widest``.
     """
     order = np.lexsort((found.low, found.line))
     line, low, high = found.line[order], found.low[order], found.high[order]
@@ -249,7 +254,7 @@ def _unlike_their_ends(sample: Sampler, found: Stretches, counts: Integers) -> S
         *unsearched(len(after)),
     )
     gaps = np.concatenate([[np.inf], gap, [np.inf]])
-    which, places = _places_between(whole.low, whole.high, gaps[number], gaps[number + 2])
+    which, places = _places_between(whole.low, whole.high, gaps[number], gaps[number + 2], widest)
     counts += np.bincount(whole.line[which], minlength=len(counts))
     samples = sample(whole.line[which], places)
     unlike = np.unique(which[samples.codes != whole.low_code[which]])
@@ -263,17 +268,19 @@ def _unlike_their_ends(sample: Sampler, found: Stretches, counts: Integers) -> S
     return Stretches.joined(parts)
 
 
-def _places_between(low: Floats, high: Floats, gap_low: Floats, gap_high: Floats) -> tuple[Integers, Floats]:
+def _places_between(
+    low: Floats, high: Floats, gap_low: Floats, gap_high: Floats, widest: float
+) -> tuple[Integers, Floats]:
     """Where stretches between changes are sampled: the stretches' numbers, and places, in order of both.
 
-    ``gap_low`` and ``gap_high`` are the widths of the stretches before and after.
+    ``gap_low`` and ``gap_high`` are the widths of the stretches before and after, ``widest`` that of a cluster.
     """
     half = 0.5 * (high - low)
     number = np.arange(len(low))
     chosen, places = [number], [0.5 * (low + high)]
     for end, gap, sign in ((low, gap_low, 1.0), (high, gap_high, -1.0)):
         for factor in CLUSTER_FACTORS:
-            distance = np.where(gap < CLUSTERED * half, factor * gap, np.inf)
+            distance = np.where(gap < np.minimum(CLUSTERED * half, widest), factor * gap, np.inf)
             inside = distance < half
             chosen.append(number[inside])
             places.append((end + sign * distance)[inside])
