@@ -34,7 +34,7 @@ from threadstate.history.stretches import (
 )
 
 MOST_FAILURES = 4
-"""After so many estimates beside which there was no change a stretch is bisected."""
+"""What still changes after so many estimates is bisected: where codes are random each estimate would find more changes."""
 
 WIDENING = 16.0
 """Ratio of the distances from an estimate that failed at which the next samples are taken."""
@@ -44,7 +44,7 @@ CLUSTERED_WIDTH = 1.0 / 16.0
 """Changes nearer to each other than this share of half the stretch beside them, and than this part of the width down to
 which stretches are bisected, are a cluster."""
 
-CLUSTER_FACTORS = (0.25, 4.0, 64.0, 1024.0)
+CLUSTER_FACTORS = (1.0 / 64.0, 0.25, 4.0, 64.0, 1024.0)
 """Multiples of the distance of such changes at which the stretch beside them is sampled, up to its middle."""
 
 ASIDE = 0.4
@@ -119,6 +119,8 @@ def changes_on_circles(
     unsure = np.ones(line_count, dtype=np.bool_)
     while unsure.any():
         more = _unlike_their_ends(sample, every[unsure[every.line]], widest, counts)
+        # Once only: where codes are random every change that is found would have others beside it.
+        widest = 0.0
         unsure = np.bincount(more.line, minlength=line_count) > 0
         every = Stretches.joined([every, _narrowed(sample, more, resolution, counts, estimate)])
     order = np.lexsort((every.low, every.line))
@@ -217,9 +219,11 @@ def _parts_of_two_cuts(
     whole, first, second = whole[~undecided], first[decided], second[decided]
     before, after = before[decided], after[decided]
     failed = (before.codes == after.codes) & ~(np.nan_to_num(np.abs(after.values - before.values)) > 1.0).any(axis=1)
-    whole.failures = np.where(failed, whole.failures + 1, 0)
+    whole.failures = whole.failures + 1
     lower, upper = parts_of(whole, second, after)
     lowest, middle = parts_of(lower, first, before)
+    # What is left outside changes again, or the estimate failed; what is between may still have to be narrower.
+    middle.failures = np.zeros_like(middle.failures)
     upper.from_low = lowest.from_high = np.where(failed, WIDENING * 0.5 * (second - first), 0.0)
     return [left, lowest, middle, upper]
 
