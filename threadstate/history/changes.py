@@ -34,15 +34,21 @@ from threadstate.history.stretches import (
 )
 
 MOST_FAILURES = 4
-"""What still changes after so many estimates is bisected: where codes are random each estimate would find more changes."""
+"""What still changes after so many estimates is bisected: where codes are random each would find more changes."""
+
+SURE_WIDTHS = 16.0
+"""What still changes after an estimate and is no wider than so many widths of a change is bisected, too: round-off may
+decide there."""
 
 WIDENING = 16.0
 """Ratio of the distances from an estimate that failed at which the next samples are taken."""
 
 CLUSTERED = 0.5
 CLUSTERED_WIDTH = 1.0 / 16.0
+CLUSTERED_LEAST = 4.0
 """Changes nearer to each other than this share of half the stretch beside them, and than this part of the width down to
-which stretches are bisected, are a cluster."""
+which stretches are bisected, are a cluster; nearer than this many widths of a change round-off may decide where they
+are."""
 
 CLUSTER_FACTORS = (1.0 / 64.0, 0.25, 4.0, 64.0, 1024.0)
 """Multiples of the distance of such changes at which the stretch beside them is sampled, up to its middle."""
@@ -115,12 +121,12 @@ def changes_on_circles(
     stretches = _start(sample, line_count, period, resolution.step)
     counts = np.bincount(stretches.line, minlength=line_count)
     every = _narrowed(sample, stretches, resolution, counts, estimate)
-    widest = CLUSTERED_WIDTH * resolution.aimed_width
+    cluster = (CLUSTERED_LEAST * resolution.width, CLUSTERED_WIDTH * resolution.aimed_width)
     unsure = np.ones(line_count, dtype=np.bool_)
     while unsure.any():
-        more = _unlike_their_ends(sample, every[unsure[every.line]], widest, counts)
+        more = _unlike_their_ends(sample, every[unsure[every.line]], cluster, counts)
         # Once only: where codes are random every change that is found would have others beside it.
-        widest = 0.0
+        cluster = (0.0, 0.0)
         unsure = np.bincount(more.line, minlength=line_count) > 0
         every = Stretches.joined([every, _narrowed(sample, more, resolution, counts, estimate)])
     order = np.lexsort((every.low, every.line))
@@ -168,6 +174,7 @@ def _places_to_cut(wide: Stretches, resolution: Resolution, estimate: Estimator 
     second = np.full_like(first, np.nan)
     decided = (wide.low_code != UNDECIDED_CODE) & (wide.high_code != UNDECIDED_CODE)
     decided &= 2.0 * half <= resolution.aimed_width
+    decided &= (wide.failures == 0) | (2.0 * half > SURE_WIDTHS * resolution.width)
     aimed = np.flatnonzero(decided & (wide.failures < MOST_FAILURES) & (wide.from_low == 0.0) & (wide.from_high == 0.0))
     if estimate is None or not len(aimed):
         return first, second
@@ -228,11 +235,11 @@ def _parts_of_two_cuts(
     return [left, lowest, middle, upper]
 
 
-def _unlike_their_ends(sample: Sampler, found: Stretches, widest: float, counts: Integers) -> Stretches:
+def _unlike_their_ends(sample: Sampler, found: Stretches, cluster: tuple[float, float], counts: Integers) -> Stretches:
     """The parts of every stretch between changes within which the code is sampled to be another than at its ends.
 
-    It is sampled in the middle, and near an end beyond which another change is near, as changes come in clusters, no
-    wider than ``widest``.
+    It is sampled in the middle, and near an end beyond which another change is near, as changes come in clusters;
+    ``cluster`` are the least and the largest distance of changes that are one.
     """
     order = np.lexsort((found.low, found.line))
     line, low, high = found.line[order], found.low[order], found.high[order]
@@ -258,7 +265,7 @@ def _unlike_their_ends(sample: Sampler, found: Stretches, widest: float, counts:
         *unsearched(len(after)),
     )
     gaps = np.concatenate([[np.inf], gap, [np.inf]])
-    which, places = _places_between(whole.low, whole.high, gaps[number], gaps[number + 2], widest)
+    which, places = _places_between(whole.low, whole.high, gaps[number], gaps[number + 2], cluster)
     counts += np.bincount(whole.line[which], minlength=len(counts))
     samples = sample(whole.line[which], places)
     unlike = np.unique(which[samples.codes != whole.low_code[which]])
@@ -273,19 +280,21 @@ def _unlike_their_ends(sample: Sampler, found: Stretches, widest: float, counts:
 
 
 def _places_between(
-    low: Floats, high: Floats, gap_low: Floats, gap_high: Floats, widest: float
+    low: Floats, high: Floats, gap_low: Floats, gap_high: Floats, cluster: tuple[float, float]
 ) -> tuple[Integers, Floats]:
     """Where stretches between changes are sampled: the stretches' numbers, and places, in order of both.
 
-    ``gap_low`` and ``gap_high`` are the widths of the stretches before and after, ``widest`` that of a cluster.
+    ``gap_low`` and ``gap_high`` are the widths of the stretches before and after, ``cluster`` is the range of those of
+    a cluster.
     """
+    least, widest = cluster
     half = 0.5 * (high - low)
     number = np.arange(len(low))
     chosen, places = [number], [0.5 * (low + high)]
     for end, gap, sign in ((low, gap_low, 1.0), (high, gap_high, -1.0)):
         for factor in CLUSTER_FACTORS:
-            distance = np.where(gap < np.minimum(CLUSTERED * half, widest), factor * gap, np.inf)
-            inside = distance < half
+            distance = np.where((least < gap) & (gap < np.minimum(CLUSTERED * half, widest)), factor * gap, np.inf)
+            inside = (least < distance) & (distance < half)
             chosen.append(number[inside])
             places.append((end + sign * distance)[inside])
     which, where = np.concatenate(chosen), np.concatenate(places)
