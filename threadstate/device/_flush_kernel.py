@@ -1,0 +1,184 @@
+"""The level pose in which the bolt's base lies flush on the nut's surface, and whether a push holds it there.
+
+The base is level and at height 0, so that nothing overlaps. Pressure on the patch balances any moment about a
+horizontal axis whose centre lies within the patch's convex hull: there is one level pose that a device leaves in
+equilibrium, and it is stable where the centre of pressure is inside.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import TWO_PI
+from threadstate.device._chart_kernel import (
+    COORDINATES,
+    D_CENTRE,
+    D_PLACE,
+    D_RIGID,
+    D_ROTATION,
+    D_STIFFNESS,
+    N_CENTRE,
+    N_JACOBIAN,
+    N_OFFSET,
+    N_ROTATION,
+    PLACE_SIZE,
+    elastic_energy,
+    set_place,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+NEARLY_LEVEL = 5e-3
+"""Tilt (rad) below which a bolt on the nut's surface may be laid flush."""
+
+NEAR_SURFACE = 2e-2
+"""How far from the nut's surface its origin may be then, in nominal radii."""
+
+OUTLINE_SAMPLES = 360
+DIRECTIONS = 180
+
+
+@kernel()
+def set_flush(device: Array, q: Array) -> bool:
+    """Sets the coordinates of the level pose of a device on the nut's surface; False where its twist is not at rest.
+
+    The rotation vector is the shortest that levels the bolt; lateral forces of the device are zero.
+    """
+    # The nut's axis in the commanded bolt's frame is where the bolt's axis has to go.
+    ux, uy, uz = device[D_ROTATION + 6], device[D_ROTATION + 7], device[D_ROTATION + 8]
+    across = math.hypot(ux, uy)
+    angle = math.atan2(across, uz)
+    q[0] = -uy / across * angle if across > 0.0 else 0.0
+    q[1] = ux / across * angle if across > 0.0 else 0.0
+    q[2] = 0.0
+    k = device[D_STIFFNESS:]
+    # Lateral equilibrium: K_ll s = -K_lr e - K_lz s_z, where the base is at height 0.
+    sz = device[D_CENTRE] - device[D_PLACE + 2]
+    bx = -(k[18] * q[0] + k[19] * q[1] + k[23] * sz)
+    by = -(k[24] * q[0] + k[25] * q[1] + k[29] * sz)
+    determinant = k[21] * k[28] - k[22] * k[27]
+    if not determinant > 0.0:
+        return False
+    q[3] = device[D_PLACE] + (bx * k[28] - by * k[22]) / determinant
+    q[4] = device[D_PLACE + 1] + (by * k[21] - bx * k[27]) / determinant
+    q[5] = device[D_CENTRE]
+    return True
+
+
+@kernel()
+def centre_of_pressure(q: Array, push: float, place: Array, device: Array) -> tuple[float, float, float, float]:
+    """Where the surface's force acts in the level pose (x, y), its size, and the moment about z that nothing
+    balances.
+    """
+    by_q = np.empty(COORDINATES)
+    elastic_energy(q, device, by_q)
+    jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
+    m = place[N_ROTATION : N_ROTATION + 9]
+    # J^-T of the gradient by e is the gradient by a turn in the bolt's axes; the third may have a reaction.
+    a = np.empty((3, 3))
+    for i in range(3):
+        for j in range(3):
+            a[i, j] = jacobian[3 * j + i]
+    moments = np.empty((2, 3))
+    determinant = (
+        a[0, 0] * (a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1])
+        - a[0, 1] * (a[1, 0] * a[2, 2] - a[1, 2] * a[2, 0])
+        + a[0, 2] * (a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0])
+    )
+    for case in range(2):
+        b = np.zeros(3)
+        if case == 0:
+            for i in range(3):
+                b[i] = -by_q[i]
+        else:
+            b[2] = 1.0
+        w = np.empty(3)
+        w[0] = (
+            b[0] * (a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1])
+            - a[0, 1] * (b[1] * a[2, 2] - a[1, 2] * b[2])
+            + a[0, 2] * (b[1] * a[2, 1] - a[1, 1] * b[2])
+        ) / determinant
+        w[1] = (
+            a[0, 0] * (b[1] * a[2, 2] - a[1, 2] * b[2])
+            - b[0] * (a[1, 0] * a[2, 2] - a[1, 2] * a[2, 0])
+            + a[0, 2] * (a[1, 0] * b[2] - b[1] * a[2, 0])
+        ) / determinant
+        w[2] = (
+            a[0, 0] * (a[1, 1] * b[2] - b[1] * a[2, 1])
+            - a[0, 1] * (a[1, 0] * b[2] - b[1] * a[2, 0])
+            + b[0] * (a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0])
+        ) / determinant
+        for i in range(3):
+            moments[case, i] = m[3 * i] * w[0] + m[3 * i + 1] * w[1] + m[3 * i + 2] * w[2]
+    rest = moments[0, 2]
+    mx, my = moments[0, 0], moments[0, 1]
+    if device[D_RIGID] > 0.0:
+        reaction = -moments[0, 2] / moments[1, 2]
+        mx += reaction * moments[1, 0]
+        my += reaction * moments[1, 1]
+        rest = 0.0
+    force = push + by_q[5]
+    return place[N_CENTRE] + my / force, place[N_CENTRE + 1] - mx / force, force, rest
+
+
+@kernel()
+def outline(i: int, place: Array, bolt: Array, nut: Array) -> tuple[bool, float, float]:
+    """A sample of both outlines: whether it lies in the patch, and where. The first are the bolt's, then the nut's."""
+    k = bolt[pk.LEAD] / TWO_PI
+    theta = TWO_PI * (i % OUTLINE_SAMPLES) / OUTLINE_SAMPLES
+    m = place[N_ROTATION : N_ROTATION + 9]
+    if i < OUTLINE_SAMPLES:
+        r = pk.radius(-k * theta, bolt)
+        bx, by = r * math.cos(theta), r * math.sin(theta)
+        x = m[0] * bx + m[1] * by + place[N_OFFSET]
+        y = m[3] * bx + m[4] * by + place[N_OFFSET + 1]
+        return math.hypot(x, y) >= pk.radius(-k * math.atan2(y, x), nut), x, y
+    r = pk.radius(-k * theta, nut)
+    x, y = r * math.cos(theta), r * math.sin(theta)
+    dx, dy = x - place[N_OFFSET], y - place[N_OFFSET + 1]
+    bx, by = m[0] * dx + m[3] * dy, m[1] * dx + m[4] * dy
+    return math.hypot(bx, by) <= pk.radius(-k * math.atan2(by, bx), bolt), x, y
+
+
+@kernel()
+def pressure_margin(x: float, y: float, place: Array, bolt: Array, nut: Array) -> float:
+    """How far a point is inside the patch's convex hull, from samples of its outline; negative: outside."""
+    support = np.full(DIRECTIONS, -math.inf)
+    for i in range(2 * OUTLINE_SAMPLES):
+        is_inside, px, py = outline(i, place, bolt, nut)
+        if is_inside:
+            for j in range(DIRECTIONS):
+                angle = TWO_PI * j / DIRECTIONS
+                support[j] = max(support[j], (px - x) * math.cos(angle) + (py - y) * math.sin(angle))
+    least = math.inf
+    for j in range(DIRECTIONS):
+        least = min(least, support[j])
+    return least
+
+
+@kernel()
+def flush_is_reached(q: Array, push: float, place: Array, device: Array, bolt: Array, nut: Array) -> bool:
+    """Whether the bolt, nearly level on the nut's surface, goes on to lie flush: stable, and at a lower potential."""
+    if math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) > NEARLY_LEVEL:
+        return False
+    if abs(place[N_OFFSET + 2]) > NEAR_SURFACE * bolt[pk.R_MAJOR]:
+        return False
+    level = np.empty(COORDINATES)
+    if not set_flush(device, level):
+        return False
+    by_q = np.empty(COORDINATES)
+    before = elastic_energy(q, device, by_q) + push * q[5]
+    after = elastic_energy(level, device, by_q) + push * level[5]
+    if after > before:
+        return False
+    level_place = np.empty(PLACE_SIZE)
+    set_place(level, device, level_place)
+    x, y, force, rest = centre_of_pressure(level, push, level_place, device)
+    if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
+        return False
+    return pressure_margin(x, y, level_place, bolt, nut) > 0.0

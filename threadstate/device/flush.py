@@ -1,0 +1,106 @@
+"""A bolt that lies flush on the nut's surface: its pose, and forces at points of the patch that balance the push."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.device import _chart_kernel as ck
+from threadstate.device import _flush_kernel as fk
+from threadstate.device.equilibrium import balance
+from threadstate.device.model import Device, LoadedContact
+from threadstate.state.model import FeaturePair
+from threadstate.thread.pair import Pair
+
+Floats = NDArray[np.float64]
+
+
+def level_numbers(numbers: Floats) -> tuple[Floats, Floats]:
+    """The coordinates of the level pose of a device, and its rotation by rows and translation."""
+    q = np.empty(ck.COORDINATES)
+    place = np.empty(ck.PLACE_SIZE)
+    fk.set_flush(numbers, q)
+    ck.set_place(q, numbers, place)
+    # The base is level there: what differs from that is round-off.
+    pose = place[:12].copy()
+    pose[[2, 5, 6, 7]], pose[8], pose[11] = 0.0, 1.0, 0.0
+    return q, pose
+
+
+def flush_contacts(
+    pair: Pair, device: Device, numbers: Floats, q: Floats, pose: Floats
+) -> tuple[tuple[LoadedContact, ...], float | None, float]:
+    """Points of the patch's hull with the forces there, the margin of the centre of pressure in it, and the residual.
+
+    The margin is None where there is no patch. The forces are those of three extreme points about the centre of
+    pressure; any others on the patch with the same sum and moment balance the push as well.
+    """
+    place = np.empty(ck.PLACE_SIZE)
+    ck.set_place(q, numbers, place)
+    x, y, force, _ = fk.centre_of_pressure(q, device.push, place, numbers)
+    points = patch_points(pair, place)
+    if len(points) < 3:
+        return (), None, math.inf
+    hull = convex_hull(points)
+    margin = hull_margin(hull, x, y)
+    if not margin > 0.0 or not force > 0.0:
+        return (), margin, math.inf
+    corners, shares = triangle_about(hull, x, y)
+    contacts = tuple(
+        LoadedContact((float(px), float(py), 0.0), (0.0, 0.0, 1.0), FeaturePair.FLUSH, (0.0, 0.0, float(share * force)))
+        for (px, py), share in zip(corners, shares, strict=True)
+    )
+    return contacts, margin, balance(pair, device, q, pose, numbers, contacts)
+
+
+def patch_points(pair: Pair, place: Floats) -> Floats:
+    """Samples of both outlines that lie in the patch, shape (n, 2)."""
+    samples = [fk.outline(i, place, pair.bolt.packed, pair.nut.packed) for i in range(2 * fk.OUTLINE_SAMPLES)]
+    return np.array([(x, y) for is_inside, x, y in samples if is_inside]).reshape(-1, 2)
+
+
+def convex_hull(points: Floats) -> Floats:
+    """The corners of the convex hull of points of the plane, counter-clockwise (monotone chains)."""
+    ordered = sorted(map(tuple, points.tolist()))
+    chains = []
+    for sequence in (ordered, ordered[::-1]):
+        chain: list[tuple[float, ...]] = []
+        for point in sequence:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0.0:
+                chain.pop()
+            chain.append(point)
+        chains += chain[:-1]
+    return np.array(chains)
+
+
+def hull_margin(hull: Floats, x: float, y: float) -> float:
+    """How far a point is inside a convex polygon; negative: outside."""
+    edges = np.roll(hull, -1, axis=0) - hull
+    to_point = np.array([x, y]) - hull
+    heights = (edges[:, 0] * to_point[:, 1] - edges[:, 1] * to_point[:, 0]) / np.linalg.norm(edges, axis=1)
+    return float(heights.min())
+
+
+def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:
+    """Three corners of a convex polygon about a point inside it, and the point's barycentric coordinates.
+
+    They are one corner, the farthest from the point, and the ends of the side that the ray from it through the point
+    leaves by.
+    """
+    point = np.array([x, y])
+    first = int(np.argmax(np.linalg.norm(hull - point, axis=1)))
+    best: tuple[float, int, Floats] = (-math.inf, 0, np.zeros(3))
+    count = len(hull)
+    for i in range(1, count - 1):
+        corners = hull[[first, (first + i) % count, (first + i + 1) % count]]
+        shares = np.linalg.solve(np.vstack([corners.T, np.ones(3)]), [x, y, 1.0])
+        if shares.min() > best[0]:
+            best = (float(shares.min()), i, shares)
+    i = best[1]
+    return hull[[first, (first + i) % count, (first + i + 1) % count]], best[2]
+
+
+def _turn(a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
