@@ -41,6 +41,7 @@ NEAR_SURFACE = 2e-2
 
 OUTLINE_SAMPLES = 360
 DIRECTIONS = 180
+"""Samples of each outline, and directions in which their convex hull is taken."""
 
 
 @kernel()
@@ -146,19 +147,62 @@ def outline(i: int, place: Array, bolt: Array, nut: Array) -> tuple[bool, float,
 
 
 @kernel()
-def pressure_margin(x: float, y: float, place: Array, bolt: Array, nut: Array) -> float:
-    """How far a point is inside the patch's convex hull, from samples of its outline; negative: outside."""
-    support = np.full(DIRECTIONS, -math.inf)
+def set_supports(place: Array, bolt: Array, nut: Array, supports: Array) -> None:
+    """Sets how far the patch reaches in each direction, from samples of its outline: its convex hull."""
+    points = np.empty((2 * OUTLINE_SAMPLES, 2))
+    count = 0
     for i in range(2 * OUTLINE_SAMPLES):
-        is_inside, px, py = outline(i, place, bolt, nut)
+        is_inside, x, y = outline(i, place, bolt, nut)
         if is_inside:
-            for j in range(DIRECTIONS):
-                angle = TWO_PI * j / DIRECTIONS
-                support[j] = max(support[j], (px - x) * math.cos(angle) + (py - y) * math.sin(angle))
-    least = math.inf
+            points[count, 0] = x
+            points[count, 1] = y
+            count += 1
     for j in range(DIRECTIONS):
-        least = min(least, support[j])
-    return least
+        angle = TWO_PI * j / DIRECTIONS
+        c, s = math.cos(angle), math.sin(angle)
+        farthest = -math.inf
+        for i in range(count):
+            farthest = max(farthest, c * points[i, 0] + s * points[i, 1])
+        supports[j] = farthest
+
+
+@kernel()
+def flush_until(push: float, device: Array, bolt: Array, nut: Array, level: Array) -> tuple[float, float]:
+    """The push up to which the level pose is stable, from ``push`` on, and the direction (rad) in which the bolt tips.
+
+    Infinite where it stays stable, 0 where it is not at ``push``. Sets the level coordinates. As the push grows the
+    centre of pressure goes straight to where the push alone would have it: it leaves the hull at most once.
+    """
+    if not set_flush(device, level):
+        return 0.0, 0.0
+    place = np.empty(PLACE_SIZE)
+    supports = np.empty(DIRECTIONS)
+    set_place(level, device, place)
+    x, y, force, rest = centre_of_pressure(level, push, place, device)
+    if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
+        return 0.0, 0.0
+    set_supports(place, bolt, nut, supports)
+    until, direction = math.inf, 0.0
+    for j in range(DIRECTIONS):
+        angle = TWO_PI * j / DIRECTIONS
+        c, s = math.cos(angle), math.sin(angle)
+        if not supports[j] - c * x - s * y > 0.0:
+            return 0.0, angle
+        # Inside while supports - centre > moment / force, along this direction.
+        room = supports[j] - c * place[N_CENTRE] - s * place[N_CENTRE + 1]
+        moment = (c * (x - place[N_CENTRE]) + s * (y - place[N_CENTRE + 1])) * force
+        if room < 0.0 and moment / room - force + push < until:
+            until, direction = moment / room - force + push, angle
+    return until, direction
+
+
+@kernel()
+def tip_over(direction: float, angle: float, place: Array, q: Array) -> None:
+    """Tips a level bolt by a small angle such that it sinks in a direction."""
+    m = place[N_ROTATION : N_ROTATION + 9]
+    x, y = -math.sin(direction) * angle, math.cos(direction) * angle
+    for i in range(2):
+        q[i] += m[i] * x + m[3 + i] * y
 
 
 @kernel()
@@ -176,9 +220,5 @@ def flush_is_reached(q: Array, push: float, place: Array, device: Array, bolt: A
     after = elastic_energy(level, device, by_q) + push * level[5]
     if after > before:
         return False
-    level_place = np.empty(PLACE_SIZE)
-    set_place(level, device, level_place)
-    x, y, force, rest = centre_of_pressure(level, push, level_place, device)
-    if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
-        return False
-    return pressure_margin(x, y, level_place, bolt, nut) > 0.0
+    until, _ = flush_until(push, device, bolt, nut, level)
+    return until > push

@@ -42,8 +42,8 @@ AT_REST, TOO_FAR, UNSETTLED, FLUSH, SLIPPED, DEEP, TILTED = range(7)
 nut's surface; beside the nut; deeper in the nut than the parts are modelled; tilted by more than the flanks, where the
 bolt's thread can meet the nut's surface."""
 
-TOUCHING = 1e-8
-"""Gap (nominal radii) up to which a place counts as a contact while multipliers are estimated."""
+NEAR = 1e-3
+"""How far (nominal radii) the push alone would take the bolt in the step from which multipliers are estimated."""
 
 MAX_WAYS_OUT = 8
 MAX_SHORTENINGS = 40
@@ -227,14 +227,22 @@ def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, grad
 
 
 @kernel()
-def projected_descent(n: int, count: int, work: Work) -> float:
-    """The size of the steepest descent over the feasible motions; sets the multipliers of places that touch.
+def short_descent(n: int, count: int, push: float, r: float, work: Work) -> float:
+    """The size of a short step of the steepest descent over the feasible motions; sets the contacts' multipliers.
 
-    It is zero at an equilibrium. Metric, its factor, gradient, normals and limits are set.
+    The size is a force: it is that of the gradient where nothing is near, and zero at an equilibrium alone. Metric, its
+    factor, gradient, normals and limits are set.
     """
     _, normals, limits, _, program, active, _, _, metric, metric_factor, gradient, step, _, _, _, multipliers = work
+    stiffness = push / (NEAR * r)
+    for i in range(n):
+        gradient[i] /= stiffness
     solve_program(n, metric_factor, gradient, count, normals, limits, 0.0, program, active, step, multipliers)
-    return length_of(n, step, metric)
+    for i in range(n):
+        gradient[i] *= stiffness
+    for i in range(count):
+        multipliers[i] *= stiffness
+    return stiffness * length_of(n, step, metric)
 
 
 @kernel()
@@ -300,7 +308,6 @@ def descend(
     start = q.copy()
     by_q = np.empty(COORDINATES)
     moved = np.empty(COORDINATES)
-    short = np.empty(MAX_PLACES)
     count, is_out = way_out(q, 3.0 * longest_step, overlap_left, device, bolt, nut, threads, work)
     if not is_out:
         return UNSETTLED, count
@@ -316,13 +323,7 @@ def descend(
             return UNSETTLED, count
         potential = set_gradient(n, q, push, device, by_q, gradient)
         set_constraints(n, count, places, device, normals, limits)
-        # Contacts alone, for the multipliers and the size of the descent.
-        for i in range(count):
-            short[i] = limits[i]
-            limits[i] = 0.0 if limits[i] < TOUCHING * r else math.inf
-        size = projected_descent(n, count, work)
-        for i in range(count):
-            limits[i] = short[i]
+        size = short_descent(n, count, push, r, work)
         if size <= tolerance * push:
             return AT_REST, count
         set_model(n, count, device, STIFFENING * stiffness, work)
@@ -361,12 +362,7 @@ def descend(
             cholesky(metric, n, metric_factor)
             set_gradient(n, q, push, device, by_q, gradient)
             set_constraints(n, count, places, device, normals, limits)
-            for i in range(count):
-                short[i] = limits[i]
-                limits[i] = 0.0 if limits[i] < TOUCHING * r else math.inf
-            projected_descent(n, count, work)
-            for i in range(count):
-                limits[i] = short[i]
+            short_descent(n, count, push, r, work)
             set_model(n, count, device, STIFFENING * stiffness, work)
         if not accepted:
             return UNSETTLED, count

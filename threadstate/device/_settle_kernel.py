@@ -22,10 +22,23 @@ from threadstate.device._chart_kernel import (
     elastic_energy,
     set_place,
 )
-from threadstate.device._flush_kernel import set_flush
+from threadstate.device._flush_kernel import flush_until, set_flush, tip_over
 from threadstate.device._gap_kernel import G_VALUE
 from threadstate.device._places_kernel import Threads, new_threads
-from threadstate.device._rest_kernel import AT_REST, FLUSH, TOO_FAR, UNSETTLED, Work, descend, new_work
+from threadstate.device._rest_kernel import (
+    AT_REST,
+    FLUSH,
+    TOO_FAR,
+    UNSETTLED,
+    Work,
+    coordinate,
+    descend,
+    free_coordinates,
+    length_of,
+    new_work,
+    scale,
+    set_metric,
+)
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -43,10 +56,13 @@ FALL_STEP = 5e-3
 """The longest step of a fall, in nominal radii."""
 
 STEPS, FALL_STEPS, LAST_STEPS = 30, 1000, 60
-PATH_TOLERANCE, END_TOLERANCE = 1e-7, 1e-11
-PATH_OVERLAP, END_OVERLAP = 1e-10, 1e-14
+PATH_TOLERANCE, END_TOLERANCE = 1e-7, 1e-10
+PATH_OVERLAP, END_OVERLAP = 1e-11, 1e-14
 """Size of the projected descent over the push at which the bolt counts as at rest on the way, and at the end; overlap
 (nominal radii) that is left there."""
+
+TIP = 1e-6
+"""How far (rad) a flush bolt is tipped where its patch no longer carries the push."""
 
 MAX_FALLS = 16
 MAX_PATH = 256
@@ -125,8 +141,24 @@ def add_point(q: Array, push: float, device: Array, path: Array, result: Array) 
 
 
 @kernel()
+def distance(q: Array, other: Array, device: Array) -> float:
+    """How far apart two places of the bolt are, in the metric at the first."""
+    n = free_coordinates(device)
+    place = np.empty(PLACE_SIZE)
+    metric = np.empty((COORDINATES, COORDINATES))
+    step = np.empty(COORDINATES)
+    set_place(q, device, place)
+    set_metric(n, place, device, metric)
+    for i in range(n):
+        j = coordinate(i, device)
+        step[i] = (other[j] - q[j]) * scale(j, device)
+    return length_of(n, step, metric)
+
+
+@kernel()
 def follow_push(
     q: Array,
+    tip: Array,
     push: float,
     device: Array,
     bolt: Array,
@@ -137,16 +169,22 @@ def follow_push(
     falls: Array,
     path: Array,
 ) -> None:
-    """Follows the bolt from ``q``, in place, while the push grows from 0 to ``push``; sets result, falls and path."""
+    """Follows the bolt from ``q``, in place, while the push grows from 0 to ``push``; sets result, falls and path.
+
+    ``tip`` is added to its rotation vector first: a level bolt, which touches along a patch, leaves it that way.
+    """
     r = bolt[pk.R_MAJOR]
     result[R_FALLS] = 0
     result[R_PATH] = 0
     result[R_PLACES] = 0
     result[R_PUSH] = 0.0
     trial = np.empty(COORDINATES)
+    place = np.empty(PLACE_SIZE)
     reached = 0.0
     part = FIRST_PART
     add_point(q, 0.0, device, path, result)
+    for i in range(3):
+        q[i] += tip[i]
     while reached < push:
         target = min(push, reached + part * push)
         copy_numbers(q, trial)
@@ -183,24 +221,39 @@ def follow_push(
                 threads,
                 work,
             )
-            count = int(result[R_FALLS])
-            if count == MAX_FALLS:
-                result[R_STATUS] = UNSETTLED
-                return
             if status == FLUSH:
                 set_flush(device, trial)
-            falls[count, F_PUSH] = target
-            gradient = np.empty(COORDINATES)
-            falls[count, F_POTENTIAL] = elastic_energy(q, device, gradient) + target * q[5]
-            falls[count, F_POTENTIAL + 1] = elastic_energy(trial, device, gradient) + target * trial[5]
-            for j in range(COORDINATES):
-                falls[count, F_BEFORE + j] = q[j]
-                falls[count, F_AFTER + j] = trial[j]
-            result[R_FALLS] = count + 1
+            if distance(q, trial, device) > STEP_LENGTH * r:
+                count = int(result[R_FALLS])
+                if count == MAX_FALLS:
+                    result[R_STATUS] = UNSETTLED
+                    return
+                falls[count, F_PUSH] = target
+                gradient = np.empty(COORDINATES)
+                falls[count, F_POTENTIAL] = elastic_energy(q, device, gradient) + target * q[5]
+                falls[count, F_POTENTIAL + 1] = elastic_energy(trial, device, gradient) + target * trial[5]
+                for j in range(COORDINATES):
+                    falls[count, F_BEFORE + j] = q[j]
+                    falls[count, F_AFTER + j] = trial[j]
+                result[R_FALLS] = count + 1
             part = FIRST_PART
         result[R_PUSH] = target
         if status == FLUSH:
-            set_flush(device, trial)
+            until, direction = flush_until(target, device, bolt, nut, trial)
+            copy_numbers(trial, q)
+            add_point(q, target, device, path, result)
+            if until >= push:
+                result[R_STATUS] = FLUSH
+                result[R_PUSH] = push
+                add_point(q, push, device, path, result)
+                return
+            # The centre of pressure leaves the patch: the bolt tips over the side where it does.
+            reached = max(until, target)
+            add_point(q, reached, device, path, result)
+            set_place(q, device, place)
+            tip_over(direction, TIP, place, q)
+            part = FIRST_PART
+            continue
         copy_numbers(trial, q)
         if status != AT_REST:
             result[R_STATUS] = status
@@ -223,8 +276,6 @@ def follow_push(
         threads,
         work,
     )
-    if status == FLUSH:
-        set_flush(device, q)
     result[R_STATUS] = status
     result[R_PLACES] = count
     add_point(q, push, device, path, result)
@@ -233,22 +284,26 @@ def follow_push(
 def settle_rows(
     rotations: Array,
     heights: Array,
+    tips: Array,
     push: float,
     device: Array,
     bolt: Array,
     nut: Array,
     rows: Rows,
 ) -> None:
-    """Settles commands: rotations of shape (n, 9) by rows, heights of the first contact (NaN: to be found), into
-    rows.
+    """Settles commands into rows: rotations of shape (n, 9), heights of shape (n,), tips of shape (n, 3).
+
+    A height is that of the first contact, NaN: to be found. A tip is a rotation vector in the commanded bolt's axes,
+    zero but of a level bolt (``follow_push``).
     """
-    settle_with(rotations, heights, push, device, bolt, nut, search_address(), rows)
+    settle_with(rotations, heights, tips, push, device, bolt, nut, search_address(), rows)
 
 
 @kernel(nogil=True)
 def settle_with(
     rotations: Array,
     heights: Array,
+    tips: Array,
     push: float,
     device: Array,
     bolt: Array,
@@ -274,7 +329,7 @@ def settle_with(
         if not is_certain:
             results[i, R_STATUS] = NO_FIRST_CONTACT
             continue
-        follow_push(q, push, device, bolt, nut, threads, work, results[i], falls[i], paths[i])
+        follow_push(q, tips[i], push, device, bolt, nut, threads, work, results[i], falls[i], paths[i])
         copy_numbers(q, ends[i])
         set_place(q, device, place)
         copy_numbers(place[0:12], placements[i])

@@ -1,4 +1,4 @@
-"""A bolt that lies flush on the nut's surface: its pose, and forces at points of the patch that balance the push."""
+"""A bolt that lies flush on the nut: how it begins there, its pose, and forces on the patch that balance the push."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from threadstate.contact.level import level_contact, strip_extremes
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _flush_kernel as fk
 from threadstate.device.equilibrium import balance
@@ -15,6 +16,38 @@ from threadstate.state.model import FeaturePair
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
+
+
+LEAST_SHARE = 1e-12
+"""A corner of the hull that carries less of the force than this carries none: the others are in line with it."""
+
+TIP = 1e-6
+"""How far (rad) a level bolt that its patch does not support is tipped, so that it touches at points."""
+
+
+def level_start(pair: Pair, phase_deg: float, command: Floats) -> tuple[float, Floats]:
+    """The height of a level bolt at its first contact, and the rotation vector by which a small push tips it.
+
+    It touches along a patch of the surface, or along a strip of flank. Where the bolt's axis is inside the hull of the
+    patch it stays, and the vector is zero; else it tips over the nearest side of the hull, or away from the strip.
+    """
+    contact = level_contact(pair, math.radians(phase_deg))
+    if contact.on_thread:
+        points = np.array(strip_extremes(pair, contact.height))[:, :2]
+    else:
+        place = np.zeros(ck.PLACE_SIZE)
+        place[:9] = command
+        points = patch_points(pair, place)
+    away = -points.mean(axis=0) if len(points) else np.array([1.0, 0.0])
+    if not contact.on_thread and len(points) > 2:
+        hull = convex_hull(points)
+        if hull_margin(hull, 0.0, 0.0) >= 0.0:
+            return contact.height, np.zeros(3)
+        edges = np.roll(hull, -1, axis=0) - hull
+        outward = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
+        away = outward[int(np.argmax(-(outward * hull).sum(axis=1)))]
+    x, y = away / np.linalg.norm(away)
+    return contact.height, np.asarray(command.reshape(3, 3).T @ np.array([-y, x, 0.0]) * TIP)
 
 
 def level_numbers(numbers: Floats) -> tuple[Floats, Floats]:
@@ -51,6 +84,7 @@ def flush_contacts(
     contacts = tuple(
         LoadedContact((float(px), float(py), 0.0), (0.0, 0.0, 1.0), FeaturePair.FLUSH, (0.0, 0.0, float(share * force)))
         for (px, py), share in zip(corners, shares, strict=True)
+        if share > LEAST_SHARE
     )
     return contacts, margin, balance(pair, device, q, pose, numbers, contacts)
 

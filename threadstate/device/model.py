@@ -172,8 +172,6 @@ class SettledFlag(StrEnum):
     """The bolt went deeper into the nut than the parts are modelled, one thread pitch."""
     FIRST_CONTACT = "first_contact"
     """The search for the first contact could not exclude all its boxes."""
-    LEVEL_IN_PHASE = "level_in_phase"
-    """The commanded bolt is level and in phase: it touches along a strip of flank, which is not followed."""
     OVERLAP = "overlap"
     """An overlap at the end could not be excluded."""
     TILTED = "tilted"

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from threadstate.contact._stage_kernel import rotation
-from threadstate.contact.level import level_contact
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _gap_kernel as gk
 from threadstate.device import _rest_kernel as rest
@@ -16,7 +15,7 @@ from threadstate.device import _settle_kernel as sk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device._places_kernel import MAX_PLACES
 from threadstate.device.equilibrium import balance, stability
-from threadstate.device.flush import flush_contacts, level_numbers
+from threadstate.device.flush import flush_contacts, level_numbers, level_start
 from threadstate.device.model import (
     About,
     Device,
@@ -96,27 +95,32 @@ def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, 
     numbers = device_numbers(pair, held)
     rotations = np.empty((len(wanted), 9))
     heights = np.full(len(wanted), math.nan)
-    in_phase = np.zeros(len(wanted), dtype=bool)
+    tips = np.zeros((len(wanted), 3))
+    is_flush = np.zeros(len(wanted), dtype=bool)
     for i, (roll_deg, pitch_deg, phase_deg) in enumerate(wanted):
         rotations[i] = commanded_rotation(roll_deg, pitch_deg, phase_deg, held.about)
         if abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG:
-            contact = level_contact(pair, math.radians(phase_deg))
-            heights[i] = contact.height
-            in_phase[i] = contact.on_thread
-    tilted = np.isnan(heights)
+            heights[i], tips[i] = level_start(pair, phase_deg, rotations[i])
+            is_flush[i] = not tips[i].any()
     rows = new_rows(len(wanted))
-    chosen = np.flatnonzero(tilted)
+    chosen = np.flatnonzero(~is_flush)
     part = new_rows(len(chosen))
     sk.settle_rows(
-        rotations[chosen], heights[chosen], held.push, numbers.copy(), pair.bolt.packed, pair.nut.packed, part
+        rotations[chosen],
+        heights[chosen],
+        tips[chosen],
+        held.push,
+        numbers.copy(),
+        pair.bolt.packed,
+        pair.nut.packed,
+        part,
     )
     for whole, some in zip(rows, part, strict=True):
         whole[chosen] = some
+    rows[0][is_flush, sk.R_STATUS] = rest.FLUSH
+    rows[0][is_flush, sk.R_HEIGHT] = heights[is_flush]
     return [
-        _state(
-            pair, held, numbers, wanted[i], rotations[i], heights[i], bool(in_phase[i]), tuple(row[i] for row in rows)
-        )
-        for i in range(len(wanted))
+        _state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows)) for i in range(len(wanted))
     ]
 
 
@@ -179,16 +183,13 @@ def _state(
     numbers: Floats,
     pose_deg: Floats,
     command: Floats,
-    level_height: float,
-    in_phase: bool,
     row: tuple[Floats, ...],
 ) -> SettledState:
-    """The state of a pose from its row; a level pose has none, its height instead."""
+    """The state of a pose from its row."""
     result, end, placement, places, multipliers, falls, path = row
     roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
     numbers = numbers.copy()
-    is_level = not math.isnan(level_height)
-    sk.set_command(command, level_height if is_level else result[sk.R_HEIGHT], numbers, np.empty(ck.COORDINATES))
+    sk.set_command(command, result[sk.R_HEIGHT], numbers, np.empty(ck.COORDINATES))
     fallen = tuple(_fall(fall, numbers) for fall in falls[: int(result[sk.R_FALLS])])
     points = tuple(_point(point) for point in path[: int(result[sk.R_PATH])])
 
@@ -224,9 +225,7 @@ def _state(
             points,
         )
 
-    if in_phase:
-        return undecided(SettledFlag.LEVEL_IN_PHASE)
-    status = rest.FLUSH if is_level else int(result[sk.R_STATUS])
+    status = int(result[sk.R_STATUS])
     if status == rest.FLUSH:
         q, pose = level_numbers(numbers)
         contacts, pressure, residual = flush_contacts(pair, device, numbers, q, pose)
