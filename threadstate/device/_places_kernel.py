@@ -49,20 +49,23 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 SAMPLES = 96
-"""Samples of an edge, all round."""
+FINE = 8
+"""Samples of an edge, all round, and the parts into which an interval near contact is divided: two maxima beside each
+other, where the edge passes from one region to the next, have to be told apart."""
 
 MAX_PLACES = 24
 """The most places that are listed; a full list leaves the later ones out."""
 
-SCAN_REACH = 0.05
-"""Samples whose overlap is below the reach by more than this part of the nominal radius begin no maximum."""
+SCAN_REACH = 0.01
+"""An interval is divided where one of its ends is above the reach less this part of the nominal radius."""
 
 MAX_STEPS = 60
 NEWTON_STEPS = 12
 
-# Scratch of the search: depths at samples, an edge's jet, the work of a gap.
+# Scratch of the search: depths at samples, at fine ones too, an edge's jet, the work of a gap.
 W_DEPTH = 0
-W_JET = SAMPLES
+W_FINE = SAMPLES
+W_JET = W_FINE + SAMPLES * FINE
 W_GAP = W_JET + EDGE_JET_SIZE
 PLACES_WORK = W_GAP + GAP_WORK
 
@@ -169,27 +172,31 @@ def find_places(
     count = 0
     jet = work[W_JET : W_JET + EDGE_JET_SIZE]
     depth = work[W_DEPTH : W_DEPTH + SAMPLES]
-    step = TWO_PI / SAMPLES
+    fine = work[W_FINE : W_FINE + SAMPLES * FINE]
+    all_fine = SAMPLES * FINE
+    step = TWO_PI / all_fine
     floor = -reach - SCAN_REACH * bolt[pk.R_MAJOR]
-    deepest = -math.inf
     for part in range(2):
         of_bolt = part == 0
         curve = bolt if of_bolt else nut
         solid = nut if of_bolt else bolt
         for i in range(SAMPLES):
-            depth[i] = edge_depth(of_bolt, i * step, place, curve, solid)
+            depth[i] = edge_depth(of_bolt, i * FINE * step, place, curve, solid)
         for i in range(SAMPLES):
-            before = depth[i - 1] if i > 0 else depth[SAMPLES - 1]
-            after = depth[i + 1] if i < SAMPLES - 1 else depth[0]
-            if depth[i] < floor or depth[i] < before or depth[i] < after:
+            divided = max(depth[i], depth[i + 1 if i < SAMPLES - 1 else 0]) > floor
+            fine[i * FINE] = depth[i]
+            for j in range(i * FINE + 1, (i + 1) * FINE):
+                fine[j] = edge_depth(of_bolt, j * step, place, curve, solid) if divided else -math.inf
+        for i in range(all_fine):
+            if fine[i] < -reach - step * bolt[pk.R_MAJOR]:
+                continue
+            if fine[i] < fine[i - 1 if i > 0 else all_fine - 1] or fine[i] < fine[i + 1 if i < all_fine - 1 else 0]:
                 continue
             kind, theta = bracketed_peak(of_bolt, (i - 1) * step, (i + 1) * step, place, curve, solid, jet)
             if kind < 0 or (kind == 2 and not of_bolt):
                 # The crossing of both edges is found from the bolt's.
                 continue
-            value = min(jet[E_G], jet[E_PHI])
-            deepest = max(deepest, value)
-            if value < -reach:
+            if min(jet[E_G], jet[E_PHI]) < -reach:
                 continue
             if kind == 2:
                 pair = EDGE_EDGE

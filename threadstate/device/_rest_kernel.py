@@ -46,15 +46,15 @@ NEAR = 1e-3
 """How far (nominal radii) the push alone would take the bolt in the step from which multipliers are estimated."""
 
 MAX_WAYS_OUT = 8
-MAX_SHORTENINGS = 40
+MAX_SHORTENINGS = 25
 STIFFENING = 1e2
 """How much stiffer than the device the model is made across contacts that stay, where that changes no step."""
 
 ENERGY_NOISE = 1e-13
 """Round-off of the potential, in push times nominal radius; beside it the overlap that a step may leave counts."""
 
-NEAR_NEWTON = 1e-5
-"""A step shorter than this (nominal radii) is accepted whatever round-off makes of the potential."""
+REACH = 1.5
+"""Gap, in longest steps, up to which places are constraints of a step; what comes nearer is met on the way out."""
 
 Work = tuple[
     Array, Array, Array, Array, Array, Indices, Array, Array, Array, Array, Array, Array, Array, Array, Array, Array
@@ -308,7 +308,7 @@ def descend(
     start = q.copy()
     by_q = np.empty(COORDINATES)
     moved = np.empty(COORDINATES)
-    count, is_out = way_out(q, 3.0 * longest_step, overlap_left, device, bolt, nut, threads, work)
+    count, is_out = way_out(q, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
     if not is_out:
         return UNSETTLED, count
     stiffness = 0.0
@@ -347,9 +347,9 @@ def descend(
                 continue
             move(n, step, q, device, trial)
             copy_numbers(trial, moved)
-            trial_count, is_out = way_out(moved, 3.0 * longest_step, overlap_left, device, bolt, nut, threads, work)
+            trial_count, is_out = way_out(moved, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
             energy = elastic_energy(moved, device, by_q) + push * moved[5]
-            if is_out and (energy <= potential + noise * push * r or length < NEAR_NEWTON * r):
+            if is_out and energy <= potential + noise * push * r:
                 accepted = True
                 count = trial_count
                 copy_numbers(moved, q)
@@ -357,7 +357,7 @@ def descend(
             # The places are those of the trial: set what belongs to the pose again.
             damping = max(4.0 * damping, 0.1 * least)
             set_place(q, device, place)
-            count, _ = way_out(q, 3.0 * longest_step, overlap_left, device, bolt, nut, threads, work)
+            count, _ = way_out(q, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
             set_metric(n, place, device, metric)
             cholesky(metric, n, metric_factor)
             set_gradient(n, q, push, device, by_q, gradient)
