@@ -45,7 +45,7 @@ bolt's thread can meet the nut's surface."""
 NEAR = 1e-3
 """How far (nominal radii) the push alone would take the bolt in the step from which multipliers are estimated."""
 
-MAX_WAYS_OUT = 8
+MAX_CORRECTIONS = 8
 MAX_SHORTENINGS = 25
 STIFFENING = 1e2
 """How much stiffer than the device the model is made across contacts that stay, where that changes no step."""
@@ -68,10 +68,10 @@ def new_work() -> Work:
     """
     return (
         np.empty((MAX_PLACES + 1, GAP_SIZE)),
-        np.empty((MAX_PLACES, COORDINATES)),
-        np.empty(MAX_PLACES),
-        np.empty(MAX_PLACES),
-        np.empty(6 * MAX_PLACES + 90),
+        np.empty((2 * MAX_PLACES, COORDINATES)),
+        np.empty(2 * MAX_PLACES),
+        np.empty(2 * MAX_PLACES),
+        np.empty(12 * MAX_PLACES + 90),
         np.empty(COORDINATES + 2, dtype=np.int64),
         np.empty((COORDINATES, COORDINATES)),
         np.empty((COORDINATES, COORDINATES)),
@@ -160,62 +160,6 @@ def free_coordinates(device: Array) -> int:
 
 
 @kernel()
-def way_out(
-    q: Array, reach: float, overlap_left: float, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
-) -> tuple[int, bool]:
-    """Moves the bolt out of overlaps the shortest way, in place: the number of places found then, and whether it is
-    out.
-
-    The places, and the pose in numbers, are those of the result. An overlap of ``overlap_left`` (nominal radii) may
-    stay.
-    """
-    (
-        places,
-        normals,
-        limits,
-        forces,
-        program,
-        active,
-        _,
-        _,
-        metric,
-        metric_factor,
-        gradient,
-        step,
-        _,
-        place,
-        search,
-        _,
-    ) = work
-    n = free_coordinates(device)
-    tolerance = overlap_left * bolt[pk.R_MAJOR]
-    count = 0
-    for i in range(MAX_WAYS_OUT):
-        set_place(q, device, place)
-        count = find_places(reach, place, device, bolt, nut, threads, search, places)
-        deepest = -math.inf
-        for j in range(count):
-            deepest = max(deepest, places[j, G_VALUE])
-        if deepest <= tolerance:
-            return count, True
-        if i == MAX_WAYS_OUT - 1:
-            break
-        set_metric(n, place, device, metric)
-        if not cholesky(metric, n, metric_factor):
-            return count, False
-        set_constraints(n, count, places, device, normals, limits)
-        for j in range(n):
-            gradient[j] = 0.0
-        status = solve_program(n, metric_factor, gradient, count, normals, limits, 0.0, program, active, step, forces)
-        if status != SOLVED or not length_of(n, step, metric) < bolt[pk.R_MAJOR]:
-            return count, False
-        for m in range(n):
-            j = coordinate(m, device)
-            q[j] += step[m] / scale(j, device)
-    return count, False
-
-
-@kernel()
 def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, gradient: Array) -> float:
     """The potential; sets its gradient in the free coordinates as lengths."""
     energy = elastic_energy(q, device, by_q)
@@ -243,6 +187,82 @@ def short_descent(n: int, count: int, push: float, r: float, work: Work) -> floa
     for i in range(count):
         multipliers[i] *= stiffness
     return stiffness * length_of(n, step, metric)
+
+
+@kernel()
+def back_to_contact(
+    q: Array,
+    push: float,
+    reach: float,
+    left: float,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Work,
+) -> tuple[int, bool]:
+    """Moves the bolt, in place, the shortest way out of overlaps and back to the contacts on which it presses.
+
+    Returns the number of places found then, and whether overlaps, and gaps of those contacts times the parts of the
+    push that they carry, are at most ``left`` (nominal radii). The places, and the pose in numbers, are those of the result. Without the way back a step along
+    curved contacts would end beside them, at a higher potential than its model has.
+    """
+    (
+        places,
+        normals,
+        limits,
+        forces,
+        program,
+        active,
+        _,
+        _,
+        metric,
+        metric_factor,
+        gradient,
+        step,
+        _,
+        place,
+        search,
+        multipliers,
+    ) = work
+    n = free_coordinates(device)
+    r = bolt[pk.R_MAJOR]
+    by_q = np.empty(COORDINATES)
+    count = 0
+    for _ in range(MAX_CORRECTIONS):
+        set_place(q, device, place)
+        count = find_places(reach, place, device, bolt, nut, threads, search, places)
+        set_metric(n, place, device, metric)
+        if not cholesky(metric, n, metric_factor):
+            return count, False
+        set_constraints(n, count, places, device, normals, limits)
+        set_gradient(n, q, push, device, by_q, gradient)
+        short_descent(n, count, push, r, work)
+        worst = 0.0
+        rows = count
+        for j in range(count):
+            value = places[j, G_VALUE]
+            if value > 0.0:
+                worst = max(worst, value)
+            elif -value * multipliers[j] > left * r * push:
+                worst = max(worst, -value * multipliers[j] / push)
+                for m in range(n):
+                    normals[rows, m] = -normals[j, m]
+                limits[rows] = value
+                rows += 1
+        if worst <= left * r:
+            return count, True
+        for j in range(n):
+            gradient[j] = 0.0
+        status = solve_program(
+            n, metric_factor, gradient, rows, normals, limits, 1e-3 * left * r, program, active, step, forces
+        )
+        if status != SOLVED or not length_of(n, step, metric) < r:
+            return count, False
+        for m in range(n):
+            j = coordinate(m, device)
+            q[j] += step[m] / scale(j, device)
+    return count, False
 
 
 @kernel()
@@ -308,7 +328,7 @@ def descend(
     start = q.copy()
     by_q = np.empty(COORDINATES)
     moved = np.empty(COORDINATES)
-    count, is_out = way_out(q, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
+    count, is_out = back_to_contact(q, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
     if not is_out:
         return UNSETTLED, count
     stiffness = 0.0
@@ -347,7 +367,9 @@ def descend(
                 continue
             move(n, step, q, device, trial)
             copy_numbers(trial, moved)
-            trial_count, is_out = way_out(moved, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
+            trial_count, is_out = back_to_contact(
+                moved, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work
+            )
             energy = elastic_energy(moved, device, by_q) + push * moved[5]
             if is_out and energy <= potential + noise * push * r:
                 accepted = True
@@ -357,7 +379,7 @@ def descend(
             # The places are those of the trial: set what belongs to the pose again.
             damping = max(4.0 * damping, 0.1 * least)
             set_place(q, device, place)
-            count, _ = way_out(q, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
+            count, _ = back_to_contact(q, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
             set_metric(n, place, device, metric)
             cholesky(metric, n, metric_factor)
             set_gradient(n, q, push, device, by_q, gradient)
