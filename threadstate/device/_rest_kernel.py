@@ -45,7 +45,10 @@ bolt's thread can meet the nut's surface."""
 NEAR = 1e-3
 """How far (nominal radii) the push alone would take the bolt in the step from which multipliers are estimated."""
 
-MAX_CORRECTIONS = 8
+LOADED = 1e-6
+"""Part of the push from which on a contact carries so much that the bolt is brought back to it."""
+
+MAX_CORRECTIONS = 6
 MAX_SHORTENINGS = 25
 STIFFENING = 1e2
 """How much stiffer than the device the model is made across contacts that stay, where that changes no step."""
@@ -204,8 +207,9 @@ def back_to_contact(
     """Moves the bolt, in place, the shortest way out of overlaps and back to the contacts on which it presses.
 
     Returns the number of places found then, and whether overlaps, and gaps of those contacts times the parts of the
-    push that they carry, are at most ``left`` (nominal radii). The places, and the pose in numbers, are those of the result. Without the way back a step along
-    curved contacts would end beside them, at a higher potential than its model has.
+    push that they carry, are at most ``left`` (nominal radii). The places, and the pose in numbers, are those of the
+    result. Without the way back a step along curved contacts would end beside them, at a higher potential than its
+    model has.
     """
     (
         places,
@@ -242,9 +246,8 @@ def back_to_contact(
         rows = count
         for j in range(count):
             value = places[j, G_VALUE]
-            if value > 0.0:
-                worst = max(worst, value)
-            elif -value * multipliers[j] > left * r * push:
+            worst = max(worst, value)
+            if multipliers[j] > LOADED * push:
                 worst = max(worst, -value * multipliers[j] / push)
                 for m in range(n):
                     normals[rows, m] = -normals[j, m]
@@ -321,13 +324,15 @@ def descend(
         trial,
         place,
         _,
-        _,
+        multipliers,
     ) = work
     n = free_coordinates(device)
     r = bolt[pk.R_MAJOR]
     start = q.copy()
     by_q = np.empty(COORDINATES)
     moved = np.empty(COORDINATES)
+    saved = np.empty((MAX_PLACES, GAP_SIZE))
+    saved_multipliers = np.empty(MAX_PLACES)
     count, is_out = back_to_contact(q, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
     if not is_out:
         return UNSETTLED, count
@@ -347,6 +352,9 @@ def descend(
         if size <= tolerance * push:
             return AT_REST, count
         set_model(n, count, device, STIFFENING * stiffness, work)
+        for i in range(count):
+            copy_numbers(places[i], saved[i])
+        copy_numbers(multipliers, saved_multipliers)
         least = size / longest_step
         accepted = False
         for _ in range(MAX_SHORTENINGS):
@@ -378,14 +386,14 @@ def descend(
                 break
             # The places are those of the trial: set what belongs to the pose again.
             damping = max(4.0 * damping, 0.1 * least)
+            for i in range(count):
+                copy_numbers(saved[i], places[i])
+            copy_numbers(saved_multipliers, multipliers)
             set_place(q, device, place)
-            count, _ = back_to_contact(q, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
             set_metric(n, place, device, metric)
             cholesky(metric, n, metric_factor)
             set_gradient(n, q, push, device, by_q, gradient)
             set_constraints(n, count, places, device, normals, limits)
-            short_descent(n, count, push, r, work)
-            set_model(n, count, device, STIFFENING * stiffness, work)
         if not accepted:
             return UNSETTLED, count
         damping = 0.0 if length < 0.5 * longest_step else 0.25 * damping
