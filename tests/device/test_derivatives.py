@@ -76,7 +76,8 @@ def test_the_rotation_is_the_exponential_and_its_derivative_the_right_one() -> N
     rng = np.random.default_rng(1)
     command = commanded_rotation(3.0, -2.0, 40.0, About.NUT)
     for size in (0.0, 1e-8, 1e-3, 0.3, 1.0):
-        e = size * rng.standard_normal(3)
+        e = rng.standard_normal(3)
+        e *= size / np.linalg.norm(e)
         q = np.concatenate([e, [0.1, 0.2, 0.3]])
         place = np.zeros(ck.PLACE_SIZE)
         ck.set_place(q, device(command), place)
