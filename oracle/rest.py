@@ -152,7 +152,7 @@ def touching_height(
     for _ in range(60):
         middle = (low * at_high - high * at_low) / (at_high - at_low)
         if not low < middle < high or high - low < 1e-14:
-            break
+            return high
         t[2] = middle
         value = overlap_depth(rot, t, bolt, nut, with_thread)
         if value > 0.0:
@@ -167,7 +167,7 @@ def touching_height(
             side = -1
         if abs(value) < 1e-15:
             return middle
-    return 0.5 * (low + high)
+    return high
 
 
 @dataclass(frozen=True)
@@ -210,12 +210,12 @@ class HeldBolt:
 
 
 def lowest_near(
-    held: HeldBolt, place: Floats, start: float, push: float, size: float, *, with_thread: bool, gain: float
+    held: HeldBolt, place: Floats, start: float, push: float, size: float, least: float, *, with_thread: bool
 ) -> tuple[Floats, float, float]:
     """The minimum of the potential that a simplex of a size (lengths; angles over the radius) leads to from a place.
 
     Returns the place, the height of the bolt's origin and the potential. The search is restarted from where it ended,
-    with a smaller simplex, until it gains less than ``gain``.
+    with ever smaller simplices, down to the size ``least``.
     """
     scale = np.array([2.0 / held.pair.nominal_diameter] * 2 + [1.0, 1.0])
     best, (value, height) = place, held.potential(place, start, push, with_thread=with_thread)
@@ -227,12 +227,9 @@ def lowest_near(
 
         found, lowest = _simplex(at, best, size * scale)
         if lowest < value:
-            gained = value - lowest
             best = found
             value, height = held.potential(best, near, push, with_thread=with_thread)
-        else:
-            gained = 0.0
-        if gained < gain and size < 1e-6 * held.pair.nominal_diameter:
+        if size <= least:
             return best, height, value
         size *= 0.3
 
