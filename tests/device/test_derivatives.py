@@ -43,6 +43,7 @@ def device(command: Floats) -> Floats:
     numbers[ck.D_CENTRE] = CENTRE
     numbers[ck.D_ROTATION : ck.D_ROTATION + 9] = command
     numbers[ck.D_SCALE] = 0.125
+    numbers[ck.D_FINE] = pl.FINE
     return numbers
 
 
@@ -114,7 +115,8 @@ def test_gradients_and_curvatures_of_all_features_are_those_of_differences() -> 
     seen: dict[int, int] = {}
     h = 1e-6
     for _ in range(80):
-        command = commanded_rotation(*rng.uniform(-4.0, 4.0, 2), float(rng.uniform(-30.0, 30.0)), About.NUT)
+        roll, pitch, phase = rng.uniform([-4.0, -4.0, -30.0], [4.0, 4.0, 30.0])
+        command = commanded_rotation(roll, pitch, phase, About.NUT)
         search = Search(pair, command)
         q = np.concatenate(
             [rng.uniform(-0.02, 0.02, 3), rng.uniform(-0.004, 0.004, 2), [CENTRE + rng.uniform(-0.012, 0.002)]]

@@ -19,7 +19,7 @@ def by_enumeration(hessian: Floats, gradient: Floats, normals: Floats, limits: F
     """The solution as the best point at which a set of constraints is active and all are kept."""
     n = len(gradient)
     best: Floats | None = None
-    lowest = np.inf
+    lowest = float(np.inf)
     for size in range(n + 1):
         for chosen in combinations(range(len(limits)), size):
             a = normals[list(chosen)]
@@ -29,7 +29,7 @@ def by_enumeration(hessian: Floats, gradient: Floats, normals: Floats, limits: F
             x = np.linalg.solve(system, np.concatenate([-gradient, limits[list(chosen)]]))[:n]
             value = 0.5 * x @ hessian @ x + gradient @ x
             if (normals @ x <= limits + 1e-9).all() and value < lowest - 1e-12:
-                best, lowest = x, value
+                best, lowest = x, float(value)
     return best
 
 

@@ -172,7 +172,8 @@ def test_a_stiff_device_stays_at_the_first_contact() -> None:
 def test_units_of_pair_and_device_make_no_difference() -> None:
     metric = UNC.in_unit(LengthUnit.MILLIMETRE)
     for pose in random_poses(4, 25):
-        inch, same = settle_pose(UNC, *pose), settle_pose(metric, *pose, DEVICE.in_unit(LengthUnit.INCH))
+        (inch,) = settle_poses(UNC, [pose])
+        (same,) = settle_poses(metric, [pose], DEVICE.in_unit(LengthUnit.INCH))
         assert (same.outcome, same.flags, len(same.contacts)) == (inch.outcome, inch.flags, len(inch.contacts))
         if inch.pose is None or same.pose is None:
             continue
@@ -206,7 +207,7 @@ def test_the_phase_about_the_bolt_is_that_about_the_nut_of_another_pose() -> Non
     same_pitch = -math.asin(command[2, 0])
     same_roll = math.atan2(command[2, 1], command[2, 2])
     same_phase = math.atan2(command[1, 0], command[0, 0])
-    about_nut = settle_pose(UNC, *map(math.degrees, (same_roll, same_pitch, same_phase)))
+    (about_nut,) = settle_poses(UNC, np.degrees([[same_roll, same_pitch, same_phase]]))
     assert about_bolt.pose is not None
     assert about_nut.pose is not None
     assert np.allclose(about_bolt.pose.translation, about_nut.pose.translation, rtol=0.0, atol=1e-10)

@@ -17,13 +17,15 @@ Array = NDArray[np.float64]
 COORDINATES = 6
 
 # What a device is in numbers: height of the compliance centre over the base, commanded rotation by rows, the commanded
-# place of the centre, the scale of angles (a length), whether the twist is rigid (1 or 0), the stiffness by rows.
+# place of the centre, the scale of angles (a length), whether the twist is rigid (1 or 0), into how many parts the search
+# of contacts divides an interval of an edge (``_places_kernel``), the stiffness by rows.
 D_CENTRE = 0
 D_ROTATION = 1
 D_PLACE = 10
 D_SCALE = 13
 D_RIGID = 14
-D_STIFFNESS = 15
+D_FINE = 15
+D_STIFFNESS = 16
 DEVICE_SIZE = D_STIFFNESS + 36
 
 # A pose in numbers: rotation by rows, translation, compliance centre, J by rows, the four functions of the angle.

@@ -28,7 +28,7 @@ from threadstate.contact._stage_kernel import (
 from threadstate.contact._tangency_kernel import J_A, J_B, J_PHI, J_UU, J_UZ, J_Z, J_ZZ, PLACEMENT_SIZE
 from threadstate.contact._tangency_kernel import JET_SIZE as THREAD_JET_SIZE
 from threadstate.contact._tangency_kernel import set_jet as set_thread_jet
-from threadstate.device._chart_kernel import N_OFFSET, N_ROTATION
+from threadstate.device._chart_kernel import D_FINE, N_OFFSET, N_ROTATION
 from threadstate.device._gap_kernel import (
     E_G,
     E_G1,
@@ -49,9 +49,10 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 SAMPLES = 96
-FINE = 8
+FINE, FINEST = 8, 128
 """Samples of an edge, all round, and the parts into which an interval near contact is divided: two maxima beside each
-other, where the edge passes from one region to the next, have to be told apart."""
+other, where the edge passes from one region to the next, have to be told apart. The most parts are for poses of which
+the certificate finds an overlap that fewer have missed."""
 
 MAX_PLACES = 24
 """The most places that are listed; a full list leaves the later ones out."""
@@ -65,7 +66,7 @@ NEWTON_STEPS = 12
 # Scratch of the search: depths at samples, at fine ones too, an edge's jet, the work of a gap.
 W_DEPTH = 0
 W_FINE = SAMPLES
-W_JET = W_FINE + SAMPLES * FINE
+W_JET = W_FINE + SAMPLES * FINEST
 W_GAP = W_JET + EDGE_JET_SIZE
 PLACES_WORK = W_GAP + GAP_WORK
 
@@ -172,8 +173,9 @@ def find_places(
     count = 0
     jet = work[W_JET : W_JET + EDGE_JET_SIZE]
     depth = work[W_DEPTH : W_DEPTH + SAMPLES]
-    fine = work[W_FINE : W_FINE + SAMPLES * FINE]
-    all_fine = SAMPLES * FINE
+    parts = int(device[D_FINE])
+    all_fine = SAMPLES * parts
+    fine = work[W_FINE : W_FINE + all_fine]
     step = TWO_PI / all_fine
     floor = -reach - SCAN_REACH * bolt[pk.R_MAJOR]
     for part in range(2):
@@ -181,11 +183,11 @@ def find_places(
         curve = bolt if of_bolt else nut
         solid = nut if of_bolt else bolt
         for i in range(SAMPLES):
-            depth[i] = edge_depth(of_bolt, i * FINE * step, place, curve, solid)
+            depth[i] = edge_depth(of_bolt, i * parts * step, place, curve, solid)
         for i in range(SAMPLES):
             divided = max(depth[i], depth[i + 1 if i < SAMPLES - 1 else 0]) > floor
-            fine[i * FINE] = depth[i]
-            for j in range(i * FINE + 1, (i + 1) * FINE):
+            fine[i * parts] = depth[i]
+            for j in range(i * parts + 1, (i + 1) * parts):
                 fine[j] = edge_depth(of_bolt, j * step, place, curve, solid) if divided else -math.inf
         for i in range(all_fine):
             if fine[i] < -reach - step * bolt[pk.R_MAJOR]:

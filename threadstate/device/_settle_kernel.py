@@ -12,10 +12,11 @@ from threadstate.contact import _stage_kernel as sk
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._search_kernel import Search, search_address, search_at
 from threadstate.contact._surface_kernel import start_height
-from threadstate.device._certificate_kernel import overlap
+from threadstate.device._certificate_kernel import EDGE_INSIDE, overlap
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
+    D_FINE,
     D_PLACE,
     D_ROTATION,
     PLACE_SIZE,
@@ -24,7 +25,7 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._flush_kernel import flush_until, set_flush, tip_over
 from threadstate.device._gap_kernel import G_VALUE
-from threadstate.device._places_kernel import Threads, new_threads
+from threadstate.device._places_kernel import FINE, FINEST, Threads, new_threads
 from threadstate.device._rest_kernel import (
     AT_REST,
     FLUSH,
@@ -325,21 +326,24 @@ def settle_with(
         is_certain = True
         if math.isnan(height):
             is_certain, height = first_height(rotations[i], TIE * bolt[pk.P], bolt, nut, search, stage)
-        set_command(rotations[i], height, device, q)
+        results[i, R_HEIGHT] = height
         if not is_certain:
             results[i, R_STATUS] = NO_FIRST_CONTACT
             continue
-        follow_push(q, tips[i], push, device, bolt, nut, threads, work, results[i], falls[i], paths[i])
-        copy_numbers(q, ends[i])
-        set_place(q, device, place)
-        copy_numbers(place[0:12], placements[i])
-        results[i, R_HEIGHT] = height
-        if results[i, R_STATUS] == AT_REST:
+        for attempt in range(2):
+            device[D_FINE] = FINE if attempt == 0 else FINEST
+            set_command(rotations[i], height, device, q)
+            follow_push(q, tips[i], push, device, bolt, nut, threads, work, results[i], falls[i], paths[i])
+            copy_numbers(q, ends[i])
+            set_place(q, device, place)
+            copy_numbers(place[0:12], placements[i])
+            if results[i, R_STATUS] != AT_REST:
+                break
             count = int(results[i, R_PLACES])
-            touching = 0
             for j in range(count):
                 copy_numbers(work[0][j], places[i, j])
                 multipliers[i, j] = work[15][j]
+            touching = 0
             for j in range(count):
                 if places[i, j, G_VALUE] > -LEAST_GAP * bolt[pk.R_MAJOR]:
                     copy_numbers(places[i, j], work[0][touching])
@@ -347,3 +351,5 @@ def settle_with(
             results[i, R_OVERLAP] = overlap(
                 placements[i], OVERLAP_LIMIT * bolt[pk.R_MAJOR], touching, work[0], bolt, nut, stage
             )
+            if results[i, R_OVERLAP] != EDGE_INSIDE:
+                break

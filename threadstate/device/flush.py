@@ -131,7 +131,7 @@ def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:
         corners = hull[[first, (first + i) % count, (first + i + 1) % count]]
         shares = np.linalg.solve(np.vstack([corners.T, np.ones(3)]), [x, y, 1.0])
         if shares.min() > best[0]:
-            best = (float(shares.min()), i, shares)
+            best = (float(shares.min()), i, np.asarray(shares, dtype=np.float64))
     i = best[1]
     return hull[[first, (first + i) % count, (first + i + 1) % count]], best[2]
 

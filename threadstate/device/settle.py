@@ -13,7 +13,7 @@ from threadstate.device import _gap_kernel as gk
 from threadstate.device import _rest_kernel as rest
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._certificate_kernel import FREE
-from threadstate.device._places_kernel import MAX_PLACES
+from threadstate.device._places_kernel import FINE, MAX_PLACES
 from threadstate.device.equilibrium import balance, stability
 from threadstate.device.flush import flush_contacts, level_numbers, level_start
 from threadstate.device.model import (
@@ -80,8 +80,8 @@ def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, 
     """The settled states of commanded poses of shape (n, 3): roll, pitch and phase in degrees, in their order.
 
     Forces, section 5, without friction: the bolt starts at its first contact, and the push grows from 0. The device is
-    the default one of section 4 unless another is given. A pose without a certain answer is ``undecided``, with a flag
-    that says why. The same pose gives the same bits whatever the others are.
+    the default one of forces, section 4, unless another is given. A pose without a certain answer is ``undecided``,
+    with a flag that says why. The same pose gives the same bits whatever the others are.
 
     Raises:
         InvalidValueError: poses not of shape (n, 3), a value not finite, roll or pitch beyond 10 deg; a friction that
@@ -160,6 +160,7 @@ def device_numbers(pair: Pair, device: Device) -> Floats:
     numbers[ck.D_CENTRE] = device.centre
     numbers[ck.D_SCALE] = pair.nominal_diameter / 2.0
     numbers[ck.D_RIGID] = float(device.twist_is_rigid)
+    numbers[ck.D_FINE] = FINE
     numbers[ck.D_STIFFNESS :] = np.ravel(device.stiffness)
     return numbers
 
