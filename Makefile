@@ -34,7 +34,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test check bench client load paper chart stability docs lock designer statics witness threads forms histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer statics witness threads forms histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -52,9 +52,13 @@ unit: setup $(VENV)/.oracle
 	$(NODE) --test tests/page/*.test.js
 	$(BIN)/pytest -q -m "not slow" -n 2 --dist worksteal --durations 10 --durations-min 1
 
+# The checks fill the time in which the tests' processes wait for what they have started.
 test:
-	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check setup $(VENV)/.oracle
-	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder --durations 20
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check all-tests
+
+# Marked as recursive, so that its lines are printed as they come.
+all-tests: setup $(VENV)/.oracle
+	+$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder --durations 20
 
 check: $(VENV)/.project $(VENV)/.dependencies node_modules/.installed
 	$(BIN)/ruff format --check .

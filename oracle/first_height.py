@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from oracle.compiled import compiled
 from oracle.pose import pose_rotation
-from oracle.profile import LEAD, R_SMALL, P, bolt_profile, nut_profile, radius, ridge_half_width
+from oracle.profile import LEAD, R_SMALL, P, bolt_profile, nut_profile, radius, ridge_at
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -64,14 +64,9 @@ def nut_top(x: float, y: float, nut: Floats) -> float:
     r = math.sqrt(x * x + y * y)
     if r < nut[R_SMALL]:
         return _NONE
-    p = nut[P]
     s = -nut[LEAD] * math.atan2(y, x) / _TWO_PI
-    half = ridge_half_width(r, nut)
-    turns = math.floor(s / p - 0.25 + 0.5)
-    centre = p * (0.25 + turns)
-    if abs(s - centre) >= half:
-        return 0.0
-    return centre - half - s
+    start, end = ridge_at(r, s, nut)
+    return start - s if start < s < end else 0.0
 
 
 @compiled

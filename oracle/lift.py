@@ -3,8 +3,9 @@
 While the bolt rises, a point of its surface is inside the nut during intervals of height that are known in closed form,
 and a point of the nut's outline is inside the bolt during intervals found by a march. The lift grows to the greatest
 end of an interval that holds it, over samples of the bolt's base outline, the nut's top outline, the bolt's thread
-surface and, as overlaps at sharp corners are narrow, the helices of both crests' corners, each polished; once no
-interval holds it the solids are apart. The first such lift counts, even if a greater one would make them meet again.
+surface and, as overlaps at sharp corners are narrow, the helices of both crests' corners, each polished, on the edges
+down the bolt's thread, too; once no interval holds it the solids are apart. The first such lift counts, even if a
+greater one would make them meet again.
 
 Resolution: overlaps that end within ``NEAR`` thread pitches below the lift at some sample are polished; a sample that
 lies in a hole narrower than that counts as inside.
@@ -19,17 +20,19 @@ from numpy.typing import NDArray
 
 from oracle.compiled import compiled
 from oracle.profile import (
+    FALLING,
     LEAD,
     Q_FLANK_LARGE,
     Q_FLANK_SMALL,
     Q_LARGE,
     Q_SMALL,
     R_SMALL,
+    RISING,
     P,
     bolt_profile,
     nut_profile,
     radius,
-    ridge_half_width,
+    ridge_at,
 )
 from threadstate.thread.pair import Pair
 
@@ -52,14 +55,13 @@ def _nut_top_near(x: float, y: float, z: float, near: float, nut: Floats) -> flo
         return _NONE
     start = -nut[LEAD] * math.atan2(y, x) / _TWO_PI
     s = start + z
-    half = ridge_half_width(r, nut)
-    centre = p * (0.25 + math.floor(s / p - 0.25 + 0.5))
-    if abs(s - centre) >= half:
+    ridge, end = ridge_at(r, s, nut)
+    if not ridge < s < end:
         # In the nut's material, which goes up to the next ridge of the hole or to the nut's surface.
-        ahead = centre if s < centre else centre + p
-        top = min(0.0, ahead - half - start)
+        ahead = ridge if s <= ridge else ridge + p
+        top = min(0.0, ahead - start)
         return top if z - top < near else _NONE
-    top = min(0.0, centre - half - start)
+    top = min(0.0, ridge - start)
     return top if z - top < near and top >= -p else _NONE
 
 
@@ -104,9 +106,10 @@ def _leaves_bolt(x: float, y: float, z: float, lift: float, near: float, rot: Fl
 
 
 @compiled
-def _corner(q: float, rising: bool, profile: Floats) -> float:
-    """The axial position of a corner at distance ``q`` from the middle of the ridge, on one side of it."""
-    return 0.25 * profile[P] + (-q if rising else q)
+def _corner(inner: int, outer: int, side: int, profile: Floats) -> float:
+    """The axial position midway between two boundaries of a side, those at a corner."""
+    q = 0.5 * (profile[inner + side] + profile[outer + side])
+    return 0.25 * profile[P] + (-q if side == RISING else q)
 
 
 @compiled
@@ -118,12 +121,13 @@ def _end(
         r = radius(-n[LEAD] * u / _TWO_PI, n)
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], -t[2], lift, near, rot, b)
     if feature >= NUT_CORNER:
-        s = _corner(0.5 * (n[Q_FLANK_SMALL] + n[Q_SMALL]), feature == NUT_CORNER, n)
+        s = _corner(Q_FLANK_SMALL, Q_SMALL, RISING if feature == NUT_CORNER else FALLING, n)
         r, z = radius(s, n), s + n[LEAD] * u / _TWO_PI
         z -= n[P] * (math.floor(z / n[P]) + 1.0)
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], z - t[2], lift, near, rot, b)
     if feature >= BOLT_CORNER:
-        v = _corner(0.5 * (b[Q_LARGE] + b[Q_FLANK_LARGE]), feature == BOLT_CORNER, b) + b[LEAD] * u / _TWO_PI
+        side = RISING if feature == BOLT_CORNER else FALLING
+        v = _corner(Q_LARGE, Q_FLANK_LARGE, side, b) + b[LEAD] * u / _TWO_PI
         v -= b[P] * math.floor(v / b[P])
     v = min(max(v, 0.0), b[P])
     r = radius(v - b[LEAD] * u / _TWO_PI, b)
@@ -138,7 +142,8 @@ def _end(
 @compiled
 def _zoom(
     feature: int, u: float, v: float, lift: float, near: float, rot: Floats, t: Floats, b: Floats, n: Floats
-) -> float:
+) -> tuple[float, float, float]:
+    """The greatest end that grids around a sample, each finer than the one before, find; and where."""
     best = _end(feature, u, v, lift, near, rot, t, b, n)
     du = _TWO_PI / (AROUND if feature == BOLT_THREAD else EDGE_SAMPLES)
     dv = b[P] / ALONG if feature == BOLT_THREAD else 0.0
@@ -157,7 +162,18 @@ def _zoom(
         elif abs(u - mu) < 0.9 * du and abs(v - mv) < 0.9 * dv:
             du *= 0.5
             dv *= 0.5
-    return best
+    return best, u, v
+
+
+@compiled
+def _beside_edge(feature: int, u: float, lift: float, rot: Floats, t: Floats, n: Floats) -> tuple[float, float]:
+    """The place on the bolt's thread of a point of either edge after a lift: below it threads may overlap longer."""
+    if feature == BOLT_EDGE:
+        return u, 0.0
+    r = radius(-n[LEAD] * u / _TWO_PI, n)
+    x, y, z = r * math.cos(u) - t[0], r * math.sin(u) - t[1], -t[2] - lift
+    across, along = rot[0, 0] * x + rot[1, 0] * y + rot[2, 0] * z, rot[0, 1] * x + rot[1, 1] * y + rot[2, 1] * z
+    return math.atan2(along, across), rot[0, 2] * x + rot[1, 2] * y + rot[2, 2] * z
 
 
 @compiled
@@ -180,7 +196,11 @@ def _greatest_end(lift: float, near: float, rot: Floats, t: Floats, b: Floats, n
                 if (j > 0 and here < e[i, j - 1]) or (j < rows - 1 and here < e[i, j + 1]):
                     continue
                 v = b[P] * (j + 1) / ALONG if feature == BOLT_THREAD else 0.0
-                best = max(best, _zoom(feature, _TWO_PI * i / count, v, lift, near, rot, t, b, n))
+                end, at, _ = _zoom(feature, _TWO_PI * i / count, v, lift, near, rot, t, b, n)
+                best = max(best, end)
+                if feature <= NUT_EDGE:
+                    theta, z = _beside_edge(feature, at, end, rot, t, n)
+                    best = max(best, _zoom(BOLT_THREAD, theta, z, lift, near, rot, t, b, n)[0])
     return best
 
 

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from oracle.compiled import compiled
-from oracle.profile import LEAD, P, bolt_profile, nut_profile, radius
+from oracle.profile import LEAD, R_LARGE, R_SMALL, P, bolt_profile, nut_profile, radius
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
@@ -409,7 +409,7 @@ def _neighbour(
     for k in range(first_point, theta.shape[0]):
         d = here_t - theta[k]
         d -= _TWO_PI * math.floor(d / _TWO_PI + 0.5)
-        if abs(d) * bolt[1] > reach or abs(here_z - z[k]) > reach or _root(parent, k) == own:
+        if abs(d) * bolt[R_LARGE] > reach or abs(here_z - z[k]) > reach or _root(parent, k) == own:
             continue
         if _open_path(here_t, here_z, theta[k], z[k], 24, rot, t, bolt, nut):
             return k
@@ -452,7 +452,7 @@ def _flood(
     Returns whether it reached a sample of another component; it stops at the first.
     """
     p = nut[P]
-    r = 0.5 * (bolt[1] + bolt[2])
+    r = 0.5 * (bolt[R_LARGE] + bolt[R_SMALL])
     seen = {(0, 0)}
     queue = np.empty((_FLOOD_CELLS, 2), np.int64)
     queue[0, 0] = queue[0, 1] = 0

@@ -29,20 +29,23 @@ def region_at(pair: Pair, s: float, *, of_nut: bool) -> RegionAt:
     else:
         small, middle, large = fit.bolt_minor_diameter / 2, fit.bolt_pitch_diameter / 2, fit.bolt_major_diameter / 2
         small_fillet, large_fillet = form.bolt_root_fillet * p, form.bolt_crest_fillet * p
-    half_angle = math.radians(form.flank_half_angle_deg)
+    negative = form.flank_half_angle_neg_deg
+    angles = form.flank_half_angle_deg, form.flank_half_angle_deg if negative is None else negative
+    # Axial positions of the four boundaries on each half, s or p / 2 - s, by the radii at which the flank ends.
+    halves = []
+    for half_angle in map(math.radians, angles):
+        turn = math.pi / 2 - half_angle
+        flank_from = (small + small_fillet * (1 - math.cos(turn)) - middle) * math.tan(half_angle)
+        flank_to = (large - large_fillet * (1 - math.cos(turn)) - middle) * math.tan(half_angle)
+        ends = flank_from - small_fillet * math.sin(turn), flank_to + large_fillet * math.sin(turn)
+        halves.append([ends[0], flank_from, flank_to, ends[1]])
+    # From the middle of the groove's flat; up to that of the ridge's the profile rises.
+    groove, ridge = (halves[0][0] - halves[1][0] - p / 2) / 2, (halves[0][3] - halves[1][3] + p / 2) / 2
+    u = (s - groove) % p + groove
+    rising = u <= ridge
+    u, marks = (u, halves[0]) if rising else (p / 2 - u, halves[1])
+    half_angle = math.radians(angles[0 if rising else 1])
     turn = math.pi / 2 - half_angle
-    # Axial positions of the four boundaries on the rising half, by the radii at which the flank ends.
-    flank_from = (small + small_fillet * (1 - math.cos(turn)) - middle) * math.tan(half_angle)
-    flank_to = (large - large_fillet * (1 - math.cos(turn)) - middle) * math.tan(half_angle)
-    marks = [
-        flank_from - small_fillet * math.sin(turn),
-        flank_from,
-        flank_to,
-        flank_to + large_fillet * math.sin(turn),
-    ]
-    u = (s + p / 4) % p - p / 4
-    rising = u <= p / 4
-    u = u if rising else p / 2 - u
     part = sum(u > mark for mark in marks)
     distance = min(abs(u - mark) for mark in marks[max(part - 1, 0) : part + 1])
     margin = distance

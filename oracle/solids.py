@@ -7,7 +7,22 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.profile import COT, LEAD, Q_FLANK_LARGE, Q_FLANK_SMALL, Q_LARGE, Q_SMALL, RHO_LARGE, RHO_SMALL, P, radius
+from oracle.profile import (
+    COT,
+    FALLING,
+    LEAD,
+    Q_FLANK_LARGE,
+    Q_FLANK_SMALL,
+    Q_LARGE,
+    Q_SMALL,
+    RHO_LARGE,
+    RHO_SMALL,
+    RISING,
+    P,
+    beyond_quarter,
+    radius,
+    radius_of_side,
+)
 
 Floats = NDArray[np.float64]
 
@@ -37,27 +52,35 @@ def outside_nut(point: Floats, nut: Floats) -> float:
 
 def at_sharp_corner(point: Floats, profile: Floats) -> bool:
     """Whether a point of the thread is on a corner without a fillet, or as near to it as makes no difference."""
-    x = (axial_position(point, profile) - 0.25 * profile[P]) / profile[P]
-    q = profile[P] * abs(x - math.floor(x + 0.5))
-    corners = (profile[RHO_LARGE], profile[Q_LARGE]), (profile[RHO_SMALL], profile[Q_SMALL])
+    q, side, _ = _beside_ridge(axial_position(point, profile), profile)
+    corners = (profile[RHO_LARGE], profile[Q_LARGE + side]), (profile[RHO_SMALL], profile[Q_SMALL + side])
     return any(rho == 0.0 and abs(q - at) < CORNER_PITCHES * profile[P] for rho, at in corners)
 
 
 def slope(s: float, profile: Floats) -> float:
     """``f'``; at a sharp corner that of the flat beside it."""
-    p = profile[P]
-    x = (s - 0.25 * p) / p
-    x -= math.floor(x + 0.5)
-    q, falling = p * abs(x), math.copysign(1.0, -x)
-    if q <= profile[Q_LARGE] or q >= profile[Q_SMALL]:
+    q, side, sign = _beside_ridge(s, profile)
+    if q <= profile[Q_LARGE + side] or q >= profile[Q_SMALL + side]:
         return 0.0
-    if q < profile[Q_FLANK_LARGE]:
-        d = q - profile[Q_LARGE]
-        return falling * d / math.sqrt(profile[RHO_LARGE] ** 2 - d * d)
-    if q <= profile[Q_FLANK_SMALL]:
-        return falling * profile[COT]
-    d = profile[Q_SMALL] - q
-    return falling * d / math.sqrt(profile[RHO_SMALL] ** 2 - d * d)
+    if q < profile[Q_FLANK_LARGE + side]:
+        d = q - profile[Q_LARGE + side]
+        return sign * d / math.sqrt(profile[RHO_LARGE] ** 2 - d * d)
+    if q <= profile[Q_FLANK_SMALL + side]:
+        return float(sign * profile[COT + side])
+    d = profile[Q_SMALL + side] - q
+    return sign * d / math.sqrt(profile[RHO_SMALL] ** 2 - d * d)
+
+
+def _beside_ridge(s: float, profile: Floats) -> tuple[float, int, float]:
+    """Distance from s = p/4 on the side that bounds the ridge there, that side, and the sign of the slope on it."""
+    x = beyond_quarter(s, profile)
+    if radius_of_side(-x, RISING, profile) < radius_of_side(x, FALLING, profile) or (
+        # On the flats, whose corners belong to the nearer side.
+        radius_of_side(-x, RISING, profile) == radius_of_side(x, FALLING, profile)
+        and abs(-x - profile[Q_LARGE]) < abs(x - profile[Q_LARGE + FALLING])
+    ):
+        return -x, RISING, 1.0
+    return x, FALLING, -1.0
 
 
 def outward_of_faces(point: Floats, profile: Floats) -> tuple[Floats, ...]:

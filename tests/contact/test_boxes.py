@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.contact.samples import Floats, random_poses
+from tests.thread.shapes import BUTTRESS, TURNED_BUTTRESS
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact._branchless_kernel import (
@@ -77,7 +78,9 @@ def jets(theta: Floats, tau: Floats, motion: Floats, curve: Floats, solid: Float
 
 
 @pytest.mark.parametrize("kind", ["turn", "translation"])
-@pytest.mark.parametrize("pair", [PAIR, SHARP], ids=["filleted", "sharp"])
+@pytest.mark.parametrize(
+    "pair", [PAIR, SHARP, BUTTRESS, TURNED_BUTTRESS], ids=["filleted", "sharp", "buttress", "turned buttress"]
+)
 def test_ranges_hold_every_point_of_the_box(kind: str, pair: Pair) -> None:
     rng = np.random.default_rng(61)
     for _ in range(600):
@@ -88,7 +91,7 @@ def test_ranges_hold_every_point_of_the_box(kind: str, pair: Pair) -> None:
         x_axis, y_axis, origin, rest = motion_numbers(motion)
         k = curve[pk.LEAD] / TWO_PI
         numbers = profile_numbers(curve), profile_numbers(solid)
-        sizes = (k, curve[8], k * curve[5], solid[5], 0.5 * solid[1])
+        sizes = (k, curve[pk.R_MAJOR], k * curve[pk.STEEPEST], solid[pk.STEEPEST], 0.5 * solid[pk.R_MINOR])
         phi, g, depth = ranges(theta, a, start + b, b, x_axis, y_axis, origin, rest, *numbers, sizes)
         seen = jets(np.linspace(theta - a, theta + a, 5), np.linspace(start, start + 2 * b, 5), motion, curve, solid)
         for (value, by_theta, by_tau, low, high, mixed, mixed_var, by_tau_twice, *changes), columns in (
@@ -191,16 +194,16 @@ def test_elementary_functions_without_branches() -> None:
         assert azimuth(x, y, math.hypot(x, y)) == pytest.approx(math.atan2(y, x), abs=2e-14)
 
 
-@pytest.mark.parametrize("profile", [PAIR.bolt, PAIR.nut])
+@pytest.mark.parametrize("profile", [PAIR.bolt, PAIR.nut, BUTTRESS.bolt, BUTTRESS.nut, TURNED_BUTTRESS.bolt])
 def test_profile_without_branches(profile: Profile) -> None:
     rng = np.random.default_rng(65)
     numbers = profile_numbers(profile.packed)
     for s in rng.uniform(-0.2, 0.2, 2000):
         expected = profile.derivatives(s)
-        r, slope, u = radius_and_slope(s, numbers)
+        r, slope, u, rises = radius_and_slope(s, numbers)
         assert (r, slope) == pytest.approx(expected[:2], rel=1e-10, abs=1e-15)
         reach = 10.0 ** rng.uniform(-8, -1.5)
-        low, high = second_derivative_range(u, reach, numbers)
+        low, high = second_derivative_range(u, reach, rises, numbers)
         seen = [profile.derivatives(q)[2] for q in np.linspace(s - reach, s + reach, 15)]
         assert low - 1e-7 * abs(low) <= min(seen)
         assert max(seen) <= high + 1e-7 * abs(high)

@@ -11,8 +11,8 @@ from oracle.lift import least_lift
 from tests.contact.samples import random_poses
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
-from threadstate.state.solve import solve_poses
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.state.solve import solve_pose, solve_poses
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
 
@@ -53,6 +53,16 @@ def test_embedment_is_the_least_lift(embedded: Embedded) -> None:
     assert len(embedded.overlapping) >= 50
     for state in embedded.overlapping:
         assert state.embedment == pytest.approx(oracle_lift(state), abs=LIFT_TOLERANCE_INCH), state.poses[2]
+
+
+def test_threads_that_part_below_an_edge_after_it_are_seen_by_both() -> None:
+    """4e-5 in below the nut's edge threads overlap up to 1.1e-8 in above the height at which the edge ends to."""
+    pair = pair_by_designation("1/4-20 BSW")
+    state = solve_pose(pair, 0.35285675037654496, -2.1566974739891975, -2.413218975998657)
+    pose = state.poses[2]
+    lift = least_lift(pair, np.array(pose.rotation), np.array(pose.translation))
+    assert lift == pytest.approx(state.embedment, abs=LENGTH_TOLERANCE_INCH)
+    assert state.embedment == pytest.approx(0.000829501024125, abs=LENGTH_TOLERANCE_INCH)
 
 
 def test_without_embedment_the_solids_do_not_overlap(embedded: Embedded) -> None:

@@ -13,6 +13,7 @@ from threadstate.contact import _branchless_kernel as bk
 from threadstate.contact import _slope_kernel as sk
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI
+from threadstate.thread import _profile_kernel as pk
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.profile import Profile
 
@@ -60,8 +61,8 @@ def jet(theta: float, z: float, tau: float, bolt: Profile, nut: Profile) -> Floa
 
 @compiled
 def slopes_at(theta: float, z: float, placement: Floats, bolt: Floats, nut: Floats) -> tuple[float, float, float]:
-    k = bolt[0] / TWO_PI
-    r, slope, _ = bk.radius_and_slope(z - k * theta, bk.profile_numbers(bolt))
+    k = bolt[pk.LEAD] / TWO_PI
+    r, slope, _, _ = bk.radius_and_slope(z - k * theta, bk.profile_numbers(bolt))
     c, s = math.cos(theta), math.sin(theta)
     placement_values = sk.placement_numbers(placement)
     return sk.slopes(r * c, r * s, z, slope * c, slope * s, k, placement_values, bk.profile_numbers(nut))

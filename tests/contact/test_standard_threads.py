@@ -13,6 +13,7 @@ from oracle.lift import least_lift
 from oracle.profile import bolt_profile, nut_profile, radius
 from oracle.state_turns import begins_at, earlier_appearance, turns_of, within_brute_force
 from tests.contact.samples import random_poses
+from tests.thread.shapes import BUTTRESS, TURNED_BUTTRESS
 from threadstate.contact import _record_kernel as rk
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import Contact
@@ -37,6 +38,7 @@ DESIGNATIONS = [
     "1/4-20 BSW",
     "1/4-20 BSW at minimum material",
 ]
+PAIRS = [*map(pair_by_designation, DESIGNATIONS), BUTTRESS, TURNED_BUTTRESS]
 SEED = 181
 HEIGHTS, TURNS = 6, 1
 PARTED = 2e-5
@@ -54,11 +56,11 @@ def largest_distance(pair: Pair, contact: Contact) -> float:
     return max(found)
 
 
-@pytest.mark.parametrize("designation", DESIGNATIONS)
-def test_heights_and_turns_are_those_of_the_brute_force(designation: str) -> None:
-    pair = pair_by_designation(designation)
+@pytest.mark.parametrize("number", range(len(PAIRS)), ids=[pair.designation for pair in PAIRS])
+def test_heights_and_turns_are_those_of_the_brute_force(number: int) -> None:
+    pair = PAIRS[number]
     pitch = pair.thread_pitch
-    poses = random_poses(SEED + DESIGNATIONS.index(designation), HEIGHTS, tilt_deg=4.0)
+    poses = random_poses(SEED + number, HEIGHTS, tilt_deg=4.0)
     poses[::2, 2] = poses[::2, 2] % 40.0 - 20.0
     for number, state in enumerate(solve_poses(pair, poses)):
         pose = (state.roll_deg, state.pitch_deg, state.phase_deg)

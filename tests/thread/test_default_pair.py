@@ -1,4 +1,4 @@
-"""The default pair by its numbers: method, sections 1, 3 and 7."""
+"""The default pair, and pairs with flanks of two angles, by their numbers: method, sections 1, 3 and 7."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ import pytest
 
 from oracle.profile import bolt_profile, nut_profile, radius
 from oracle.region_rule import region_at
+from tests.thread.shapes import BUTTRESS, TURNED_BUTTRESS
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from threadstate.thread.pair import Pair
-from threadstate.thread.play import axial_play
+from threadstate.thread.play import axial_limits, axial_play
 from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS, Region
 
 PRINTED_INCH = 0.6e-15
 ROUND_OFF_INCH = 1e-15
 
 PAIR = quarter_twenty_unc()
-PAIRS = [quarter_twenty_unc(root_form) for root_form in RootForm]
+PAIRS = [*(quarter_twenty_unc(root_form) for root_form in RootForm), BUTTRESS, TURNED_BUTTRESS]
 
 
 @pytest.mark.parametrize(
@@ -64,17 +65,18 @@ def test_the_bolt_s_crest_is_its_largest_radius_and_the_nut_s_its_smallest() -> 
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.designation)
 def test_axial_play_is_that_of_the_flanks(pair: Pair) -> None:
     clearance = (pair.fit.nut_pitch_diameter - pair.fit.bolt_pitch_diameter) / 2
-    play = clearance * math.tan(math.radians(pair.form.flank_half_angle_deg))
-    assert axial_play(pair) == pytest.approx(play, abs=ROUND_OFF_INCH)
+    down, up = (clearance * math.tan(half_angle) for half_angle in pair.bolt.half_angles)
+    assert axial_limits(pair) == pytest.approx((down, up), abs=ROUND_OFF_INCH)
+    assert axial_play(pair) == pytest.approx((down + up) / 2, abs=ROUND_OFF_INCH)
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.designation)
 def test_the_bolt_fits_the_nut_within_the_play_and_no_farther(pair: Pair) -> None:
-    play, p = axial_play(pair), pair.thread_pitch
+    p, (down, up) = pair.thread_pitch, axial_limits(pair)
 
     def tightest(shift: float) -> float:
         return min(pair.nut.radius(i * p / 4000) - pair.bolt.radius(i * p / 4000 + shift) for i in range(4000))
 
-    for side in (-1.0, 1.0):
-        assert tightest(side * play) >= -ROUND_OFF_INCH * 10
-        assert tightest(side * play * 1.01) < -1e-7
+    for farthest in (down, -up):
+        assert tightest(farthest) >= -ROUND_OFF_INCH * 10
+        assert tightest(1.01 * farthest) < -1e-7

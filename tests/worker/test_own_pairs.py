@@ -100,8 +100,12 @@ def test_dimensions_alone_make_a_pair(example: Pair) -> None:
     fields = {"unit": "mm", "nominal_diameter": 6, "thread_pitch": 1}
     dimensions = [f"{key}={value}" for key, value in fields.items()]
     for table, part in (("form", example.form), ("fit", example.fit)):
-        dimensions += [f"{table}.{key}={value}" for key, value in vars(part).items()]
+        dimensions += [f"{table}.{key}={value}" for key, value in vars(part).items() if value is not None]
     assert chosen_pair("M6x1", dimensions) == example
+    of_two_angles = chosen_pair("M6x1", [*dimensions, "form.flank_half_angle_neg_deg=20"])
+    assert of_two_angles.form == replace(example.form, flank_half_angle_neg_deg=20.0)
+    with pytest.raises(InvalidValueError, match=r"flank_half_angle_neg_deg is 30\.0; valid: another angle, or none"):
+        chosen_pair("M6x1", [*dimensions, "form.flank_half_angle_neg_deg=30"])
 
 
 def test_a_known_pair_is_made_left_hand_and_of_two_starts() -> None:

@@ -34,7 +34,7 @@ BOUNDS_SIZE = 7
 @kernel()
 def second_derivative_bound(profile: Array) -> float:
     """Largest |f''| of a profile; infinite for a sharp corner."""
-    cube = (1.0 + profile[pk.COT] * profile[pk.COT]) ** 1.5
+    cube = (1.0 + profile[pk.STEEPEST] * profile[pk.STEEPEST]) ** 1.5
     rho = min(profile[pk.RHO_MINOR], profile[pk.RHO_MAJOR])
     return cube / rho if rho > 0.0 else math.inf
 
@@ -43,7 +43,7 @@ def second_derivative_bound(profile: Array) -> float:
 def set_bounds(motion: Array, curve_profile: Array, solid_profile: Array, bounds: Array) -> None:
     """The constants of a search for the edge curve of ``curve_profile`` in the solid of ``solid_profile``."""
     k = abs(curve_profile[pk.LEAD]) / TWO_PI
-    cot = solid_profile[pk.COT]
+    cot = solid_profile[pk.STEEPEST]
     r_low = 0.5 * solid_profile[pk.R_MINOR]
     k_r = k / r_low
     bounds[B_LIPSCHITZ] = math.sqrt(1.0 + cot * cot * (1.0 + k_r * k_r))
@@ -57,7 +57,7 @@ def set_bounds(motion: Array, curve_profile: Array, solid_profile: Array, bounds
         dy = motion[10] - motion[14]
         dz = motion[11] - motion[15]
         bounds[B_OFFSET_RATE] = math.sqrt(dx * dx + dy * dy + dz * dz)
-    bounds[B_CURVE_DERIVATIVE] = math.hypot(curve_profile[pk.R_MAJOR], k * curve_profile[pk.COT])
+    bounds[B_CURVE_DERIVATIVE] = math.hypot(curve_profile[pk.R_MAJOR], k * curve_profile[pk.STEEPEST])
     bounds[B_LEAST_RADIUS] = r_low
 
 

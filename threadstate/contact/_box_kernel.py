@@ -201,8 +201,8 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
     sizes = (
         k,
         curve_profile[pk.R_MAJOR],
-        abs(k) * curve_profile[pk.COT],
-        solid_profile[pk.COT],
+        abs(k) * curve_profile[pk.STEEPEST],
+        solid_profile[pk.STEEPEST],
         0.5 * solid_profile[pk.R_MINOR],
     )
     for i in range(count):

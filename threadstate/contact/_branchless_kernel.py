@@ -112,30 +112,65 @@ def clamp(x: float, low: float, high: float) -> float:
 
 @kernel(contract=True, forceinline=True)
 def profile_numbers(profile: Array) -> Numbers:
-    """The parameters of a packed profile that :func:`radius_and_slope` and :func:`second_derivative_range` take."""
+    """The parameters of a packed profile that :func:`radius_and_slope` and :func:`second_derivative_range` take.
+
+    Those of the rising half period, those of the falling one, then what both share.
+    """
+    p = profile[pk.P]
+    root, width = profile[pk.S_ROOT], profile[pk.S_CREST] - profile[pk.S_ROOT]
+    rising_flat, rising_top = pk.other_fillets(0, profile)
+    falling_flat, falling_top = pk.other_fillets(pk.FALLING, profile)
+    least, greatest = pk.second_derivative_limits(profile)
     return (
-        profile[pk.P],
-        1.0 / profile[pk.P],
         profile[pk.U_FLAT],
         profile[pk.U_FLANK],
-        profile[pk.R_PITCH],
         profile[pk.COT],
         profile[pk.U_CREST],
         profile[pk.U_TOP],
+        rising_flat,
+        rising_top,
+        profile[pk.U_FLAT + pk.FALLING],
+        profile[pk.U_FLANK + pk.FALLING],
+        profile[pk.COT + pk.FALLING],
+        profile[pk.U_CREST + pk.FALLING],
+        profile[pk.U_TOP + pk.FALLING],
+        falling_flat,
+        falling_top,
+        p,
+        1.0 / p,
+        -root / p,
+        width,
+        width - p,
+        root,
+        root + p,
+        0.5 * p - root,
+        -(0.5 * p + root),
+        profile[pk.R_PITCH],
         profile[pk.R_MINOR] + profile[pk.RHO_MINOR],
         profile[pk.R_MAJOR] - profile[pk.RHO_MAJOR],
         profile[pk.RHO_MINOR] * profile[pk.RHO_MINOR],
         profile[pk.RHO_MAJOR] * profile[pk.RHO_MAJOR],
+        least,
+        greatest,
     )
 
 
 @kernel(contract=True, forceinline=True)
-def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
-    """The profile's radius and slope at ``s``, and the coordinate ``u`` of its rising half period."""
-    p, inverse_p, u_flat, u_flank, r_pitch, cot, u_crest, u_top, low_middle, high_middle, minor2, major2 = numbers
-    turns = s * inverse_p + 0.25
+def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float, bool]:
+    """The profile's radius and slope at ``s``, the coordinate ``u`` of its half period, and whether that rises."""
+    p, inverse_p, shift, width, beyond = numbers[14:19]
+    r_pitch, low_middle, high_middle, minor2, major2 = numbers[23:28]
+    turns = s * inverse_p + shift
+    # From the middle of the groove, -p/2 to p/2.
     q = (turns - ((turns + ROUNDING_SHIFT) - ROUNDING_SHIFT)) * p
-    u = abs(q) - 0.25 * p
+    ahead = q > 0.0
+    rises = q < (width if ahead else beyond)
+    u = q + (numbers[19] if ahead else numbers[20]) if rises else (numbers[21] if ahead else numbers[22]) - q
+    u_flat = numbers[0] if rises else numbers[7]
+    u_flank = numbers[1] if rises else numbers[8]
+    cot = numbers[2] if rises else numbers[9]
+    u_crest = numbers[3] if rises else numbers[10]
+    u_top = numbers[4] if rises else numbers[11]
     low = u < 0.5 * (u_flank + u_crest)
     du = u - u_flat if low else u_top - u
     du = 0.0 if du <= 0.0 else du
@@ -147,16 +182,23 @@ def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float]:
     on_flank = slope >= cot
     radius = r_pitch + u * cot if on_flank else radius
     slope = cot if on_flank else slope
-    return radius, (slope if q > 0.0 else -slope), u
+    return radius, (slope if rises else -slope), u, rises
 
 
 @kernel(contract=True, forceinline=True)
-def second_derivative_range(u: float, reach: float, numbers: Numbers) -> tuple[float, float]:
-    """Smallest and largest ``f''`` within ``reach`` of ``u``; NaN at a corner without a fillet, or of NaN.
+def second_derivative_range(u: float, reach: float, rises: bool, numbers: Numbers) -> tuple[float, float]:
+    """Smallest and largest ``f''`` within ``reach`` of ``u`` of a half period; NaN at a corner without a fillet, or of
+    NaN.
 
     On the small fillet f'' grows towards the flank, on the large one it falls from it: the extremes are at the ends.
     """
-    _, _, u_flat, u_flank, _, _, u_crest, u_top, _, _, minor2, major2 = numbers
+    minor2, major2 = numbers[26:28]
+    u_flat = numbers[0] if rises else numbers[7]
+    u_flank = numbers[1] if rises else numbers[8]
+    u_crest = numbers[3] if rises else numbers[10]
+    u_top = numbers[4] if rises else numbers[11]
+    far_flat = numbers[5] if rises else numbers[12]
+    far_top = numbers[6] if rises else numbers[13]
     first = u - reach
     last = u + reach
     on_minor = last > u_flat and first < u_flank
@@ -171,5 +213,8 @@ def second_derivative_range(u: float, reach: float, numbers: Numbers) -> tuple[f
     radicand = rho2 - d * d
     low = rho2 / (radicand * math.sqrt(radicand))
     low = -low if on_major else (low if first >= u_flat and last <= u_flank else 0.0)
+    either = first < far_flat or last > far_top
+    low = numbers[28] if either else low
+    high = numbers[29] if either else high
     known = first <= last
     return (low if known else math.nan), (high if known else math.nan)

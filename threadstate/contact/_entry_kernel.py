@@ -91,7 +91,7 @@ def second_time_derivative(
     transverse_speed += speed * span if is_turn else 0.0
     return (
         f2 * s_rate * s_rate
-        + (profile[pk.COT] * k_r * 2.0 + 1.0) / r_low * transverse_speed * speed
+        + (profile[pk.STEEPEST] * k_r * 2.0 + 1.0) / r_low * transverse_speed * speed
         + turning_term * speed
     )
 

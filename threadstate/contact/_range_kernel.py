@@ -102,9 +102,9 @@ def ranges(
     c1 = math.sqrt(r_bound * r_bound + r1_bound * r1_bound)
     # The edge curve: r, r', the range of r''.
     sin_theta, cos_theta = sine_cosine(theta)
-    r, slope, u = radius_and_slope(-k * theta, curve)
+    r, slope, u, rises = radius_and_slope(-k * theta, curve)
     dr = -k * slope
-    r2_low, r2_high = second_derivative_range(u, abs(k) * a, curve)
+    r2_low, r2_high = second_derivative_range(u, abs(k) * a, rises, curve)
     r2_low *= k * k
     r2_high *= k * k
     r2_bound = larger(r2_high, -r2_low)
@@ -139,7 +139,7 @@ def ranges(
     rx, ry = x * inverse, y * inverse
     k_r = k * inverse
     k_rr = k_r * inverse
-    f, f1, u = radius_and_slope(z - k * azimuth(x, y, radius), solid)
+    f, f1, u, rises = radius_and_slope(z - k * azimuth(x, y, radius), solid)
     tr, tt, ts = cylindrical_components(t_, rx, ry, k_r)
     vr, vt, vs = cylindrical_components(v_, rx, ry, k_r)
     pr, pt, ps = cylindrical_components(p_, rx, ry, k_r)
@@ -193,7 +193,7 @@ def ranges(
     s_tau_high = abs(vs) + s_tv * a + s_vv * b
     s_theta_low = larger(abs(ts) - d_s_theta, 0.0)
     reach = s_theta_high * a + s_tau_high * b
-    f2_low, f2_high = second_derivative_range(u, reach, solid)
+    f2_low, f2_high = second_derivative_range(u, reach, rises, solid)
     f2 = larger(f2_high, -f2_low)
     d_f1 = smaller(f2 * reach, 2.0 * cot)
     gradient_bound = 1.0 + smaller(abs(f1) + d_f1, cot) * (1.0 + k_r_bound)

@@ -72,7 +72,7 @@ def classify_rectangle(
     h = rect[R_HALF_THETA]
     hz = rect[R_HALF_Z]
     k = bolt[pk.LEAD] / TWO_PI
-    cot = nut[pk.COT]
+    cot = nut[pk.STEEPEST]
     c1 = bounds[B_CURVE_DERIVATIVE]
     largest_radius = bolt[pk.R_MAJOR]
     hs = hz + abs(k) * h
@@ -81,7 +81,7 @@ def classify_rectangle(
     sine = math.sin(theta)
     set_path_from(r_b * cosine, r_b * sine, z, motion, path)
     tilt = sine_of_tilt(motion, bounds, limit)
-    margin = tilt * c1 * h + hz * (1.0 + bolt[pk.COT] * tilt)
+    margin = tilt * c1 * h + hz * (1.0 + bolt[pk.STEEPEST] * tilt)
     start, stop = half_space(-path[2] + margin, -path[5], -path[8], is_turn)
     if start >= limit:
         return ABOVE_SURFACE
@@ -89,7 +89,7 @@ def classify_rectangle(
     tau = start
     bolt_f2_low, bolt_f2_high = pk.second_derivative_range(z - k * theta, hs, bolt)
     bolt_f2 = larger(bolt_f2_high, -bolt_f2_low)
-    extent = c1 * h + hs * (1.0 + bolt[pk.COT])
+    extent = c1 * h + hs * (1.0 + bolt[pk.STEEPEST])
     k_r = abs(k) / bounds[B_LEAST_RADIUS]
     curvature_factor = (cot * k_r * 2.0 + 1.0) / bounds[B_LEAST_RADIUS]
     v = path[9] + (extent if is_turn else 0.0)
@@ -124,17 +124,17 @@ def classify_rectangle(
                 bounds[B_OFFSET] + bounds[B_OFFSET_RATE] * (tau + span) + largest_radius * t * t + (z + hz) * t
             ) / r_low
             s_hh = t * largest_radius + (abs(k) / r_low) * axis_distance_ratio * largest_radius * 4.0
-            s_hz = t * bolt[pk.COT] + (abs(k) / r_low) * axis_distance_ratio * (2.0 + bolt[pk.COT])
+            s_hz = t * bolt[pk.STEEPEST] + (abs(k) / r_low) * axis_distance_ratio * (2.0 + bolt[pk.STEEPEST])
             turn_angle = span if is_turn else 0.0
             s_h = s_h0 + s_hh * h + s_hz * hs + c1 * turn_angle
-            s_z = s_z0 + s_hz * h + t * bolt_f2 * hs + (1.0 + bolt[pk.COT]) * turn_angle
+            s_z = s_z0 + s_hz * h + t * bolt_f2 * hs + (1.0 + bolt[pk.STEEPEST]) * turn_angle
             s_t = s_t0 + (1.0 + k_r) * (v - path[9] + v * turn_angle)
             transverse_speed = transverse_speed0 + v - path[9] + v * turn_angle
             low, high = pk.second_derivative_range(s_mid, s_h * h + s_z * hs + s_t * span, nut)
             f2 = larger(high, -low)
             side = t * (1.0 + cot) * bolt_f2 + 4.0 * axis_distance_ratio
             phi_hh = f2 * s_h * s_h + cot * s_hh + axis_distance_ratio * largest_radius * 3.0
-            phi_hz = f2 * s_h * s_z + cot * s_hz + 2.0 * axis_distance_ratio * (1.0 + bolt[pk.COT])
+            phi_hz = f2 * s_h * s_z + cot * s_hz + 2.0 * axis_distance_ratio * (1.0 + bolt[pk.STEEPEST])
             phi_zz_high = bolt_f2_high - low * s_z * s_z + side
             minus_phi_zz_high = high * s_z * s_z - bolt_f2_low + side
             if attempt == 0:
@@ -150,7 +150,7 @@ def classify_rectangle(
                 continue
             turning = bounds[B_LIPSCHITZ] if is_turn else 0.0
             phi_ht = f2 * s_t * s_h + curvature_factor * transverse_speed * c1 + turning * c1
-            phi_zt = f2 * s_t * s_z + (curvature_factor * transverse_speed + turning) * (1.0 + bolt[pk.COT])
+            phi_zt = f2 * s_t * s_z + (curvature_factor * transverse_speed + turning) * (1.0 + bolt[pk.STEEPEST])
             if outcome == EXCLUDED:
                 phi_tt = f2 * s_t * s_t + curvature_factor * transverse_speed * v + turning * v
                 if (rate + phi_ht * h + phi_zt * hs + 0.5 * phi_tt * span) * span <= clearance:

@@ -85,7 +85,7 @@ def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
     advance = bolt[pk.LEAD] / azimuths
     numbers = profile_numbers(bolt)
     for j in range(columns):
-        r, _, _ = radius_and_slope(-advance * j, numbers)
+        r, _, _, _ = radius_and_slope(-advance * j, numbers)
         grid[G_BASE + j] = r
 
 
@@ -124,7 +124,7 @@ def set_slopes(
             cos = view[G_COS + j]
             sin = view[G_SIN + j]
             z = part * view[G_TOP + j]
-            r, slope, _ = radius_and_slope(z - advance * (first + j), bolt_numbers)
+            r, slope, _, _ = radius_and_slope(z - advance * (first + j), bolt_numbers)
             _, _, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, placement_values, nut_numbers)
             row[G_B + j] = b
 
@@ -183,7 +183,7 @@ def locate_crossings(count: int, placement: Array, bolt: Array, nut: Array, cros
                 b_high = batch[C_B_HIGH + j]
                 side = batch[C_SIDE + j]
                 z = (low * b_high - high * b_low) / (b_high - b_low)
-                r, slope, _ = radius_and_slope(z - k * batch[C_THETA + j], bolt_numbers)
+                r, slope, _, _ = radius_and_slope(z - k * batch[C_THETA + j], bolt_numbers)
                 cos = batch[C_COS + j]
                 sin = batch[C_SIN + j]
                 phi, a, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, placement_values, nut_numbers)

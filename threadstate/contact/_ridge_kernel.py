@@ -369,9 +369,12 @@ def deepest_corner_point(placement: Array, bolt: Array, nut: Array) -> tuple[flo
     step = TWO_PI / CORNER_SAMPLES
     for part in range(2):
         of_nut = part == 1
-        corner = 0.5 * (nut[pk.U_FLAT] + nut[pk.U_FLANK]) if of_nut else 0.5 * (bolt[pk.U_CREST] + bolt[pk.U_TOP])
         for side in range(2):
-            s = corner if side == 0 else 0.5 * p - corner
+            half = side * pk.FALLING
+            u = 0.5 * (nut[pk.U_FLAT + half] + nut[pk.U_FLANK + half])
+            if not of_nut:
+                u = 0.5 * (bolt[pk.U_CREST + half] + bolt[pk.U_TOP + half])
+            s = u if side == 0 else 0.5 * p - u
             before, _, _ = depth_at_corner(-step, s, of_nut, placement, bolt, nut)
             here, theta, z = depth_at_corner(0.0, s, of_nut, placement, bolt, nut)
             for i in range(CORNER_SAMPLES):

@@ -54,7 +54,7 @@ def slopes(
     az = zx * dx + zy * dy + zz
     r = math.sqrt(x * x + y * y)
     inverse_r = 1.0 / r
-    radius, slope, _ = radius_and_slope(height - k * azimuth(x, y, r), numbers)
+    radius, slope, _, _ = radius_and_slope(height - k * azimuth(x, y, r), numbers)
     x *= inverse_r
     y *= inverse_r
     k_r = k * inverse_r

@@ -2,8 +2,8 @@
 
 With roll = pitch = 0 the base is level. Unless the threads are in phase its outline overlaps the nut's surface and the
 bolt comes to rest on it at height 0. In phase it drops through until the flanks meet along a strip: with the profiles
-shifted by ``delta`` along the axis, f_bolt(s + delta) <= f_nut(s) for all s exactly while |delta| is at most the axial
-play, and delta = k phase - h.
+shifted by ``delta`` along the axis, f_bolt(s + delta) <= f_nut(s) for all s exactly while delta is at most the axial
+play of the positive flanks and -delta that of the negative ones, and delta = k phase - h.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._stage_kernel import FLUSH, rotation
 from threadstate.thread.pair import Pair
-from threadstate.thread.play import axial_play
+from threadstate.thread.play import axial_limits
 
 TWO_PI = 2.0 * math.pi
 
@@ -38,9 +38,9 @@ def level_contact(pair: Pair, phase: float) -> LevelContact:
     p = pair.thread_pitch
     shift = pair.lead * phase / TWO_PI
     shift -= p * math.floor(shift / p + 0.5)
-    play = axial_play(pair)
-    if abs(shift) < play:
-        return LevelContact(shift - play, True)
+    down, up = axial_limits(pair)
+    if -up < shift < down:
+        return LevelContact(shift - down, True)
     return LevelContact(0.0, False)
 
 

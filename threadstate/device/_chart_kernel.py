@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 COORDINATES = 6
 
 # What a device is in numbers: height of the compliance centre over the base, commanded rotation by rows, the commanded
-# place of the centre, the scale of angles (a length), whether the twist is rigid (1 or 0), into how many parts the search
-# of contacts divides an interval of an edge (``_places_kernel``), the stiffness by rows.
+# place of the centre, the scale of angles (a length), whether the twist is rigid (1 or 0), into how many parts the
+# search of contacts divides an interval of an edge (``_places_kernel``), the stiffness by rows.
 D_CENTRE = 0
 D_ROTATION = 1
 D_PLACE = 10

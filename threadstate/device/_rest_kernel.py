@@ -402,7 +402,7 @@ def descend(
         lowest = place[N_OFFSET + 2] - r * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
         if lowest < -bolt[pk.P] or lowest + bolt[pk.P] * place[N_ROTATION + 8] < 0.0:
             return DEEP, count
-        if bolt[pk.COT] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
+        if bolt[pk.STEEPEST] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
             return TILTED, count
         if flush_is_reached(q, push, place, device, bolt, nut):
             return FLUSH, count

@@ -130,11 +130,10 @@ def check_pair(pair: Pair) -> None:
     Raises:
         InvalidValueError: its flanks are too flat or its corners too sharp.
     """
-    half_angle = pair.form.flank_half_angle_deg
-    if half_angle < LEAST_FLANK_HALF_ANGLE_DEG:
-        raise InvalidValueError(
-            "flank_half_angle_deg", half_angle, f"at least {LEAST_FLANK_HALF_ANGLE_DEG:g} deg for a device"
-        )
+    for name in ("flank_half_angle_deg", "flank_half_angle_neg_deg"):
+        half_angle = getattr(pair.form, name)
+        if half_angle is not None and half_angle < LEAST_FLANK_HALF_ANGLE_DEG:
+            raise InvalidValueError(name, half_angle, f"at least {LEAST_FLANK_HALF_ANGLE_DEG:g} deg for a device")
     for name in ("bolt_root_fillet", "bolt_crest_fillet", "nut_crest_fillet", "nut_root_fillet"):
         fillet = getattr(pair.form, name)
         if fillet < LEAST_FILLET:

@@ -163,7 +163,9 @@ def _flat(value: object) -> dict[str, object]:
 
 def _plain(value: object, name: str) -> object:
     if is_dataclass(value) and not isinstance(value, type):
-        return {field.name: _plain(getattr(value, field.name), field.name) for field in fields(value)}
+        named = {field.name: (getattr(value, field.name), field.default) for field in fields(value)}
+        # What may be absent, and is, is not written: a flank's own angle, say.
+        return {name: _plain(one, name) for name, (one, default) in named.items() if (one, default) != (None, None)}
     if isinstance(value, bool | None):
         return value
     if isinstance(value, int | float):

@@ -83,49 +83,56 @@ def outline(profile: Profile, tessellation: Tessellation, part_size: float) -> F
 
 
 def profile_cuts(profile: Profile, tessellation: Tessellation, part_size: float) -> Floats:
-    """Axial positions over one period, from -p/4 to 3p/4 with both ends, at which the profile is cut; ascending."""
+    """Axial positions over one period, from the middle of a groove to that of the next, at which the profile is cut;
+    ascending.
+    """
     p = profile.thread_pitch
-    flat, flank, crest, top = profile.boundaries
-    ends = (-p / 4, flat, flank, crest, top, p / 4)
+    root, crest = profile.ends
+    rising = _half_cuts(profile, 0, (root, *profile.boundaries, crest), tessellation, part_size)
+    ends = (-p / 2 - root, *profile.falling_boundaries, p / 2 - crest)
+    falling = _half_cuts(profile, 1, ends, tessellation, part_size)
+    return np.array([*rising, *(p / 2 - u for u in reversed(falling[:-1]))])
+
+
+def _half_cuts(
+    profile: Profile, half: int, ends: tuple[float, ...], tessellation: Tessellation, part_size: float
+) -> list[float]:
+    """The cuts of a half period, 0 the rising one, by its coordinate s or p/2 - s; ``ends`` are those of its parts."""
+    half_angle = profile.half_angles[half]
     fillets = {MINOR_FILLET: profile.minor_fillet_radius, MAJOR_FILLET: profile.major_fillet_radius}
-    rising = [-p / 4]
+    cuts = [ends[0]]
     for i, (a, b) in enumerate(pairwise(ends)):
-        if b - rising[-1] > SHORTEST * p:
+        if b - cuts[-1] > SHORTEST * profile.thread_pitch:
             if i in fillets:
-                rising += _fillet_cuts(profile, i, fillets[i], tessellation, part_size)
+                chord = 0.5 * tessellation.chord_at(fillets[i], part_size) * profile.thread_pitch
+                cuts += _fillet_cuts(i, a, b, math.pi / 2.0 - half_angle, fillets[i], chord)
             else:
-                n = _flank_strips(profile, tessellation) if i == FLANK else FEWEST_ON_STRAIGHT
-                rising += [a + (b - a) * k / n for k in range(1, n + 1)]
-    rising[-1] = p / 4
-    return np.array([*rising, *(p / 2 - s for s in reversed(rising[:-1]))])
+                n = _flank_strips(profile, half_angle, b - a, tessellation) if i == FLANK else FEWEST_ON_STRAIGHT
+                cuts += [a + (b - a) * k / n for k in range(1, n + 1)]
+    cuts[-1] = ends[-1]
+    return cuts
 
 
-def _flank_strips(profile: Profile, tessellation: Tessellation) -> int:
+def _flank_strips(profile: Profile, half_angle: float, width: float, tessellation: Tessellation) -> int:
     """Strips on which the flank's twist stays below half the chord height.
 
     Between two columns and two helices the flank is a patch whose corners are not in a plane: a diagonal runs
     ``d_theta ds twist / 4`` beside it, twist being the mixed derivative of the surface along its normal.
     """
-    _, flank, crest, _ = profile.boundaries
-    slope = 1.0 / math.tan(math.radians(profile.flank_half_angle_deg))
+    slope = 1.0 / math.tan(half_angle)
     climb = abs(profile.lead) / (math.pi * profile.minor_diameter)
     twist = slope * slope * climb / math.sqrt(1.0 + slope * slope * (1.0 + climb * climb))
     d_theta = 2.0 * math.pi / _around(profile, tessellation)
     chord = 0.5 * tessellation.chord_height * profile.thread_pitch
-    return max(FEWEST_ON_STRAIGHT, math.ceil((crest - flank) * d_theta * twist / 4.0 / chord))
+    return max(FEWEST_ON_STRAIGHT, math.ceil(width * d_theta * twist / 4.0 / chord))
 
 
-def _fillet_cuts(
-    profile: Profile, which: int, radius: float, tessellation: Tessellation, part_size: float
-) -> list[float]:
+def _fillet_cuts(which: int, start: float, end: float, full: float, radius: float, chord: float) -> list[float]:
     """Cuts at equal angles of the arc, whose sagitta is half the chord height; the other half is for the way around."""
-    flat, flank, _, top = profile.boundaries
-    full = math.pi / 2.0 - math.radians(profile.flank_half_angle_deg)
-    chord = 0.5 * tessellation.chord_at(radius, part_size) * profile.thread_pitch
     n = max(FEWEST_ON_FILLET, math.ceil(full / _angle_of_chord(radius, chord)))
     if which == MINOR_FILLET:
-        return [flat + radius * math.sin(full * k / n) for k in range(1, n)] + [flank]
-    return [top - radius * math.sin(full * (n - k) / n) for k in range(1, n)] + [top]
+        return [start + radius * math.sin(full * k / n) for k in range(1, n)] + [end]
+    return [end - radius * math.sin(full * (n - k) / n) for k in range(1, n)] + [end]
 
 
 def _around(profile: Profile, tessellation: Tessellation) -> int:

@@ -55,13 +55,19 @@ LARGEST_TILT_DEG = 14.2
 
 @lru_cache(maxsize=64)
 def _packed(pair: Pair, options: SolveOptions) -> Floats:
-    half_angle = pair.form.flank_half_angle_deg
-    if half_angle < LEAST_FLANK_HALF_ANGLE_DEG:
-        valid = (
-            f"at least {number_text(LEAST_FLANK_HALF_ANGLE_DEG)} deg for the exact method; `mesh` takes flatter flanks"
-        )
-        raise InvalidValueError("flank_half_angle_deg", half_angle, valid)
-    convex = half_angle > LARGEST_TILT_DEG and outline_is_convex(pair.bolt) and outline_is_convex(pair.nut)
+    for name in ("flank_half_angle_deg", "flank_half_angle_neg_deg"):
+        half_angle = getattr(pair.form, name)
+        if half_angle is not None and half_angle < LEAST_FLANK_HALF_ANGLE_DEG:
+            least = number_text(LEAST_FLANK_HALF_ANGLE_DEG)
+            raise InvalidValueError(
+                name, half_angle, f"at least {least} deg for the exact method; `mesh` takes flatter flanks"
+            )
+    # Surfaces that face down are positive flanks.
+    convex = (
+        pair.form.flank_half_angle_deg > LARGEST_TILT_DEG
+        and outline_is_convex(pair.bolt)
+        and outline_is_convex(pair.nut)
+    )
     packed = np.zeros(4)
     packed[sk.S_TURN_LIMIT] = math.radians(options.turn_limit_deg)
     packed[sk.S_TIE] = options.tie_tolerance * pair.thread_pitch

@@ -162,10 +162,11 @@ def patch_hull(pair: Pair, pose: StagePose) -> tuple[list[tuple[float, float, fl
 def _largest_curvature(pair: Pair) -> float:
     """A bound of the curvature of the bolt's outline ``r = f(-k theta)``, over the pair's length unit."""
     k = pair.bolt.advance
-    slope = k / math.tan(math.radians(pair.form.flank_half_angle_deg))
+    half_angle = min(pair.bolt.half_angles)
+    slope = k / math.tan(half_angle)
     low = pair.bolt.minor_diameter / 2.0
     high = pair.bolt.major_diameter / 2.0
-    secant = 1.0 / math.sin(math.radians(pair.form.flank_half_angle_deg))
+    secant = 1.0 / math.sin(half_angle)
     radii = [radius for radius in (pair.bolt.minor_fillet_radius, pair.bolt.major_fillet_radius) if radius > 0.0]
     second = max((k * k * secant**3 / radius for radius in radii), default=0.0)
     return (high * high + 2.0 * slope * slope + high * second) / low**3

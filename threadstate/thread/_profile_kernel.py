@@ -1,9 +1,10 @@
 """The profile as pure functions of a number and the packed parameters.
 
-The parameters are ``Profile.packed``: [p, r_minor, u_flat, u_flank, r_pitch, cot(flank), u_crest, u_top, r_major,
-rho_minor, rho_major, lead], where the ``u`` are the boundaries of the rising half period, -p/4 <= u <= p/4:
-flat | fillet | flank | fillet | flat, and the ``lead`` is negative of a left-hand thread. The
-public interface is ``threadstate.thread.profile``.
+The parameters are ``Profile.packed``. Those of a half period, in its coordinate ``u``, are the boundaries
+flat | fillet | flank | fillet | flat and the cot of its flank: of the rising half from ``U_FLAT`` on, where ``u`` is
+``s``, and of the falling half ``FALLING`` numbers later, where ``u`` is ``p / 2 - s``. The halves part in the middle
+of the flats, at ``S_ROOT`` and ``S_CREST``. The ``LEAD`` is negative of a left-hand thread. The public interface is
+``threadstate.thread.profile``.
 """
 
 from __future__ import annotations
@@ -17,33 +18,37 @@ from threadstate._compile import kernel
 
 Array = NDArray[np.float64]
 
-P, R_MINOR, U_FLAT, U_FLANK, R_PITCH, COT, U_CREST, U_TOP, R_MAJOR, RHO_MINOR, RHO_MAJOR, LEAD = range(12)
-PROFILE_SIZE = 12
+P, R_MINOR, R_PITCH, R_MAJOR, RHO_MINOR, RHO_MAJOR, LEAD, STEEPEST, S_ROOT, S_CREST = range(10)
+"""``STEEPEST`` is the larger cot of the two flanks, the largest |f'|."""
+U_FLAT, U_FLANK, COT, U_CREST, U_TOP = range(10, 15)
+FALLING = 5
+PROFILE_SIZE = 20
 
 
 @kernel(inline="always")
-def fold(s: float, p: float) -> tuple[float, float]:
-    """The rising-half coordinate ``u`` in [-p/4, p/4] of ``s``, and the sign of the half (+1 rising, -1 falling)."""
-    u = s - p * math.floor(s / p + 0.25)
-    if u > 0.25 * p:
-        return 0.5 * p - u, -1.0
-    return u, 1.0
+def fold(s: float, profile: Array) -> tuple[float, int]:
+    """The coordinate ``u`` of the half period in which ``s`` is, and which: 0 the rising one, else ``FALLING``."""
+    p = profile[P]
+    u = s - p * math.floor(s / p - profile[S_ROOT] / p)
+    if u > profile[S_CREST]:
+        return 0.5 * p - u, FALLING
+    return u, 0
 
 
 @kernel()
-def rising(u: float, profile: Array) -> tuple[float, float, float]:
-    """Radius, slope and second derivative at ``u`` of the rising half."""
-    if u <= profile[U_FLAT]:
+def half_jet(u: float, half: int, profile: Array) -> tuple[float, float, float]:
+    """Radius, slope by ``u`` and second derivative at ``u`` of a half period."""
+    if u <= profile[U_FLAT + half]:
         return profile[R_MINOR], 0.0, 0.0
-    if u < profile[U_FLANK]:
-        du = u - profile[U_FLAT]
+    if u < profile[U_FLANK + half]:
+        du = u - profile[U_FLAT + half]
         rho = profile[RHO_MINOR]
         c = math.sqrt((rho - du) * (rho + du))
         return profile[R_MINOR] + du * du / (rho + c), du / c, rho * rho / (c * c * c)
-    if u <= profile[U_CREST]:
-        return profile[R_PITCH] + u * profile[COT], profile[COT], 0.0
-    if u < profile[U_TOP]:
-        du = profile[U_TOP] - u
+    if u <= profile[U_CREST + half]:
+        return profile[R_PITCH] + u * profile[COT + half], profile[COT + half], 0.0
+    if u < profile[U_TOP + half]:
+        du = profile[U_TOP + half] - u
         rho = profile[RHO_MAJOR]
         c = math.sqrt((rho - du) * (rho + du))
         return profile[R_MAJOR] - du * du / (rho + c), du / c, -rho * rho / (c * c * c)
@@ -53,59 +58,85 @@ def rising(u: float, profile: Array) -> tuple[float, float, float]:
 @kernel()
 def radius(s: float, profile: Array) -> float:
     """``f(s)``."""
-    u, _ = fold(s, profile[P])
-    return rising(u, profile)[0]
+    u, half = fold(s, profile)
+    return half_jet(u, half, profile)[0]
 
 
 @kernel()
 def jet(s: float, profile: Array) -> tuple[float, float, float]:
     """``f, f', f''`` at ``s``."""
-    u, sign = fold(s, profile[P])
-    r, d1, d2 = rising(u, profile)
-    return r, sign * d1, d2
+    u, half = fold(s, profile)
+    r, d1, d2 = half_jet(u, half, profile)
+    return r, (d1 if half == 0 else -d1), d2
 
 
 @kernel()
-def inverse_rising(r: float, profile: Array) -> float:
-    """The ``u`` of the rising half with radius ``r``, for r_minor <= r <= r_major.
+def inverse(r: float, half: int, profile: Array) -> float:
+    """The ``u`` of a half period with radius ``r``, for r_minor <= r <= r_major.
 
     At ``r_minor`` it is the flat's end, at ``r_major`` the flat's start.
     """
     low = r - profile[R_MINOR]
     if low <= 0.0:
-        return profile[U_FLAT]
+        return profile[U_FLAT + half]
     high = profile[R_MAJOR] - r
     if high <= 0.0:
-        return profile[U_TOP]
-    u = (r - profile[R_PITCH]) / profile[COT]
-    if u < profile[U_FLANK]:
-        return profile[U_FLAT] + math.sqrt(low * (2.0 * profile[RHO_MINOR] - low))
-    if u > profile[U_CREST]:
-        return profile[U_TOP] - math.sqrt(high * (2.0 * profile[RHO_MAJOR] - high))
+        return profile[U_TOP + half]
+    u = (r - profile[R_PITCH]) / profile[COT + half]
+    if u < profile[U_FLANK + half]:
+        return profile[U_FLAT + half] + math.sqrt(low * (2.0 * profile[RHO_MINOR] - low))
+    if u > profile[U_CREST + half]:
+        return profile[U_TOP + half] - math.sqrt(high * (2.0 * profile[RHO_MAJOR] - high))
     return u
 
 
 @kernel()
-def second_derivative_range(s: float, half: float, profile: Array) -> tuple[float, float]:
-    """Smallest and largest ``f''`` on [s - half, s + half]; on a fillet it grows in size towards the flank.
+def other_fillets(half: int, profile: Array) -> tuple[float, float]:
+    """From and up to which ``u`` of a half period nothing but its own f'' is met; infinite where both halves agree.
+
+    Past the middle of a flat the other half's fillet has the f'' of this one, as far from the flat, while both last.
+    """
+    other = FALLING - half
+    if profile[COT] == profile[COT + FALLING]:
+        return -math.inf, math.inf
+    depth = min(profile[U_FLANK] - profile[U_FLAT], profile[U_FLANK + FALLING] - profile[U_FLAT + FALLING])
+    height = min(profile[U_TOP] - profile[U_CREST], profile[U_TOP + FALLING] - profile[U_CREST + FALLING])
+    p = profile[P]
+    return -0.5 * p - profile[U_FLAT + other] - depth, 0.5 * p - profile[U_TOP + other] + height
+
+
+@kernel()
+def second_derivative_limits(profile: Array) -> tuple[float, float]:
+    """Smallest and largest ``f''``: where the fillets meet the steeper flank."""
+    cube = (1.0 + profile[STEEPEST] * profile[STEEPEST]) ** 1.5
+    high = cube / profile[RHO_MINOR] if profile[RHO_MINOR] > 0.0 else math.inf
+    return (-cube / profile[RHO_MAJOR] if profile[RHO_MAJOR] > 0.0 else -math.inf), high
+
+
+@kernel()
+def second_derivative_range(s: float, reach: float, profile: Array) -> tuple[float, float]:
+    """Smallest and largest ``f''`` on [s - reach, s + reach]; on a fillet it grows in size towards the flank.
 
     Where either argument is NaN the range is unbounded.
     """
-    u, _ = fold(s, profile[P])
-    if not u - half <= u + half:
+    u, half = fold(s, profile)
+    if not u - reach <= u + reach:
         return -math.inf, math.inf
+    far_flat, far_top = other_fillets(half, profile)
+    if u - reach < far_flat or u + reach > far_top:
+        return second_derivative_limits(profile)
     low = 0.0
     high = 0.0
-    top = min(u + half, profile[U_FLANK])
-    if top > profile[U_FLAT] and u - half < profile[U_FLANK]:
+    top = min(u + reach, profile[U_FLANK + half])
+    if top > profile[U_FLAT + half] and u - reach < profile[U_FLANK + half]:
         rho = profile[RHO_MINOR]
-        du = top - profile[U_FLAT]
+        du = top - profile[U_FLAT + half]
         c = math.sqrt(max((rho - du) * (rho + du), 0.0))
         high = rho * rho / (c * c * c) if c > 0.0 else math.inf
-    bottom = max(u - half, profile[U_CREST])
-    if bottom < profile[U_TOP] and u + half > profile[U_CREST]:
+    bottom = max(u - reach, profile[U_CREST + half])
+    if bottom < profile[U_TOP + half] and u + reach > profile[U_CREST + half]:
         rho = profile[RHO_MAJOR]
-        du = profile[U_TOP] - bottom
+        du = profile[U_TOP + half] - bottom
         c = math.sqrt(max((rho - du) * (rho + du), 0.0))
         low = -rho * rho / (c * c * c) if c > 0.0 else -math.inf
     return low, high
@@ -114,19 +145,25 @@ def second_derivative_range(s: float, half: float, profile: Array) -> tuple[floa
 @kernel()
 def region_index(s: float, profile: Array) -> tuple[int, float]:
     """Index 0..7 of the region by growing ``s`` from the small flat, and the arc length to its nearest boundary."""
-    u, sign = fold(s, profile[P])
-    p = profile[P]
-    if u <= profile[U_FLAT]:
-        return 0, profile[U_FLAT] - u
-    if u < profile[U_FLANK]:
-        a = math.asin((u - profile[U_FLAT]) / profile[RHO_MINOR])
-        full = math.asin((profile[U_FLANK] - profile[U_FLAT]) / profile[RHO_MINOR])
-        return (1 if sign > 0 else 7), profile[RHO_MINOR] * min(a, full - a)
-    if u <= profile[U_CREST]:
-        secant = math.sqrt(1.0 + profile[COT] * profile[COT])
-        return (2 if sign > 0 else 6), secant * min(u - profile[U_FLANK], profile[U_CREST] - u)
-    if u < profile[U_TOP]:
-        a = math.asin((profile[U_TOP] - u) / profile[RHO_MAJOR])
-        full = math.asin((profile[U_TOP] - profile[U_CREST]) / profile[RHO_MAJOR])
-        return (3 if sign > 0 else 5), profile[RHO_MAJOR] * min(a, full - a)
-    return 4, min(u - profile[U_TOP], 0.25 * p)
+    u, half = fold(s, profile)
+    rises = half == 0
+    flat, flank, crest, top = (
+        profile[U_FLAT + half],
+        profile[U_FLANK + half],
+        profile[U_CREST + half],
+        profile[U_TOP + half],
+    )
+    if u <= flat:
+        return 0, flat - u
+    if u < flank:
+        a = math.asin((u - flat) / profile[RHO_MINOR])
+        full = math.asin((flank - flat) / profile[RHO_MINOR])
+        return (1 if rises else 7), profile[RHO_MINOR] * min(a, full - a)
+    if u <= crest:
+        secant = math.sqrt(1.0 + profile[COT + half] * profile[COT + half])
+        return (2 if rises else 6), secant * min(u - flank, crest - u)
+    if u < top:
+        a = math.asin((top - u) / profile[RHO_MAJOR])
+        full = math.asin((top - crest) / profile[RHO_MAJOR])
+        return (3 if rises else 5), profile[RHO_MAJOR] * min(a, full - a)
+    return 4, u - top

@@ -78,6 +78,7 @@ class Pair:
             major_fillet_radius=self.form.bolt_crest_fillet * self.thread_pitch,
             starts=self.starts,
             hand=self.hand,
+            flank_half_angle_neg_deg=self.form.flank_half_angle_neg_deg,
         )
 
     @cached_property
@@ -93,4 +94,5 @@ class Pair:
             major_fillet_radius=self.form.nut_root_fillet * self.thread_pitch,
             starts=self.starts,
             hand=self.hand,
+            flank_half_angle_neg_deg=self.form.flank_half_angle_neg_deg,
         )

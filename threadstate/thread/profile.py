@@ -9,6 +9,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from threadstate.errors import ImpossibleThreadError, InvalidValueError
+from threadstate.thread.form import check_flanks, flank_half_angles
 from threadstate.thread.hand import MOST_STARTS, Hand
 
 if TYPE_CHECKING:
@@ -25,8 +26,8 @@ class Profile:
     """A thread's profile: flat, tangent fillet, straight flank, tangent fillet, flat, per half period.
 
     All lengths are in the pair's unit. ``s`` is the axial position of the profile; ``f`` has period
-    ``thread_pitch``, is largest at s = p/4 and smallest at s = 3p/4, and meets the pitch radius at s = 0
-    with the radius growing.
+    ``thread_pitch`` and meets the pitch radius at s = 0 with the radius growing, at s = p/2 with the radius falling.
+    Where both flanks have one angle it is largest at s = p/4 and smallest at s = 3p/4.
 
     Raises:
         ImpossibleThreadError: a dimension is not finite or not positive, the diameters are not
@@ -42,6 +43,7 @@ class Profile:
     major_fillet_radius: float
     starts: int = 1
     hand: Hand = Hand.RIGHT
+    flank_half_angle_neg_deg: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("thread_pitch", "minor_diameter", "pitch_diameter", "major_diameter"):
@@ -54,30 +56,29 @@ class Profile:
                 raise ImpossibleThreadError(name, value, "a finite length >= 0")
         if self.starts not in range(1, MOST_STARTS + 1):
             raise ImpossibleThreadError("starts", self.starts, f"a whole number, 1 to {MOST_STARTS}")
-        if not 0.0 < self.flank_half_angle_deg < 90.0:
-            raise ImpossibleThreadError("flank_half_angle_deg", self.flank_half_angle_deg, "0 < angle < 90 deg")
+        check_flanks(self.flank_half_angle_deg, self.flank_half_angle_neg_deg)
         if not self.minor_diameter < self.pitch_diameter < self.major_diameter:
             raise ImpossibleThreadError(
                 "pitch_diameter",
                 self.pitch_diameter,
                 f"between minor diameter {self.minor_diameter!r} and major diameter {self.major_diameter!r}",
             )
-        flat, flank, crest, top = self.boundaries
-        quarter = self.thread_pitch / 4.0
+        halves = (self.boundaries, self.falling_boundaries)
+        half = self.thread_pitch / 2.0
         slack = 1e-12 * self.thread_pitch
-        if flat < -quarter - slack:
+        if -sum(flat for flat, _, _, _ in halves) > half + 2.0 * slack:
             raise ImpossibleThreadError(
                 "minor_fillet_radius",
                 self.minor_fillet_radius,
-                f"at most {self._largest_fillet(-1)!r} (it must fit beside the axis of the groove)",
+                f"at most {self._largest_fillet(0)!r} (it must fit into the groove)",
             )
-        if top > quarter + slack:
+        if sum(top for _, _, _, top in halves) > half + 2.0 * slack:
             raise ImpossibleThreadError(
                 "major_fillet_radius",
                 self.major_fillet_radius,
-                f"at most {self._largest_fillet(+1)!r} (it must fit beside the axis of the ridge)",
+                f"at most {self._largest_fillet(1)!r} (it must fit on the ridge)",
             )
-        if flank > crest + slack:
+        if any(flank > crest + slack for _, flank, crest, _ in halves):
             raise ImpossibleThreadError(
                 "minor_fillet_radius",
                 self.minor_fillet_radius,
@@ -88,31 +89,43 @@ class Profile:
         # Without ``packed``: unpickled it would be writable, and kernels would be compiled again for such an array.
         return {name: value for name, value in vars(self).items() if name != "packed"}
 
-    def _largest_fillet(self, side: int) -> float:
-        half_angle = math.radians(self.flank_half_angle_deg)
-        apex = self._corners[0 if side < 0 else 1]
-        room = self.thread_pitch / 4.0 - abs(apex)
-        return room / math.tan((math.pi / 2.0 - half_angle) / 2.0)
+    def _largest_fillet(self, which: int) -> float:
+        """Of that at the small (0) or at the large (1) radius, the largest of which both tangents fit on the flat."""
+        room = self.thread_pitch / 2.0 - sum(abs(_corners(self, half_angle)[which]) for half_angle in self.half_angles)
+        return room / sum(math.tan((math.pi / 2.0 - half_angle) / 2.0) for half_angle in self.half_angles)
 
     @property
-    def _corners(self) -> tuple[float, float]:
-        """Where the straight flank would meet the two flats."""
-        tangent = math.tan(math.radians(self.flank_half_angle_deg))
-        low = (self.minor_diameter - self.pitch_diameter) / 2.0 * tangent
-        high = (self.major_diameter - self.pitch_diameter) / 2.0 * tangent
-        return low, high
+    def half_angles(self) -> tuple[float, float]:
+        """Those of the positive and of the negative flank (rad)."""
+        return flank_half_angles(self.flank_half_angle_deg, self.flank_half_angle_neg_deg)
 
     @property
     def boundaries(self) -> tuple[float, float, float, float]:
-        """The ``s`` of flat | fillet | flank | fillet | flat on the rising half, -p/4 .. p/4, in the pair's unit."""
-        return self._boundaries(self.minor_fillet_radius, self.major_fillet_radius)
+        """The ``s`` of flat | fillet | flank | fillet | flat on the rising half, in the pair's unit."""
+        return self._boundaries(0, self.minor_fillet_radius, self.major_fillet_radius)
 
-    def _boundaries(self, minor_fillet: float, major_fillet: float) -> tuple[float, float, float, float]:
-        turn = math.pi / 2.0 - math.radians(self.flank_half_angle_deg)
-        low, high = self._corners
+    @property
+    def falling_boundaries(self) -> tuple[float, float, float, float]:
+        """The same on the falling half, by p/2 - s."""
+        return self._boundaries(1, self.minor_fillet_radius, self.major_fillet_radius)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The ``s`` from and up to which the profile rises: the middles of its flats, -p/4 and p/4 where both flanks
+        have one angle.
+        """
+        return self._ends(self.boundaries, self.falling_boundaries)
+
+    def _boundaries(self, half: int, minor_fillet: float, major_fillet: float) -> tuple[float, float, float, float]:
+        turn = math.pi / 2.0 - self.half_angles[half]
+        low, high = _corners(self, self.half_angles[half])
         t_low = minor_fillet * math.tan(turn / 2.0)
         t_high = major_fillet * math.tan(turn / 2.0)
         return low - t_low, low + t_low * math.cos(turn), high - t_high * math.cos(turn), high + t_high
+
+    def _ends(self, rising: tuple[float, ...], falling: tuple[float, ...]) -> tuple[float, float]:
+        quarter = self.thread_pitch / 4.0
+        return (rising[0] - falling[0]) / 2.0 - quarter, (rising[3] - falling[3]) / 2.0 + quarter
 
     @property
     def lead(self) -> float:
@@ -126,7 +139,7 @@ class Profile:
 
     @cached_property
     def packed(self) -> NDArray[np.float64]:
-        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (12,).
+        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (20,).
 
         A corner that is sharper than ``SHARPEST`` has that fillet.
         """
@@ -134,22 +147,24 @@ class Profile:
 
         least = SHARPEST * self.thread_pitch
         minor_fillet, major_fillet = max(self.minor_fillet_radius, least), max(self.major_fillet_radius, least)
-        flat, flank, crest, top = self._boundaries(minor_fillet, major_fillet)
-        cot = 1.0 / math.tan(math.radians(self.flank_half_angle_deg))
+        halves = [self._boundaries(half, minor_fillet, major_fillet) for half in range(2)]
+        cots = [1.0 / math.tan(half_angle) for half_angle in self.half_angles]
         packed = np.array(
             [
                 self.thread_pitch,
                 self.minor_diameter / 2.0,
-                flat,
-                flank,
                 self.pitch_diameter / 2.0,
-                cot,
-                crest,
-                top,
                 self.major_diameter / 2.0,
                 minor_fillet,
                 major_fillet,
                 self.lead,
+                max(cots),
+                *self._ends(*halves),
+            ]
+            + [
+                number
+                for (flat, flank, crest, top), cot in zip(halves, cots, strict=True)
+                for number in (flat, flank, cot, crest, top)
             ]
         )
         packed.setflags(write=False)
@@ -165,18 +180,24 @@ class Profile:
         return float(r), float(d1), float(d2)
 
     def inverse(self, r: float) -> float:
-        """The ``s`` in [-p/4, p/4] of the rising half at which the radius is ``r``, both in the pair's unit.
+        """The ``s`` of the rising half at which the radius is ``r``, both in the pair's unit.
 
         At the two extreme radii, where a whole flat has them, it is the end of the flat beside the fillet.
-        The falling half has the same radius at p/2 - s.
 
         Raises:
             InvalidValueError: ``r`` is outside the profile's radii.
         """
+        return float(_kernel().inverse(self._radius(r), 0, self.packed))
+
+    def falling_inverse(self, r: float) -> float:
+        """The ``p/2 - s`` of the falling half at which the radius is ``r``, as :meth:`inverse` has the ``s``."""
+        return float(_kernel().inverse(self._radius(r), _kernel().FALLING, self.packed))
+
+    def _radius(self, r: float) -> float:
         low, high = self.minor_diameter / 2.0, self.major_diameter / 2.0
         if not low <= r <= high:
             raise InvalidValueError("radius", r, f"{low!r} to {high!r}")
-        return float(_kernel().inverse_rising(r, self.packed))
+        return float(r)
 
     def region_index(self, s: float) -> tuple[int, float]:
         """Index 0..7 of the region at ``s`` (0 the small-radius flat, growing with ``s``), and its margin.
@@ -185,6 +206,14 @@ class Profile:
         """
         index, margin = _kernel().region_index(_finite(s), self.packed)
         return int(index), float(margin)
+
+
+def _corners(profile: Profile, half_angle: float) -> tuple[float, float]:
+    """Where a straight flank of that angle (rad) would meet the two flats."""
+    tangent = math.tan(half_angle)
+    low = (profile.minor_diameter - profile.pitch_diameter) / 2.0 * tangent
+    high = (profile.major_diameter - profile.pitch_diameter) / 2.0 * tangent
+    return low, high
 
 
 def _kernel() -> ModuleType:
@@ -213,7 +242,7 @@ def outline_is_convex(profile: Profile) -> bool:
         return False
     k = abs(profile.advance)
     small = profile.minor_diameter / 2.0
-    full = math.pi / 2.0 - math.radians(profile.flank_half_angle_deg)
+    full = math.pi / 2.0 - min(profile.half_angles)
     steps = 400
     for i in range(steps):
         near, far = full * i / steps, full * (i + 1) / steps

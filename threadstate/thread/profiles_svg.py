@@ -14,7 +14,7 @@ from html import escape
 from threadstate.thread.catalogue import source_of
 from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
-from threadstate.thread.play import play_of
+from threadstate.thread.play import axial_limits, play_of
 from threadstate.thread.profile import Profile
 from threadstate.units import LengthUnit, conversion_factor
 
@@ -130,8 +130,11 @@ def _panel(panel: _Panel) -> Iterator[str]:
     if (source := source_of(pair)) is not None:
         yield f'<text class="soft small" x="{MARGIN}" y="{panel.top + 58.0:.1f}">{escape(source)}</text>'
     left, right = panel.x(START), panel.x(END)
-    for name, profile, edge in (("nut", pair.nut, panel.y(panel.high)), ("bolt", pair.bolt, panel.bottom)):
-        path = _outline(panel, profile)
+    for name, profile, edge, shift in (
+        ("nut", pair.nut, panel.y(panel.high), 0.0),
+        ("bolt", pair.bolt, panel.bottom, _to_the_middle(pair)),
+    ):
+        path = _outline(panel, profile, shift)
         yield f'<path class="{name}" d="{path}V{edge:.2f}H{left:.2f}Z"/>'
         yield f'<path class="{name}-edge" d="{path}"/>'
     yield f'<text class="part of-nut" x="{left + 12.0:.1f}" y="{panel.y(panel.high) + 24.0:.1f}">nut</text>'
@@ -140,6 +143,14 @@ def _panel(panel: _Panel) -> Iterator[str]:
     yield from _radial_plays(panel)
     yield from _axial_play(panel)
     yield from _thread_pitch(panel)
+
+
+def _to_the_middle(pair: Pair) -> float:
+    """How far up a bolt in phase is midway in its axial play, in thread pitches: 0 of flanks of one angle."""
+    if play_of(pair).axial is None:
+        return 0.0
+    down, up = axial_limits(pair)
+    return (up - down) / 2.0 / pair.thread_pitch
 
 
 def _title(pair: Pair) -> str:
@@ -155,38 +166,55 @@ def _subtitle(panel: _Panel) -> str:
     return f"Axial section{of}, the axes in line and the bolt midway in its axial play; lengths in {UNITS[panel.unit]}"
 
 
-def _outline(panel: _Panel, profile: Profile) -> str:
-    """A profile from the left end of the section to the right one: straight lines, and its fillets as arcs."""
+def _outline(panel: _Panel, profile: Profile, shift: float) -> str:
+    """A profile from the left end of the section to the right one: straight lines, and its fillets as arcs.
+
+    ``shift`` is how far it is moved to the right, in thread pitches.
+    """
     p, pitch_radius = profile.thread_pitch, profile.pitch_diameter / 2.0
-    slope = 1.0 / math.tan(math.radians(profile.flank_half_angle_deg))
-    flat, flank, crest, top = (s / p for s in profile.boundaries)
     minor, major = profile.minor_diameter / 2.0, profile.major_diameter / 2.0
     small, large = (radius / p * PITCH_PX for radius in (profile.minor_fillet_radius, profile.major_fillet_radius))
-    flank_low, flank_high = pitch_radius + flank * p * slope, pitch_radius + crest * p * slope
+    halves = [
+        ([place / p for place in boundaries], 1.0 / math.tan(half_angle))
+        for boundaries, half_angle in zip(
+            (profile.boundaries, profile.falling_boundaries), profile.half_angles, strict=True
+        )
+    ]
+    (up, rise), (down, fall) = halves
 
     def place(s: float, radius: float) -> str:
-        return f"{panel.x(s):.2f} {panel.y(radius):.2f}"
+        return f"{panel.x(s + shift):.2f} {panel.y(radius):.2f}"
 
     def arc(size: float, sweep: int, s: float, radius: float) -> str:
         return f"A{size:.3f} {size:.3f} 0 0 {sweep} {place(s, radius)}"
 
+    def on_flank(u: float, slope: float) -> float:
+        return pitch_radius + u * p * slope
+
     def groove(falling: float, rising: float) -> list[str]:
         """Between the flanks that cross the pitch radius at these two positions."""
         return [
-            f"L{place(falling - flank, flank_low)}",
-            arc(small, 0, falling - flat, minor),
-            f"L{place(rising + flat, minor)}",
-            arc(small, 0, rising + flank, flank_low),
+            f"L{place(falling - down[1], on_flank(down[1], fall))}",
+            arc(small, 0, falling - down[0], minor),
+            f"L{place(rising + up[0], minor)}",
+            arc(small, 0, rising + up[1], on_flank(up[1], rise)),
         ]
 
     ridge = [
-        f"L{place(crest, flank_high)}",
-        arc(large, 1, top, major),
-        f"L{place(0.5 - top, major)}",
-        arc(large, 1, 0.5 - crest, flank_high),
+        f"L{place(up[2], on_flank(up[2], rise))}",
+        arc(large, 1, up[3], major),
+        f"L{place(0.5 - down[3], major)}",
+        arc(large, 1, 0.5 - down[2], on_flank(down[2], fall)),
     ]
-    ends = [place(START, pitch_radius), place(END, pitch_radius)]
-    return "".join([f"M{ends[0]}", *groove(START, 0.0), *ridge, *groove(0.5, END), f"L{ends[1]}"])
+    return "".join(
+        [
+            f"M{panel.x(START):.2f} {panel.y(on_flank(shift, fall)):.2f}",
+            *groove(START, 0.0),
+            *ridge,
+            *groove(0.5, END),
+            f"L{panel.x(END):.2f} {panel.y(on_flank(-shift, rise)):.2f}",
+        ]
+    )
 
 
 def _diameters(panel: _Panel, left: float, right: float) -> Iterator[str]:
@@ -235,10 +263,11 @@ def _axial_play(panel: _Panel) -> Iterator[str]:
     if gap is None or radius is None:
         return
     middle = max(bolt.pitch_diameter, nut.minor_diameter) / 2.0
-    if bolt.inverse(middle) - nut.inverse(middle) <= gap + HALF_A_PIXEL * p:
+    shift = _to_the_middle(pair)
+    if bolt.falling_inverse(middle) - nut.falling_inverse(middle) - shift * p <= gap + HALF_A_PIXEL * p:
         radius = middle
     y = panel.y(radius)
-    start, end = (panel.x(0.5 - profile.inverse(radius) / p) for profile in (bolt, nut))
+    start, end = panel.x(0.5 - bolt.falling_inverse(radius) / p + shift), panel.x(0.5 - nut.falling_inverse(radius) / p)
     yield from _arrow((start - ARROW_PX, y), (start, y))
     yield from _arrow((end + ARROW_PX, y), (end, y))
     overlap = panel.length(-gap)

@@ -28,7 +28,9 @@ def settings(pair: PairName = None, dimension: Dimensions = None, as_json: Json 
 
     found = effective_settings()
     threads = chosen_pair(pair, dimension or ())
-    dimensions = {**asdict(threads), "source": source_of(threads)}
+    # A flank's own angle is there only where it has one.
+    form = {name: value for name, value in asdict(threads.form).items() if value is not None}
+    dimensions = {**asdict(threads), "form": form, "source": source_of(threads)}
     if as_json:
         entries = [{"name": one.name, "value": one.value, "source": one.source.value} for one in found]
         print_json({"settings": entries, "pair": dimensions})

@@ -76,6 +76,7 @@ class FormPart(Part):
     bolt_crest_fillet: Number | None = None
     nut_root_fillet: Number | None = None
     nut_crest_fillet: Number | None = None
+    flank_half_angle_neg_deg: Number | None = None
 
 
 class FitPart(Part):

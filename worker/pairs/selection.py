@@ -162,8 +162,14 @@ def _pair_of_fit(
         return Pair(designation=designation, form=form, fit=fitted, **values)
 
 
+_NEGATIVE = "flank_half_angle_neg_deg"
+
+
 def _form(part: FormPart | None, base: Pair | None, location: FileLocation) -> Form:
-    values = _values({} if part is None else part.given(), base and base.form, _names(Form), location)
+    # Without it both flanks have one angle.
+    given = {_NEGATIVE: getattr(base and base.form, _NEGATIVE, None)} | ({} if part is None else part.given())
+    names = tuple(name for name in _names(Form) if name != _NEGATIVE)
+    values = _values(given, base and base.form, names, location) | {_NEGATIVE: given[_NEGATIVE]}
     with location:
         return Form(**values)
 

@@ -14,7 +14,7 @@ from enum import StrEnum
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number, number_text
 from threadstate.thread.fit import Fit
-from threadstate.thread.form import Form
+from threadstate.thread.form import Form, flank_half_angles
 from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from threadstate.thread.standards.acme import AcmeForm
@@ -76,6 +76,12 @@ class Rounding:
     bolt_crest: float
     nut_root: float
     nut_crest: float
+    flank_half_angle_neg_deg: float | None = None
+
+    @property
+    def half_angles(self) -> tuple[float, float]:
+        """Those of the positive and of the negative flank (rad)."""
+        return flank_half_angles(self.flank_half_angle_deg, self.flank_half_angle_neg_deg)
 
 
 def rounding(thread: StandardThread, corners: Corners = Corners.ROUNDED) -> Rounding:
@@ -176,7 +182,6 @@ def pair_at(thread: StandardThread, position: Position, corners: Corners = Corne
     """
     bolt, nut, pitch = thread.bolt, thread.nut, thread.thread_pitch
     wanted = rounding(thread, corners)
-    tangent = math.tan(math.radians(wanted.flank_half_angle_deg))
     fit = Fit(
         name=f"{thread.classes}{position.name}",
         bolt_major_diameter=_outer(bolt.major, position.bolt),
@@ -189,13 +194,14 @@ def pair_at(thread: StandardThread, position: Position, corners: Corners = Corne
 
     def fitting(radius: float, height: float) -> float:
         """A fillet over the pitch, no larger than fits at a flat this high above or below the pitch radius."""
-        room = 0.25 - height * tangent / pitch
-        return min(radius, room / math.tan(math.pi / 4.0 - math.radians(wanted.flank_half_angle_deg) / 2.0))
+        room = 0.5 - height * sum(math.tan(angle) for angle in wanted.half_angles) / pitch
+        return min(radius, room / sum(math.tan(math.pi / 4.0 - angle / 2.0) for angle in wanted.half_angles))
 
     bolt_radius, nut_radius = fit.bolt_pitch_diameter / 2.0, fit.nut_pitch_diameter / 2.0
     form = Form(
         name=thread.form,
         flank_half_angle_deg=wanted.flank_half_angle_deg,
+        flank_half_angle_neg_deg=wanted.flank_half_angle_neg_deg,
         bolt_root_fillet=fitting(wanted.bolt_root, bolt_radius - fit.bolt_minor_diameter / 2.0),
         bolt_crest_fillet=fitting(wanted.bolt_crest, fit.bolt_major_diameter / 2.0 - bolt_radius),
         nut_root_fillet=fitting(wanted.nut_root, fit.nut_major_diameter / 2.0 - nut_radius),
