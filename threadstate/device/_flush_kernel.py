@@ -40,8 +40,7 @@ NEAR_SURFACE = 2e-2
 """How far from the nut's surface its origin may be then, in nominal radii."""
 
 OUTLINE_SAMPLES = 360
-DIRECTIONS = 180
-"""Samples of each outline, and directions in which their convex hull is taken."""
+"""Samples of each outline, of whose points in the patch the convex hull is taken: from inside."""
 
 
 @kernel()
@@ -147,9 +146,8 @@ def outline(i: int, place: Array, bolt: Array, nut: Array) -> tuple[bool, float,
 
 
 @kernel()
-def set_supports(place: Array, bolt: Array, nut: Array, supports: Array) -> None:
-    """Sets how far the patch reaches in each direction, from samples of its outline: its convex hull."""
-    points = np.empty((2 * OUTLINE_SAMPLES, 2))
+def patch_points(place: Array, bolt: Array, nut: Array, points: Array) -> int:
+    """Sets the samples of both outlines that lie in the patch; returns their number."""
     count = 0
     for i in range(2 * OUTLINE_SAMPLES):
         is_inside, x, y = outline(i, place, bolt, nut)
@@ -157,13 +155,43 @@ def set_supports(place: Array, bolt: Array, nut: Array, supports: Array) -> None
             points[count, 0] = x
             points[count, 1] = y
             count += 1
-    for j in range(DIRECTIONS):
-        angle = TWO_PI * j / DIRECTIONS
-        c, s = math.cos(angle), math.sin(angle)
-        farthest = -math.inf
-        for i in range(count):
-            farthest = max(farthest, c * points[i, 0] + s * points[i, 1])
-        supports[j] = farthest
+    return count
+
+
+@kernel()
+def convex_hull(points: Array, count: int, hull: Array) -> int:
+    """Sets the corners of the convex hull of points of the plane, counter-clockwise (monotone chains); their number."""
+    # Sorted by x, then y: by y first, and stably by x after that.
+    order = np.argsort(points[:count, 1])
+    order = order[np.argsort(points[:count, 0][order], kind="mergesort")]
+    size = 0
+    for chain in range(2):
+        first = size
+        for m in range(count):
+            i = order[m] if chain == 0 else order[count - 1 - m]
+            x, y = points[i, 0], points[i, 1]
+            while size - first > 1:
+                ax, ay = hull[size - 1, 0] - hull[size - 2, 0], hull[size - 1, 1] - hull[size - 2, 1]
+                if ax * (y - hull[size - 2, 1]) - ay * (x - hull[size - 2, 0]) > 0.0:
+                    break
+                size -= 1
+            hull[size, 0] = x
+            hull[size, 1] = y
+            size += 1
+        # Its last point is the first of the other chain.
+        size -= 1
+    return size
+
+
+@kernel()
+def hull_margin(hull: Array, size: int, x: float, y: float) -> float:
+    """How far a point is inside a convex polygon; negative: outside."""
+    least = math.inf
+    for i in range(size):
+        j = i + 1 if i + 1 < size else 0
+        ax, ay = hull[j, 0] - hull[i, 0], hull[j, 1] - hull[i, 1]
+        least = min(least, (ax * (y - hull[i, 1]) - ay * (x - hull[i, 0])) / math.hypot(ax, ay))
+    return least if size > 2 else -math.inf
 
 
 @kernel()
@@ -176,23 +204,24 @@ def flush_until(push: float, device: Array, bolt: Array, nut: Array, level: Arra
     if not set_flush(device, level):
         return 0.0, 0.0
     place = np.empty(PLACE_SIZE)
-    supports = np.empty(DIRECTIONS)
+    points = np.empty((2 * OUTLINE_SAMPLES, 2))
+    hull = np.empty((2 * OUTLINE_SAMPLES + 2, 2))
     set_place(level, device, place)
     x, y, force, rest = centre_of_pressure(level, push, place, device)
     if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
         return 0.0, 0.0
-    set_supports(place, bolt, nut, supports)
+    size = convex_hull(points, patch_points(place, bolt, nut, points), hull)
+    if not hull_margin(hull, size, x, y) > 0.0:
+        return 0.0, 0.0
     until, direction = math.inf, 0.0
-    for j in range(DIRECTIONS):
-        angle = TWO_PI * j / DIRECTIONS
-        c, s = math.cos(angle), math.sin(angle)
-        if not supports[j] - c * x - s * y > 0.0:
-            return 0.0, angle
-        # Inside while supports - centre > moment / force, along this direction.
-        room = supports[j] - c * place[N_CENTRE] - s * place[N_CENTRE + 1]
-        moment = (c * (x - place[N_CENTRE]) + s * (y - place[N_CENTRE + 1])) * force
+    for i in range(size):
+        j = i + 1 if i + 1 < size else 0
+        nx, ny = hull[j, 1] - hull[i, 1], hull[i, 0] - hull[j, 0]
+        # Inside while room > moment / force, across this side.
+        room = nx * (hull[i, 0] - place[N_CENTRE]) + ny * (hull[i, 1] - place[N_CENTRE + 1])
+        moment = (nx * (x - place[N_CENTRE]) + ny * (y - place[N_CENTRE + 1])) * force
         if room < 0.0 and moment / room - force + push < until:
-            until, direction = moment / room - force + push, angle
+            until, direction = moment / room - force + push, math.atan2(ny, nx)
     return until, direction
 
 

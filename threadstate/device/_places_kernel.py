@@ -49,10 +49,10 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 SAMPLES = 96
-FINE, FINEST = 8, 128
+FINE, FINEST = 8, 64
 """Samples of an edge, all round, and the parts into which an interval near contact is divided: two maxima beside each
-other, where the edge passes from one region to the next, have to be told apart. The most parts are for poses of which
-the certificate finds an overlap that fewer have missed."""
+other, where the edge passes from one region to the next, have to be told apart. The most parts are for poses of
+which the certificate finds an overlap that fewer have missed."""
 
 MAX_PLACES = 24
 """The most places that are listed; a full list leaves the later ones out."""

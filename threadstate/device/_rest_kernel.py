@@ -59,6 +59,9 @@ ENERGY_NOISE = 1e-13
 REACH = 1.5
 """Gap, in longest steps, up to which places are constraints of a step; what comes nearer is met on the way out."""
 
+STALL_STEPS, STALLED = 12, 1e-8
+"""A descent that has gone less far than this (nominal radii) in so many steps goes round in circles."""
+
 Work = tuple[
     Array, Array, Array, Array, Array, Indices, Array, Array, Array, Array, Array, Array, Array, Array, Array, Array
 ]
@@ -342,7 +345,15 @@ def descend(
         stiffness = max(stiffness, device[D_STIFFNESS + 7 * j] / scale(j, device) ** 2)
     noise = max(ENERGY_NOISE, 4.0 * overlap_left)
     damping = 0.0
-    for _ in range(most_steps):
+    earlier = q.copy()
+    for taken in range(most_steps):
+        if taken > 0 and taken % STALL_STEPS == 0:
+            for i in range(n):
+                j = coordinate(i, device)
+                step[i] = (q[j] - earlier[j]) * scale(j, device)
+            if length_of(n, step, metric) < STALLED * r:
+                return UNSETTLED, count
+            copy_numbers(q, earlier)
         set_metric(n, place, device, metric)
         if not cholesky(metric, n, metric_factor):
             return UNSETTLED, count

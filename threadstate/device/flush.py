@@ -32,16 +32,16 @@ def level_start(pair: Pair, phase_deg: float, command: Floats) -> tuple[float, F
     patch it stays, and the vector is zero; else it tips over the nearest side of the hull, or away from the strip.
     """
     contact = level_contact(pair, math.radians(phase_deg))
+    hull = np.empty((0, 2))
     if contact.on_thread:
         points = np.array(strip_extremes(pair, contact.height))[:, :2]
     else:
         place = np.zeros(ck.PLACE_SIZE)
         place[:9] = command
-        points = patch_points(pair, place)
+        points, hull = patch_hull(pair, place)
     away = -points.mean(axis=0) if len(points) else np.array([1.0, 0.0])
-    if not contact.on_thread and len(points) > 2:
-        hull = convex_hull(points)
-        if hull_margin(hull, 0.0, 0.0) >= 0.0:
+    if len(hull) > 2:
+        if fk.hull_margin(hull, len(hull), 0.0, 0.0) >= 0.0:
             return contact.height, np.zeros(3)
         edges = np.roll(hull, -1, axis=0) - hull
         outward = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
@@ -73,11 +73,10 @@ def flush_contacts(
     place = np.empty(ck.PLACE_SIZE)
     ck.set_place(q, numbers, place)
     x, y, force, _ = fk.centre_of_pressure(q, device.push, place, numbers)
-    points = patch_points(pair, place)
-    if len(points) < 3:
+    _, hull = patch_hull(pair, place)
+    if len(hull) < 3:
         return (), None, math.inf
-    hull = convex_hull(points)
-    margin = hull_margin(hull, x, y)
+    margin = fk.hull_margin(hull, len(hull), x, y)
     if not margin > 0.0 or not force > 0.0:
         return (), margin, math.inf
     corners, shares = triangle_about(hull, x, y)
@@ -89,32 +88,13 @@ def flush_contacts(
     return contacts, margin, balance(pair, device, q, pose, numbers, contacts)
 
 
-def patch_points(pair: Pair, place: Floats) -> Floats:
-    """Samples of both outlines that lie in the patch, shape (n, 2)."""
-    samples = [fk.outline(i, place, pair.bolt.packed, pair.nut.packed) for i in range(2 * fk.OUTLINE_SAMPLES)]
-    return np.array([(x, y) for is_inside, x, y in samples if is_inside]).reshape(-1, 2)
-
-
-def convex_hull(points: Floats) -> Floats:
-    """The corners of the convex hull of points of the plane, counter-clockwise (monotone chains)."""
-    ordered = sorted(map(tuple, points.tolist()))
-    chains = []
-    for sequence in (ordered, ordered[::-1]):
-        chain: list[tuple[float, ...]] = []
-        for point in sequence:
-            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0.0:
-                chain.pop()
-            chain.append(point)
-        chains += chain[:-1]
-    return np.array(chains)
-
-
-def hull_margin(hull: Floats, x: float, y: float) -> float:
-    """How far a point is inside a convex polygon; negative: outside."""
-    edges = np.roll(hull, -1, axis=0) - hull
-    to_point = np.array([x, y]) - hull
-    heights = (edges[:, 0] * to_point[:, 1] - edges[:, 1] * to_point[:, 0]) / np.linalg.norm(edges, axis=1)
-    return float(heights.min())
+def patch_hull(pair: Pair, place: Floats) -> tuple[Floats, Floats]:
+    """Samples of both outlines that lie in the patch, shape (n, 2), and the corners of their convex hull."""
+    points = np.empty((2 * fk.OUTLINE_SAMPLES, 2))
+    hull = np.empty((2 * fk.OUTLINE_SAMPLES + 2, 2))
+    count = fk.patch_points(place, pair.bolt.packed, pair.nut.packed, points)
+    size = fk.convex_hull(points, count, hull) if count > 2 else 0
+    return points[:count], hull[:size]
 
 
 def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:
@@ -134,7 +114,3 @@ def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:
             best = (float(shares.min()), i, np.asarray(shares, dtype=np.float64))
     i = best[1]
     return hull[[first, (first + i) % count, (first + i + 1) % count]], best[2]
-
-
-def _turn(a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
