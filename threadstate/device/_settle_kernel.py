@@ -62,7 +62,7 @@ PATH_OVERLAP, END_OVERLAP = 1e-11, 1e-14
 """Size of the projected descent over the push at which the bolt counts as at rest on the way, and at the end; overlap
 (nominal radii) that is left there."""
 
-TIP = 1e-4
+TIP = 1e-6
 """How far (rad) a flush bolt is tipped where its patch no longer carries the push."""
 
 MAX_FALLS = 16
