@@ -11,6 +11,7 @@
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make statics    what a push does to the states, docs/statics.md and its maps
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
+# make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
 # make witness    the numbers of 10,000 loaded states beside a conic solver's, docs/statics-witness.md
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
@@ -34,7 +35,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer statics witness threads forms histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -96,6 +97,9 @@ threads: setup
 
 forms: setup $(VENV)/.oracle
 	$(BIN)/python -m studies.forms
+
+chamfer: setup $(VENV)/.oracle
+	$(BIN)/python -m studies.chamfer
 
 histories: setup
 	$(BIN)/python -m studies.history

@@ -54,5 +54,5 @@ def get_profiles(request: Request, asked: RequestedPair, unit: UnitQuery = None)
 
 @lru_cache(maxsize=_CACHE_SIZE)
 def _content(search: str | None) -> bytes:
-    """The threads that a search finds, as JSON; cached, as a pass over all of them takes some 30 ms."""
+    """The threads that a search finds, as JSON; cached, as all of them are 200 kB."""
     return json_content(standard_thread_list(found_threads(search)))

@@ -267,6 +267,11 @@ def print_profiles(pairs: Sequence[Pair], unit: LengthUnit | None) -> None:
         for part in Part:
             radii = [getattr(one.form, f"{part}_{where}_fillet") * one.thread_pitch for one in pairs]
             add(f"{part}, {where} fillet", radii)
+    if any(one.chamfer for one in pairs):
+        add(
+            "bolt, end diameter of its chamfer",
+            [None if one.chamfer is None else one.chamfer.end_diameter for one in pairs],
+        )
     plays = [play_of(one) for one in pairs]
     add("radial play at the bolt's crest", [play.crest for play in plays])
     add("radial play at the bolt's root", [play.root for play in plays])

@@ -14,7 +14,7 @@ from threadstate.state.document import StateDocument
 from threadstate.statics.document import StaticsDocument
 from threadstate.statics.stored import LibraryStateDocument
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION
-from threadstate.thread.standards.designation import UNIFIED_SOURCE
+from threadstate.thread.standards.sizes import UNIFIED_SOURCE
 
 
 def _document(name: str) -> Any:

@@ -22,6 +22,9 @@ from threadstate.thread.pair import Pair
 from threadstate.thread.standards.document import SourceDocument
 from threadstate.units import LengthUnit
 
+NO_CHAMFER = {"pair": {"chamfer"}}
+"""Libraries are of pairs without one (decision 28), whose documents do not name it."""
+
 
 class GridDocument(BaseModel):
     """The grid of a library's poses, in degrees: roll and pitch +-``tilt_max``, phase 0 up to but without 360."""
@@ -118,7 +121,10 @@ router = APIRouter(prefix="/v1/libraries", tags=["libraries"])
 def list_libraries(request: Request, connection: ReadConnection, unit: UnitQuery = None) -> Response:
     """The published libraries, the latest first; unpublished ones are not listed."""
     documents = [library_document(record, unit) for record in published_libraries(connection)]
-    return json_response(request, LibraryList(libraries=documents).model_dump(mode="json"))
+    return json_response(
+        request,
+        LibraryList(libraries=documents).model_dump(mode="json", exclude={"libraries": {"__all__": NO_CHAMFER}}),
+    )
 
 
 @router.get("/{id}", summary="One library", response_model=LibraryDetail, responses=NOT_MODIFIED)
@@ -128,4 +134,4 @@ def get_library(
     """What a library was computed from, and number of its states of each class and each flag."""
     document = library_detail(library, counts(connection, library.id), unit)
     headers = {"Content-Location": f"/v1/libraries/{library.id}"}
-    return json_response(request, document.model_dump(mode="json"), headers)
+    return json_response(request, document.model_dump(mode="json", exclude=NO_CHAMFER), headers)

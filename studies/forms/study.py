@@ -51,6 +51,10 @@ FORMS = tuple(
         "Tr 8x1.5-7e/7H 2 starts",
         "1/4-16 ACME-2G with sharp corners",
         "Tr 8x1.5-7e/7H with sharp corners",
+        "1/4-20 UNJC-3A/3B",
+        "MJ6x1-4h6h/4H5H",
+        "1/2-20 BUTT-2A/2B",
+        "1/2-20 PUSH-BUTT-2A/2B",
     )
     for end in ("", " at minimum material")
 )

@@ -38,7 +38,8 @@ DESIGNATIONS = [
     "1/4-20 BSW",
     "1/4-20 BSW at minimum material",
 ]
-PAIRS = [*map(pair_by_designation, DESIGNATIONS), BUTTRESS, TURNED_BUTTRESS]
+FURTHER = ["1/4-28 UNJF at minimum material", "MJ6", "1/2-16 BUTT", "1/2-16 PUSH-BUTT-3A/3B at minimum material"]
+PAIRS = [*map(pair_by_designation, DESIGNATIONS), BUTTRESS, TURNED_BUTTRESS, *map(pair_by_designation, FURTHER)]
 SEED = 181
 HEIGHTS, TURNS = 6, 1
 PARTED = 2e-5

@@ -7,11 +7,13 @@ import math
 import numpy as np
 import pytest
 
+from oracle.state_turns import begins_at, turns_of
 from tests.contact.samples import Floats, random_poses
 from threadstate.contact import _record_kernel as record
 from threadstate.contact._solve_kernel import S_CONVEX, S_PROVE, S_TIE, S_TURN_LIMIT, solve_rows
 from threadstate.contact._stage_kernel import THREAD_EDGE, THREAD_THREAD
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.state.solve import solve_pose
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
 
@@ -129,3 +131,22 @@ def test_a_maximum_is_found_from_where_the_hessian_of_phi_is_indefinite() -> Non
     found = rows(beside, rectangles=False, turn_limit_deg=45.0)
     assert (found[:, THIRD_PAIR] == THREAD_THREAD).all()
     assert np.degrees(found[:, record.O_MU]) == pytest.approx(16.69011, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("pose", "turn_deg"),
+    [
+        ((3.369019774851382, -1.1001146689814343, 2.0433122980857465), 39.078001676),
+        ((3.3310918540478927, -0.8799982349090225, 1.9838556789131268), 38.846350272),
+        ((3.7663217077731117, -0.04269541193205573, 2.1019398798287803), 36.559178740),
+    ],
+)
+def test_a_crest_comes_into_a_root_late_in_a_turn(pose: tuple[float, float, float], turn_deg: float) -> None:
+    """That lasts for a few tenths of a degree: ridges, even at instants 0.2 deg apart, stepped over it."""
+    pair = pair_by_designation("M6")
+    state = solve_pose(pair, *pose)
+    assert state.mu_deg == pytest.approx(turn_deg, abs=1e-8)
+    last = turns_of(pair, state)[-1]
+    (contact,) = last.found
+    assert (contact.bolt_region, contact.nut_region) == ("crest_fillet_pos", "root")
+    assert begins_at(pair, last, np.array(contact.point), 1e-4, 1e-3)

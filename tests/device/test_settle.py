@@ -277,7 +277,11 @@ def test_a_bad_pose_or_friction_is_refused(pose: tuple[float, float, float], mu:
 
 @pytest.mark.parametrize(
     ("designation", "name"),
-    [("1/4-16 acme at minimum material", "flank_half_angle_deg"), ("sharp", "bolt_root_fillet")],
+    [
+        ("1/4-16 acme at minimum material", "flank_half_angle_deg"),
+        ("sharp", "bolt_root_fillet"),
+        ("M6 with chamfer", "chamfer"),
+    ],
 )
 def test_pairs_that_the_search_does_not_cover_are_refused(designation: str, name: str) -> None:
     pair = (

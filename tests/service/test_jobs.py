@@ -207,6 +207,8 @@ def test_a_job_that_is_not_there_is_not_found(desk: Desk) -> None:
     ("body", "named"),
     [
         ({"designation": "M7"}, "designation"),
+        ({"designation": "M6 with chamfer"}, "chamfer"),
+        ({"designation": "M6 with chamfer", "method": "mesh"}, "chamfer"),
         ({"grid": {"tilt_max": 11}}, "tilt_max"),
         ({"grid": {"tilt_max": "4"}}, "tilt_max"),
         ({"grid": {"phase_step": 7}}, "phase_step"),

@@ -64,3 +64,10 @@ def test_list_has_published_libraries_alone_and_the_latest_first(databases: Data
         assert client.get("/v1/libraries/latest").json()["id"] == second.id
         assert client.get("/v1/libraries/1-4-20-unc").json()["id"] == first.id
         assert client.get(f"/v1/libraries/{unfinished}").status_code == 404
+
+
+def test_a_pair_without_a_chamfer_does_not_name_it(client: TestClient) -> None:
+    detail = client.get("/v1/libraries/latest").json()
+    (listed, *_) = client.get("/v1/libraries").json()["libraries"]
+    keys = ["designation", "unit", "nominal_diameter", "thread_pitch", "form", "fit", "starts", "hand"]
+    assert list(detail["pair"]) == list(listed["pair"]) == keys

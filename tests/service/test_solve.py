@@ -15,7 +15,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
-from threadstate.thread.standards.designation import UNIFIED_SOURCE, WHITWORTH_SOURCE
+from threadstate.thread.standards.sizes import UNIFIED_SOURCE, WHITWORTH_SOURCE
 from threadstate.units import MILLIMETRES_PER_INCH
 
 pytestmark = pytest.mark.sqlite_alone
@@ -112,6 +112,19 @@ def test_unknown_thread_is_told_the_known_ones(client: TestClient) -> None:
     response = client.post("/v1/solve", json=body(POSES[0], designation="M7"))
     assert response.status_code == 400
     assert "1/4-20 UNC" in response.json()["detail"]
+
+
+def test_a_chamfer_is_refused_by_name(client: TestClient) -> None:
+    chamfered = {"designation": "M6 with chamfer"}
+    for response in (
+        client.post("/v1/solve", json=body(POSES[0], **chamfered)),
+        client.post("/v1/statics", json=body(POSES[0], loads=[{}], **chamfered)),
+        client.get("/v1/states/4/0/185/jamming", params=chamfered),
+        client.get("/v1/histories/4/0/falls", params=chamfered),
+    ):
+        assert response.status_code == 400, response.text
+        assert "chamfer is 'end diameter 4.6" in response.json()["detail"]
+        assert "valid: none for the exact method" in response.json()["detail"]
 
 
 @pytest.mark.parametrize("designation", ["m6 - 6G/6h at minimum", "1/4-16 Acme", "Tr8x1.5-7e/7H"])

@@ -20,7 +20,7 @@ from threadstate.statics.document import RequestedStaticsDocument, statics_docum
 from threadstate.statics.load import LARGEST_NUMBER, Load
 from threadstate.statics.solve import statics_of
 from threadstate.thread.catalogue import quarter_twenty_unc
-from threadstate.thread.standards.designation import UNIFIED_SOURCE
+from threadstate.thread.standards.sizes import UNIFIED_SOURCE
 from worker.cli import run_command_line
 
 pytestmark = pytest.mark.sqlite_alone

@@ -27,7 +27,7 @@ def client(databases: Databases) -> Iterator[TestClient]:
 @pytest.mark.parametrize(
     ("search", "found"),
     [
-        (None, 242),
+        (None, 501),
         ("m6X1 - 6g / 6h", ["M6x1-6g/6H"]),
         ("1/4-20 unc-3a", ["1/4-20 UNC-3A/3B"]),
         ("M8x1-4g6g/5H lh", ["M8x1-4g6g/5H LH"]),

@@ -8,23 +8,26 @@ import pytest
 
 from threadstate.errors import InvalidValueError
 from threadstate.thread.catalogue import pair_by_designation, source_of
-from threadstate.thread.play import axial_play
-from threadstate.thread.standards.designation import (
+from threadstate.thread.play import axial_limits, axial_play
+from threadstate.thread.standards.designation import standard_thread, standard_threads
+from threadstate.thread.standards.pairs import Position, pair_at, parsed_position, standard_pair
+from threadstate.thread.standards.sizes import (
     ACME_SOURCE,
+    BUTTRESS_SOURCE,
+    MJ_SOURCE,
     OF_ONE_START,
     UNIFIED_SOURCE,
+    UNJ_SOURCE,
     WHITWORTH_SOURCE,
-    standard_thread,
-    standard_threads,
+    WIDER_OF_SEVERAL,
 )
-from threadstate.thread.standards.pairs import Position, pair_at, parsed_position, standard_pair
 
 
 @pytest.mark.parametrize("position", [Position(0.0, 0.0), Position(1.0, 1.0)], ids=["maximum", "minimum"])
 def test_every_bolt_of_the_catalogue_goes_into_its_nut(position: Position) -> None:
     """Roots and crests too: a fillet that is larger than that of the other part beside it would leave no play."""
     for thread in standard_threads():
-        assert axial_play(pair_at(thread, position)) >= -1e-12 * thread.thread_pitch, thread.designation
+        assert min(axial_limits(pair_at(thread, position))) >= -1e-12 * thread.thread_pitch, thread.designation
 
 
 @pytest.mark.parametrize("designation", ["1/4-20 UNC-3A/3B", "M6-4h/4H", "1/4-20 BSW-close/close"])
@@ -57,6 +60,35 @@ def test_a_metric_root_is_full_between_the_two_radii_of_the_standard() -> None:
         assert pair.bolt.boundaries[0] == pytest.approx(-pitch / 4.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("designation", ["1/4-28 UNJF", "MJ6", "MJ20x1.5"])
+def test_a_controlled_root_is_an_arc_from_the_greatest_to_the_least_radius(designation: str) -> None:
+    for position, radius in (("maximum", 0.18042), ("minimum", 0.15011)):
+        pair = standard_pair(f"{designation} at {position}")
+        rounding_of_diameters = 1e-4 if pair.thread_pitch < 0.1 else 1e-3
+        assert pair.form.bolt_root_fillet == pytest.approx(radius, abs=2.0 * rounding_of_diameters / pair.thread_pitch)
+        assert pair.bolt.boundaries[0] == pytest.approx(-pair.thread_pitch / 4.0, abs=1e-12)
+
+
+def test_where_no_limit_was_found_the_known_one_stands_at_every_position() -> None:
+    tight, loose = (standard_pair(f"1/4-28 UNJF at {position}").fit for position in ("maximum", "minimum"))
+    assert tight.nut_minor_diameter == loose.nut_minor_diameter == 0.2152
+    assert tight.nut_pitch_diameter < loose.nut_pitch_diameter
+
+
+def test_a_screw_that_is_pulled_bears_on_the_flank_that_faces_its_head() -> None:
+    pull, push = (standard_pair(f"1/2-16 {symbol} LH at middle").form for symbol in ("BUTT", "PUSH-BUTT"))
+    assert (pull.flank_half_angle_deg, pull.flank_half_angle_neg_deg) == (45.0, 7.0)
+    assert (push.flank_half_angle_deg, push.flank_half_angle_neg_deg) == (7.0, 45.0)
+    assert replace(pull, name="", flank_half_angle_deg=7.0, flank_half_angle_neg_deg=45.0) == replace(push, name="")
+
+
+@pytest.mark.parametrize(("position", "radius"), [("maximum", 0.0714), ("minimum", 0.0357)])
+def test_a_buttress_root_is_an_arc_within_the_radii_of_the_standard(position: str, radius: float) -> None:
+    form = standard_pair(f"1/2-16 BUTT at {position}").form
+    assert form.bolt_root_fillet == pytest.approx(radius, abs=1e-3)
+    assert form.nut_root_fillet == pytest.approx(radius, abs=1e-3)
+
+
 def test_whitworth_is_round_and_its_radius_that_of_the_standard() -> None:
     form = standard_pair("1/4-20 BSW-close/close").form
     assert form.flank_half_angle_deg == 27.5
@@ -77,6 +109,10 @@ def test_the_name_of_a_position_means_it(text: str) -> None:
         ("1/4-20 UNC newer root", f"{UNIFIED_SOURCE}; the bolt's minor diameter from newer editions"),
         ("1/4-16 acme at middle", ACME_SOURCE),
         ("1/4-20 BSW", WHITWORTH_SOURCE),
+        ("1/4-28 UNJF at minimum material", UNJ_SOURCE),
+        ("MJ6 at middle", MJ_SOURCE),
+        ("1/2-16 BUTT-3A", BUTTRESS_SOURCE),
+        ("1/2-16 PUSH-BUTT with sharp crests", BUTTRESS_SOURCE),
     ],
 )
 def test_a_pair_rests_on_its_standard_while_every_number_is_the_standards(designation: str, source: str) -> None:
@@ -92,6 +128,8 @@ def test_a_pair_rests_on_its_standard_while_every_number_is_the_standards(design
     [
         ("M6xPh2P1", "M6x1-6g/6H 2 starts", 2),
         ("m6 x ph3p1 - 6h/6H lh", "M6x1-6h/6H LH 3 starts", 3),
+        ("MJ6xPh2P1", "MJ6x1-4h6h/4H5H 2 starts", 2),
+        ("1/2-16 BUTT-2A 3 starts", "1/2-16 BUTT-2A/2B 3 starts", 3),
         ("Tr 8x3(P1.5)", "Tr 8x1.5-7e/7H 2 starts", 2),
         ("tr8x3 P1.5-8c/8H at middle", "Tr 8x1.5-8c/8H 2 starts at middle", 2),
         ("1/4-16 ACME-2G 2 starts", "1/4-16 ACME-2G 2 starts", 2),
@@ -106,7 +144,8 @@ def test_several_starts_are_written_as_a_number_or_as_lead_and_pitch(
     assert (pair.designation, pair.starts) == (designation, starts)
     assert abs(pair.lead) == starts * pair.thread_pitch
     assert pair_by_designation(pair.designation) == pair
-    assert str(source_of(pair)).endswith(OF_ONE_START) == (starts > 1)
+    of_several = WIDER_OF_SEVERAL if pair.form.name == "Tr" else OF_ONE_START
+    assert str(source_of(pair)).endswith(of_several) == (starts > 1)
 
 
 @pytest.mark.parametrize(

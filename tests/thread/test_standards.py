@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,10 +11,11 @@ import pytest
 
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.thread.catalogue import quarter_twenty_unc
-from threadstate.thread.standards import acme, metric, trapezoidal, unified, whitworth
+from threadstate.thread.standards import acme, buttress, metric, trapezoidal, unified, whitworth
 from threadstate.thread.standards.designation import found_threads, standard_thread, standard_threads
 from threadstate.thread.standards.document import standard_thread_document
-from threadstate.thread.standards.limits import Limits
+from threadstate.thread.standards.limits import Limits, rounded
+from threadstate.thread.standards.pairs import standard_pair
 from worker.cli import run_command_line
 
 PUBLISHED = Path(__file__).parent / "published"
@@ -61,6 +63,12 @@ def metric_rows() -> Iterator[Row]:
         yield f"{size} {tolerance}", numbers(values), found
 
 
+def metric_minor_rows() -> Iterator[Row]:
+    for pitch, *values in rows("metric_minor"):
+        grades = range(4, 4 + len(values))
+        yield pitch, numbers(values), [metric.minor_tolerance_um(float(pitch), one) / 1000.0 for one in grades]
+
+
 def acme_rows() -> Iterator[Row]:
     by_name = {one.name: one for one in acme.sizes()}
     for size, tolerance, part, *values in rows("acme"):
@@ -74,6 +82,32 @@ def trapezoidal_rows() -> Iterator[Row]:
         bolt = of_bolt(trapezoidal.bolt_limits(float(diameter), float(pitch), "7e"))
         major, _, *rest = of_nut(trapezoidal.nut_limits(float(diameter), float(pitch), "7H"))
         yield f"Tr {diameter}x{pitch}", numbers(values), [*bolt, major, *rest]
+
+
+def trapezoidal_10c_rows() -> Iterator[Row]:
+    for diameter, pitch, *values in rows("trapezoidal_10c"):
+        below = trapezoidal.DEVIATION_C_UM[float(pitch)]
+        width = metric.pitch_tolerance_um(float(diameter), float(pitch), 10, nut=False)
+        minor = round(1000.0 * trapezoidal.minor_tolerance_mm(width / 1000.0, below / 1000.0), 6)
+        found: list[float | None] = [trapezoidal.CREST_4_UM[float(pitch)], below, below + width, minor]
+        yield f"{diameter}, {pitch}", numbers(values), found
+
+
+def buttress_rows() -> Iterator[Row]:
+    for threads, *values in rows("buttress"):
+        of_ranges = [buttress.ButtressSize("", greatest, int(threads)) for greatest in buttress.RANGES[1:]]
+        yield threads, numbers(values), [buttress.tolerance(one, "2") for one in of_ranges[: len(values)]]
+
+
+def buttress_form_rows() -> Iterator[Row]:
+    """From the constants that the limits are made of, the angles of the flanks, and the fillet of a pair's root."""
+    tangents = sum(math.tan(math.radians(one)) for one in (buttress.LOAD_FLANK_DEG, buttress.CLEARANCE_FLANK_DEG))
+    height, sharp, beyond = buttress.HEIGHT, 1.0 / tangents, buttress.ROOT_BEYOND / 2.0
+    root = standard_pair("1/2-16 BUTT").form.bolt_root_fillet
+    heights = [height, sharp, (sharp - height) / 2.0, height + beyond, (sharp - height) / 2.0 - beyond]
+    for threads, *values in rows("buttress_form"):
+        ratios = [*heights, root, 0.5 - height / 2.0 * tangents]
+        yield threads, numbers(values), [rounded(ratio / float(threads), 4) for ratio in ratios]
 
 
 def whitworth_rows() -> Iterator[Row]:
@@ -93,11 +127,15 @@ def whitworth_rows() -> Iterator[Row]:
 
 
 TABLES = {
-    "unified": (unified_rows, 372),
-    "metric": (metric_rows, 244),
+    "unified": (unified_rows, 374),
+    "metric": (metric_rows, 249),
+    "metric_minor": (metric_minor_rows, 27),
     "acme": (acme_rows, 88),
     "trapezoidal": (trapezoidal_rows, 77),
-    "whitworth": (whitworth_rows, 72),
+    "trapezoidal_10c": (trapezoidal_10c_rows, 143),
+    "whitworth": (whitworth_rows, 74),
+    "buttress": (buttress_rows, 19),
+    "buttress_form": (buttress_form_rows, 19),
 }
 
 
@@ -115,7 +153,7 @@ def test_every_published_value_is_met(name: str) -> None:
 
 def test_all_sizes_have_limits_in_order() -> None:
     found = list(standard_threads())
-    assert len({one.designation for one in found}) == len(found) == 242
+    assert len({one.designation for one in found}) == len(found) == 501
     for one in found:
         for part in (one.bolt, one.nut):
             for diameter in (part.major, part.pitch, part.minor):
@@ -161,6 +199,21 @@ def test_the_default_pair_is_its_standards_at_maximum_material() -> None:
         ("1/4-16 ACME-3G/2G", "1/4-16 ACME-3G/2G"),
         ("1/2-10 stub acme", "1/2-10 STUB ACME-2G"),
         ("1/4-20 bsw-free/medium", "1/4-20 BSW-free/medium"),
+        ("1/4-28 UNJF-3A/3B", "1/4-28 UNJF-3A/3B"),
+        (".2500-28 UNJF", "1/4-28 UNJF-3A/3B"),
+        ("0.190-32 unjf-3a", "10-32 UNJF-3A/3B"),
+        (".1380-32 UNC-2A", "6-32 UNC-2A/2B"),
+        ("1.125-7 UNC LH", "1 1/8-7 UNC-2A/2B LH"),
+        ("MJ6", "MJ6x1-4h6h/4H5H"),
+        ("MJ6x1 4h6h - 4H5H", "MJ6x1-4h6h/4H5H"),
+        ("mj6 x 1-4H5H/4h6h", "MJ6x1-4h6h/4H5H"),
+        ("MJ5x0.8-4h6h", "MJ5x0.8-4h6h/4H6H"),
+        ("MJ6x1-4g6g LH", "MJ6x1-4g6g/4H5H LH"),
+        ("M6 6g/6H", "M6x1-6g/6H"),
+        ("2.5-8 BUTT-2A/2B", "2 1/2-8 BUTT-2A/2B"),
+        ("1/2-16 butt", "1/2-16 BUTT-2A/2B"),
+        ("1/2-16 Pull-Butt-3A", "1/2-16 BUTT-3A/3B"),
+        ("2.500-8 PUSH-BUTT-2A-LH", "2 1/2-8 PUSH-BUTT-2A/2B LH"),
     ],
 )
 def test_a_designation_is_read_as_people_write_it(written: str, meant: str) -> None:
@@ -189,12 +242,51 @@ def test_a_designation_is_read_as_people_write_it(written: str, meant: str) -> N
         ("1/4-16 STUB ACME-3G", InvalidValueError, "2G of Stub Acme"),
         ("Tr 8x1.5-4e", InvalidValueError, "grade 7, 8 or 9"),
         ("1/4-20 BSW-loose", InvalidValueError, "close, medium, free"),
+        ("1/4-28 UNJF-2A", InvalidValueError, "3A for a bolt with a UNJ thread"),
+        ("1/4-28 UNJF-3A/2B", InvalidValueError, "3B for a nut with a UNJ thread"),
+        ("MJ6x1-4k6k", InvalidValueError, "e, f, g or h"),
+        ("MJ6x1-4h6h/4H9H", InvalidValueError, "4, 5, 6, 7, 8 of the crest"),
+        ("1/2-16 BUTT-1A", InvalidValueError, "2A or 3A for a screw with a buttress thread"),
+        ("1/2-16 PUSH-BUTT-2A/1B", InvalidValueError, "2B or 3B for a nut with a buttress thread"),
+        ("1/2-16 BUTT-2", InvalidValueError, "2A or 3A for a screw with a buttress thread"),
+        ("1/2-17 BUTT", UnknownNameError, "1/4-20 UNC-2A/2B"),
+        ("0.3-20 UNC", UnknownNameError, "1/4-20 UNC-2A/2B"),
     ],
 )
 def test_what_is_no_designation_is_refused(written: str, error: type[Exception], valid: str) -> None:
     with pytest.raises(error, match="valid: ") as found:
         standard_thread(written)
     assert valid in str(found.value)
+
+
+@pytest.mark.parametrize(
+    ("written", "nut"),
+    [("1/4-28 UNJF", (0.2152, None)), ("10-32 UNJF", (0.1596, None)), ("MJ6x1-4h6h/4H5H", (5.026, 5.216))],
+)
+def test_a_controlled_root_leaves_room_in_the_nut(written: str, nut: tuple[float, float | None]) -> None:
+    """Minor diameters of nuts are 9/8 of the sharp triangle's height below the major one; that of UNJ has no limit."""
+    found = standard_thread(written)
+    plain = standard_thread(written.replace("J", ""))
+    assert (found.nut.minor.least, found.nut.minor.greatest) == nut
+    assert found.bolt.minor.greatest is not None
+    assert found.nut.minor.least is not None
+    assert plain.nut.minor.least is not None
+    assert plain.nut.minor.least < found.nut.minor.least
+    assert found.bolt.minor.greatest < found.nut.minor.least
+    assert found.source != plain.source
+
+
+def test_tolerances_of_the_pitch_diameter_grow_with_the_starts_of_a_trapezoidal_thread() -> None:
+    def widths(starts: int) -> list[float]:
+        found = standard_thread(f"Tr 8x1.5 {starts} starts")
+        bounds = [(one.least, one.greatest) for one in (found.bolt.pitch, found.nut.pitch)]
+        return [round(1000.0 * (greatest - least), 6) for least, greatest in bounds if least and greatest]
+
+    assert [widths(starts) for starts in (1, 2, 3, 4)] == [[170, 224], [190, 251], [212, 280], [238, 314]]
+    one, two = (standard_thread(f"Tr 8x1.5 {starts} starts") for starts in (1, 2))
+    assert (one.bolt.major, one.nut.major, one.nut.minor) == (two.bolt.major, two.nut.major, two.nut.minor)
+    assert one.bolt.pitch.greatest == two.bolt.pitch.greatest
+    assert one.nut.pitch.least == two.nut.pitch.least
 
 
 def test_a_search_finds_a_designation_or_words() -> None:
@@ -219,6 +311,6 @@ def test_the_command_prints_one_object_or_a_table(capsys: pytest.CaptureFixture[
     (found,) = json.loads(capsys.readouterr().out)["threads"]
     assert found["bolt"]["minor"] == [0.1802, 0.1894]
     assert run_command_line(["threads"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) > 242
+    assert len(capsys.readouterr().out.splitlines()) > 501
     assert run_command_line(["threads", "--search", "M6-6k"]) != 0
     assert "tolerance class" in capsys.readouterr().err

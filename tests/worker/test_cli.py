@@ -21,7 +21,7 @@ from threadstate.state.model import ContactState
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc, source_of
 from threadstate.thread.pair import Pair
-from threadstate.thread.standards.designation import UNIFIED_SOURCE
+from threadstate.thread.standards.sizes import UNIFIED_SOURCE
 from threadstate.units import LengthUnit, conversion_factor
 from worker.cli import PROGRAM, command_group
 from worker.commands.solve import BATCH

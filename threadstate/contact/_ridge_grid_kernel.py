@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 VECTOR_WIDTH = 8
 """Columns are processed in groups of this size."""
-MAX_AZIMUTHS = 256
+MAX_AZIMUTHS = 64
 MAX_PIECES = 16
 BLOCK_SIZE = 2 * MAX_AZIMUTHS + VECTOR_WIDTH
 """Distance between blocks: the columns go round more than twice, so that every arc of columns is contiguous."""

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._crest_crossing_kernel import MAX_SEEDS, crest_crossings
 from threadstate.contact._edge_search_kernel import E_THETA, E_TIME, E_Z
 from threadstate.contact._geometry_kernel import M_KIND, TWO_PI, motion_scale
 from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
     GRID_SIZE,
-    MAX_AZIMUTHS,
     MAX_CROSSINGS,
     MAX_PIECES,
     VECTOR_WIDTH,
@@ -55,12 +55,11 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 INSTANT_STEP = math.radians(1.5)
-LATE_TURN = math.radians(38.0)
+LATE_TURN = math.radians(30.0)
 LATE_INSTANT_STEP = math.radians(0.2)
-"""Steps between the instants at which ridges are searched for, up to ``LATE_TURN`` and beyond it.
-
-Beyond it maxima of phi are narrow, and come and go within tenths of a degree; there all azimuths are used. Angles (rad)
-of a turn; of a translation, multiples of its ``motion_scale``.
+"""Steps between the instants at which ridges are searched for, and those of crests that cross beyond ``LATE_TURN``:
+there maxima of phi are narrow, and come and go within tenths of a degree. Angles (rad) of a turn; of a translation,
+multiples of its ``motion_scale``.
 """
 LONG_TURN = math.radians(20.0)
 BEGINNING = 2.0 * INSTANT_STEP
@@ -75,6 +74,9 @@ GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 CORNER_BISECTIONS = 60
 MAX_FOLLOW_STEP = math.radians(0.5)
 """Largest step in time of following a maximum of phi; in the same unit."""
+CROSSING_NEAR, CROSSING_RANGE = 0.05, math.radians(2.0)
+"""A crossing of crests is looked at where phi, by its rate, vanishes within that much of the time, or is less than that
+many thread pitches."""
 MAX_Z_GAP = 0.06
 """Crossings of neighbouring columns that are farther apart than this part of a pitch belong to two ridges."""
 MAX_PHI_GAP = 0.1
@@ -445,31 +447,61 @@ def deepest_thread_point(
 def ridge_contacts(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
     """Contacts of thread with thread along a motion before ``limit``, earliest first; returns their number.
 
-    ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MAX_AZIMUTHS`` at the most, is a resolution (of short
-    motions; long turns have a finer one) and not a bound: docs/decisions/0001-contacts.md says how it was checked.
+    ``motion`` is the bolt's, seen from the nut; ``azimuths``, ``MAX_AZIMUTHS`` at the most, is a resolution and not a
+    bound: docs/decisions/0001-contacts.md says how it was checked.
     """
     step = motion_scale(motion, bolt)
-    late_start = min(limit, LATE_TURN * step)
-    instants = 1 + int(late_start / (INSTANT_STEP * step))
-    late_instants = int((limit - late_start) / (LATE_INSTANT_STEP * step)) + (1 if limit > late_start else 0)
+    instants = 1 + int(limit / (INSTANT_STEP * step))
     count = 0
-    # One call for all, as it is compiled into each place from which it is called.
-    for i in range(3):
-        start, end, n, columns = 0.0, late_start, instants, azimuths
+    # One call for both, as it is compiled into each place from which it is called.
+    for i in range(2):
+        end, n, columns = limit, instants, azimuths
         if i == 1:
-            start, end, n, columns = late_start, limit, late_instants, MAX_AZIMUTHS
-        elif i == 2:
+            late_start = LATE_TURN * step
+            if limit > late_start:
+                n = 1 + int((limit - late_start) / (LATE_INSTANT_STEP * step))
+                count = contacts_at_crossings(late_start, limit, n, motion, bolt, nut, limit, found, count)
             earliest = found[0, T_TIME] if count > 0 else limit
             if not (motion[M_KIND] > 0.0 and earliest > LONG_TURN):
                 break
             end, n, columns = BEGINNING, BEGINNING_INSTANTS, BEGINNING_AZIMUTHS
-        count = contacts_at_instants(start, end, n, columns, motion, bolt, nut, limit, found, count)
+        count = contacts_at_instants(end, n, columns, motion, bolt, nut, limit, found, count)
+    return count
+
+
+@kernel()
+def contacts_at_crossings(
+    start: float,
+    end: float,
+    instants: int,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    limit: float,
+    found: Array,
+    count: int,
+) -> int:
+    """Adds the contacts that crossings of crests lead to at so many equally spaced instants, the last at ``end``."""
+    placement = np.empty(PLACEMENT_SIZE)
+    jet = np.empty(JET_SIZE)
+    later_placement = np.empty(PLACEMENT_SIZE)
+    seeds = np.empty((MAX_SEEDS, 2))
+    near, soon = CROSSING_NEAR * bolt[pk.P], CROSSING_RANGE * motion_scale(motion, bolt)
+    for i in range(instants):
+        tau = start + (end - start) * (i + 1) / instants
+        set_placement(motion, tau, placement)
+        for j in range(crest_crossings(placement, bolt, nut, seeds)):
+            theta, z = seeds[j, 0], seeds[j, 1]
+            set_jet(theta, z, placement, bolt, nut, jet)
+            if abs(jet[J_PHI]) < near + soon * abs(jet[J_RATE]):
+                count = follow_maximum(
+                    theta, z, tau, limit, motion, bolt, nut, placement, later_placement, jet, found, count
+                )
     return count
 
 
 @kernel()
 def contacts_at_instants(
-    start: float,
     end: float,
     instants: int,
     azimuths: int,
@@ -480,7 +512,7 @@ def contacts_at_instants(
     found: Array,
     count: int,
 ) -> int:
-    """Adds the contacts that maxima lead to at so many equally spaced instants after ``start``, the last at ``end``."""
+    """Adds the contacts that maxima lead to at so many equally spaced instants, the last at ``end``."""
     grid = np.empty(GRID_SIZE)
     placement = np.empty(PLACEMENT_SIZE)
     jet = np.empty(JET_SIZE)
@@ -489,7 +521,7 @@ def contacts_at_instants(
     maxima = np.empty((MAX_CROSSINGS, 2))
     set_columns(azimuths, bolt, grid)
     for i in range(instants):
-        tau = start + (end - start) * (i + 1) / instants
+        tau = end * (i + 1) / instants
         set_placement(motion, tau, placement)
         for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
             theta, z = maxima[j, 0], maxima[j, 1]

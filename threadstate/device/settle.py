@@ -29,6 +29,7 @@ from threadstate.device.model import (
     default_device,
 )
 from threadstate.errors import InvalidValueError
+from threadstate.state.flat_base import require_flat_base
 from threadstate.state.model import FeaturePair, StagePose, Vector
 from threadstate.state.records import LEVEL_TILT_DEG
 from threadstate.state.solve import checked_poses
@@ -128,8 +129,9 @@ def check_pair(pair: Pair) -> None:
     """Check that the search of contacts covers a pair.
 
     Raises:
-        InvalidValueError: its flanks are too flat or its corners too sharp.
+        InvalidValueError: its flanks are too flat or its corners too sharp, or the bolt has a chamfer.
     """
+    require_flat_base(pair, "settled states")
     for name in ("flank_half_angle_deg", "flank_half_angle_neg_deg"):
         half_angle = getattr(pair.form, name)
         if half_angle is not None and half_angle < LEAST_FLANK_HALF_ANGLE_DEG:

@@ -64,8 +64,11 @@ class JobEvent:
 
 
 def inputs_json(inputs: LibraryInputs) -> str:
-    """The inputs as JSON; every double is written so that it reads back the same."""
-    return _adapter().dump_json(inputs).decode()
+    """The inputs as JSON; every double is written so that it reads back the same.
+
+    Libraries are of pairs without a chamfer, which is not named.
+    """
+    return _adapter().dump_json(inputs, exclude={"pair": {"chamfer"}}).decode()
 
 
 def inputs_from_json(content: str) -> LibraryInputs:

@@ -16,6 +16,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import MeshOptions
+from threadstate.state.flat_base import require_flat_base
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
@@ -79,12 +80,18 @@ MESH_CODE = (MESH_PHYSICS, MESH_COMPUTING)
 class LibraryInputs:
     """All that a library's content depends on; with ``mesh`` the solver method is that of meshes, else the exact
     one.
+
+    Raises:
+        InvalidValueError: the pair's bolt has a chamfer, for whose contacts the tables have no region.
     """
 
     pair: Pair
     grid: Grid
     options: SolveOptions
     mesh: MeshOptions | None = None
+
+    def __post_init__(self) -> None:
+        require_flat_base(self.pair, "a stored library")
 
     @property
     def method(self) -> SolverMethod:

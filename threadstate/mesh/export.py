@@ -9,10 +9,11 @@ from typing import cast
 import trimesh
 
 from threadstate.errors import InvalidValueError, ThreadstateError
+from threadstate.mesh.chamfer_deviation import chamfered_deviation
 from threadstate.mesh.options import Scene
 from threadstate.mesh.presets import Tessellation
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.solid import Face, Solid, deviation
+from threadstate.mesh.solid import Face, Solid
 from threadstate.thread.pair import Pair, Part
 
 ENDINGS = ("stl", "ply", "glb")
@@ -51,6 +52,8 @@ def glb_by_face(solid: Solid) -> bytes:
     """
     scene = trimesh.Scene()
     for face in Face:
+        if face is Face.CHAMFER and not (solid.faces == face).any():
+            continue
         patch = trimesh.Trimesh(solid.vertices, solid.triangles[solid.faces == face], process=False)
         patch.remove_unreferenced_vertices()
         scene.add_geometry(patch, node_name=face.name.lower(), geom_name=face.name.lower())
@@ -60,7 +63,8 @@ def glb_by_face(solid: Solid) -> bytes:
 def mesh_report(pair: Pair, part: Part, tessellation: Tessellation, scene: Scene = Scene.FULL) -> MeshReport:
     """The report of a part as a scene with triangles has it; of an open mesh the volume means nothing."""
     solid = scene_part(pair, part, tessellation, scene)
-    found = deviation(solid, pair.bolt if part is Part.BOLT else pair.nut)
+    profile, chamfer = (pair.bolt, pair.chamfer) if part is Part.BOLT else (pair.nut, None)
+    found = chamfered_deviation(solid, profile, chamfer)
     mesh = as_trimesh(solid)
     return MeshReport(
         vertices=len(solid.vertices),

@@ -7,10 +7,12 @@ from functools import lru_cache
 
 import numpy as np
 
+from threadstate.mesh.chamfered import chamfered_side, whole_thread
 from threadstate.mesh.end_face import SIDES, end_face
 from threadstate.mesh.presets import Tessellation
 from threadstate.mesh.solid import Face, Floats, Ints, Solid
 from threadstate.mesh.thread_surface import thread_surface
+from threadstate.thread.chamfer import Chamfer
 from threadstate.thread.pair import Pair, Part
 from threadstate.thread.profile import Profile
 
@@ -22,11 +24,22 @@ WALL = 1.0
 
 @lru_cache(maxsize=8)
 def part_solid(pair: Pair, part: Part, tessellation: Tessellation) -> Solid:
-    """The bolt, 0 <= z <= p, hollow; or the nut, -p <= z <= 0, cut from a prism of 16 sides."""
+    """The bolt, 0 <= z <= p, hollow; or the nut, -p <= z <= 0, cut from a prism of 16 sides.
+
+    With a chamfer both are as many pitches longer as it is high, so that a whole pitch of thread is beyond it.
+    """
     inradius = cut_inradius(pair, part)
+    pitches = pitches_long(pair)
     if part is Part.BOLT:
-        return _solid(pair.bolt, 0.0, inradius, tessellation, outward=True)
-    return _solid(pair.nut, -pair.thread_pitch, inradius, tessellation, outward=False)
+        return _solid(pair.bolt, 0.0, inradius, tessellation, pitches, pair.chamfer, outward=True)
+    return _solid(pair.nut, -pitches * pair.thread_pitch, inradius, tessellation, pitches, None, outward=False)
+
+
+def pitches_long(pair: Pair) -> int:
+    """How many thread pitches long the solids are: one, and as many as hold the bolt's chamfer."""
+    if pair.chamfer is None:
+        return 1
+    return 1 + math.ceil(pair.chamfer.height(pair.fit.bolt_major_diameter) / pair.thread_pitch)
 
 
 def cut_inradius(pair: Pair, part: Part) -> float:
@@ -44,8 +57,18 @@ def part_size(profile: Profile, inradius: float) -> float:
     return math.sqrt(2.0 * width * width + profile.thread_pitch**2)
 
 
-def _solid(profile: Profile, z_low: float, inradius: float, tessellation: Tessellation, *, outward: bool) -> Solid:
-    thread = thread_surface(profile, z_low, tessellation, part_size(profile, inradius))
+def _solid(
+    profile: Profile,
+    z_low: float,
+    inradius: float,
+    tessellation: Tessellation,
+    pitches: int,
+    chamfer: Chamfer | None,
+    *,
+    outward: bool,
+) -> Solid:
+    surface = thread_surface(profile, z_low, tessellation, part_size(profile, inradius), pitches=pitches)
+    thread = whole_thread(surface) if chamfer is None else chamfered_side(surface, profile, chamfer)
     low = end_face(thread.vertices[thread.low], thread.low, inradius, len(thread.vertices))
     first = len(thread.vertices) + len(low.vertices)
     high = end_face(thread.vertices[thread.high], thread.high, inradius, first)
@@ -53,7 +76,7 @@ def _solid(profile: Profile, z_low: float, inradius: float, tessellation: Tessel
     walls = _wall(low.polygon, high.polygon)
     cut, far = (Face.CUT, Face.FAR_END) if outward else (Face.FAR_END, Face.CUT)
     patches = (
-        (thread.triangles if outward else _turned_over(thread.triangles), Face.THREAD),
+        (thread.triangles if outward else _turned_over(thread.triangles), thread.faces),
         (_turned_over(low.triangles), cut),
         (high.triangles, far),
         (_turned_over(walls) if outward else walls, Face.WALL),
@@ -62,7 +85,7 @@ def _solid(profile: Profile, z_low: float, inradius: float, tessellation: Tessel
     return Solid(
         vertices=np.vstack([thread.vertices, low.vertices, high.vertices]),
         triangles=np.vstack([triangles for triangles, _ in patches]),
-        faces=np.concatenate([np.full(len(triangles), face, dtype=np.int8) for triangles, face in patches]),
+        faces=np.concatenate([np.broadcast_to(np.asarray(face, dtype=np.int8), len(of)) for of, face in patches]),
         edge=_by_azimuth(thread.vertices, edge),
     )
 

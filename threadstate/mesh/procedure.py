@@ -14,13 +14,16 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
 from threadstate.contact import _stage_kernel as stage
 from threadstate.errors import MeshUndecidedError
+from threadstate.mesh.chamfer_contact import edge_tangent, set_side
+from threadstate.mesh.chamfer_deviation import chamfered_deviation
 from threadstate.mesh.clusters import Cluster, Connectivity, Neighbourhood, connected
 from threadstate.mesh.collision import Collider, Engine, TooManyPairsError
 from threadstate.mesh.flush_patch import extreme_points
 from threadstate.mesh.frames import along, fixed_from_bolt, trans, turned
 from threadstate.mesh.options import Descent, MeshOptions, Tangent
+from threadstate.mesh.part import pitches_long
 from threadstate.mesh.scene import scene_part
-from threadstate.mesh.solid import Floats, Solid, deviation
+from threadstate.mesh.solid import Floats, Solid
 from threadstate.mesh.steps import Reached, approach, decades, march_and_halve, regress
 from threadstate.mesh.touch import NoContactPointError, Touch, closes_a_gap, touch, touches_beyond
 from threadstate.state.options import SolveOptions
@@ -45,6 +48,10 @@ Clusters = tuple[Cluster, ...]
 Touches = tuple[Touch, ...]
 
 
+EDGES_OF_BOLT = (stage.EDGE_SURFACE, stage.EDGE_THREAD, stage.THREAD_SURFACE, stage.THREAD_THREAD)
+"""Features of a contact in which an edge of the bolt may meet a face of the nut."""
+
+
 class Undecided(Exception):  # noqa: N818 - it never leaves this class
     """Why a pose cannot be answered."""
 
@@ -60,9 +67,17 @@ class MeshProcedure:
         self._set_up_search()
         self._final = options.final_step * pair.thread_pitch
         self._arm = pair.fit.bolt_major_diameter / 2.0
+        cut = pair.chamfer is not None and pair.chamfer.end_diameter < pair.fit.bolt_major_diameter
+        self._chamfer = pair.chamfer if cut else None
         self.edge_deviation = sum(
-            deviation(solid, profile).edge for solid, profile in ((self._bolt, pair.bolt), (self._nut, pair.nut))
+            chamfered_deviation(solid, profile, chamfer).edge
+            for solid, profile, chamfer in ((self._bolt, pair.bolt, pair.chamfer), (self._nut, pair.nut, None))
         )
+
+    @property
+    def _near_edge(self) -> float:
+        """How near to both thread and cone a contact is that may be on their edge."""
+        return 2.0 * (self.edge_deviation + self._final)
 
     def _set_up_search(self) -> None:
         self._collider = self._engine(self._bolt, self._nut)
@@ -113,7 +128,7 @@ class MeshProcedure:
         def meets(travel: float) -> bool | None:
             return self._collides(pose(travel)) or None
 
-        limit = start + p
+        limit = start + p * pitches_long(self._pair)
         if self._options.descent is Descent.DECADES:
             reached = regress(meets, decades(FIRST_STEP * p, self._final), limit)
         else:
@@ -161,13 +176,17 @@ class MeshProcedure:
     def _lie_level(self, first: Floats, row: Floats) -> None:
         """A level bolt: a patch on the surface, undecided on its thread, where facets cannot show a crossing."""
         if first[2, 3] < -BEFORE_FLUSH * self._final:
-            raise Undecided("a level bolt in phase rests on a strip of its thread: facets in one plane have no segment")
+            rests = "a level bolt in phase rests on a strip of its thread"
+            if self._chamfer is not None:
+                rests = "a level bolt with a chamfer rests on an arc of its cone, or on a strip of its thread"
+            raise Undecided(f"{rests}: facets in one plane have no segment")
         self._append_flush_pose(1, first, np.array([1.0, 0.0, 0.0]), row)
 
     def _second_stage(self, first: Floats, cp0: Touch, options: SolveOptions, row: Floats) -> None:
         numbers = cp0.numbers(first)
         reverse = np.zeros(3)
         sk.second_axis(numbers, _flat(first), self._pair.bolt.packed, self._pair.nut.packed, reverse)
+        self._set_chamfer_axis(cp0, first, reverse)
         if self._options.tangent is Tangent.AZIMUTHAL:
             x, y, _ = cp0.point
             reverse = np.array([y, -x, 0.0]) / math.hypot(x, y)
@@ -196,6 +215,18 @@ class MeshProcedure:
         if len(touches) > 1:
             sk.add_flag(row, rk.FLAG_TIE)
         self._after_second(second, cp0, touches, options, row)
+
+    def _set_chamfer_axis(self, cp0: Touch, first: Floats, reverse: Floats) -> None:
+        """Where the nut's surface or thread meets an edge of a chamfered bolt, the axis is that edge's tangent."""
+        if self._chamfer is None or cp0.features not in EDGES_OF_BOLT:
+            return
+        tangent = edge_tangent(self._pair, self._chamfer, _flat(first), cp0.point, self._near_edge)
+        if tangent is not None:
+            if cp0.features in (stage.EDGE_SURFACE, stage.THREAD_SURFACE):
+                tangent[2] = 0.0
+                tangent /= np.linalg.norm(tangent)
+            x, y, _ = cp0.point
+            reverse[:] = tangent if x * tangent[1] - y * tangent[0] < 0.0 else -tangent
 
     def _after_second(self, second: Floats, cp0: Touch, touches: Touches, options: SolveOptions, row: Floats) -> None:
         """Continue after CP1, the first of the touches; further touches are the third stage."""
@@ -331,6 +362,7 @@ class MeshProcedure:
             rk.append_flush_point(
                 number, one.bolt_azimuth, one.corner, x, y, self._pair.bolt.packed, self._pair.nut.packed, row
             )
+            self._set_side(_flat(level), row)
         sk.add_flag(row, rk.FLAG_FLUSH)
         return True
 
@@ -349,8 +381,15 @@ class MeshProcedure:
         for one in touches:
             numbers = one.numbers(T_nut_bolt)
             rk.append_contact(number, numbers, flat, bolt, nut, row)
+            self._set_side(flat, row)
             if rk.grazes(numbers, flat, bolt, nut):
                 sk.add_flag(row, rk.FLAG_GRAZING)
+
+    def _set_side(self, pose: Floats, row: Floats) -> None:
+        """Of a chamfered bolt, set what the last contact of a record has of its side."""
+        if self._chamfer is not None:
+            at = rk.O_CONTACT + rk.POINT_SIZE * (int(row[rk.O_CONTACTS]) - 1)
+            set_side(self._pair, self._chamfer, pose, row[at : at + rk.POINT_SIZE], self._near_edge)
 
 
 def _has_jumped(before: Clusters, after: Clusters) -> bool:

@@ -6,6 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from threadstate.errors import InvalidValueError
 from threadstate.mesh.edge_zone import edge_zone_part
 from threadstate.mesh.options import Scene
 from threadstate.mesh.part import cut_inradius, part_size, part_solid
@@ -14,10 +15,19 @@ from threadstate.mesh.solid import Face, Floats, Solid
 from threadstate.mesh.thread_surface import outline
 from threadstate.thread.pair import Pair, Part
 
+WITH_CHAMFER = (Scene.FULL, Scene.BAND)
+"""The scenes that take bolts with a chamfer."""
+
 
 @lru_cache(maxsize=8)
 def scene_part(pair: Pair, part: Part, tessellation: Tessellation, scene: Scene) -> Solid:
-    """A part as a scene has it; closed in ``FULL`` alone, without any triangles in ``CURVES``."""
+    """A part as a scene has it; closed in ``FULL`` alone, without any triangles in ``CURVES``.
+
+    Raises:
+        InvalidValueError: a bolt with a chamfer in a scene that has no room for its cone.
+    """
+    if pair.chamfer is not None and scene not in WITH_CHAMFER:
+        raise InvalidValueError("scene", scene.value, f"{' or '.join(WITH_CHAMFER)} of a pair whose bolt has a chamfer")
     profile = pair.bolt if part is Part.BOLT else pair.nut
     inradius = cut_inradius(pair, part)
     size = part_size(profile, inradius)
@@ -37,7 +47,7 @@ def _near_side(whole: Solid) -> Solid:
     """
     far = np.zeros(len(whole.vertices), dtype=bool)
     far[whole.triangles[whole.faces == Face.FAR_END]] = True
-    is_near = (whole.faces == Face.THREAD) | (whole.faces == Face.CUT)
+    is_near = np.isin(whole.faces, (Face.THREAD, Face.CUT, Face.CHAMFER))
     faces = whole.faces[is_near].copy()
     faces[(faces == Face.THREAD) & far[whole.triangles[is_near]].any(axis=1)] = Face.FAR_END
     used, triangles = np.unique(whole.triangles[is_near], return_inverse=True)

@@ -23,6 +23,8 @@ class Face(IntEnum):
     FAR_END = 2
     WALL = 3
     """The bolt's bore, or the sides of the prism that the nut is cut from."""
+    CHAMFER = 4
+    """The cone of a chamfered bolt."""
 
 
 @dataclass(frozen=True, eq=False)

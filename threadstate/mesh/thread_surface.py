@@ -39,21 +39,26 @@ class ThreadSurface:
 
 
 def thread_surface(
-    profile: Profile, z_low: float, tessellation: Tessellation, part_size: float, height: float | None = None
+    profile: Profile,
+    z_low: float,
+    tessellation: Tessellation,
+    part_size: float,
+    height: float | None = None,
+    pitches: int = 1,
 ) -> ThreadSurface:
-    """The surface from ``z_low`` up by ``height``, at most the thread pitch, which it is by default.
+    """The surface from ``z_low`` up by ``height``, at most the thread pitch, or else by that many pitches.
 
     Lengths are in the pair's unit. The outline at ``z_low`` is cut wherever the profile is; that at the top, too, if it
-    is a whole pitch higher.
+    is whole pitches higher.
     """
     cuts = profile_cuts(profile, tessellation, part_size)
     places = _column_places(cuts, _around(profile, tessellation), profile.starts)
-    columns = [_column(cuts, place, height) for place in places]
+    columns = [_column(cuts, place, height, pitches) for place in places]
     counts = np.array([len(column) for column in columns])
     offsets = np.concatenate([[0], np.cumsum(counts)])
     radii = np.concatenate([_radii(profile, cuts, column) for column in columns])
     axial = [_axial(cuts, column) for column in columns]
-    rise = profile.thread_pitch if height is None else height
+    rise = pitches * profile.thread_pitch if height is None else height
     heights = np.concatenate([_heights(s, z_low, rise) for s in axial])
     offset = math.fmod(z_low, profile.thread_pitch)
     azimuths = np.repeat([2.0 * math.pi * (offset - s[0]) / profile.lead for s in axial], counts)
@@ -159,10 +164,10 @@ def _column_places(cuts: Floats, around: int, starts: int) -> list[float]:
     return [place - turn * (len(cuts) - 1) for turn in range(starts) for place in places]
 
 
-def _column(cuts: Floats, place: float, height: float | None) -> Floats:
-    """Fractional indices of a column's vertices over one period or a height, its two ends included; ascending."""
+def _column(cuts: Floats, place: float, height: float | None, pitches: int) -> Floats:
+    """Fractional indices of a column's vertices over whole periods or a height, its two ends included; ascending."""
     if height is None:
-        top = place + len(cuts) - 1
+        top = place + pitches * (len(cuts) - 1)
         last = math.ceil(top)
     else:
         top = _index(cuts, float(_axial(cuts, np.array([place]))[0]) + height)

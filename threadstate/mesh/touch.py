@@ -85,7 +85,7 @@ def _point(segments: Segments) -> Floats:
 
 
 def _features(cluster: Cluster, bolt: Solid, nut: Solid) -> int:
-    on_bolt = frozenset(Face(face) for face in bolt.faces[cluster.pairs[:, 0]].tolist())
+    on_bolt = frozenset(_side(Face(face)) for face in bolt.faces[cluster.pairs[:, 0]].tolist())
     on_nut = frozenset(Face(face) for face in nut.faces[cluster.pairs[:, 1]].tolist())
     features = _FEATURES.get((on_bolt, on_nut))
     if features == stage.THREAD_SURFACE and np.isin(bolt.triangles[cluster.pairs[:, 0]], bolt.edge).any():
@@ -94,6 +94,11 @@ def _features(cluster: Cluster, bolt: Solid, nut: Solid) -> int:
         names = [" and ".join(sorted(face.name.lower() for face in faces)) for faces in (on_bolt, on_nut)]
         raise NoContactPointError(f"the bolt's {names[0]} against the nut's {names[1]} is not a contact of the method")
     return features
+
+
+def _side(face: Face) -> Face:
+    """What a face is as a feature: the cone of a chamfered bolt is part of its side, as its thread is."""
+    return Face.THREAD if face is Face.CHAMFER else face
 
 
 def closes_a_gap(contact: Touch, bolt: Solid, nut: Solid, T_nut_bolt: Floats, T_later: Floats) -> bool:

@@ -15,7 +15,7 @@ from threadstate.state.classify import classify
 from threadstate.state.model import Answer, Contact, ContactState, FeaturePair, Flag, StagePose, UndecidedPose, Vector
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
-from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
+from threadstate.thread.regions import NUT_REGIONS, SIDE_REGIONS
 
 Array = NDArray[np.float64]
 
@@ -120,7 +120,7 @@ def _contacts(records: Array) -> list[tuple[Contact, ...]]:
         _vectors(found, rk.P_POINT),
         _vectors(found, rk.P_BOLT_POINT),
         _vectors(found, rk.P_NORMAL),
-        map(BOLT_REGIONS.__getitem__, _integers(found[:, rk.P_BOLT_REGION])),
+        map(SIDE_REGIONS.__getitem__, _integers(found[:, rk.P_BOLT_REGION])),
         map(NUT_REGIONS.__getitem__, _integers(found[:, rk.P_NUT_REGION])),
         map(FEATURES.__getitem__, _integers(found[:, rk.P_PAIR])),
         found[:, rk.P_BOLT_MARGIN].tolist(),

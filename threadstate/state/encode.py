@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from threadstate.contact import _record_kernel as rk
 from threadstate.state.decode import FEATURES, FLAG_BITS
 from threadstate.state.model import Contact, ContactState
-from threadstate.thread.regions import BOLT_REGIONS, NUT_REGIONS
+from threadstate.thread.regions import NUT_REGIONS, SIDE_REGIONS
 
 _BITS = {flag: bit for bit, flag in FLAG_BITS}
 
@@ -39,7 +39,7 @@ def _numbers(contact: Contact) -> tuple[float, ...]:
         *contact.point,
         *contact.point_bolt,
         *contact.normal,
-        BOLT_REGIONS.index(contact.bolt_region),
+        SIDE_REGIONS.index(contact.bolt_region),
         NUT_REGIONS.index(contact.nut_region),
         contact.bolt_margin,
         contact.nut_margin,

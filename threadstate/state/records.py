@@ -13,6 +13,7 @@ from threadstate.contact import _solve_kernel as sk
 from threadstate.contact.level import solve_level
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
+from threadstate.state.flat_base import require_flat_base
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 from threadstate.thread.profile import outline_is_convex
@@ -30,7 +31,7 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats) -> Float
     others are.
 
     Raises:
-        InvalidValueError: the flanks of the pair are too flat.
+        InvalidValueError: the flanks of the pair are too flat, or its bolt has a chamfer.
     """
     packed = _packed(pair, options)
     records = np.empty((len(poses_deg), rk.RECORD_SIZE))
@@ -55,6 +56,7 @@ LARGEST_TILT_DEG = 14.2
 
 @lru_cache(maxsize=64)
 def _packed(pair: Pair, options: SolveOptions) -> Floats:
+    require_flat_base(pair, "the exact method")
     for name in ("flank_half_angle_deg", "flank_half_angle_neg_deg"):
         half_angle = getattr(pair.form, name)
         if half_angle is not None and half_angle < LEAST_FLANK_HALF_ANGLE_DEG:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
 from threadstate.state.encode import geometry_records
+from threadstate.state.flat_base import require_flat_base
 from threadstate.state.model import Answer, ContactState
 from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._friction_kernel import search_addresses
@@ -27,7 +28,11 @@ def statics_rows(pair: Pair, records: Floats, load: Load | None = None) -> Float
     Each has the same bits whatever the others are. A patch under a load with a part across it has its holding friction
     open (``OPEN_PATCH``), and so has a strip of flank, whose margin here is that of its corners alone:
     :func:`threadstate.statics.solve.statics_of` finds them.
+
+    Raises:
+        InvalidValueError: the pair's bolt has a chamfer.
     """
+    require_flat_base(pair, "statics")
     rows = np.empty((len(records), nk.NUMBERS_SIZE))
     radius = pair.nominal_diameter / 2.0
     loads = loads_about(origins(records), load or Load())

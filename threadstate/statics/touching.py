@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.encode import geometry_records
+from threadstate.state.flat_base import require_flat_base
 from threadstate.state.model import Contact, ContactState, Flag, StagePose, Vector
 from threadstate.statics import _patch_kernel as hk
 from threadstate.statics._last_pose_kernel import set_contacts
@@ -59,8 +60,10 @@ def touching(pair: Pair, state: ContactState) -> Touching:
     """Where the solids touch in the last pose of a state.
 
     Raises:
+        InvalidValueError: the pair's bolt has a chamfer.
         UnresolvedPoseError: two edges are parallel where they touch, or a patch is too narrow for its hull.
     """
+    require_flat_base(pair, "statics")
     last = state.poses[-1]
     points = [contact.point for contact in state.contacts]
     normals = [contact.normal for contact in state.contacts]

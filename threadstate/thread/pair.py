@@ -8,11 +8,15 @@ from enum import StrEnum
 from functools import cached_property
 
 from threadstate.errors import ImpossibleThreadError
+from threadstate.thread.chamfer import Chamfer
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.hand import Hand
 from threadstate.thread.profile import Profile
 from threadstate.units import LengthUnit, conversion_factor
+
+LEAST_END = 0.6
+"""Of the bolt's minor diameter, the least end diameter of a chamfer: meshes have a bore within it."""
 
 
 class Part(StrEnum):
@@ -26,6 +30,8 @@ class Part(StrEnum):
 class Pair:
     """A bolt and a nut, each one thread pitch long (method, section 1); lengths in ``unit``.
 
+    The bolt's base is cut flat, or has a ``chamfer``; a document of a pair without one does not name it.
+
     Raises:
         ImpossibleThreadError: the dimensions contradict each other.
     """
@@ -38,12 +44,17 @@ class Pair:
     fit: Fit
     starts: int = 1
     hand: Hand = Hand.RIGHT
+    chamfer: Chamfer | None = None
 
     def __post_init__(self) -> None:
         for name in ("nominal_diameter", "thread_pitch"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
                 raise ImpossibleThreadError(name, value, "a finite length > 0")
+        least = LEAST_END * self.fit.bolt_minor_diameter
+        if self.chamfer is not None and self.chamfer.end_diameter < least:
+            valid = f"at least {least!r}, {LEAST_END} of the bolt's minor diameter"
+            raise ImpossibleThreadError("end_diameter", self.chamfer.end_diameter, valid)
         _ = self.bolt, self.nut
 
     def in_unit(self, unit: LengthUnit) -> Pair:
@@ -52,9 +63,11 @@ class Pair:
         diameters = {
             field.name: getattr(self.fit, field.name) * factor for field in fields(self.fit) if field.name != "name"
         }
+        chamfer = self.chamfer and replace(self.chamfer, end_diameter=self.chamfer.end_diameter * factor)
         return replace(
             self,
             unit=unit,
+            chamfer=chamfer,
             nominal_diameter=self.nominal_diameter * factor,
             thread_pitch=self.thread_pitch * factor,
             fit=replace(self.fit, **diameters),

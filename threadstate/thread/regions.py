@@ -8,8 +8,9 @@ from enum import StrEnum
 class Region(StrEnum):
     """Where on a part a contact lies; the eight thread regions in order of growing axial position.
 
-    ``BASE`` is the bolt's cut end, ``SURFACE`` the nut's. On the bolt the crest is the largest radius,
-    on the nut the smallest; a flank (and its fillets) is positive where the radius grows with +z.
+    ``BASE`` is the bolt's cut end, ``SURFACE`` the nut's; ``CHAMFER`` is the cone of a chamfered bolt. On the bolt the
+    crest is the largest radius, on the nut the smallest; a flank (and its fillets) is positive where the radius grows
+    with +z.
     """
 
     ROOT = "root"
@@ -22,6 +23,7 @@ class Region(StrEnum):
     ROOT_FILLET_NEG = "root_fillet_neg"
     BASE = "base"
     SURFACE = "surface"
+    CHAMFER = "chamfer"
 
 
 BOLT_REGIONS: tuple[Region, ...] = (
@@ -36,6 +38,9 @@ BOLT_REGIONS: tuple[Region, ...] = (
     Region.BASE,
 )
 """The bolt's regions; the first eight in order of growing ``s`` from the middle of the small-radius flat."""
+
+SIDE_REGIONS = (*BOLT_REGIONS, Region.CHAMFER)
+"""The regions of a bolt that may have a chamfer, which the mesh method alone takes."""
 
 NUT_REGIONS: tuple[Region, ...] = (
     Region.CREST,

@@ -13,6 +13,7 @@ from worker.options import Dimensions, Json, UnitName
 from worker.output import print_json
 
 if TYPE_CHECKING:
+    from threadstate.thread.pair import Pair
     from threadstate.thread.profile import Profile
 
 
@@ -79,6 +80,7 @@ def profiles(
                 "hand": one.hand.value,
                 "bolt": _profile(one.bolt, factor),
                 "nut": _profile(one.nut, factor),
+                **_chamfer(one, factor),
                 "play": {
                     "crest": play.crest * factor,
                     "root": play.root * factor,
@@ -87,6 +89,13 @@ def profiles(
             }
         )
     print_json({"profiles": entries})
+
+
+def _chamfer(pair: Pair, factor: float) -> dict[str, dict[str, float]]:
+    """The chamfer of a pair's bolt, where it has one."""
+    if pair.chamfer is None:
+        return {}
+    return {"chamfer": {"end_diameter": pair.chamfer.end_diameter * factor, "angle_deg": pair.chamfer.angle_deg}}
 
 
 def _profile(profile: Profile, factor: float) -> dict[str, float]:

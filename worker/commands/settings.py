@@ -28,9 +28,11 @@ def settings(pair: PairName = None, dimension: Dimensions = None, as_json: Json 
 
     found = effective_settings()
     threads = chosen_pair(pair, dimension or ())
-    # A flank's own angle is there only where it has one.
+    # A flank's own angle and a chamfer are there only where a pair has them.
     form = {name: value for name, value in asdict(threads.form).items() if value is not None}
     dimensions = {**asdict(threads), "form": form, "source": source_of(threads)}
+    if threads.chamfer is None:
+        del dimensions["chamfer"]
     if as_json:
         entries = [{"name": one.name, "value": one.value, "source": one.source.value} for one in found]
         print_json({"settings": entries, "pair": dimensions})

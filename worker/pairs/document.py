@@ -91,6 +91,13 @@ class FitPart(Part):
     nut_minor_diameter: Number | None = None
 
 
+class ChamferPart(Part):
+    """The chamfer of the bolt's base: its end diameter in the pair's unit, its angle from the base plane."""
+
+    end_diameter: Number | None = None
+    angle_deg: Number | None = None
+
+
 class PairPart(Part):
     """A pair: a known one by its designation, or one's own by its dimensions, which ``like`` may give in part."""
 
@@ -103,6 +110,7 @@ class PairPart(Part):
     hand: Hand | None = None
     form: FormPart | None = None
     fit: FitPart | None = None
+    chamfer: ChamferPart | None = None
     fits: Annotated[list[FitPart], Field(min_length=1)] | None = None
 
 
@@ -112,7 +120,13 @@ class PairsPart(Part):
     pair: list[PairPart]
 
 
-TABLES: dict[str, type[Part]] = {"pair": PairPart, "form": FormPart, "fit": FitPart, "fits": FitPart}
+TABLES: dict[str, type[Part]] = {
+    "pair": PairPart,
+    "form": FormPart,
+    "fit": FitPart,
+    "fits": FitPart,
+    "chamfer": ChamferPart,
+}
 """The tables by their keys."""
 
 Document = TypeVar("Document", bound=Part)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.numbers import number
 from threadstate.settings import PAIR, read_settings
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, VALID_DESIGNATIONS, is_known, pair_by_designation
+from threadstate.thread.chamfer import Chamfer
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.hand import Hand
@@ -18,6 +19,7 @@ from threadstate.thread.pair import Pair
 from worker.pairs.document import (
     LARGEST_DESIGNATION,
     TABLES,
+    ChamferPart,
     FileLocation,
     FitPart,
     FormPart,
@@ -31,7 +33,11 @@ from worker.pairs.document import (
 FILE_ENDING = ".toml"
 
 _WORDS = ("like", "unit", "hand", "form.name", "fit.name")
-_NESTED: dict[str, type[Part]] = {"form": FormPart, "fit": FitPart}
+_NESTED: dict[str, type[Part]] = {"form": FormPart, "fit": FitPart, "chamfer": ChamferPart}
+
+
+_TABLES: tuple[list[str], ...] = ([], *([name] for name in _NESTED))
+"""Where a key may be: outside of any table, or in one."""
 
 
 def chosen_pair(name: str | None, dimensions: Sequence[str] = ()) -> Pair:
@@ -95,7 +101,7 @@ def _pair_of_dimensions(name: str | None, dimensions: Sequence[str]) -> Pair:
         if not equals:
             raise InvalidValueError("--dimension", one, "KEY=VALUE, such as thread_pitch=1 or fit.name=6g/6H")
         *outside, last = key.split(".")
-        if key == "designation" or outside not in ([], ["form"], ["fit"]) or last in ("form", "fit", "fits"):
+        if key == "designation" or outside not in _TABLES or last in (*_NESTED, "fits"):
             raise InvalidValueError("--dimension", one, f"one of the keys {', '.join(_keys())}")
         table = values.setdefault(outside[0], {}) if outside else values
         if last in table:
@@ -112,7 +118,7 @@ def _only_pair(part: PairPart, location: FileLocation) -> Pair:
 
 
 def _keys() -> list[str]:
-    own = [key for key in PairPart.model_fields if key not in ("designation", "form", "fit", "fits")]
+    own = [key for key in PairPart.model_fields if key not in ("designation", "fits", *_NESTED)]
     return own + [f"{table}.{key}" for table, part in _NESTED.items() for key in part.model_fields]
 
 
@@ -159,7 +165,21 @@ def _pair_of_fit(
     if len(designation) > LARGEST_DESIGNATION:
         raise of_fit.invalid("name", fitted.name, f"at most {LARGEST_DESIGNATION} characters with the designation")
     with location:
-        return Pair(designation=designation, form=form, fit=fitted, **values)
+        pair = Pair(designation=designation, form=form, fit=fitted, **values)
+    known_chamfer = None if base is None else base.chamfer
+    of_chamfer = location / "chamfer"
+    with of_chamfer:
+        return replace(pair, chamfer=known_chamfer if part.chamfer is None else _chamfer(part.chamfer, known_chamfer))
+
+
+def _chamfer(part: ChamferPart, like: Chamfer | None) -> Chamfer:
+    """The chamfer of a file; what it does not give is that of the pair that it is like, or 45 deg."""
+    given = {name: value for name, value in part.given().items() if value is not None}
+    if like is not None:
+        return replace(like, **given)
+    if "end_diameter" not in given:
+        raise InvalidValueError("end_diameter", None, "a value, or as `like` a pair that has a chamfer")
+    return Chamfer(**given)
 
 
 _NEGATIVE = "flank_half_angle_neg_deg"
@@ -193,7 +213,7 @@ def _values(given: dict[str, Any], base: object, names: tuple[str, ...], locatio
     return found
 
 
-def _names(of: type[Form] | type[Fit]) -> tuple[str, ...]:
+def _names(of: type[Form | Fit | Chamfer]) -> tuple[str, ...]:
     return tuple(field.name for field in fields(of))
 
 

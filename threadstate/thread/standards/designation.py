@@ -1,23 +1,24 @@
 """Designations of standard threads as people write them, and the limits that they name.
 
 A designation is a size, its form where the size does not say it, and classes of bolt and nut after a hyphen, both
-separated by a slash; ``LH`` at the end is a left-hand thread, ``2 starts`` one of several starts, of which ISO threads
-may have lead and pitch instead (``M6xPh2P1``, ``Tr 8x3(P1.5)``). Case does not matter, nor do blanks round its parts.
+separated by a slash or a hyphen; ``LH`` at the end is a left-hand thread, ``2 starts`` one of several starts, of which
+ISO threads may have lead and pitch instead (``M6xPh2P1``, ``Tr 8x3(P1.5)``). A diameter in inches may be a decimal
+(``.2500-28 UNJF``). Case does not matter, nor do blanks round its parts.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 
 from threadstate.errors import InvalidValueError, UnknownNameError
 from threadstate.numbers import number, number_text
 from threadstate.thread.hand import MOST_STARTS
-from threadstate.thread.standards import acme, metric, trapezoidal, unified, whitworth
 from threadstate.thread.standards.limits import Limits
+from threadstate.thread.standards.sizes import Size, catalogue
 from threadstate.units import LengthUnit
 
 
@@ -50,51 +51,30 @@ class StandardThread:
     starts: int
 
 
-@dataclass(frozen=True, slots=True)
-class _Size:
-    """A size: its name without classes, the classes that are usual, and how limits and given classes are read."""
-
-    name: str
-    form: str
-    unit: LengthUnit
-    diameter: float
-    pitch: float
-    classes: tuple[str, str]
-    bolt: Callable[[str], Limits]
-    nut: Callable[[str], Limits]
-    chosen: Callable[[list[str]], tuple[str, str]]
-    source: str
-    aliases: tuple[str, ...] = ()
-
-
-UNIFIED_SOURCE = "ASME B1.1: formulas, rounded as its tables are; checked against published limits"
-METRIC_SOURCE = (
-    "ISO 965-1: formulas with the smoothing and the exceptions of its tables; checked against published limits"
-)
-ACME_SOURCE = (
-    "ASME B1.5: formulas, rounded as its tables are; checked against published limits; fillets of roots from memory"
-)
-STUB_SOURCE = "ASME B1.8: diameters from one source; tolerances, those of ASME B1.5, and fillets of roots from memory"
-TRAPEZOIDAL_SOURCE = "ISO 2903: tables from one source; no published limits to check against"
-WHITWORTH_SOURCE = "BS 84: formulas from two sources, allowances from memory; no published limits to check against"
-
-OF_ONE_START = "tolerances of one start"
-"""Added to the source of a thread of several: what standards change for these is not applied."""
-
 _STARTS = re.compile(r"[\s,-]*(?<![\w.])(?P<starts>\d+)[\s-]*starts?\b", re.IGNORECASE)
 _LEAD_AND_PITCH = re.compile(
-    r"^(?P<size>\s*(?:M|Tr)\s*[\d.]+)\s*x\s*(?:Ph)?\s*(?P<lead>[\d.]+)\s*\(?\s*P\s*(?P<pitch>[\d.]+)\s*\)?",
+    r"^(?P<size>\s*(?:MJ?|Tr)\s*[\d.]+)\s*x\s*(?:Ph)?\s*(?P<lead>[\d.]+)\s*\(?\s*P\s*(?P<pitch>[\d.]+)\s*\)?",
     re.IGNORECASE,
 )
 _LEFT_HAND = re.compile(r"[\s-]*(?<![A-Z])LH\s*(?=-|$)", re.IGNORECASE)
+_BLANK_BEFORE_CLASSES = re.compile(
+    r"^(?P<size>\s*(?:MJ?|Tr)\s*[\d.]+(?:\s*x\s*[\d.]+)?)\s+(?P<classes>\d[a-z].*)$", re.IGNORECASE | re.DOTALL
+)
+"""ISO threads with classes after a blank: ``MJ6x1 4h6h - 4H5H``."""
+_DECIMAL = re.compile(r"(?P<diameter>\d*\.\d+)-")
+"""How a size begins that has its diameter in inches as a decimal."""
 _BLANKS = re.compile(r"\s+")
 EXAMPLES = "1/4-20 UNC-2A/2B, M6x1-6g/6H, M6, 1/4-16 ACME-2G, Tr 8x1.5-7e/7H or 1/4-20 BSW"
 
 
 def standard_threads() -> Iterator[StandardThread]:
     """All sizes of the catalogue with the classes that are usual for them, form by form, the smallest first."""
-    for size in catalogue():
-        yield _thread(size, size.classes, left_hand=False, starts=1)
+    yield from _usual_threads()
+
+
+@cache
+def _usual_threads() -> tuple[StandardThread, ...]:
+    return tuple(_thread(size, size.classes, left_hand=False, starts=1) for size in catalogue())
 
 
 def standard_thread(designation: str) -> StandardThread:
@@ -107,7 +87,7 @@ def standard_thread(designation: str) -> StandardThread:
     of_one_start, starts = _without_starts(designation)
     text = _LEFT_HAND.sub("", of_one_start)
     by_key = _by_key()
-    for name, classes in _splits(text):
+    for name, classes in _splits(_BLANK_BEFORE_CLASSES.sub(r"\g<size>-\g<classes>", text)):
         if (size := by_key.get(_key(name))) is not None:
             return _thread(size, _classes(size, classes), left_hand=text != of_one_start, starts=starts)
     raise UnknownNameError("designation", designation, f"a standard thread, such as {EXAMPLES}")
@@ -160,59 +140,36 @@ def _splits(text: str) -> Iterator[tuple[str, str | None]]:
 
 def _key(name: str) -> str:
     found = _BLANKS.sub(" ", name.strip()).upper().removeprefix("#")
+    if decimal := _DECIMAL.match(found):
+        found = f"{number_text(number(decimal['diameter']))}{found[decimal.end('diameter') :]}"
     return _BLANKS.sub("", found) if found.startswith(("M", "TR")) else found
 
 
 @cache
-def _by_key() -> dict[str, _Size]:
-    return {_key(name): size for size in catalogue() for name in (size.name, *size.aliases)}
+def _by_key() -> dict[str, Size]:
+    return {_key(name): size for size in catalogue() for name in (size.name, *size.aliases, *_decimal_names(size))}
 
 
-def _classes(size: _Size, text: str | None) -> tuple[str, str]:
+def _decimal_names(size: Size) -> Iterator[str]:
+    """The names of a size in inches with its diameter as a decimal."""
+    if size.unit is LengthUnit.INCH:
+        for name in (size.name, *size.aliases):
+            yield f"{number_text(size.diameter)}{name[name.index('-') :]}"
+
+
+def _classes(size: Size, text: str | None) -> tuple[str, str]:
     """The classes of bolt and nut; of one alone the other is the same, or the usual one of its form."""
     if text is None:
         return size.classes
-    given = [part.strip() for part in text.split("/")]
+    given = [part.strip() for part in re.split("[/-]", text)]
     if len(given) > 2 or not all(given):
         raise InvalidValueError("tolerance class", text, f"classes of bolt and nut, such as {'/'.join(size.classes)}")
     return size.chosen(given)
 
 
-def _unified_classes(given: list[str]) -> tuple[str, str]:
-    upper = [one.upper() for one in given]
-    bolt = next((one for one in upper if one.endswith("A")), None)
-    nut = next((one for one in upper if one.endswith("B")), None)
-    if len(upper) == 1:
-        grade = upper[0][:-1]
-        return (bolt or f"{grade}A", nut or f"{grade}B")
-    return (bolt or upper[0], nut or upper[1])
-
-
-def _metric_classes(bolt: str, nut: str) -> Callable[[list[str]], tuple[str, str]]:
-    """Of two the bolt's is the first, unless cases say otherwise; of one, the other is the usual one."""
-
-    def chosen(given: list[str]) -> tuple[str, str]:
-        if len(given) == 1:
-            is_nut = given[0].upper() == given[0]
-            return (bolt, given[0]) if is_nut else (given[0], nut)
-        first, last = given
-        if first.upper() == first and last.lower() == last and first.lower() != first:
-            first, last = last, first
-        return first.lower(), last.upper()
-
-    return chosen
-
-
-def _both(given: list[str]) -> tuple[str, str]:
-    return given[0].upper(), given[-1].upper()
-
-
-def _named(given: list[str]) -> tuple[str, str]:
-    return given[0].lower(), given[-1].lower()
-
-
-def _thread(size: _Size, classes: tuple[str, str], *, left_hand: bool, starts: int) -> StandardThread:
+def _thread(size: Size, classes: tuple[str, str], *, left_hand: bool, starts: int) -> StandardThread:
     bolt, nut = classes
+    size = size.of_starts(starts)
     written = bolt if bolt == nut else f"{bolt}/{nut}"
     ending = f"{' LH' if left_hand else ''}{f' {starts} starts' if starts > 1 else ''}"
     return StandardThread(
@@ -224,98 +181,7 @@ def _thread(size: _Size, classes: tuple[str, str], *, left_hand: bool, starts: i
         thread_pitch=size.pitch,
         bolt=size.bolt(bolt),
         nut=size.nut(nut),
-        source=size.source if starts == 1 else f"{size.source}; {OF_ONE_START}",
+        source=size.source,
         left_hand=left_hand,
         starts=starts,
     )
-
-
-@cache
-def catalogue() -> tuple[_Size, ...]:
-    """All sizes, form by form, the smallest first."""
-    return (*_unified(), *_metric(), *_acme(), *_trapezoidal(), *_whitworth())
-
-
-def _unified() -> Iterator[_Size]:
-    for series in unified.Series:
-        for one in unified.sizes(series):
-            yield _Size(
-                name=f"{one.name} {series}",
-                form="UN",
-                unit=LengthUnit.INCH,
-                diameter=one.diameter,
-                pitch=one.thread_pitch,
-                classes=("2A", "2B"),
-                bolt=partial(unified.bolt_limits, one),
-                nut=partial(unified.nut_limits, one),
-                chosen=_unified_classes,
-                source=UNIFIED_SOURCE,
-            )
-
-
-def _metric() -> Iterator[_Size]:
-    for diameter, pitch in metric.sizes_mm():
-        coarse = metric.COARSE_MM.get(diameter) == pitch
-        yield _Size(
-            name=f"M{number_text(diameter)}x{number_text(pitch)}",
-            form="M",
-            unit=LengthUnit.MILLIMETRE,
-            diameter=diameter,
-            pitch=pitch,
-            classes=("6g", "6H"),
-            bolt=partial(metric.bolt_limits, diameter, pitch),
-            nut=partial(metric.nut_limits, diameter, pitch),
-            chosen=_metric_classes("6g", "6H"),
-            source=METRIC_SOURCE,
-            aliases=(f"M{number_text(diameter)}",) if coarse else (),
-        )
-
-
-def _acme() -> Iterator[_Size]:
-    for form in acme.AcmeForm:
-        for one in acme.sizes():
-            yield _Size(
-                name=f"{one.name} {form.upper()}",
-                form=form,
-                unit=LengthUnit.INCH,
-                diameter=one.diameter,
-                pitch=one.thread_pitch,
-                classes=("2G", "2G"),
-                bolt=partial(acme.screw_limits, one, form=form),
-                nut=partial(acme.nut_limits, one, form=form),
-                chosen=_both,
-                source=ACME_SOURCE if form is acme.AcmeForm.ACME else STUB_SOURCE,
-            )
-
-
-def _trapezoidal() -> Iterator[_Size]:
-    for diameter, pitch in trapezoidal.SIZES_MM:
-        yield _Size(
-            name=f"Tr {number_text(diameter)}x{number_text(pitch)}",
-            form="Tr",
-            unit=LengthUnit.MILLIMETRE,
-            diameter=float(diameter),
-            pitch=float(pitch),
-            classes=("7e", "7H"),
-            bolt=partial(trapezoidal.bolt_limits, diameter, pitch),
-            nut=partial(trapezoidal.nut_limits, diameter, pitch),
-            chosen=_metric_classes("7e", "7H"),
-            source=TRAPEZOIDAL_SOURCE,
-        )
-
-
-def _whitworth() -> Iterator[_Size]:
-    for series in whitworth.Series:
-        for one in whitworth.sizes(series):
-            yield _Size(
-                name=f"{one.name} {series}",
-                form="Whitworth",
-                unit=LengthUnit.INCH,
-                diameter=one.diameter,
-                pitch=one.thread_pitch,
-                classes=("medium", "normal"),
-                bolt=partial(whitworth.bolt_limits, one),
-                nut=partial(whitworth.nut_limits, one),
-                chosen=_named,
-                source=WHITWORTH_SOURCE,
-            )

@@ -13,16 +13,19 @@ from enum import StrEnum
 
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number, number_text
+from threadstate.thread.chamfer import Chamfer
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form, flank_half_angles
 from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from threadstate.thread.standards.acme import AcmeForm
+from threadstate.thread.standards.buttress import CLEARANCE_FLANK_DEG, LOAD_FLANK_DEG, ButtressForm
 from threadstate.thread.standards.designation import StandardThread, standard_thread
 from threadstate.thread.standards.limits import Diameter
 from threadstate.thread.standards.trapezoidal import crest_clearance_mm
 
 _CORNERS = re.compile(r"[\s,]+(?:with\s+)?sharp\s+(?P<which>corners|crests)\b", re.IGNORECASE)
+_CHAMFER = re.compile(r"[\s,]+(?:with\s+)?chamfer\b", re.IGNORECASE)
 _POSITION = re.compile(r"\s+at\s+(?P<position>.*)$", re.IGNORECASE | re.DOTALL)
 _NAMED = {"maximum": 0.0, "middle": 0.5, "minimum": 1.0}
 POSITIONS = (
@@ -88,8 +91,9 @@ def rounding(thread: StandardThread, corners: Corners = Corners.ROUNDED) -> Roun
     """Those of a thread's form, with fillets of 0 where its corners are sharp.
 
     Unified: the root's as in method, section 1. ISO metric: a full root radius, from H / 6 at maximum material to P / 8
-    at minimum material. Acme: roots at the limit from memory. Trapezoidal: the standard's greatest radii, the bolt's
-    for the nut's crest, too. Whitworth: its one radius.
+    at minimum material; UNJ, MJ: full, too, from the greatest to the least controlled radius. Acme: roots at the limit
+    from memory. Trapezoidal: the standard's greatest radii, the bolt's for the nut's crest, too. Whitworth: its one
+    radius. Buttress: full roots; the negative flank, towards the head, bears the load of a screw that is pulled.
 
     Raises:
         InvalidValueError: sharp corners of a form that is round.
@@ -110,6 +114,12 @@ def _rounding_of_form(thread: StandardThread) -> Rounding:
             return Rounding(30.0, 0.108, 0.054, 0.054, 0.108)
         case "M":
             return Rounding(30.0, math.inf, 0.054, 0.054, 0.108)
+        case "UNJ" | "MJ":
+            return Rounding(30.0, math.inf, 0.054, 0.054, 0.135)
+        case ButtressForm.PULL:
+            return _buttress(CLEARANCE_FLANK_DEG, LOAD_FLANK_DEG)
+        case ButtressForm.PUSH:
+            return _buttress(LOAD_FLANK_DEG, CLEARANCE_FLANK_DEG)
         case AcmeForm.ACME | AcmeForm.STUB:
             return Rounding(14.5, ACME_ROOT, ACME_CREST, ACME_ROOT, ACME_CREST)
         case "Tr":
@@ -119,14 +129,26 @@ def _rounding_of_form(thread: StandardThread) -> Rounding:
             return Rounding(27.5, WHITWORTH, WHITWORTH, WHITWORTH, WHITWORTH)
 
 
+def _buttress(positive_deg: float, negative_deg: float) -> Rounding:
+    return Rounding(positive_deg, math.inf, BUTTRESS_CREST, math.inf, BUTTRESS_CREST, negative_deg)
+
+
 ACME_ROOT, ACME_CREST = 0.06, 0.02
 WHITWORTH = 0.137329
+BUTTRESS_CREST = 0.062
 METRIC_ROOT = 0.577350
 """Below the greatest pitch diameter, over the pitch: the minor diameter of a full root radius of H / 6."""
 
 
+CHAMFER_BELOW_MINOR = 0.1
+"""In thread pitches, how much less the end diameter of the chamfer of 45 deg of a designation is than the minor one."""
+
+OF_CHAMFER = "the chamfer a choice here"
+"""Added to the source of a pair whose bolt has one."""
+
+
 def standard_pair(designation: str) -> Pair:
-    """The pair of a designation, with sharp corners or crests where it says so and a position after ``at``.
+    """The pair of a designation, with sharp corners or crests or a chamfer where it says so, a position after ``at``.
 
     Without these at maximum material, with the fillets of its form.
 
@@ -134,8 +156,18 @@ def standard_pair(designation: str) -> Pair:
         UnknownNameError: no such size.
         InvalidValueError: a class or corners that its form does not have, or a position that is none.
     """
-    size, corners, position = _parts(designation)
-    return pair_at(standard_thread(size), MAXIMUM_MATERIAL if position is None else parsed_position(position), corners)
+    cut_flat = _CHAMFER.sub("", designation, count=1)
+    size, corners, position = _parts(cut_flat)
+    at = MAXIMUM_MATERIAL if position is None else parsed_position(position)
+    pair = pair_at(standard_thread(size), at, corners)
+    return pair if cut_flat == designation else _chamfered(pair, at)
+
+
+def _chamfered(pair: Pair, position: Position) -> Pair:
+    """The pair with a chamfer of 45 deg, whose name comes before the position's."""
+    size = pair.designation.removesuffix(position.name)
+    end = pair.fit.bolt_minor_diameter - CHAMFER_BELOW_MINOR * pair.thread_pitch
+    return replace(pair, designation=f"{size} with chamfer{position.name}", chamfer=Chamfer(end))
 
 
 def standard_source(designation: str) -> str:
@@ -145,7 +177,9 @@ def standard_source(designation: str) -> str:
         UnknownNameError: no such size.
         InvalidValueError: a class that its form does not have.
     """
-    return standard_thread(_parts(designation)[0]).source
+    cut_flat = _CHAMFER.sub("", designation, count=1)
+    source = standard_thread(_parts(cut_flat)[0]).source
+    return source if cut_flat == designation else f"{source}; {OF_CHAMFER}"
 
 
 def _parts(designation: str) -> tuple[str, Corners, str | None]:

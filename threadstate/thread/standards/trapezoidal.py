@@ -1,7 +1,8 @@
 """Limits of ISO metric trapezoidal threads, ISO 2903 and DIN 103, in millimetres.
 
-Tolerances of the pitch diameter follow the rule of ISO metric threads. No printed limits were found: the least minor
-diameter of a bolt is uncertain by a micrometre where its tolerance ends in a half.
+Tolerances of the pitch diameter follow the rule of ISO metric threads; those of several starts are wider, by factors
+from memory. Deviations and tolerances of bolts are those that GOST 24739-81 prints for the same system; where the
+tolerance of the minor diameter ends in a fraction it is uncertain by a micrometre.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import math
 
 from threadstate.errors import InvalidValueError
-from threadstate.thread.standards.limits import Diameter, Limits
+from threadstate.thread.standards.limits import Diameter, Limits, rounded
 from threadstate.thread.standards.metric import metric_class, pitch_tolerance_um
 
 PITCHES_MM = (1.5, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 22, 24, 28, 32, 36, 40, 44)
@@ -45,6 +46,9 @@ SIZES_MM = (
 )
 """Diameters with the pitch that is preferred for them."""
 
+OF_STARTS = {1: 1.0, 2: 1.12, 3: 1.25, 4: 1.4}
+"""Tolerance of the pitch diameter of a thread of several starts over that of one, from memory of ISO 2903."""
+
 
 def crest_clearance_mm(pitch_mm: float) -> float:
     """The play ac between crest and root, on the radius."""
@@ -55,26 +59,26 @@ def crest_clearance_mm(pitch_mm: float) -> float:
     return 0.5 if pitch_mm <= 12.0 else 1.0
 
 
-def bolt_limits(diameter_mm: float, pitch_mm: float, tolerance_class: str) -> Limits:
-    """Limits of a bolt of grade 7, 8 or 9 in position c or e.
+def bolt_limits(diameter_mm: float, pitch_mm: float, tolerance_class: str, starts: int = 1) -> Limits:
+    """Limits of a bolt of grade 7, 8 or 9 in position c or e, with up to four starts.
 
     Raises:
         InvalidValueError: another class, or a pitch that the standard does not have.
     """
     grade, position = _checked(tolerance_class, pitch_mm, "ce")
     below = (DEVIATION_C_UM if position == "c" else DEVIATION_E_UM)[pitch_mm] / 1000.0
-    tolerance = pitch_tolerance_um(diameter_mm, pitch_mm, grade, nut=False) / 1000.0
+    tolerance = _pitch_tolerance(diameter_mm, pitch_mm, grade, starts, nut=False)
     pitch_greatest = round(diameter_mm - 0.5 * pitch_mm - below, 3)
     minor_greatest = round(diameter_mm - pitch_mm - 2.0 * crest_clearance_mm(pitch_mm), 3)
     return Limits(
         Diameter(round(diameter_mm - CREST_4_UM[pitch_mm] / 1000.0, 3), float(diameter_mm)),
         Diameter(round(pitch_greatest - tolerance, 3), pitch_greatest),
-        Diameter(round(minor_greatest - _minor_tolerance(tolerance, below), 3), minor_greatest),
+        Diameter(round(minor_greatest - minor_tolerance_mm(tolerance, below), 3), minor_greatest),
     )
 
 
-def nut_limits(diameter_mm: float, pitch_mm: float, tolerance_class: str) -> Limits:
-    """Limits of a nut of grade 7, 8 or 9 in position H; its major diameter has no greatest one.
+def nut_limits(diameter_mm: float, pitch_mm: float, tolerance_class: str, starts: int = 1) -> Limits:
+    """Limits of a nut of grade 7, 8 or 9 in position H, with up to four starts; its major diameter has no greatest one.
 
     Raises:
         InvalidValueError: another class, or a pitch that the standard does not have.
@@ -82,7 +86,7 @@ def nut_limits(diameter_mm: float, pitch_mm: float, tolerance_class: str) -> Lim
     grade, _ = _checked(tolerance_class, pitch_mm, "H")
     pitch_least = round(diameter_mm - 0.5 * pitch_mm, 3)
     minor_least = round(diameter_mm - pitch_mm, 3)
-    tolerance = pitch_tolerance_um(diameter_mm, pitch_mm, grade, nut=True) / 1000.0
+    tolerance = _pitch_tolerance(diameter_mm, pitch_mm, grade, starts, nut=True)
     return Limits(
         Diameter(round(diameter_mm + 2.0 * crest_clearance_mm(pitch_mm), 3), None),
         Diameter(pitch_least, round(pitch_least + tolerance, 3)),
@@ -90,9 +94,14 @@ def nut_limits(diameter_mm: float, pitch_mm: float, tolerance_class: str) -> Lim
     )
 
 
-def _minor_tolerance(pitch_tolerance_mm: float, below_mm: float) -> float:
-    """In whole micrometres, fractions cut off."""
-    return math.floor(1000.0 * (1.25 * pitch_tolerance_mm + below_mm) + 1e-6) / 1000.0
+def minor_tolerance_mm(pitch_tolerance_mm: float, below_mm: float) -> float:
+    """Of a bolt's minor diameter, in whole micrometres, halves up: 1.25 of the pitch diameter's, and its deviation."""
+    return math.floor(1000.0 * (1.25 * pitch_tolerance_mm + below_mm) + 0.5 + 1e-6) / 1000.0
+
+
+def _pitch_tolerance(diameter_mm: float, pitch_mm: float, grade: int, starts: int, *, nut: bool) -> float:
+    """In whole micrometres."""
+    return rounded(OF_STARTS[starts] * pitch_tolerance_um(diameter_mm, pitch_mm, grade, nut=nut), 0) / 1000.0
 
 
 def _checked(tolerance_class: str, pitch_mm: float, positions: str) -> tuple[int, str]:
