@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from threadstate.device.document import device_from_document
 from threadstate.device.model import About, Device, Outcome, SettledFlag, SettledState, default_device, diagonal_device
 from threadstate.device.settle import settle_pose, settle_poses
 from threadstate.errors import InvalidValueError
@@ -291,3 +293,27 @@ def test_pairs_that_the_search_does_not_cover_are_refused(designation: str, name
     )
     with pytest.raises(InvalidValueError, match=name):
         settle_pose(pair, 1.0, 2.0, 3.0)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"centre": -10.0},
+        {"centre": 10.0},
+        {"k_twist": 500.0},
+        {"k_axial": 50.0},
+        {"k_tilt": 5000.0, "k_lateral": 5.0},
+        {"stiffness": [[1e3 if i == j else (5.0 if i + j == 3 else 0.0) for j in range(6)] for i in range(6)]},
+    ],
+)
+def test_other_devices_balance_too(changes: dict[str, Any]) -> None:
+    device = device_from_document({"unit": "mm", **changes})
+    settled = [state for state in settle_poses(UNC, random_poses(8, 6), device) if state.outcome is Outcome.SETTLED]
+    assert len(settled) >= 5
+    stiffness = np.array(device.in_unit(UNC.unit).stiffness)
+    for state in settled:
+        deviation = np.concatenate([np.radians(state.rotation_deg or ()), state.shift or ()])
+        force = np.sum([contact.force for contact in state.contacts], axis=0) - [0.0, 0.0, device.push]
+        assert np.abs(force - (stiffness @ deviation)[3:]).max() < 1e-8
+        assert state.margins.residual is not None
+        assert state.margins.residual < 1e-9
