@@ -15,6 +15,7 @@ import gc
 import pickle
 import numpy as np
 from numba.core.registry import CPUDispatcher
+from threadstate.history.build import history_of
 from threadstate.state.solve import solve_poses
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from threadstate.warm_up import main
@@ -31,6 +32,7 @@ tilted = np.random.default_rng(6).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], 
 for pair in (quarter_twenty_unc(), quarter_twenty_unc(RootForm.NEWER)):
     solve_poses(pair, np.vstack([level, tilted]))
     solve_poses(pair, [])
+    history_of(pair, 3.0, -1.0)
     solve_poses(pickle.loads(pickle.dumps(pair)), [(0.0, 0.0, 0.0), (4.0, 0.0, 185.0)])
 print(sorted(set(compiled().items()) - set(warm.items())))
 """

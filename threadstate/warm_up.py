@@ -14,6 +14,7 @@ import numpy as np
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.contact._solve_kernel import OPTIONS_SIZE, solve_with
 from threadstate.device.compile import device_is_compiled, load_device
+from threadstate.history.estimates import estimates_are_compiled, load_estimates
 from threadstate.state.solve import solve_poses
 from threadstate.statics.compile import load_statics, statics_are_compiled
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -31,13 +32,15 @@ _LAST_COMPILED = ("_solve_kernel.solve_with-*.nbc", "_stage_kernel.earliest-*.nb
 
 def kernels_are_compiled() -> bool:
     """Whether the cache contains the kernels, so that loading them is fast."""
-    return all(any(_cache().glob(name)) for name in _LAST_COMPILED) and statics_are_compiled() and device_is_compiled()
+    solver_is_compiled = all(any(_cache().glob(name)) for name in _LAST_COMPILED)
+    return solver_is_compiled and estimates_are_compiled() and statics_are_compiled() and device_is_compiled()
 
 
 def load_kernels() -> None:
     """Load every kernel into this process, compiling those that the cache lacks."""
     pair = quarter_twenty_unc()
     states = solve_poses(pair, POSES_DEG)
+    load_estimates(pair)
     load_statics(pair, states)
     load_device()
 
@@ -69,10 +72,14 @@ def main() -> None:
 
 
 def compile_all_but_search() -> None:
-    """Compile what solves poses, but for the search that it is given the address of: for no pose there is no search."""
+    """Compile what solves poses, but for the search that it is given the address of: for no pose there is no search.
+
+    With it what follows contacts between two states.
+    """
     pair = quarter_twenty_unc()
     none = np.empty((0, 3))
     solve_with(none, np.zeros(OPTIONS_SIZE), pair.bolt.packed, pair.nut.packed, 0, np.empty((0, RECORD_SIZE)))
+    load_estimates(pair)
 
 
 def _cache() -> Path:

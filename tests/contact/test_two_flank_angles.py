@@ -8,12 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from oracle.first_height import first_height
 from oracle.lift import least_lift
 from tests.contact.samples import random_poses
 from tests.thread.shapes import BUTTRESS, TURNED_BUTTRESS
 from threadstate.errors import InvalidValueError
 from threadstate.state.model import Flag
 from threadstate.state.solve import solve_pose, solve_poses
+from threadstate.thread.catalogue import pair_by_designation
 from threadstate.thread.hand import Hand
 from threadstate.thread.pair import Pair
 from threadstate.thread.play import axial_limits
@@ -72,3 +74,12 @@ def test_either_flank_may_be_too_flat(name: str) -> None:
     flat = replace(flat, form=replace(flat.form, **angle))
     with pytest.raises(InvalidValueError, match=rf"{name} is 6\.9; valid: at least 7 deg"):
         solve_pose(flat, 1.0, 0.0, 0.0)
+
+
+def test_threads_whose_steep_flanks_meet_and_part_within_a_short_way_down_are_found() -> None:
+    """A first contact of thread on thread below the surface, 2.3e-3 in above the first one of an edge."""
+    pair = pair_by_designation("1/2-20 PUSH-BUTT-2A/2B at minimum material")
+    pose = (-2.8435585997826642, 2.9578925131061204, -85.88997041840751)
+    state = solve_pose(pair, *pose)
+    assert state.contacts[0].features == "thread-thread"
+    assert state.poses[0].translation[2] == pytest.approx(first_height(pair, *pose).height, abs=1e-12)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from threadstate.history.brackets import Bracket
-from threadstate.history.changes import Floats, Integers, Samples
 from threadstate.history.flicker import widened
+from threadstate.history.stretches import Floats, Integers, Samples
 
 START, END = 40.0, 40.004
 SHARP = 120.0

@@ -61,6 +61,9 @@ LATE_INSTANT_STEP = math.radians(0.2)
 there maxima of phi are narrow, and come and go within tenths of a degree. Angles (rad) of a turn; of a translation,
 multiples of its ``motion_scale``.
 """
+FLANK_PART, FLANK_PART_TURN = 0.25, 0.5
+"""Of the axial width of the steepest flank with its fillets, the part that a translation and a turn move a point by
+between instants, at most: of steep flanks maxima of phi soon pass into another groove."""
 LONG_TURN = math.radians(20.0)
 BEGINNING = 2.0 * INSTANT_STEP
 BEGINNING_INSTANTS, BEGINNING_AZIMUTHS = 12, 64
@@ -444,6 +447,17 @@ def deepest_thread_point(
 
 
 @kernel()
+def instant_step(motion: Array, bolt: Array, nut: Array) -> float:
+    """Step between instants: less than ``INSTANT_STEP`` where that would carry points past the steepest flank."""
+    width = math.inf
+    for half in (0, pk.FALLING):
+        width = min(width, bolt[pk.U_TOP + half] - bolt[pk.U_FLAT + half], nut[pk.U_TOP + half] - nut[pk.U_FLAT + half])
+    if motion[M_KIND] > 0.0:
+        return min(INSTANT_STEP, FLANK_PART_TURN * width / (2.0 * bolt[pk.R_MAJOR]))
+    return min(INSTANT_STEP * motion_scale(motion, bolt), FLANK_PART * width)
+
+
+@kernel()
 def ridge_contacts(motion: Array, bolt: Array, nut: Array, limit: float, azimuths: int, found: Array) -> int:
     """Contacts of thread with thread along a motion before ``limit``, earliest first; returns their number.
 
@@ -451,7 +465,7 @@ def ridge_contacts(motion: Array, bolt: Array, nut: Array, limit: float, azimuth
     bound: docs/decisions/0001-contacts.md says how it was checked.
     """
     step = motion_scale(motion, bolt)
-    instants = 1 + int(limit / (INSTANT_STEP * step))
+    instants = 1 + int(limit / instant_step(motion, bolt, nut))
     count = 0
     # One call for both, as it is compiled into each place from which it is called.
     for i in range(2):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from threadstate.history.changes import UNDECIDED_CODE, Changes
+from threadstate.history.changes import Changes
 from threadstate.history.model import CIRCLE_DEG, POINT_DEG
+from threadstate.history.stretches import UNDECIDED_CODE
 
 UNDECIDED_GAP_DEG = 0.02
 """Undecided stretches no farther apart than this are one: where the search ends early is no property of the parts."""

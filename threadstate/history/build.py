@@ -7,28 +7,22 @@ from collections.abc import Sequence
 import numpy as np
 
 from threadstate.history.brackets import Bracket, brackets_of
-from threadstate.history.changes import (
-    UNDECIDED_CODE,
-    Floats,
-    Integers,
-    Resolution,
-    Sampler,
-    Samples,
-    changes_on_circles,
-)
+from threadstate.history.changes import Resolution, Sampler, changes_on_circles
 from threadstate.history.codes import LabelCodes
 from threadstate.history.differences import contact_changes
+from threadstate.history.estimates import ChangeEstimates
 from threadstate.history.flicker import widened
 from threadstate.history.labels import labels_of
 from threadstate.history.model import CIRCLE_DEG, Boundary, Interval, SolvedHistory
 from threadstate.history.records import RecordStore
+from threadstate.history.stretches import UNDECIDED_CODE, Floats, Integers, Samples
 from threadstate.state.decode import decoded_answers
 from threadstate.state.model import ContactState
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
 
-RESOLUTION = Resolution(step=1.0, width=5e-7, jump_width=1e-11, undecided_width=1e-3)
+RESOLUTION = Resolution(step=1.0, width=5e-7, jump_width=1e-11, undecided_width=1e-3, aimed_width=0.125)
 """In degrees; what a denser start finds is in decision 7."""
 
 BATCH_SIZE = 8
@@ -68,13 +62,17 @@ def _histories(
 ) -> list[SolvedHistory]:
     """The histories of orientations of shape (n, 2) whose poses share one store."""
     codes = LabelCodes(pair, options, store)
+    estimates = ChangeEstimates(pair, options, store)
     counts = np.zeros(len(orientations_deg), dtype=np.int64)
 
     def sample(line: Integers, phases: Floats) -> Samples:
         counts[:] += np.bincount(line, minlength=len(counts))
         return codes.samples(np.column_stack([orientations_deg[line], phases]))
 
-    changes = changes_on_circles(sample, len(orientations_deg), CIRCLE_DEG, resolution)
+    def estimate(line: Integers, low: Floats, high: Floats, within: Floats) -> Floats:
+        return estimates.places(orientations_deg[line], low, high, within)
+
+    changes = changes_on_circles(sample, len(orientations_deg), CIRCLE_DEG, resolution, estimate)
     brackets = [
         _steady_brackets(codes, sample, orientation, line, brackets_of(changes, line))
         for line, orientation in enumerate(orientations_deg)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._stage_kernel import FLUSH
-from threadstate.history.changes import UNDECIDED_CODE, Samples
 from threadstate.history.records import Floats, Integers, RecordStore
+from threadstate.history.stretches import UNDECIDED_CODE, Samples
 from threadstate.state.classify import classify
 from threadstate.state.model import StateClass
 from threadstate.state.options import SolveOptions

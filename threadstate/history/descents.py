@@ -14,12 +14,16 @@ import numpy as np
 from threadstate.history.falls import SPAN_DEG, Descent, Falls, Jump, SteepestFall
 from threadstate.history.height_curve import Gap, HeightCurve, Segment
 from threadstate.history.model import CIRCLE_DEG
+from threadstate.history.roots import narrowed_root
 
 LEAST_FALL = 2e-8
 """A descent by no more than this many thread pitches is ignored: 1e-9 in of 1/4-20."""
 
 NARROW_DEG = 0.25
-"""Stretches on which the steepest fall may lie are bisected to this width, and then searched by slope."""
+"""Stretches on which the steepest fall may lie are cut to this width, and then searched by slope."""
+
+WHOLE_DEG = 1.0
+"""Stretches are cut at multiples of this while they can be, where a library has its states."""
 
 STEEPEST_DEG = 1e-8
 """Resolution of the phase of the steepest fall where the slopes at its two ends agree."""
@@ -100,7 +104,7 @@ class _Steepest:
 
     Over a stretch of phase both ends of the span stay within one segment each. As these are monotone, the fall there is
     at most the difference of the heights at the stretch's ends: stretches that cannot hold more than was found are left
-    out, the others halved. On narrow ones the fall is largest at an end, or where the slopes at the span's ends agree.
+    out, the others cut in two. On narrow ones the fall is largest at an end, or where slopes at the span's ends agree.
     """
 
     def __init__(self, curve: HeightCurve, span_deg: float) -> None:
@@ -114,12 +118,14 @@ class _Steepest:
         self._between_ends()
         this_turn = self._curve.segments
         next_turn = [_turned(segment) for segment in this_turn]
+        stretches = []
         for low in this_turn:
             for high in (*this_turn, *next_turn):
                 start = max(low.start_deg, high.start_deg - self._span)
                 end = min(low.end_deg, high.end_deg - self._span)
                 if start < end and _highest(low) - _lowest(high) > self._fall + self._curve.round_off:
-                    self._within(start, end)
+                    stretches.append((start, end))
+        self._within(stretches)
         return self._fall, self._start, self._end
 
     def _between_ends(self) -> None:
@@ -142,41 +148,45 @@ class _Steepest:
                     break
                 self._offer(height - lower, start, end)
 
-    def _within(self, start_deg: float, end_deg: float) -> None:
-        """Falls that begin within a stretch and are a whole span wide."""
-        waiting = [(start_deg, end_deg)]
-        while waiting:
-            low, high = waiting.pop()
-            heights, later = self._heights(low, high)
-            self._offer(heights[0] - later[0], low, low + self._span)
-            self._offer(heights[1] - later[1], high, high + self._span)
-            if not max(heights) - min(later) > self._fall + self._curve.round_off:
-                continue
-            if high - low > NARROW_DEG:
-                middle = 0.5 * (low + high)
-                waiting += [(middle, high), (low, middle)]
-            elif self._grows(low) and not self._grows(high):
-                start = self._where_slopes_agree(low, high)
-                (height, _), (lower, _) = self._heights(start, start)
-                self._offer(height - lower, start, start + self._span)
+    def _within(self, stretches: list[tuple[float, float]]) -> None:
+        """Falls that begin within stretches and are a whole span wide."""
+        while stretches:
+            heights = self._heights(stretches)
+            for (low, high), (at_low, at_high, later_low, later_high) in zip(stretches, heights, strict=True):
+                self._offer(at_low - later_low, low, low + self._span)
+                self._offer(at_high - later_high, high, high + self._span)
+            parts = []
+            for (low, high), (at_low, at_high, later_low, later_high) in zip(stretches, heights, strict=True):
+                if not max(at_low, at_high) - min(later_low, later_high) > self._fall + self._curve.round_off:
+                    continue
+                if high - low > NARROW_DEG:
+                    middle = _middle(low, high)
+                    parts += [(low, middle), (middle, high)]
+                else:
+                    self._where_slopes_agree(low, high)
+            stretches = parts
 
-    def _where_slopes_agree(self, low: float, high: float) -> float:
-        while high - low > STEEPEST_DEG:
-            middle = 0.5 * (low + high)
-            if self._grows(middle):
-                low = middle
-            else:
-                high = middle
-        return 0.5 * (low + high)
+    def _where_slopes_agree(self, low: float, high: float) -> None:
+        """The fall that is largest within a narrow stretch, if one is."""
+        at_low, at_high = self._growth(low), self._growth(high)
+        if at_low > 0.0 >= at_high:
+            low, high = narrowed_root(self._growth, low, high, at_low, at_high, STEEPEST_DEG)
+            start = 0.5 * (low + high)
+            ((height, _, lower, _),) = self._heights([(start, start)])
+            self._offer(height - lower, start, start + self._span)
 
-    def _grows(self, start: float) -> bool:
-        """Whether the fall grows as the span is moved on."""
+    def _growth(self, start: float) -> float:
+        """How much the fall grows, per degree, as the span is moved on; 0 where a slope is unknown."""
         at_start, at_end = self._curve.slope(np.array([start, start + self._span])).tolist()
-        return bool(at_start > at_end)
+        return float(np.nan_to_num(at_start - at_end))
 
-    def _heights(self, low: float, high: float) -> tuple[list[float], list[float]]:
-        heights = self._curve.height(np.array([low, high, low + self._span, high + self._span])).tolist()
-        return heights[:2], heights[2:]
+    def _heights(self, stretches: list[tuple[float, float]]) -> list[list[float]]:
+        """The heights at both ends of every stretch, and a span later."""
+        ends = np.array(stretches)
+        heights: list[list[float]] = (
+            self._curve.height(np.hstack([ends, ends + self._span]).ravel()).reshape(-1, 4).tolist()
+        )
+        return heights
 
     def _offer(self, fall: float, start: float, end: float) -> None:
         """Store a fall that is larger than the one found before, or as large within a narrower stretch."""
@@ -197,6 +207,13 @@ def _fall_within(curve: HeightCurve, descent: Descent, start_deg: float, end_deg
             lower = descent.end_height if high <= end_deg else ends[1]
             largest = max(largest, upper - lower)
     return largest
+
+
+def _middle(low: float, high: float) -> float:
+    """The middle of a stretch, or the multiple of WHOLE_DEG next to it if one is inside."""
+    middle = 0.5 * (low + high)
+    whole = round(middle / WHOLE_DEG) * WHOLE_DEG
+    return whole if low < whole < high else middle
 
 
 def _turned(segment: Segment) -> Segment:

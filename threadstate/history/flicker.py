@@ -25,6 +25,9 @@ DISTANCE_FACTOR = 2.0
 WIDTH_DIVISOR = 16.0
 """A wide bracket's width divided by this is the least distance from it at which labels are sampled."""
 
+LATER_REACH = 64.0
+"""A bracket that was widened is sampled up to this many of its widths away: farther off that was done before."""
+
 MARGIN = 0.5
 """Part of its width by which a bracket is finally widened on either side: towards its ends other labels are rare."""
 
@@ -71,10 +74,11 @@ def _joined(brackets: Sequence[Bracket], unsteady: Sequence[bool]) -> tuple[list
 
 
 def _widened(sample: Sampler, line: int, bracket: Bracket, lowest: float, highest: float) -> Bracket:
-    for _ in range(MAX_ROUNDS):
+    for number in range(MAX_ROUNDS):
         nearest = max(NEAREST_DEG, bracket.width / WIDTH_DIVISOR)
-        low = _steady(sample, line, bracket.low, lowest, -nearest, bracket.low_code)
-        high = _steady(sample, line, bracket.high, highest, nearest, bracket.high_code)
+        reach = LATER_REACH * bracket.width if number else CIRCLE_DEG
+        low = _steady(sample, line, bracket.low, max(lowest, bracket.low - reach), -nearest, bracket.low_code)
+        high = _steady(sample, line, bracket.high, min(highest, bracket.high + reach), nearest, bracket.high_code)
         if (low, high) == (bracket.low, bracket.high):
             break
         bracket = replace(bracket, low=low, high=high)

@@ -24,11 +24,14 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact._stage_kernel import BASE_EDGE, EDGE_EDGE, THREAD_EDGE
 from threadstate.history.brackets import Bracket, brackets_of
 from threadstate.history.build import RESOLUTION
-from threadstate.history.changes import UNDECIDED_CODE, Samples, changes_on_circles
+from threadstate.history.changes import changes_on_circles
 from threadstate.history.codes import HEIGHT_JUMP, LabelCodes
+from threadstate.history.estimates import ChangeEstimates
 from threadstate.history.limits import fold_in
 from threadstate.history.model import CIRCLE_DEG
 from threadstate.history.records import Floats, Integers, RecordStore
+from threadstate.history.roots import narrowed_root
+from threadstate.history.stretches import UNDECIDED_CODE, Samples
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
@@ -124,19 +127,23 @@ def monotone_segments(
     """A stretch over which the height is smooth, cut at its extremes.
 
     Slopes are sampled where the phase is a multiple of SAMPLES_DEG, at both ends and in the middle; where the sign
-    changes between two of these its change is found by bisection. A slope of at most ``level_slope`` per degree has no
+    changes between two of these the root is narrowed down. A slope of at most ``level_slope`` per degree has no
     sign.
     """
 
-    def sign(phases: Floats) -> Floats:
+    def steep(phases: Floats) -> Floats:
         slopes = np.nan_to_num(slope(phases))
-        return np.where(np.abs(slopes) > level_slope, np.sign(slopes), 0.0)
+        return np.where(np.abs(slopes) > level_slope, slopes, 0.0)
 
     whole = np.arange(np.floor(start_deg / SAMPLES_DEG) + 1.0, np.ceil(end_deg / SAMPLES_DEG)) * SAMPLES_DEG
     phases = np.unique(np.concatenate([[start_deg, 0.5 * (start_deg + end_deg), end_deg], whole]))
-    signs = sign(phases)
-    turns = [(a, b) for a, b in pairwise(np.flatnonzero(signs)) if signs[a] != signs[b]]
-    cuts = [_end_of_sign(sign, float(phases[a]), float(phases[b])) for a, b in turns]
+    slopes = steep(phases)
+    turns = [(a, b) for a, b in pairwise(np.flatnonzero(slopes)) if (slopes[a] < 0.0) != (slopes[b] < 0.0)]
+    cuts = []
+    for a, b in turns:
+        ends = float(phases[a]), float(phases[b]), float(slopes[a]), float(slopes[b])
+        low, high = narrowed_root(lambda phase: float(steep(np.array([phase]))[0]), *ends, EXTREME_DEG)
+        cuts.append(0.5 * (low + high))
     return _segments(height, [start_deg, *cuts, end_deg])
 
 
@@ -146,18 +153,6 @@ def _segments(height: Evaluate, ends_deg: list[float]) -> list[Segment]:
         Segment(low, high, at_low, at_high)
         for (low, high), (at_low, at_high) in zip(pairwise(ends_deg), pairwise(heights), strict=True)
     ]
-
-
-def _end_of_sign(sign: Evaluate, low: float, high: float) -> float:
-    """Where the sign is no longer that at the low phase."""
-    at_low = sign(np.array([low]))[0]
-    while high - low > EXTREME_DEG:
-        middle = 0.5 * (low + high)
-        if sign(np.array([middle]))[0] == at_low:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
 
 
 def _between_decided(brackets: list[Bracket]) -> list[tuple[Bracket, bool]]:
@@ -182,6 +177,7 @@ class _FirstContacts:
         self._tilt = (roll, pitch)
         self._store = store
         self._codes = LabelCodes(pair, options, store, first_contact_only=True)
+        self._estimates = ChangeEstimates(pair, options, store, first_contact_only=True)
 
     def stretches(self) -> list[tuple[Gap, float, float]]:
         """The decided stretches of phase over which no label changes, each with the gap before it."""
@@ -189,7 +185,10 @@ class _FirstContacts:
         def sample(_: Integers, phases: Floats) -> Samples:
             return self._codes.samples(self._poses(phases))
 
-        brackets = brackets_of(changes_on_circles(sample, 1, CIRCLE_DEG, RESOLUTION), 0)
+        def estimate(_: Integers, low: Floats, high: Floats, within: Floats) -> Floats:
+            return self._estimates.places(np.full((len(low), 2), self._tilt), low, high, within)
+
+        brackets = brackets_of(changes_on_circles(sample, 1, CIRCLE_DEG, RESOLUTION, estimate), 0)
         if not brackets:
             start = float(self.height(np.array([0.0]))[0])
             return [] if np.isnan(start) else [(Gap(0.0, 0.0, start, start), 0.0, CIRCLE_DEG)]
