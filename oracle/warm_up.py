@@ -8,6 +8,7 @@ from oracle.first_height import first_height
 from oracle.lift import least_lift
 from oracle.overlap import overlap_components
 from oracle.pose import pose_rotation
+from oracle.rest import HeldBolt
 from oracle.turn import contact_components_along_turn
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -23,6 +24,8 @@ def main() -> None:
     inside = np.array([0.0, 0.0, first.height - BELOW_INCH])
     least_lift(pair, rotation, inside)
     overlap_components(pair, rotation, inside)
+    held = HeldBolt(pair, rotation, k_lateral=1.0, k_tilt=1.0, centre=0.0, push=1.0)
+    held.height(np.zeros(4), first.height, with_thread=True)
     point = np.array(first.point)
     contact_components_along_turn(
         pair,

@@ -13,6 +13,7 @@ import numpy as np
 
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.contact._solve_kernel import OPTIONS_SIZE, solve_with
+from threadstate.device.compile import device_is_compiled, load_device
 from threadstate.history.estimates import estimates_are_compiled, load_estimates
 from threadstate.state.solve import solve_poses
 from threadstate.statics.compile import load_statics, statics_are_compiled
@@ -23,6 +24,7 @@ POSES_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0), (-4.0, 0.0, 131.0))
 in phase (a strip of flank), level and out of phase (a patch), tilted (all that the three stages may need)."""
 
 COMPILE_SEARCH = "from threadstate.contact._search_kernel import search_address; search_address()"
+COMPILE_DEVICE = "from threadstate.device.compile import compile_without_search; compile_without_search()"
 COMPILE_STATICS = "from threadstate.statics.compile import compile_without_states; compile_without_states()"
 
 _LAST_COMPILED = ("_solve_kernel.solve_with-*.nbc", "_stage_kernel.earliest-*.nbc")
@@ -31,7 +33,7 @@ _LAST_COMPILED = ("_solve_kernel.solve_with-*.nbc", "_stage_kernel.earliest-*.nb
 def kernels_are_compiled() -> bool:
     """Whether the cache contains the kernels, so that loading them is fast."""
     solver_is_compiled = all(any(_cache().glob(name)) for name in _LAST_COMPILED)
-    return solver_is_compiled and estimates_are_compiled() and statics_are_compiled()
+    return solver_is_compiled and estimates_are_compiled() and statics_are_compiled() and device_is_compiled()
 
 
 def load_kernels() -> None:
@@ -40,6 +42,7 @@ def load_kernels() -> None:
     states = solve_poses(pair, POSES_DEG)
     load_estimates(pair)
     load_statics(pair, states)
+    load_device()
 
 
 def load_kernels_exclusively() -> None:
@@ -53,7 +56,7 @@ def load_kernels_exclusively() -> None:
 
 
 def main() -> None:
-    """Load the kernels and report the progress; where the cache has none, three processes compile them."""
+    """Load the kernels and report the progress; where the cache has none, four processes compile them."""
     start = time.perf_counter()
     if kernels_are_compiled():
         print(f"Loading the kernels from {_cache()} ...", flush=True)
@@ -61,7 +64,7 @@ def main() -> None:
         print(f"Compiling the kernels into {_cache()}: once, about a minute ...", flush=True)
         # Each finds in the cache what the other has compiled by then; what fails there is compiled here.
         with ExitStack() as stack:
-            for code in (COMPILE_SEARCH, COMPILE_STATICS):
+            for code in (COMPILE_SEARCH, COMPILE_DEVICE, COMPILE_STATICS):
                 stack.enter_context(subprocess.Popen([sys.executable, "-c", code]))  # nosec B603 - fixed code
             compile_all_but_search()
     load_kernels()

@@ -36,6 +36,7 @@ from worker.commands.rebuild import rebuild
 from worker.commands.run import run
 from worker.commands.serve import serve
 from worker.commands.settings import settings
+from worker.commands.settle import settle
 from worker.commands.solve import solve
 from worker.commands.statics import statics
 from worker.commands.summary import summary
@@ -63,6 +64,7 @@ COMMANDS = (
     solve,
     statics,
     jamming,
+    settle,
     rebuild,
     sweep,
     libraries,

@@ -16,6 +16,7 @@ from threadstate.units import LengthUnit, conversion_factor, scale_length
 from worker.output import print_line
 
 if TYPE_CHECKING:
+    from threadstate.device.document import SettledDocument
     from threadstate.statics.extras import Extras
     from threadstate.statics.jamming_document import JammingDocument
     from threadstate.statics.solve import Statics
@@ -169,6 +170,25 @@ def print_statics(statics: Statics, extras: Extras | None, unit: LengthUnit, fac
         )
     if extras is not None:
         _add_extras(rows, extras, unit, factor)
+    rows.print()
+
+
+def print_settled(state: SettledDocument) -> None:
+    """A settled state, a number a row, then its contact forces and the falls on the way."""
+    unit = state["unit"]
+    rows = table("", "")
+    roll, pitch, phase = (number_text(state["roll"]), number_text(state["pitch"]), number_text(state["phase"]))
+    rows.add_row("roll, pitch, phase (deg)", f"{roll}, {pitch}, {phase}")
+    rows.add_row("outcome", ", ".join([state["outcome"], *state["flags"]]))
+    if state["pose"] is not None and state["deviation"] is not None:
+        rows.add_row(f"origin ({unit})", _numbers(state["pose"]["translation"]))
+        rows.add_row(f"shift ({unit})", _numbers(state["deviation"]["shift"]))
+        rows.add_row("rotation (deg)", _numbers(state["deviation"]["rotation"]))
+        rows.add_row(f"elastic energy (N {unit})", f"{state['elastic_energy']:.6f}")
+    for contact in state["contacts"]:
+        rows.add_row(f"{contact['features']} (N)", f"{_numbers(contact['force'])} at {_numbers(contact['point'])}")
+    for fall in state["falls"]:
+        rows.add_row(f"fall at {fall['push']:.6f} N ({unit})", f"drop {fall['drop']:.6f}, way {fall['way']:.6f}")
     rows.print()
 
 

@@ -12,6 +12,14 @@ from pathlib import Path
 import pytest
 
 from service.app import create_app
+from threadstate.device.document import (
+    DeviationDocument,
+    FallDocument,
+    LoadedContactDocument,
+    SettledDocument,
+    SettledMarginsDocument,
+)
+from threadstate.device.model import Outcome, SettledFlag
 from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.document import StateDocument
@@ -80,9 +88,16 @@ def test_every_field_of_an_answer_is_a_term(known: set[str]) -> None:
     assert sorted(fields - known) == []
 
 
-@pytest.mark.parametrize("names", [StateClass, Flag, FeaturePair, Region, Move, ChangeKind, Verdict])
+@pytest.mark.parametrize(
+    "names", [StateClass, Flag, FeaturePair, Region, Move, ChangeKind, Verdict, Outcome, SettledFlag]
+)
 def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]) -> None:
     assert sorted({name.value for name in names} - known) == []
+
+
+def test_every_field_of_a_settled_state_is_a_term(known: set[str]) -> None:
+    documents = (SettledDocument, DeviationDocument, LoadedContactDocument, FallDocument, SettledMarginsDocument)
+    assert sorted({name for document in documents for name in document.__annotations__} - known) == []
 
 
 def test_every_column_of_a_table_is_a_term(repository_root: Path, known: set[str]) -> None:

@@ -1,0 +1,65 @@
+"""What is certain of a pose: that bolt and nut do not overlap, by bounds along both edges and a search of the
+threads.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._edge_search_kernel import OUTSIDE, find_inside
+from threadstate.contact._ridge_kernel import deepest_thread_point
+from threadstate.contact._stage_kernel import (
+    BASE_EDGE,
+    EDGE_EDGE,
+    RIDGE_AZIMUTHS,
+    THREAD_EDGE,
+    THREAD_THREAD,
+    Work,
+    set_motions,
+)
+from threadstate.device._gap_kernel import G_PAIR, G_POINT, G_THETA
+from threadstate.device._places_kernel import MAX_PLACES
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+NARROW = 2e-8
+"""Half-width (rad) of an overlap along an edge that is not distinguished from a contact: at most as deep as this times
+the nominal radius times the lesser slope of g and phi, some 1e-10 in on 1/4-20."""
+
+FREE, EDGE_INSIDE, THREAD_INSIDE = range(3)
+
+
+@kernel()
+def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, nut: Array, stage: Work) -> int:
+    """Whether the parts overlap at a pose by more than ``limit`` (a length), beside the places at which they touch."""
+    boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = stage
+    bolt_azimuths = np.empty(MAX_PLACES)
+    nut_azimuths = np.empty(MAX_PLACES)
+    on_bolt, on_nut = 0, 0
+    for i in range(count):
+        pair = int(places[i, G_PAIR])
+        if pair != BASE_EDGE and pair != THREAD_EDGE and pair != THREAD_THREAD:
+            bolt_azimuths[on_bolt] = places[i, G_THETA]
+            on_bolt += 1
+        if pair == BASE_EDGE or pair == THREAD_EDGE:
+            nut_azimuths[on_nut] = places[i, G_THETA]
+            on_nut += 1
+        elif pair == EDGE_EDGE:
+            nut_azimuths[on_nut] = math.atan2(places[i, G_POINT + 1], places[i, G_POINT])
+            on_nut += 1
+    down = np.array([0.0, 0.0, -1.0])
+    set_motions(pose, False, False, down, down, bolt_motion, nut_motion)
+    shallow = limit / bolt[pk.P]
+    outcome, _ = find_inside(bolt_motion, bolt, nut, bolt_azimuths, on_bolt, shallow, NARROW, boxes, spare_boxes)
+    if outcome != OUTSIDE:
+        return EDGE_INSIDE
+    outcome, _ = find_inside(nut_motion, nut, bolt, nut_azimuths, on_nut, shallow, NARROW, boxes, spare_boxes)
+    if outcome != OUTSIDE:
+        return EDGE_INSIDE
+    inside, _, _, _ = deepest_thread_point(bolt_motion, limit, RIDGE_AZIMUTHS, bolt, nut)
+    return THREAD_INSIDE if inside else FREE

@@ -1,0 +1,266 @@
+"""The places at which bolt and nut overlap or nearly touch: local maxima of the overlap along both edges and the
+threads.
+
+Edges are sampled, and each maximum between samples is bracketed by its slopes. It is a search: what it finds leads the
+solver, and the certificate of ``_certificate_kernel`` says whether anything was missed.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import TWO_PI
+from threadstate.contact._ridge_grid_kernel import CROSSINGS_SIZE, GRID_SIZE, MAX_CROSSINGS, set_columns
+from threadstate.contact._ridge_kernel import nearby_maximum, ridge_maxima
+from threadstate.contact._stage_kernel import (
+    BASE_EDGE,
+    EDGE_EDGE,
+    EDGE_SURFACE,
+    EDGE_THREAD,
+    RIDGE_AZIMUTHS,
+    THREAD_EDGE,
+    THREAD_THREAD,
+)
+from threadstate.contact._tangency_kernel import J_A, J_B, J_PHI, J_UU, J_UZ, J_Z, J_ZZ, PLACEMENT_SIZE
+from threadstate.contact._tangency_kernel import JET_SIZE as THREAD_JET_SIZE
+from threadstate.contact._tangency_kernel import set_jet as set_thread_jet
+from threadstate.device._chart_kernel import D_FINE, N_OFFSET, N_ROTATION
+from threadstate.device._gap_kernel import (
+    E_G,
+    E_G1,
+    E_G2,
+    E_PHI,
+    E_PHI1,
+    E_PHI2,
+    EDGE_JET_SIZE,
+    G_PAIR,
+    G_POINT,
+    GAP_WORK,
+    edge_depth,
+    set_edge_jet,
+    set_gap,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+SAMPLES = 96
+FINE, FINEST = 8, 64
+"""Samples of an edge, all round, and the parts into which an interval near contact is divided: two maxima beside each
+other, where the edge passes from one region to the next, have to be told apart. The most parts are for poses of
+which the certificate finds an overlap that fewer have missed."""
+
+MAX_PLACES = 24
+"""The most places that are listed; a full list leaves the later ones out."""
+
+SCAN_REACH = 0.01
+"""An interval is divided where one of its ends is above the reach less this part of the nominal radius."""
+
+MAX_STEPS = 60
+NEWTON_STEPS = 12
+
+# Scratch of the search: depths at samples, at fine ones too, an edge's jet, the work of a gap.
+W_DEPTH = 0
+W_FINE = SAMPLES
+W_JET = W_FINE + SAMPLES * FINEST
+W_GAP = W_JET + EDGE_JET_SIZE
+PLACES_WORK = W_GAP + GAP_WORK
+
+Threads = tuple[Array, Array, Array, Array, Array]
+"""Work of the search of thread on thread: grid, crossings, maxima, placement, jet."""
+
+
+@kernel()
+def new_threads(bolt: Array) -> Threads:
+    """The work of the search of thread on thread for a bolt."""
+    grid = np.empty(GRID_SIZE)
+    set_columns(RIDGE_AZIMUTHS, bolt, grid)
+    return (
+        grid,
+        np.empty(CROSSINGS_SIZE),
+        np.empty((MAX_CROSSINGS, 2)),
+        np.zeros(PLACEMENT_SIZE),
+        np.empty(THREAD_JET_SIZE),
+    )
+
+
+@kernel()
+def bracketed_peak(
+    of_bolt: bool, low: float, high: float, place: Array, curve: Array, solid: Array, jet: Array
+) -> tuple[int, float]:
+    """A local maximum of the lesser of g and phi between two azimuths: which it is (0 g, 1 phi, 2 both), and where.
+
+    -1 where the slopes at the ends bracket none. Newton's method within the bracket, and bisection where it leaves it.
+    """
+    set_edge_jet(of_bolt, low, place, curve, solid, jet)
+    low_on_plane = jet[E_G] < jet[E_PHI]
+    if (jet[E_G1] if low_on_plane else jet[E_PHI1]) <= 0.0:
+        return -1, low
+    set_edge_jet(of_bolt, high, place, curve, solid, jet)
+    high_on_plane = jet[E_G] < jet[E_PHI]
+    if (jet[E_G1] if high_on_plane else jet[E_PHI1]) >= 0.0:
+        return -1, high
+    at = 0.5 * (low + high)
+    kind = 2
+    for i in range(MAX_STEPS):
+        set_edge_jet(of_bolt, at, place, curve, solid, jet)
+        on_plane = jet[E_G] < jet[E_PHI]
+        if (jet[E_G1] if on_plane else jet[E_PHI1]) > 0.0:
+            low, low_on_plane = at, on_plane
+        else:
+            high, high_on_plane = at, on_plane
+        if low_on_plane != high_on_plane:
+            kind = 2
+            step = -(jet[E_G] - jet[E_PHI]) / (jet[E_G1] - jet[E_PHI1])
+        elif low_on_plane:
+            kind = 0
+            step = -jet[E_G1] / jet[E_G2] if jet[E_G2] < 0.0 else math.inf
+        else:
+            kind = 1
+            step = -jet[E_PHI1] / jet[E_PHI2] if jet[E_PHI2] < 0.0 else math.inf
+        if abs(step) < 1e-14 or not low < 0.5 * (low + high) < high:
+            break
+        if i < NEWTON_STEPS and low < at + step < high:
+            at += step
+        else:
+            at = 0.5 * (low + high)
+    return kind, at
+
+
+@kernel()
+def add_place(
+    pair: int,
+    theta: float,
+    z: float,
+    place: Array,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    work: Array,
+    count: int,
+    places: Array,
+) -> int:
+    """Adds a place of overlap to the list, unless one of the same features is there already; their number then."""
+    if count == MAX_PLACES:
+        return count
+    set_gap(pair, theta, z, place, device, bolt, nut, work[W_GAP : W_GAP + GAP_WORK], places[count])
+    near = 1e-7 * bolt[pk.R_MAJOR]
+    for i in range(count):
+        apart = 0.0
+        for j in range(3):
+            apart += abs(places[i, G_POINT + j] - places[count, G_POINT + j])
+        if apart < near and places[i, G_PAIR] == pair:
+            return count
+    return count + 1
+
+
+@kernel()
+def find_places(
+    reach: float,
+    place: Array,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Array,
+    places: Array,
+) -> int:
+    """Sets the places whose overlap is more than ``-reach`` (a length); returns their number."""
+    count = 0
+    jet = work[W_JET : W_JET + EDGE_JET_SIZE]
+    depth = work[W_DEPTH : W_DEPTH + SAMPLES]
+    parts = int(device[D_FINE])
+    all_fine = SAMPLES * parts
+    fine = work[W_FINE : W_FINE + all_fine]
+    step = TWO_PI / all_fine
+    floor = -reach - SCAN_REACH * bolt[pk.R_MAJOR]
+    for part in range(2):
+        of_bolt = part == 0
+        curve = bolt if of_bolt else nut
+        solid = nut if of_bolt else bolt
+        for i in range(SAMPLES):
+            depth[i] = edge_depth(of_bolt, i * parts * step, place, curve, solid)
+        for i in range(SAMPLES):
+            divided = max(depth[i], depth[i + 1 if i < SAMPLES - 1 else 0]) > floor
+            fine[i * parts] = depth[i]
+            for j in range(i * parts + 1, (i + 1) * parts):
+                fine[j] = edge_depth(of_bolt, j * step, place, curve, solid) if divided else -math.inf
+        for i in range(all_fine):
+            if fine[i] < -reach - step * bolt[pk.R_MAJOR]:
+                continue
+            if fine[i] < fine[i - 1 if i > 0 else all_fine - 1] or fine[i] < fine[i + 1 if i < all_fine - 1 else 0]:
+                continue
+            kind, theta = bracketed_peak(of_bolt, (i - 1) * step, (i + 1) * step, place, curve, solid, jet)
+            if kind < 0 or (kind == 2 and not of_bolt):
+                # The crossing of both edges is found from the bolt's.
+                continue
+            if min(jet[E_G], jet[E_PHI]) < -reach:
+                continue
+            if kind == 2:
+                pair = EDGE_EDGE
+            elif kind == 0:
+                pair = EDGE_SURFACE if of_bolt else BASE_EDGE
+            else:
+                pair = EDGE_THREAD if of_bolt else THREAD_EDGE
+            count = add_place(pair, theta, 0.0, place, device, bolt, nut, work, count, places)
+    return add_threads(reach, place, device, bolt, nut, threads, work, count, places)
+
+
+@kernel()
+def add_threads(
+    reach: float,
+    place: Array,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Array,
+    count: int,
+    places: Array,
+) -> int:
+    """Adds the places at which thread overlaps thread away from both edges; returns the number of places then."""
+    grid, crossings, maxima, placement, jet = threads
+    for i in range(9):
+        placement[i] = place[N_ROTATION + i]
+    for i in range(3):
+        placement[9 + i] = place[N_OFFSET + i]
+    # Nothing of the thread lies below the nut's surface where the base does not.
+    lowest = place[N_OFFSET + 2] - bolt[pk.R_MAJOR] * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
+    if lowest > 0.0:
+        return count
+    for j in range(ridge_maxima(RIDGE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
+        theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
+        if not converged or jet[J_PHI] < -reach or z <= 0.0 or jet[J_Z] >= 0.0:
+            continue
+        theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
+        if converged and jet[J_PHI] >= -reach and z > 0.0 and jet[J_Z] < 0.0:
+            count = add_place(THREAD_THREAD, theta, z, place, device, bolt, nut, work, count, places)
+    return count
+
+
+@kernel()
+def polished_maximum(
+    theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, float, bool]:
+    """A maximum of phi over the bolt's thread to the last digits, from one that is near; whether it is a maximum."""
+    from_theta, from_z = theta, z
+    for _ in range(8):
+        set_thread_jet(theta, z, placement, bolt, nut, jet)
+        a, b, uu, uz, zz = jet[J_A], jet[J_B], jet[J_UU], jet[J_UZ], jet[J_ZZ]
+        determinant = uu * zz - uz * uz
+        if not (zz < 0.0 and determinant > 0.0):
+            return theta, z, False
+        du = (uz * b - zz * a) / determinant
+        dz = (uz * a - uu * b) / determinant
+        theta += du
+        z += bolt[pk.LEAD] / TWO_PI * du + dz
+        if abs(theta - from_theta) > 0.05 or abs(z - from_z) > 0.05 * bolt[pk.P]:
+            return theta, z, False
+        if abs(du) < 1e-13 and abs(dz) < 1e-13 * bolt[pk.P]:
+            break
+    set_thread_jet(theta, z, placement, bolt, nut, jet)
+    return theta, z, True

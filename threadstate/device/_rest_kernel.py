@@ -1,0 +1,425 @@
+"""From a pose to the minimum of the potential that steepest descent over the feasible motions reaches.
+
+The potential is the elastic energy plus the push times the height of the compliance centre. A step minimises a
+quadratic model of it under the linearised contacts, as near to the pose as the metric of forces, section 5 over a time
+asks (an implicit step of the descent); where the model is convex along the contacts and the step short the time is
+unlimited, and the step is Newton's. After a step the bolt is moved out of overlaps the shortest way.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.device._chart_kernel import (
+    COORDINATES,
+    D_CENTRE,
+    D_RIGID,
+    D_SCALE,
+    D_STIFFNESS,
+    N_JACOBIAN,
+    N_OFFSET,
+    N_ROTATION,
+    PLACE_SIZE,
+    elastic_energy,
+    set_place,
+)
+from threadstate.device._flush_kernel import flush_is_reached
+from threadstate.device._gap_kernel import G_GRADIENT, G_HESSIAN, G_VALUE, GAP_SIZE
+from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, Threads, find_places
+from threadstate.device._quadratic_kernel import SOLVED, cholesky, solve_program
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+AT_REST, TOO_FAR, UNSETTLED, FLUSH, SLIPPED, DEEP, TILTED = range(7)
+"""How a descent ends: at a minimum; farther from its start than allowed; not within its steps; at the level pose on the
+nut's surface; beside the nut; deeper in the nut than the parts are modelled; tilted by more than the flanks, where the
+bolt's thread can meet the nut's surface."""
+
+NEAR = 1e-3
+"""How far (nominal radii) the push alone would take the bolt in the step from which multipliers are estimated."""
+
+LOADED = 1e-6
+"""Part of the push from which on a contact carries so much that the bolt is brought back to it."""
+
+MAX_CORRECTIONS = 6
+MAX_SHORTENINGS = 25
+STIFFENING = 1e2
+"""How much stiffer than the device the model is made across contacts that stay, where that changes no step."""
+
+ENERGY_NOISE = 1e-13
+"""Round-off of the potential, in push times nominal radius; beside it the overlap that a step may leave counts."""
+
+REACH = 1.5
+"""Gap, in longest steps, up to which places are constraints of a step; what comes nearer is met on the way out."""
+
+STALL_STEPS, STALLED = 12, 1e-8
+"""A descent that has gone less far than this (nominal radii) in so many steps goes round in circles."""
+
+Work = tuple[
+    Array, Array, Array, Array, Array, Indices, Array, Array, Array, Array, Array, Array, Array, Array, Array, Array
+]
+
+
+@kernel()
+def new_work() -> Work:
+    """The arrays of a descent: places, normals, limits, forces, of programs, active, model, factor, metric, its factor,
+    gradient, step, trial, place, search, multipliers.
+    """
+    return (
+        np.empty((MAX_PLACES + 1, GAP_SIZE)),
+        np.empty((2 * MAX_PLACES, COORDINATES)),
+        np.empty(2 * MAX_PLACES),
+        np.empty(2 * MAX_PLACES),
+        np.empty(12 * MAX_PLACES + 90),
+        np.empty(COORDINATES + 2, dtype=np.int64),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
+        np.empty(PLACE_SIZE),
+        np.empty(PLACES_WORK),
+        np.empty(MAX_PLACES),
+    )
+
+
+@kernel()
+def coordinate(i: int, device: Array) -> int:
+    """Which coordinate the i-th free one is: a rigid twist leaves out the third."""
+    return i + 1 if device[D_RIGID] > 0.0 and i >= 2 else i
+
+
+@kernel()
+def scale(j: int, device: Array) -> float:
+    """What a coordinate is multiplied by to be a length."""
+    return device[D_SCALE] if j < 3 else 1.0
+
+
+@kernel()
+def set_metric(n: int, place: Array, device: Array, metric: Array) -> None:
+    """Sets the metric diag(r^2, r^2, r^2, 1, 1, 1) at the bolt's origin in the free coordinates as lengths."""
+    r, c = device[D_SCALE], device[D_CENTRE]
+    m = place[N_ROTATION : N_ROTATION + 9]
+    jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
+    turn = np.zeros((6, 3))
+    shift = np.zeros((6, 3))
+    for i in range(n):
+        j = coordinate(i, device)
+        if j < 3:
+            for h in range(3):
+                turn[i, h] = jacobian[3 * h + j]
+            # The origin is C - c R z: it moves by -c R (w x z), w x z = (w_y, -w_x, 0).
+            for h in range(3):
+                shift[i, h] = -c / r * (m[3 * h] * turn[i, 1] - m[3 * h + 1] * turn[i, 0])
+        else:
+            shift[i, j - 3] = 1.0
+    for i in range(n):
+        for j in range(n):
+            total = 0.0
+            for h in range(3):
+                total += turn[i, h] * turn[j, h] + shift[i, h] * shift[j, h]
+            metric[i, j] = total
+
+
+@kernel()
+def length_of(n: int, step: Array, metric: Array) -> float:
+    """The length of a step in the metric."""
+    total = 0.0
+    for i in range(n):
+        for j in range(n):
+            total += step[i] * metric[i, j] * step[j]
+    return math.sqrt(max(total, 0.0))
+
+
+@kernel()
+def set_constraints(n: int, count: int, places: Array, device: Array, normals: Array, limits: Array) -> None:
+    """Sets the linearised contacts ``normals . step <= limits`` in the free coordinates as lengths."""
+    for i in range(count):
+        for m in range(n):
+            j = coordinate(m, device)
+            normals[i, m] = places[i, G_GRADIENT + j] / scale(j, device)
+        limits[i] = -places[i, G_VALUE]
+
+
+@kernel()
+def move(n: int, step: Array, q: Array, device: Array, trial: Array) -> None:
+    """Sets the coordinates after a step."""
+    copy_numbers(q, trial)
+    for i in range(n):
+        j = coordinate(i, device)
+        trial[j] += step[i] / scale(j, device)
+
+
+@kernel()
+def free_coordinates(device: Array) -> int:
+    """How many coordinates are free."""
+    return COORDINATES - 1 if device[D_RIGID] > 0.0 else COORDINATES
+
+
+@kernel()
+def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, gradient: Array) -> float:
+    """The potential; sets its gradient in the free coordinates as lengths."""
+    energy = elastic_energy(q, device, by_q)
+    by_q[5] += push
+    for i in range(n):
+        j = coordinate(i, device)
+        gradient[i] = by_q[j] / scale(j, device)
+    return energy + push * q[5]
+
+
+@kernel()
+def short_descent(n: int, count: int, push: float, r: float, work: Work) -> float:
+    """The size of a short step of the steepest descent over the feasible motions; sets the contacts' multipliers.
+
+    The size is a force: it is that of the gradient where nothing is near, and zero at an equilibrium alone. Metric, its
+    factor, gradient, normals and limits are set.
+    """
+    _, normals, limits, _, program, active, _, _, metric, metric_factor, gradient, step, _, _, _, multipliers = work
+    stiffness = push / (NEAR * r)
+    for i in range(n):
+        gradient[i] /= stiffness
+    solve_program(n, metric_factor, gradient, count, normals, limits, 0.0, program, active, step, multipliers)
+    for i in range(n):
+        gradient[i] *= stiffness
+    for i in range(count):
+        multipliers[i] *= stiffness
+    return stiffness * length_of(n, step, metric)
+
+
+@kernel()
+def back_to_contact(
+    q: Array,
+    push: float,
+    reach: float,
+    left: float,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Work,
+) -> tuple[int, bool]:
+    """Moves the bolt, in place, the shortest way out of overlaps and back to the contacts on which it presses.
+
+    Returns the number of places found then, and whether overlaps, and gaps of those contacts times the parts of the
+    push that they carry, are at most ``left`` (nominal radii). The places, and the pose in numbers, are those of the
+    result. Without the way back a step along curved contacts would end beside them, at a higher potential than its
+    model has.
+    """
+    (
+        places,
+        normals,
+        limits,
+        forces,
+        program,
+        active,
+        _,
+        _,
+        metric,
+        metric_factor,
+        gradient,
+        step,
+        _,
+        place,
+        search,
+        multipliers,
+    ) = work
+    n = free_coordinates(device)
+    r = bolt[pk.R_MAJOR]
+    by_q = np.empty(COORDINATES)
+    count = 0
+    for _ in range(MAX_CORRECTIONS):
+        set_place(q, device, place)
+        count = find_places(reach, place, device, bolt, nut, threads, search, places)
+        set_metric(n, place, device, metric)
+        if not cholesky(metric, n, metric_factor):
+            return count, False
+        set_constraints(n, count, places, device, normals, limits)
+        set_gradient(n, q, push, device, by_q, gradient)
+        short_descent(n, count, push, r, work)
+        worst = 0.0
+        rows = count
+        for j in range(count):
+            value = places[j, G_VALUE]
+            worst = max(worst, value)
+            if multipliers[j] > LOADED * push:
+                worst = max(worst, -value * multipliers[j] / push)
+                for m in range(n):
+                    normals[rows, m] = -normals[j, m]
+                limits[rows] = value
+                rows += 1
+        if worst <= left * r:
+            return count, True
+        for j in range(n):
+            gradient[j] = 0.0
+        status = solve_program(
+            n, metric_factor, gradient, rows, normals, limits, 1e-3 * left * r, program, active, step, forces
+        )
+        if status != SOLVED or not length_of(n, step, metric) < r:
+            return count, False
+        for m in range(n):
+            j = coordinate(m, device)
+            q[j] += step[m] / scale(j, device)
+    return count, False
+
+
+@kernel()
+def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) -> None:
+    """Sets the Hessian of the potential with the contacts' curvature, by the multipliers; stiffer across contacts."""
+    places, normals, _, _, _, _, model, _, _, _, _, _, _, _, _, multipliers = work
+    for i in range(n):
+        a = coordinate(i, device)
+        for j in range(n):
+            b = coordinate(j, device)
+            total = device[D_STIFFNESS + 6 * a + b]
+            for m in range(count):
+                if multipliers[m] > 0.0:
+                    total += multipliers[m] * places[m, G_HESSIAN + 6 * a + b]
+            total /= scale(a, device) * scale(b, device)
+            for m in range(count):
+                if multipliers[m] > 0.0:
+                    total += stiffening * normals[m, i] * normals[m, j]
+            model[i, j] = total
+
+
+@kernel()
+def descend(
+    q: Array,
+    push: float,
+    longest_step: float,
+    farthest: float,
+    most_steps: int,
+    tolerance: float,
+    overlap_left: float,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Work,
+) -> tuple[int, int]:
+    """Descends from ``q``, in place, to a minimum of the potential; how it ended, and the number of places there.
+
+    Steps are at most ``longest_step`` long, and the bolt stays within ``farthest`` of its start (lengths in the
+    metric). It rests where the descent's size is below ``tolerance`` times the push. A step leaves an overlap of at
+    most ``overlap_left`` (nominal radii).
+    """
+    (
+        places,
+        normals,
+        limits,
+        forces,
+        program,
+        active,
+        model,
+        factor,
+        metric,
+        metric_factor,
+        gradient,
+        step,
+        trial,
+        place,
+        _,
+        multipliers,
+    ) = work
+    n = free_coordinates(device)
+    r = bolt[pk.R_MAJOR]
+    start = q.copy()
+    by_q = np.empty(COORDINATES)
+    moved = np.empty(COORDINATES)
+    saved = np.empty((MAX_PLACES, GAP_SIZE))
+    saved_multipliers = np.empty(MAX_PLACES)
+    count, is_out = back_to_contact(q, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
+    if not is_out:
+        return UNSETTLED, count
+    stiffness = 0.0
+    for i in range(n):
+        j = coordinate(i, device)
+        stiffness = max(stiffness, device[D_STIFFNESS + 7 * j] / scale(j, device) ** 2)
+    noise = max(ENERGY_NOISE, 4.0 * overlap_left)
+    damping = 0.0
+    earlier = q.copy()
+    for taken in range(most_steps):
+        if taken > 0 and taken % STALL_STEPS == 0:
+            for i in range(n):
+                j = coordinate(i, device)
+                step[i] = (q[j] - earlier[j]) * scale(j, device)
+            if length_of(n, step, metric) < STALLED * r:
+                return UNSETTLED, count
+            copy_numbers(q, earlier)
+        set_metric(n, place, device, metric)
+        if not cholesky(metric, n, metric_factor):
+            return UNSETTLED, count
+        potential = set_gradient(n, q, push, device, by_q, gradient)
+        set_constraints(n, count, places, device, normals, limits)
+        size = short_descent(n, count, push, r, work)
+        if size <= tolerance * push:
+            return AT_REST, count
+        set_model(n, count, device, STIFFENING * stiffness, work)
+        for i in range(count):
+            copy_numbers(places[i], saved[i])
+        copy_numbers(multipliers, saved_multipliers)
+        least = size / longest_step
+        accepted = False
+        for _ in range(MAX_SHORTENINGS):
+            for i in range(n):
+                for j in range(n):
+                    model[i, j] += damping * metric[i, j]
+            convex = cholesky(model, n, factor)
+            for i in range(n):
+                for j in range(n):
+                    model[i, j] -= damping * metric[i, j]
+            length = math.inf
+            if convex:
+                status = solve_program(n, factor, gradient, count, normals, limits, 0.0, program, active, step, forces)
+                if status == SOLVED:
+                    length = length_of(n, step, metric)
+            if not length <= longest_step:
+                damping = max(4.0 * damping, 0.1 * least)
+                continue
+            move(n, step, q, device, trial)
+            copy_numbers(trial, moved)
+            trial_count, is_out = back_to_contact(
+                moved, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work
+            )
+            energy = elastic_energy(moved, device, by_q) + push * moved[5]
+            if is_out and energy <= potential + noise * push * r:
+                accepted = True
+                count = trial_count
+                copy_numbers(moved, q)
+                break
+            # The places are those of the trial: set what belongs to the pose again.
+            damping = max(4.0 * damping, 0.1 * least)
+            for i in range(count):
+                copy_numbers(saved[i], places[i])
+            copy_numbers(saved_multipliers, multipliers)
+            set_place(q, device, place)
+            set_metric(n, place, device, metric)
+            cholesky(metric, n, metric_factor)
+            set_gradient(n, q, push, device, by_q, gradient)
+            set_constraints(n, count, places, device, normals, limits)
+        if not accepted:
+            return UNSETTLED, count
+        damping = 0.0 if length < 0.5 * longest_step else 0.25 * damping
+        if math.hypot(place[N_OFFSET], place[N_OFFSET + 1]) > r:
+            return SLIPPED, count
+        lowest = place[N_OFFSET + 2] - r * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
+        if lowest < -bolt[pk.P] or lowest + bolt[pk.P] * place[N_ROTATION + 8] < 0.0:
+            return DEEP, count
+        if bolt[pk.STEEPEST] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
+            return TILTED, count
+        if flush_is_reached(q, push, place, device, bolt, nut):
+            return FLUSH, count
+        for i in range(n):
+            j = coordinate(i, device)
+            step[i] = (q[j] - start[j]) * scale(j, device)
+        if length_of(n, step, metric) > farthest:
+            return TOO_FAR, count
+    return UNSETTLED, count

@@ -1,0 +1,301 @@
+"""Settled states of poses: where a held bolt rests under a push that grows slowly, without friction."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from threadstate.contact._stage_kernel import rotation
+from threadstate.device import _chart_kernel as ck
+from threadstate.device import _gap_kernel as gk
+from threadstate.device import _rest_kernel as rest
+from threadstate.device import _settle_kernel as sk
+from threadstate.device._certificate_kernel import FREE
+from threadstate.device._places_kernel import FINE, MAX_PLACES
+from threadstate.device.equilibrium import balance, stability
+from threadstate.device.flush import flush_contacts, level_numbers, level_start
+from threadstate.device.model import (
+    About,
+    Device,
+    Fall,
+    LoadedContact,
+    Outcome,
+    PathPoint,
+    SettledFlag,
+    SettledMargins,
+    SettledState,
+    default_device,
+)
+from threadstate.errors import InvalidValueError
+from threadstate.state.flat_base import require_flat_base
+from threadstate.state.model import FeaturePair, StagePose, Vector
+from threadstate.state.records import LEVEL_TILT_DEG
+from threadstate.state.solve import checked_poses
+from threadstate.thread.pair import Pair
+
+__all__ = ["settle_pose", "settle_poses"]
+
+Floats = NDArray[np.float64]
+
+LEAST_FLANK_HALF_ANGLE_DEG = 20.0
+"""Flatter flanks can meet the nut's surface away from both edges within the tilts that a device may reach."""
+
+LEAST_FILLET = 0.01
+"""Sharper corners than this part of the thread pitch are narrower than what the search of contacts samples."""
+
+BALANCED = 1e-9
+"""Largest residual of an equilibrium, over the push."""
+
+NO_FORCE = 1e-9
+"""A contact with less force than this part of the push is one without force."""
+
+FEATURES = tuple(FeaturePair)
+
+REASONS = {
+    rest.UNSETTLED: SettledFlag.UNSETTLED,
+    rest.TOO_FAR: SettledFlag.UNSETTLED,
+    rest.DEEP: SettledFlag.DEEP,
+    rest.TILTED: SettledFlag.TILTED,
+    sk.NO_FIRST_CONTACT: SettledFlag.FIRST_CONTACT,
+}
+
+NO_MARGINS = SettledMargins(None, None, None, None, None)
+
+
+def settle_pose(
+    pair: Pair,
+    roll_deg: float,
+    pitch_deg: float,
+    phase_deg: float,
+    device: Device | None = None,
+    *,
+    mu: float = 0.0,
+) -> SettledState:
+    """The settled state of one commanded pose, its angles in degrees; as :func:`settle_poses` of this pose alone."""
+    return settle_poses(pair, [(roll_deg, pitch_deg, phase_deg)], device, mu=mu)[0]
+
+
+def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, mu: float = 0.0) -> list[SettledState]:
+    """The settled states of commanded poses of shape (n, 3): roll, pitch and phase in degrees, in their order.
+
+    Forces, section 5, without friction: the bolt starts at its first contact, and the push grows from 0. The device is
+    the default one of forces, section 4, unless another is given. A pose without a certain answer is ``undecided``,
+    with a flag that says why. The same pose gives the same bits whatever the others are.
+
+    Raises:
+        InvalidValueError: poses not of shape (n, 3), a value not finite, roll or pitch beyond 10 deg; a friction that
+            is not 0; a pair whose corners are sharper or whose flanks are flatter than the search of contacts covers.
+    """
+    wanted = checked_poses(poses)
+    if mu != 0.0:
+        raise InvalidValueError("mu", mu, "0: settled states are computed without friction")
+    check_pair(pair)
+    held = (device or default_device()).in_unit(pair.unit)
+    numbers = device_numbers(pair, held)
+    rotations = np.empty((len(wanted), 9))
+    heights = np.full(len(wanted), math.nan)
+    tips = np.zeros((len(wanted), 3))
+    is_flush = np.zeros(len(wanted), dtype=bool)
+    for i, (roll_deg, pitch_deg, phase_deg) in enumerate(wanted):
+        rotations[i] = commanded_rotation(roll_deg, pitch_deg, phase_deg, held.about)
+        if abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG:
+            heights[i], tips[i] = level_start(pair, phase_deg, rotations[i])
+            is_flush[i] = not tips[i].any()
+    rows = new_rows(len(wanted))
+    chosen = np.flatnonzero(~is_flush)
+    part = new_rows(len(chosen))
+    sk.settle_rows(
+        rotations[chosen],
+        heights[chosen],
+        tips[chosen],
+        held.push,
+        numbers.copy(),
+        pair.bolt.packed,
+        pair.nut.packed,
+        part,
+    )
+    for whole, some in zip(rows, part, strict=True):
+        whole[chosen] = some
+    rows[0][is_flush, sk.R_STATUS] = rest.FLUSH
+    rows[0][is_flush, sk.R_HEIGHT] = heights[is_flush]
+    return [
+        _state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows)) for i in range(len(wanted))
+    ]
+
+
+def check_pair(pair: Pair) -> None:
+    """Check that the search of contacts covers a pair.
+
+    Raises:
+        InvalidValueError: its flanks are too flat or its corners too sharp, or the bolt has a chamfer.
+    """
+    require_flat_base(pair, "settled states")
+    for name in ("flank_half_angle_deg", "flank_half_angle_neg_deg"):
+        half_angle = getattr(pair.form, name)
+        if half_angle is not None and half_angle < LEAST_FLANK_HALF_ANGLE_DEG:
+            raise InvalidValueError(name, half_angle, f"at least {LEAST_FLANK_HALF_ANGLE_DEG:g} deg for a device")
+    for name in ("bolt_root_fillet", "bolt_crest_fillet", "nut_crest_fillet", "nut_root_fillet"):
+        fillet = getattr(pair.form, name)
+        if fillet < LEAST_FILLET:
+            raise InvalidValueError(name, fillet, f"at least {LEAST_FILLET:g} thread pitches for a device")
+
+
+def commanded_rotation(roll_deg: float, pitch_deg: float, phase_deg: float, about: About) -> Floats:
+    """The commanded rotation by rows, shape (9,): bolt to nut (forces, section 4)."""
+    out = np.zeros(12)
+    roll, pitch, phase = math.radians(roll_deg), math.radians(pitch_deg), math.radians(phase_deg)
+    if about is About.NUT:
+        rotation(roll, pitch, phase, out)
+        return out[:9]
+    turn = np.zeros(12)
+    rotation(roll, pitch, 0.0, out)
+    rotation(0.0, 0.0, phase, turn)
+    return np.asarray(out[:9].reshape(3, 3) @ turn[:9].reshape(3, 3)).ravel()
+
+
+def device_numbers(pair: Pair, device: Device) -> Floats:
+    """A device in the pair's unit as the kernels take it, without a command."""
+    numbers = np.zeros(ck.DEVICE_SIZE)
+    numbers[ck.D_CENTRE] = device.centre
+    numbers[ck.D_SCALE] = pair.nominal_diameter / 2.0
+    numbers[ck.D_RIGID] = float(device.twist_is_rigid)
+    numbers[ck.D_FINE] = FINE
+    numbers[ck.D_STIFFNESS :] = np.ravel(device.stiffness)
+    return numbers
+
+
+def new_rows(count: int) -> sk.Rows:
+    """Rows of so many commands for the kernels."""
+    return (
+        np.zeros((count, sk.RESULT_SIZE)),
+        np.zeros((count, ck.COORDINATES)),
+        np.zeros((count, 12)),
+        np.zeros((count, MAX_PLACES, gk.GAP_SIZE)),
+        np.zeros((count, MAX_PLACES)),
+        np.zeros((count, sk.MAX_FALLS, sk.FALL_SIZE)),
+        np.zeros((count, sk.MAX_PATH, sk.PATH_SIZE)),
+    )
+
+
+def _state(
+    pair: Pair,
+    device: Device,
+    numbers: Floats,
+    pose_deg: Floats,
+    command: Floats,
+    row: tuple[Floats, ...],
+) -> SettledState:
+    """The state of a pose from its row."""
+    result, end, placement, places, multipliers, falls, path = row
+    roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
+    numbers = numbers.copy()
+    sk.set_command(command, result[sk.R_HEIGHT], numbers, np.empty(ck.COORDINATES))
+    fallen = tuple(_fall(fall, numbers) for fall in falls[: int(result[sk.R_FALLS])])
+    points = tuple(_point(point) for point in path[: int(result[sk.R_PATH])])
+
+    def undecided(*flags: SettledFlag, outcome: Outcome = Outcome.UNDECIDED) -> SettledState:
+        return SettledState(
+            roll_deg, pitch_deg, phase_deg, outcome, flags, None, None, None, (), None, fallen, NO_MARGINS, points
+        )
+
+    def settled(
+        q: Floats,
+        pose: Floats,
+        contacts: tuple[LoadedContact, ...],
+        flags: tuple[SettledFlag, ...],
+        margins: SettledMargins,
+    ) -> SettledState:
+        shift = q[3:] - numbers[ck.D_PLACE : ck.D_PLACE + 3]
+        energy = ck.elastic_energy(q, numbers, np.empty(ck.COORDINATES))
+        matrix = pose[:9].reshape(3, 3)
+        placed = StagePose(tuple(_vector(line) for line in matrix), _vector(pose[9:]))  # type: ignore[arg-type]
+        return SettledState(
+            roll_deg,
+            pitch_deg,
+            phase_deg,
+            Outcome.SETTLED,
+            flags,
+            placed,
+            _vector(shift),
+            _vector(np.degrees(q[:3])),
+            contacts,
+            float(energy),
+            fallen,
+            margins,
+            points,
+        )
+
+    status = int(result[sk.R_STATUS])
+    if status == rest.FLUSH:
+        q, pose = level_numbers(numbers)
+        contacts, pressure, residual = flush_contacts(pair, device, numbers, q, pose)
+        if pressure is None or not pressure > 0.0:
+            return undecided(SettledFlag.FLUSH, SettledFlag.UNSTABLE)
+        if not residual <= BALANCED:
+            return undecided(SettledFlag.FLUSH, SettledFlag.UNBALANCED)
+        return settled(q, pose, contacts, (SettledFlag.FLUSH,), SettledMargins(None, None, None, residual, pressure))
+    if status == rest.SLIPPED:
+        return undecided(outcome=Outcome.SLIPPED)
+    if status != rest.AT_REST:
+        return undecided(REASONS[status])
+    if int(result[sk.R_OVERLAP]) != FREE:
+        return undecided(SettledFlag.OVERLAP)
+    count = int(result[sk.R_PLACES])
+    places, multipliers = places[:count], multipliers[:count]
+    loaded = multipliers * places[:, gk.G_NORM] > NO_FORCE * device.push
+    contacts = tuple(
+        LoadedContact(
+            _vector(place[gk.G_POINT : gk.G_POINT + 3]),
+            _vector(place[gk.G_NORMAL : gk.G_NORMAL + 3]),
+            FEATURES[int(place[gk.G_PAIR])],
+            _vector(multiplier * place[gk.G_NORM] * place[gk.G_NORMAL : gk.G_NORMAL + 3]),
+        )
+        for place, multiplier in zip(places[loaded], multipliers[loaded], strict=True)
+    )
+    residual = balance(pair, device, end, placement, numbers, contacts)
+    if not residual <= BALANCED:
+        return undecided(SettledFlag.UNBALANCED)
+    curvature = stability(pair, end, numbers, places[loaded], multipliers[loaded])
+    if curvature is not None and not curvature > 0.0:
+        return undecided(SettledFlag.UNSTABLE)
+    gaps = -places[~loaded, gk.G_VALUE] / places[~loaded, gk.G_NORM]
+    gap = float(gaps.min()) if len(gaps) else None
+    force = float((multipliers[loaded] * places[loaded, gk.G_NORM]).min()) / device.push if loaded.any() else None
+    is_marginal = gap is not None and gap <= sk.LEAST_GAP * pair.nominal_diameter
+    return settled(
+        end,
+        placement,
+        contacts,
+        (SettledFlag.MARGINAL,) if is_marginal else (),
+        SettledMargins(force, gap, curvature, residual, None),
+    )
+
+
+def _fall(fall: Floats, numbers: Floats) -> Fall:
+    before, after = np.empty(ck.PLACE_SIZE), np.empty(ck.PLACE_SIZE)
+    ck.set_place(fall[sk.F_BEFORE : sk.F_BEFORE + 6], numbers, before)
+    ck.set_place(fall[sk.F_AFTER : sk.F_AFTER + 6], numbers, after)
+    way = before[ck.N_OFFSET : ck.N_OFFSET + 3] - after[ck.N_OFFSET : ck.N_OFFSET + 3]
+    return Fall(
+        float(fall[sk.F_PUSH]),
+        float(way[2]),
+        float(np.linalg.norm(way)),
+        float(fall[sk.F_POTENTIAL] - fall[sk.F_POTENTIAL + 1]),
+    )
+
+
+def _point(point: Floats) -> PathPoint:
+    return PathPoint(
+        float(point[sk.P_PUSH]),
+        float(point[sk.P_ENERGY]),
+        float(point[sk.P_POTENTIAL]),
+        _vector(point[sk.P_COORDINATES : sk.P_COORDINATES + 3]),
+        _vector(point[sk.P_COORDINATES + 3 : sk.P_COORDINATES + 6]),
+    )
+
+
+def _vector(numbers: Floats) -> Vector:
+    x, y, z = (float(number) for number in numbers)
+    return x, y, z
