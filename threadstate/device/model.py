@@ -10,6 +10,7 @@ from enum import StrEnum
 import numpy as np
 
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.state.model import FeaturePair, StagePose, Vector
 from threadstate.units import LengthUnit, conversion_factor
 
@@ -17,6 +18,7 @@ Stiffness = tuple[tuple[float, ...], ...]
 
 LARGEST_NUMBER = 1e12
 """Of a stiffness, a push or a length: what is larger overflows where they are multiplied."""
+ANY_NUMBER = f"-{number_text(LARGEST_NUMBER)} to {number_text(LARGEST_NUMBER)}"
 
 LEAST_EIGENVALUE = -1e-9
 """Of a stiffness with ones on its diagonal: what is above it is round-off of zero."""
@@ -56,9 +58,9 @@ class Device:
 
     def __post_init__(self) -> None:
         if not abs(self.centre) <= LARGEST_NUMBER:
-            raise InvalidValueError("centre", self.centre, f"a length, -{LARGEST_NUMBER:g} to {LARGEST_NUMBER:g}")
+            raise InvalidValueError("centre", self.centre, f"a length, {ANY_NUMBER}")
         if not 0.0 < self.push <= LARGEST_NUMBER:
-            raise InvalidValueError("push", self.push, f"a force > 0 in N, up to {LARGEST_NUMBER:g}")
+            raise InvalidValueError("push", self.push, f"a force > 0 in N, up to {number_text(LARGEST_NUMBER)}")
         object.__setattr__(self, "stiffness", _checked_stiffness(self.stiffness, rigid=self.twist_is_rigid))
 
     def in_unit(self, unit: LengthUnit) -> Device:
@@ -91,7 +93,7 @@ def diagonal_device(
     for name, value in (("k_lateral", k_lateral), ("k_axial", k_axial), ("k_tilt", k_tilt), ("k_twist", k_twist)):
         if value is not None and not 0.0 <= value <= LARGEST_NUMBER:
             rigid = ', or "rigid"' if name == "k_twist" else ""
-            raise InvalidValueError(name, value, f"a stiffness >= 0, up to {LARGEST_NUMBER:g}{rigid}")
+            raise InvalidValueError(name, value, f"a stiffness >= 0, up to {number_text(LARGEST_NUMBER)}{rigid}")
     diagonal = (k_tilt, k_tilt, k_twist or 0.0, k_lateral, k_lateral, k_axial)
     stiffness = tuple(tuple(value if i == j else 0.0 for j in range(6)) for i, value in enumerate(diagonal))
     return Device(stiffness, centre, push, unit, k_twist is None, about)
@@ -118,7 +120,9 @@ def _checked_stiffness(stiffness: Sequence[Sequence[float]], *, rigid: bool) -> 
         for j, value in enumerate(row):
             if not abs(value) <= LARGEST_NUMBER:
                 raise InvalidValueError(
-                    f"stiffness[{i}][{j}]", value, f"a finite number, -{LARGEST_NUMBER:g} to {LARGEST_NUMBER:g}"
+                    f"stiffness[{i}][{j}]",
+                    value,
+                    f"a finite number, {ANY_NUMBER}",
                 )
             if rigid and value != 0.0 and TWIST in (i, j):
                 raise InvalidValueError(f"stiffness[{i}][{j}]", value, "0 where the twist is rigid")

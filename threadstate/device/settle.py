@@ -29,6 +29,7 @@ from threadstate.device.model import (
     default_device,
 )
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.state.flat_base import require_flat_base
 from threadstate.state.model import FeaturePair, StagePose, Vector
 from threadstate.state.records import LEVEL_TILT_DEG
@@ -135,11 +136,13 @@ def check_pair(pair: Pair) -> None:
     for name in ("flank_half_angle_deg", "flank_half_angle_neg_deg"):
         half_angle = getattr(pair.form, name)
         if half_angle is not None and half_angle < LEAST_FLANK_HALF_ANGLE_DEG:
-            raise InvalidValueError(name, half_angle, f"at least {LEAST_FLANK_HALF_ANGLE_DEG:g} deg for a device")
+            raise InvalidValueError(
+                name, half_angle, f"at least {number_text(LEAST_FLANK_HALF_ANGLE_DEG)} deg for a device"
+            )
     for name in ("bolt_root_fillet", "bolt_crest_fillet", "nut_crest_fillet", "nut_root_fillet"):
         fillet = getattr(pair.form, name)
         if fillet < LEAST_FILLET:
-            raise InvalidValueError(name, fillet, f"at least {LEAST_FILLET:g} thread pitches for a device")
+            raise InvalidValueError(name, fillet, f"at least {number_text(LEAST_FILLET)} thread pitches for a device")
 
 
 def commanded_rotation(roll_deg: float, pitch_deg: float, phase_deg: float, about: About) -> Floats:
