@@ -64,13 +64,13 @@ ENLARGEMENT = 8.0
 """How many times larger the box is in which the onset is searched for that was not found in a narrow box."""
 
 ROUND_OFF = 1e-14
-"""Bound on the round-off of a distance from a surface, in thread pitches."""
+"""What the round-off of a distance from a surface is taken for, in thread pitches (docs/certificate.md, section 7)."""
 
 LEAST_DIP = 4e-15
 """The same of the values that bounds of boxes are made of: a curve that leaves the surface by less lies on it."""
 
-LEAST_DEPTH = 6e-15
-"""A box in which the distance from the surface is less lies on it; the bound on the round-off is part of that."""
+LEAST_DEPTH = 2e-15
+"""A box in which the distance from the surface is less, as far as round-off lets it be known, lies on it."""
 
 MAX_BOXES = 16_000
 
@@ -233,6 +233,31 @@ def onset_only_outside(
 
 
 @kernel()
+def is_the_one(
+    box_class: int,
+    theta: float,
+    half: float,
+    start: float,
+    end: float,
+    t: float,
+    tau: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    scratch: Array,
+) -> bool:
+    """Whether a root found in a box, or just beside it, is the only one there: the box widened to it has one, too."""
+    if abs(t - theta) <= half and start <= tau <= end:
+        return True
+    scratch[X_THETA] = theta
+    scratch[X_HALF] = max(half, abs(t - theta))
+    scratch[X_START] = min(start, tau)
+    scratch[X_END] = max(end, tau)
+    classify_boxes(1, motion, curve_profile, solid_profile, scratch)
+    return scratch[X_CLASS] == box_class
+
+
+@kernel()
 def joined_to_contact(
     theta: float,
     tau: float,
@@ -379,6 +404,9 @@ def search_edge(
                 else:
                     inside, t, tau = newton_onset(
                         box_class, theta, half, start, end, motion, curve_profile, solid_profile, path, jet
+                    )
+                    inside = inside and is_the_one(
+                        box_class, theta, half, start, end, t, tau, motion, curve_profile, solid_profile, spare_boxes
                     )
                 if inside:
                     set_jet(t, tau, motion, curve_profile, solid_profile, path, jet)
