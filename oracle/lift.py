@@ -7,6 +7,9 @@ surface and, as overlaps at sharp corners are narrow, the helices of both crests
 down the bolt's thread, too; once no interval holds it the solids are apart. The first such lift counts, even if a
 greater one would make them meet again.
 
+What is at most ``TOUCH`` thread pitches deep in radius touches and does not overlap: a crest that slides up a root
+does not hold the bolt.
+
 Resolution: overlaps that end within ``NEAR`` thread pitches below the lift at some sample are polished; a sample that
 lies in a hole narrower than that counts as inside.
 """
@@ -39,6 +42,7 @@ from threadstate.thread.pair import Pair
 Floats = NDArray[np.float64]
 
 NEAR = 0.01
+TOUCH = 1e-12
 BOLT_EDGE, NUT_EDGE, BOLT_THREAD, BOLT_CORNER, OTHER_BOLT_CORNER, NUT_CORNER, OTHER_NUT_CORNER = range(7)
 EDGE_SAMPLES, AROUND, ALONG = 2880, 480, 48
 _STEPS = 100
@@ -118,11 +122,11 @@ def _end(
 ) -> float:
     """The lift at which a sample of a feature stops overlapping, if it overlaps at ``lift`` or did so just below it."""
     if feature == NUT_EDGE:
-        r = radius(-n[LEAD] * u / _TWO_PI, n)
+        r = radius(-n[LEAD] * u / _TWO_PI, n) + TOUCH * n[P]
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], -t[2], lift, near, rot, b)
     if feature >= NUT_CORNER:
         s = _corner(Q_FLANK_SMALL, Q_SMALL, RISING if feature == NUT_CORNER else FALLING, n)
-        r, z = radius(s, n), s + n[LEAD] * u / _TWO_PI
+        r, z = radius(s, n) + TOUCH * n[P], s + n[LEAD] * u / _TWO_PI
         z -= n[P] * (math.floor(z / n[P]) + 1.0)
         return _leaves_bolt(r * math.cos(u) - t[0], r * math.sin(u) - t[1], z - t[2], lift, near, rot, b)
     if feature >= BOLT_CORNER:
@@ -130,7 +134,7 @@ def _end(
         v = _corner(Q_LARGE, Q_FLANK_LARGE, side, b) + b[LEAD] * u / _TWO_PI
         v -= b[P] * math.floor(v / b[P])
     v = min(max(v, 0.0), b[P])
-    r = radius(v - b[LEAD] * u / _TWO_PI, b)
+    r = radius(v - b[LEAD] * u / _TWO_PI, b) - TOUCH * b[P]
     bx, by = r * math.cos(u), r * math.sin(u)
     x = rot[0, 0] * bx + rot[0, 1] * by + rot[0, 2] * v + t[0]
     y = rot[1, 0] * bx + rot[1, 1] * by + rot[1, 2] * v + t[1]

@@ -34,6 +34,7 @@ from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 DEPTH = 1e-7
 """Overlap begins here: least clearance at the deepest point of a component, on the scale of 1/4-20 (in)."""
@@ -139,6 +140,16 @@ def clearance(theta: float, z: float, rot: Floats, t: Floats, bolt: Floats, nut:
     _, outer, _ = interval(theta, z, rot, t, bolt, nut)
     far = bz + outward * (outer - inner)
     return min(depth, max(bz, far), p - min(bz, far))
+
+
+@compiled
+def end_distance(theta: float, z: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> float:
+    """How far the overlap on a ray is from the nearer of the ends without a face, z_B = p and z_F = -p."""
+    inner, outer, _ = interval(theta, z, rot, t, bolt, nut)
+    c, s = math.cos(theta), math.sin(theta)
+    near = _bolt_coordinates(inner * c, inner * s, z, rot, t)[2]
+    far = _bolt_coordinates(outer * c, outer * s, z, rot, t)[2]
+    return min(bolt[P] - min(near, far), z + nut[P])
 
 
 @compiled
@@ -503,10 +514,27 @@ def _flood_finer(
 
 
 @compiled
-def _deepest(value: Floats, parent: Ints, first_point: int) -> int:
+def _exclude_at_ends(
+    theta: Floats,
+    z: Floats,
+    value: Floats,
+    parent: Ints,
+    is_excluded: Bools,
+    rot: Floats,
+    t: Floats,
+    bolt: Floats,
+    nut: Floats,
+) -> None:
+    """Exclude components with a sample within one and a half of the grid's steps of an end without a face."""
+    for k in range(value.shape[0]):
+        if value[k] >= DEPTH and end_distance(theta[k], z[k], rot, t, bolt, nut) < 1.5 * nut[P] / DOWN:
+            is_excluded[_root(parent, k)] = True
+
+
+@compiled
+def _deepest(value: Floats, parent: Ints, first_point: int, is_excluded: Bools) -> int:
     """The deepest sample of the deepest component that holds no excluded point; -1 if none."""
     n = value.shape[0]
-    is_excluded = np.zeros(n, np.bool_)
     for k in range(first_point, n):
         is_excluded[_root(parent, k)] = True
     best, at = DEPTH, -1
@@ -517,11 +545,19 @@ def _deepest(value: Floats, parent: Ints, first_point: int) -> int:
 
 
 @compiled
-def free_component(rot: Floats, t: Floats, bolt: Floats, nut: Floats, excluded: Floats) -> tuple[float, float, float]:
-    """Depth, azimuth and height of the deepest component that holds no excluded point; depth 0 if there is none."""
+def free_component(
+    rot: Floats, t: Floats, bolt: Floats, nut: Floats, excluded: Floats, at_ends: bool
+) -> tuple[float, float, float]:
+    """Depth, azimuth and height of the deepest component that holds no excluded point; depth 0 if there is none.
+
+    Without ``at_ends`` only of those that do not reach an end without a face.
+    """
     theta, z, value, parent, first_point = _sample(rot, t, bolt, nut, excluded)
     while True:
-        k = _deepest(value, parent, first_point)
+        is_excluded = np.zeros(value.shape[0], np.bool_)
+        if not at_ends:
+            _exclude_at_ends(theta, z, value, parent, is_excluded, rot, t, bolt, nut)
+        k = _deepest(value, parent, first_point, is_excluded)
         if k < 0:
             return 0.0, 0.0, 0.0
         if not _flood_finer(k, theta, z, value, parent, first_point, rot, t, bolt, nut):

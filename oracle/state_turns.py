@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from oracle.overlap import LARGEST_TILT_DEG, clearance, excluded_rows, free_component
+from oracle.overlap import LARGEST_TILT_DEG, clearance, end_distance, excluded_rows, free_component
 from oracle.profile import P, bolt_profile, nut_profile
 from oracle.solids import Floats, at_sharp_corner, edge_tangent, outward
 from oracle.turn import contact_components_along_turn, turned_pose
@@ -147,30 +147,6 @@ def deepest_near(pair: Pair, turn: Turn, turn_deg: float, point: Floats, reach: 
     return best
 
 
-def spreads_from_contact(pair: Pair, turn: Turn, turn_deg: float) -> bool:
-    """Whether what the brute force takes for a component of its own is the overlap of a known contact.
-
-    Along a crest's corner, and where a bolt is nearly in phase, an overlap spreads thinner than samples are apart. It
-    is followed from the contact to the deepest of what no known contact is seen in: at each azimuth between, some point
-    near the straight way overlaps.
-    """
-    bolt, nut = bolt_profile(pair), nut_profile(pair)
-    rotation, translation = turn.pose_after(turn_deg)
-    rotation = np.ascontiguousarray(rotation)
-    _, theta, z = free_component(rotation, translation, bolt, nut, excluded_rows(rotation, translation, turn.known))
-    p = pair.thread_pitch
-    for known in turn.known:
-        begin = math.atan2(known[1], known[0])
-        far = math.remainder(theta - begin, 2.0 * math.pi)
-        if all(
-            _greatest_clearance(begin + part * far, known[2] + part * (z - known[2]), rotation, translation, bolt, nut)
-            > -ON_SURFACE * p
-            for part in np.linspace(0.0, 1.0, AZIMUTHS_OF_WAY).tolist()
-        ):
-            return True
-    return False
-
-
 def _greatest_clearance(
     theta: float, z: float, rotation: Floats, translation: Floats, bolt: Floats, nut: Floats
 ) -> float:
@@ -201,15 +177,35 @@ def begins_at(pair: Pair, turn: Turn, point: Floats, before_and_after_deg: float
 class Appearance:
     """A component without any known contact: the turn at which it appears, and its depth as soon as it is seen.
 
-    A component at its onset is shallow; a piece that parts from a grown overlap is deep at once.
+    A component at its onset is shallow; a piece that parts from a grown overlap is deep at once. It is deepest
+    on the ray of ``azimuth`` (radians) and height ``z``, in the nut's frame.
     """
 
     turn_deg: float
     depth: float
+    azimuth: float
+    z: float
 
 
 def earlier_appearance(pair: Pair, turn: Turn, limit_deg: float, steps: int) -> Appearance | None:
-    """The first component without any known contact that the brute force sees before the turn's end."""
+    """The first component without any known contact that the brute force sees before the turn's end.
+
+    Where it comes in over an end without a face, which cannot touch, the first of those that reach no end counts.
+    """
+    seen = _first_appearance(pair, turn, limit_deg, steps, at_ends=True)
+    if seen is None or not _enters_over_an_end(pair, turn, seen):
+        return seen
+    return _first_appearance(pair, turn, limit_deg, steps, at_ends=False)
+
+
+def _enters_over_an_end(pair: Pair, turn: Turn, seen: Appearance) -> bool:
+    rotation, translation = turn.pose_after(seen.turn_deg)
+    rotation = np.ascontiguousarray(rotation)
+    distance = end_distance(seen.azimuth, seen.z, rotation, translation, bolt_profile(pair), nut_profile(pair))
+    return distance < 2.0 * seen.depth + 1e-9 * pair.thread_pitch
+
+
+def _first_appearance(pair: Pair, turn: Turn, limit_deg: float, steps: int, *, at_ends: bool) -> Appearance | None:
     seen = contact_components_along_turn(
         pair,
         turn.rotation,
@@ -219,16 +215,44 @@ def earlier_appearance(pair: Pair, turn: Turn, limit_deg: float, steps: int) -> 
         turn.sense * turn.end_deg(limit_deg),
         turn.known,
         steps=steps,
+        at_ends=at_ends,
     )
     if seen is None:
         return None
     bolt, nut = bolt_profile(pair), nut_profile(pair)
-    low, high, depth = 0.0, abs(seen.turn_deg), seen.depth
-    while high - low > 1e-5:
-        middle = 0.5 * (low + high)
-        rotation, translation = turn.pose_after(middle)
+
+    def component(turn_deg: float) -> tuple[float, float, float]:
+        rotation, translation = turn.pose_after(turn_deg)
         rotation = np.ascontiguousarray(rotation)
         excluded = excluded_rows(rotation, translation, turn.known)
-        found = free_component(rotation, translation, bolt, nut, excluded)[0]
-        low, high, depth = (low, middle, found) if found > 0.0 else (middle, high, depth)
-    return Appearance(high, depth)
+        return free_component(rotation, translation, bolt, nut, excluded, at_ends)
+
+    low, high = 0.0, abs(seen.turn_deg)
+    while high - low > 1e-5:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if component(middle)[0] > 0.0 else (middle, high)
+    return Appearance(high, *component(high))
+
+
+def spreads_from_contact(pair: Pair, turn: Turn, seen: Appearance) -> bool:
+    """Whether what the brute force takes for a component of its own is the overlap of a known contact.
+
+    Along a crest's corner, and where a bolt is nearly in phase, an overlap spreads thinner than samples are apart. It
+    is followed from the contact to where the component seen is deepest: at each azimuth between, some point
+    near the straight way overlaps.
+    """
+    bolt, nut = bolt_profile(pair), nut_profile(pair)
+    rotation, translation = turn.pose_after(seen.turn_deg)
+    rotation = np.ascontiguousarray(rotation)
+    theta, z = seen.azimuth, seen.z
+    p = pair.thread_pitch
+    for known in turn.known:
+        begin = math.atan2(known[1], known[0])
+        far = math.remainder(theta - begin, 2.0 * math.pi)
+        if all(
+            _greatest_clearance(begin + part * far, known[2] + part * (z - known[2]), rotation, translation, bolt, nut)
+            > -ON_SURFACE * p
+            for part in np.linspace(0.0, 1.0, AZIMUTHS_OF_WAY).tolist()
+        ):
+            return True
+    return False

@@ -55,10 +55,12 @@ def contact_components_along_turn(
     turn_deg: float,
     exclude_points: Floats,
     steps: int = 40,
+    at_ends: bool = True,
 ) -> EarlierComponent | None:
     """The first component seen strictly before the end of a turn that holds none of ``exclude_points``; None if none.
 
-    The pose is that before the turn, the axis and the points (shape (n, 3), on the axis) are in the nut's frame.
+    Without ``at_ends`` those that reach an end without a face are passed over. The pose is that before the turn, the
+    axis and the points (shape (n, 3), on the axis) are in the nut's frame.
 
     Raises:
         ValueError: an excluded point leaves one of the solids by more than 1e-7 of the nominal diameter, or the bolt
@@ -74,7 +76,7 @@ def contact_components_along_turn(
             gap = clearance(theta, min(z, 0.0), rot, t, bolt, nut)
             if gap < -1e-7 * pair.nominal_diameter:
                 raise ValueError(f"excluded point at azimuth {theta} is {gap} outside at a turn of {turn} deg")
-        depth, theta, z = free_component(rot, t, bolt, nut, excluded)
+        depth, theta, z = free_component(rot, t, bolt, nut, excluded, at_ends)
         if depth > 0.0:
             x, y, height = (float(c) for c in witness(theta, z, rot, t, bolt, nut))
             return EarlierComponent(float(turn), (x, y, height), float(depth))

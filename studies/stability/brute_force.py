@@ -157,13 +157,13 @@ def _is_free(solved: SolvedCase, turn: Turn, turn_deg: float) -> bool:
     rotation = np.ascontiguousarray(rotation)
     excluded = excluded_rows(rotation, translation, turn.known)
     pair = solved.case.pair
-    return free_component(rotation, translation, bolt_profile(pair), nut_profile(pair), excluded)[0] > 0.0
+    return free_component(rotation, translation, bolt_profile(pair), nut_profile(pair), excluded, True)[0] > 0.0
 
 
 def _passes_an_onset(solved: SolvedCase, turn: Turn) -> bool:
     pair = solved.case.pair
     seen = earlier_appearance(pair, turn, LIMIT_DEG, STEPS)
-    return seen is not None and seen.depth < SPLIT_INCH and not spreads_from_contact(pair, turn, seen.turn_deg)
+    return seen is not None and seen.depth < SPLIT_INCH and not spreads_from_contact(pair, turn, seen)
 
 
 def missed_first(solved: SolvedCase) -> bool:

@@ -10,17 +10,18 @@ import pytest
 
 from oracle.profile import Q_LARGE, bolt_profile, radius
 from oracle.solids import axial_position, outward, outward_of_faces, slope
-from oracle.state_turns import earlier_appearance, spreads_from_contact, turns_of
+from oracle.state_turns import _first_appearance, earlier_appearance, spreads_from_contact, turns_of
 from studies.forms.page import page
 from studies.forms.study import FORMS, METHOD, Amount, Found, Task, _look_at, _look_at_turns, done, pair_of, tasks
 from studies.methods import Case
-from studies.stability.brute_force import Fault
+from studies.stability.brute_force import Fault, wrong_embedment
 from studies.stability.change import SolvedCase
 from threadstate.state.model import ContactState
 from threadstate.units import LengthUnit
 
 pytestmark = pytest.mark.slow
 
+NO_PLAY, BUTTRESS = "1/4-20 UNJC-3A/3B", "1/2-20 BUTT-2A/2B at minimum material"
 ACME = "1/4-16 ACME-2G with sharp corners"
 SPREADING = (0.912263938019664, 1.7779500748341412, -18.61067466744038)
 """First contact of thread on thread at a sharp corner, from which the overlap spreads along the corner."""
@@ -91,9 +92,33 @@ def test_an_overlap_that_spreads_along_a_sharp_corner_is_none_of_its_own() -> No
     turn = turns_of(at.case.pair, at.state)[1]
     seen = earlier_appearance(at.case.pair, turn, 45.0, 14)
     assert seen is not None
-    assert spreads_from_contact(at.case.pair, turn, seen.turn_deg)
+    assert spreads_from_contact(at.case.pair, turn, seen)
     elsewhere = replace(turn, known=turn.known[1:])
-    assert not spreads_from_contact(at.case.pair, elsewhere, seen.turn_deg)
+    assert not spreads_from_contact(at.case.pair, elsewhere, seen)
+
+
+def test_an_overlap_that_comes_in_over_the_bolts_far_end_is_no_contact_onset() -> None:
+    at = solved(BUTTRESS, (3.5600489388680394, -1.0947261265274566, 14.14572662970312))
+    turn = turns_of(at.case.pair, at.state)[1]
+    assert _first_appearance(at.case.pair, turn, 45.0, 14, at_ends=True) is not None
+    assert earlier_appearance(at.case.pair, turn, 45.0, 14) is None
+
+
+def test_a_crest_that_slides_up_its_root_does_not_hold_the_bolt() -> None:
+    at = solved(NO_PLAY, (0.26888479372430485, -0.4693193243897307, 19.733075750985428))
+    assert at.state.embedment == 0.0
+    assert wrong_embedment(at) == ""
+    assert "least lift 0 in" in wrong_embedment(SolvedCase(at.case, replace(at.state, embedment=1e-4)))
+
+
+def test_a_contact_beside_a_film_of_overlap_begins_at_the_end_of_its_turn_and_not_elsewhere() -> None:
+    at = solved(NO_PLAY, (-0.24541377575880485, -2.7383427408802836, 0.09018835225388165))
+    found = Found()
+    _look_at_turns(at, found)
+    assert (found.onsets, found.faults) == (2, [])
+    assert at.state.lambda_deg is not None
+    _look_at_turns(SolvedCase(at.case, replace(at.state, lambda_deg=at.state.lambda_deg - 1e-2)), found)
+    assert any("no contact begins where turn 2 ends" in fault for fault in found.faults)
 
 
 def test_at_a_sharp_corner_both_faces_have_a_normal() -> None:
