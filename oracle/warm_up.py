@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from oracle.chamfer import chamfered_height
 from oracle.first_height import first_height
 from oracle.lift import least_lift
 from oracle.overlap import overlap_components
@@ -11,6 +14,7 @@ from oracle.pose import pose_rotation
 from oracle.rest import HeldBolt
 from oracle.turn import contact_components_along_turn
 from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.chamfer import Chamfer
 
 POSE_DEG = (-4.0, 0.0, 131.0)
 BELOW_INCH = 1e-4
@@ -22,6 +26,7 @@ def main() -> None:
     rotation = pose_rotation(*POSE_DEG)
     first = first_height(pair, *POSE_DEG)
     inside = np.array([0.0, 0.0, first.height - BELOW_INCH])
+    chamfered_height(replace(pair, chamfer=Chamfer(pair.fit.bolt_minor_diameter)), *POSE_DEG)
     least_lift(pair, rotation, inside)
     overlap_components(pair, rotation, inside)
     held = HeldBolt(pair, rotation, k_lateral=1.0, k_tilt=1.0, centre=0.0, push=1.0)

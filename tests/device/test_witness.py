@@ -58,12 +58,12 @@ def test_samples_touch_where_the_solver_says_and_do_not_overlap(states: list[Set
 
 
 def test_no_feasible_direction_lowers_the_potential(states: list[SettledState]) -> None:
-    """100 random directions each, of steps of 1e-5 to 1e-3 nominal radii, at the height at which samples touch."""
+    """40 random directions each, of steps of 1e-5 to 1e-3 nominal radii, at the height at which samples touch."""
     rng = np.random.default_rng(22)
     for state in states:
         place, height, lowest = place_of(state)
         held = held_bolt(state)
-        for _ in range(100):
+        for _ in range(40):
             direction = rng.standard_normal(4)
             step = 10.0 ** rng.uniform(-5.0, -3.0) * R * direction / np.linalg.norm(direction) * AS_ANGLE
             value, _ = held.potential(place + step, height, PUSH, with_thread=False)
@@ -72,7 +72,7 @@ def test_no_feasible_direction_lowers_the_potential(states: list[SettledState]) 
 
 def test_a_search_from_beside_comes_back_and_finds_nothing_lower(states: list[SettledState]) -> None:
     rng = np.random.default_rng(23)
-    for state in states[:3]:
+    for state in states[:1]:
         place, height, lowest = place_of(state)
         direction = rng.standard_normal(4)
         beside = place + 5e-4 * R * direction / np.linalg.norm(direction) * AS_ANGLE

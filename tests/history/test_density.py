@@ -15,7 +15,7 @@ SPREAD_DEG = 2e-6
 """So far round-off moves where a region of a flush patch changes."""
 
 
-@pytest.mark.parametrize("orientation_deg", [(0.0, -4.0), (2.0, 3.0), (-3.0, 2.0)])
+@pytest.mark.parametrize("orientation_deg", [(0.0, -4.0), (2.0, 3.0)])
 def test_ten_times_the_density_finds_nothing_new(orientation_deg: tuple[float, float]) -> None:
     check = check_density(PAIR, [orientation_deg], 10)
     assert check.dense_solves > 3 * check.solves

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -24,12 +25,18 @@ pytestmark = pytest.mark.slow
 
 PAIR = quarter_twenty_unc()
 OPTIONS = SolveOptions()
-TILTS = [(0.0, -4.0), (-2.0, 1.0), (3.0, 3.0), *np.random.default_rng(17).uniform(-4.0, 4.0, (2, 2)).tolist()]
+TILTS = [
+    (0.0, -4.0),
+    (-2.0, 1.0),
+    (3.0, 3.0),
+    *map(tuple, np.random.default_rng(17).uniform(-4.0, 4.0, (2, 2)).tolist()),
+]
 
 SPREAD_DEG = 2e-6
 """So far round-off moves where a region of a flush patch changes, or a contact beside an earlier one begins."""
 
 
+@cache
 def _searched(tilt: tuple[float, float], *, with_estimates: bool) -> tuple[list[Bracket], int]:
     """The brackets of an orientation, and how many poses were solved for them."""
     store = RecordStore(PAIR, OPTIONS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -71,8 +72,13 @@ def test_vertices_lie_on_thread_and_cone_and_those_of_their_edge_on_both(pair: P
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("preset", [Preset.COARSE, Preset.PAPER, Preset.MEDIUM])
-@pytest.mark.parametrize("pair", SHAPES, ids=range(len(SHAPES)))
+@pytest.mark.parametrize(
+    ("pair", "preset"),
+    [
+        *itertools.product(SHAPES, [Preset.COARSE, Preset.PAPER]),
+        *itertools.product(SHAPES[1:3], [Preset.MEDIUM]),
+    ],
+)
 def test_solids_are_closed_and_within_the_chord_height(pair: Pair, preset: Preset) -> None:
     chord = preset.tessellation.chord_height * pair.thread_pitch
     for part in Part:
