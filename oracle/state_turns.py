@@ -126,9 +126,8 @@ def turns_of(pair: Pair, state: ContactState) -> list[Turn]:
     return turns
 
 
-def deepest_near(pair: Pair, turn: Turn, turn_deg: float, point: Floats, reach: float) -> float:
+def deepest_near(pair: Pair, rotation: Floats, translation: Floats, point: Floats, reach: float) -> float:
     """The oracle's clearance where it is greatest within ``reach`` (along the nut's azimuth and axis) of a point."""
-    rotation, translation = turn.pose_after(turn_deg)
     rotation = np.ascontiguousarray(rotation)
     bolt, nut = bolt_profile(pair), nut_profile(pair)
     azimuth, radius = math.atan2(point[1], point[0]), math.hypot(point[0], point[1])
@@ -168,8 +167,10 @@ def begins_at(pair: Pair, turn: Turn, point: Floats, before_and_after_deg: float
     """
     assert turn.turn_deg is not None
     reach = reach_pitches * pair.thread_pitch
-    before = deepest_near(pair, turn, turn.turn_deg - before_and_after_deg, point, reach)
-    after = deepest_near(pair, turn, turn.turn_deg + before_and_after_deg, point, reach)
+    before, after = (
+        deepest_near(pair, *turn.pose_after(turn.turn_deg + change), point, reach)
+        for change in (-before_and_after_deg, before_and_after_deg)
+    )
     return before < 0.0 < after
 
 

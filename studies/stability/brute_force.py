@@ -19,7 +19,7 @@ from oracle.first_height import first_height
 from oracle.overlap import excluded_rows, free_component
 from oracle.pose import pose_rotation
 from oracle.profile import Floats, bolt_profile, nut_profile
-from oracle.state_turns import Turn, earlier_appearance, spreads_from_contact, turns_of
+from oracle.state_turns import Turn, deepest_near, earlier_appearance, spreads_from_contact, turns_of
 from studies.stability.change import SolvedCase, allowed, change_between, leading_contacts, pivot_lever
 from threadstate.state.model import Contact, ContactState, Flag
 from threadstate.thread.pair import Pair
@@ -68,6 +68,8 @@ PROBES_DEG = (1e-3, 1e-2, 5e-2)
 SHORT_OF_END_DEG = 1e-4
 LIMIT_DEG = 45.0
 MAX_LIFTS = 40
+BESIDE_PITCHES = 1e-3
+LIFTS_BETWEEN = 20
 STEPS = 14
 """Instants of a turn at which all of it is sampled."""
 
@@ -195,7 +197,8 @@ def wrong_embedment(solved: SolvedCase) -> str:
     """What is wrong with the embedment, in words: it is not the least lift that frees the third pose; else empty.
 
     Beside the near-phase window the brute force's lift can creep on by its own resolution; it is followed no farther
-    than ``MAX_LIFTS`` of its steps, and an embedment beyond is not checked.
+    than ``MAX_LIFTS`` of its steps, and an embedment beyond is not checked. Its samples can step over a film of overlap
+    beside a contact: there they are dense.
     """
     state = solved.state
     if state.embedment is None or len(state.poses) < 3:
@@ -205,7 +208,29 @@ def wrong_embedment(solved: SolvedCase) -> str:
     far = lift - state.embedment
     if abs(far) <= LIFT_TOLERANCE_INCH or (far < 0.0 and not is_free):
         return ""
+    if far < 0.0 and _overlaps_beside_contacts(solved, lift, state.embedment - LIFT_TOLERANCE_INCH):
+        return ""
     return f"embedment {state.embedment:.3g} in, least lift {lift:.3g} in, drop {state.drop or 0.0:.3g} in"
+
+
+def _overlaps_beside_contacts(solved: SolvedCase, low: float, high: float) -> bool:
+    """Whether the third pose, lifted by any of ``LIFTS_BETWEEN`` lengths, overlaps beside one of its contacts."""
+    pair, pose = solved.case.pair, solved.state.poses[2]
+    p = pair.thread_pitch
+    return all(
+        any(
+            deepest_near(
+                pair,
+                np.array(pose.rotation),
+                np.array(pose.translation) + np.array([0.0, 0.0, lift]),
+                np.array(contact.point),
+                BESIDE_PITCHES * p,
+            )
+            > oracle_lift.TOUCH * p
+            for contact in solved.state.contacts
+        )
+        for lift in np.linspace(low, high, LIFTS_BETWEEN).tolist()
+    )
 
 
 def _lifted(pair: Pair, rotation: Floats, translation: Floats) -> tuple[float, bool]:

@@ -110,8 +110,8 @@ def test_a_turn_ends_at_the_onset_of_a_component(name: str, turns: dict[str, lis
             if contact.features is FeaturePair.FLUSH:
                 continue
             point = np.array(contact.point)
-            before = deepest_near(PAIR, turn, turn.turn_deg - BEFORE_DEG, point, NEAR_INCH)
-            after = deepest_near(PAIR, turn, turn.turn_deg + AFTER_DEG, point, NEAR_INCH)
+            before = deepest_near(PAIR, *turn.pose_after(turn.turn_deg - BEFORE_DEG), point, NEAR_INCH)
+            after = deepest_near(PAIR, *turn.pose_after(turn.turn_deg + AFTER_DEG), point, NEAR_INCH)
             # Nothing there before, something after: it is joined to no other at its onset.
             assert before < 0.0 < after, (pose_of(state), turn.stage)
 
@@ -157,6 +157,6 @@ def test_a_contact_where_flank_meets_fillet_beside_an_earlier_one_is_not_missed(
         turn = turns_of(PAIR, state)[0]
         assert turn.turn_deg is not None
         before, after = (
-            deepest_near(PAIR, turn, turn.turn_deg + d, np.array(second.point), 5e-6) for d in (-1e-3, 1e-3)
+            deepest_near(PAIR, *turn.pose_after(turn.turn_deg + d), np.array(second.point), 5e-6) for d in (-1e-3, 1e-3)
         )
         assert before < 0.0 < after

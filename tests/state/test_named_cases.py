@@ -325,7 +325,7 @@ def test_a_third_contact_may_come_at_once() -> None:
     assert 0.0 < state.mu_deg < 3e-4
     turn = turns_of(PAIR, state)[1]
     point = np.array(contacts_of_stage(state, 3)[0].point)
-    assert deepest_near(PAIR, turn, state.mu_deg + 1e-4, point, 5e-5) > 0.0
+    assert deepest_near(PAIR, *turn.pose_after(state.mu_deg + 1e-4), point, 5e-5) > 0.0
 
 
 @pytest.mark.parametrize("pose", [(3.0, -1.0, 0.0), (4.0, 1.0, 1.0)])
@@ -336,7 +336,7 @@ def test_thread_meets_thread_late_in_the_third_turn(pose: tuple[float, float, fl
     assert third.features is FeaturePair.THREAD_THREAD
     assert state.mu_deg is not None
     turn, point = turns_of(PAIR, state)[1], np.array(third.point)
-    before, after = (deepest_near(PAIR, turn, state.mu_deg + d, point, 5e-5) for d in (-1e-4, 1e-4))
+    before, after = (deepest_near(PAIR, *turn.pose_after(state.mu_deg + d), point, 5e-5) for d in (-1e-4, 1e-4))
     assert before < 0.0 < after
 
 

@@ -111,6 +111,14 @@ def test_a_crest_that_slides_up_its_root_does_not_hold_the_bolt() -> None:
     assert "least lift 0 in" in wrong_embedment(SolvedCase(at.case, replace(at.state, embedment=1e-4)))
 
 
+def test_a_film_of_overlap_too_narrow_for_samples_is_looked_for_beside_contacts() -> None:
+    at = solved("MJ6x1-4h6h/4H5H", (-0.5017938913173374, -3.676798736794823, 19.951138270648798))
+    assert at.state.embedment is not None
+    assert at.state.embedment == pytest.approx(3.486e-7, rel=1e-3)
+    assert wrong_embedment(at) == ""
+    assert wrong_embedment(SolvedCase(at.case, replace(at.state, embedment=at.state.embedment + 3e-8))) != ""
+
+
 def test_a_contact_beside_a_film_of_overlap_begins_at_the_end_of_its_turn_and_not_elsewhere() -> None:
     at = solved(NO_PLAY, (-0.24541377575880485, -2.7383427408802836, 0.09018835225388165))
     found = Found()
