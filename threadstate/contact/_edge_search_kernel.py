@@ -48,7 +48,7 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-INITIAL_BOXES = 32
+INITIAL_BOXES = 25
 """Number of boxes over all azimuths with which the search of a span of time begins."""
 
 AZIMUTH_TOLERANCE = 1e-6
@@ -64,13 +64,13 @@ ENLARGEMENT = 8.0
 """How many times larger the box is in which the onset is searched for that was not found in a narrow box."""
 
 ROUND_OFF = 1e-14
-"""Bound on the round-off of a distance from a surface, in thread pitches."""
+"""What the round-off of a distance from a surface is taken for, in thread pitches (docs/certificate.md, section 7)."""
 
 LEAST_DIP = 4e-15
 """The same of the values that bounds of boxes are made of: a curve that leaves the surface by less lies on it."""
 
-LEAST_DEPTH = 6e-15
-"""A box in which the distance from the surface is less lies on it; the bound on the round-off is part of that."""
+LEAST_DEPTH = 2e-15
+"""A box in which the distance from the surface is less, as far as round-off lets it be known, lies on it."""
 
 MAX_BOXES = 16_000
 
@@ -78,7 +78,7 @@ SLENDER = 50.0
 """A box whose duration, over its half-width, is more than this is split by time: at a corner one of azimuth may leave
 its uncertainty as it is."""
 
-NARROWEST = 1e-16
+NARROWEST = 2.0**-51
 """Half-width (rad) of the narrowest box that is split: of a narrower one the sides are the same number."""
 
 NEWTON_COST = 24
@@ -98,13 +98,18 @@ MAX_ENTRIES = 16
 
 @kernel()
 def set_initial_boxes(since: float, until: float, boxes: Array) -> int:
-    """Sets the boxes over all azimuths with which the search of a span of time begins; returns their number."""
-    for i in range(INITIAL_BOXES):
-        boxes[X_THETA + i] = TWO_PI * (i + 0.5) / INITIAL_BOXES
-        boxes[X_HALF + i] = math.pi / INITIAL_BOXES
+    """Sets the boxes over all azimuths with which the search of a span of time begins; returns their number.
+
+    Their half-widths are powers of two, and their middles multiples of them: halves are exact, and leave no gap.
+    """
+    half = 2.0 ** math.floor(math.log2(math.pi / INITIAL_BOXES))
+    count = math.ceil(math.pi / half)
+    for i in range(count):
+        boxes[X_THETA + i] = (2 * i + 1 - count) * half
+        boxes[X_HALF + i] = half
         boxes[X_START + i] = since
         boxes[X_END + i] = until
-    return INITIAL_BOXES
+    return count
 
 
 @kernel()
@@ -230,6 +235,31 @@ def onset_only_outside(
         jet,
     )
     return inside and (abs(t - theta) >= half or tau <= start or tau >= end)
+
+
+@kernel()
+def is_the_one(
+    box_class: int,
+    theta: float,
+    half: float,
+    start: float,
+    end: float,
+    t: float,
+    tau: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    scratch: Array,
+) -> bool:
+    """Whether a root found in a box, or just beside it, is the only one there: the box widened to it has one, too."""
+    if abs(t - theta) <= half and start <= tau <= end:
+        return True
+    scratch[X_THETA] = theta
+    scratch[X_HALF] = max(half, abs(t - theta))
+    scratch[X_START] = min(start, tau)
+    scratch[X_END] = max(end, tau)
+    classify_boxes(1, motion, curve_profile, solid_profile, scratch)
+    return scratch[X_CLASS] == box_class
 
 
 @kernel()
@@ -379,6 +409,9 @@ def search_edge(
                 else:
                     inside, t, tau = newton_onset(
                         box_class, theta, half, start, end, motion, curve_profile, solid_profile, path, jet
+                    )
+                    inside = inside and is_the_one(
+                        box_class, theta, half, start, end, t, tau, motion, curve_profile, solid_profile, spare_boxes
                     )
                 if inside:
                     set_jet(t, tau, motion, curve_profile, solid_profile, path, jet)
