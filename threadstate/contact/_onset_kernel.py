@@ -42,6 +42,10 @@ J_G, J_G_THETA, J_G_TAU, J_PHI, J_PHI_THETA, J_PHI_TAU = range(6)
 J_G_THETA_THETA, J_G_THETA_TAU, J_PHI_THETA_THETA, J_PHI_THETA_TAU, J_X, J_Y, J_Z = range(6, 13)
 JET_SIZE = 13
 
+TIMES_OF_PEAK = 8
+HALVINGS_OF_TIME = 40
+"""Of a box in which a peak comes in or goes out: parts of its time, and halvings of one of them."""
+
 
 @kernel()
 def set_jet(
@@ -189,6 +193,56 @@ def peak_of_minimum(
 
 
 @kernel()
+def times_of_rise(
+    low: float,
+    high: float,
+    start: float,
+    end: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    path: Array,
+    jet: Array,
+) -> tuple[float, float, float, float]:
+    """Two times between which the peak of min(g, phi) between two azimuths rises through zero, each with its value.
+
+    The earlier value is above zero, or one of them not a number, where there are none. A peak that is between the
+    azimuths for a part of the time only is looked for at times between, and halved down to where it comes in.
+    """
+    found, _, _ = peak_of_minimum(low, high, start, motion, curve_profile, solid_profile, path, jet)
+    early, before = start, (min(jet[J_G], jet[J_PHI]) if found else math.nan)
+    found_late, _, _ = peak_of_minimum(low, high, end, motion, curve_profile, solid_profile, path, jet)
+    late, after = end, (min(jet[J_G], jet[J_PHI]) if found_late else math.nan)
+    if found and (found_late or before > 0.0):
+        return early, before, late, after
+    outside = start
+    for i in range(1, TIMES_OF_PEAK):
+        tau = start + (end - start) * i / TIMES_OF_PEAK
+        found, _, _ = peak_of_minimum(low, high, tau, motion, curve_profile, solid_profile, path, jet)
+        value = min(jet[J_G], jet[J_PHI])
+        if found and value > 0.0:
+            late, after = tau, value
+            break
+        if found:
+            early, before = tau, value
+        else:
+            outside = tau
+    for _ in range(HALVINGS_OF_TIME):
+        if not (math.isnan(before) and after > 0.0):
+            break
+        tau = 0.5 * (outside + late)
+        found, _, _ = peak_of_minimum(low, high, tau, motion, curve_profile, solid_profile, path, jet)
+        value = min(jet[J_G], jet[J_PHI])
+        if not found:
+            outside = tau
+        elif value > 0.0:
+            late, after = tau, value
+        else:
+            early, before = tau, value
+    return early, before, late, after
+
+
+@kernel()
 def bracketed_onset(
     theta: float,
     half: float,
@@ -205,15 +259,10 @@ def bracketed_onset(
     There the peak of min(g, phi) rises from below zero to above it. The time is found by regula falsi (Illinois).
     """
     low, high = theta - half, theta + half
-    early, late = start, end
-    found, kind, t = peak_of_minimum(low, high, early, motion, curve_profile, solid_profile, path, jet)
-    before = min(jet[J_G], jet[J_PHI])
-    if not found or before > 0.0:
-        return False, kind, t, early
-    found, kind, t = peak_of_minimum(low, high, late, motion, curve_profile, solid_profile, path, jet)
-    after = min(jet[J_G], jet[J_PHI])
-    if not found or after < 0.0:
-        return False, kind, t, late
+    early, before, late, after = times_of_rise(low, high, start, end, motion, curve_profile, solid_profile, path, jet)
+    if not before <= 0.0 <= after:
+        return False, 0, theta, early
+    _, kind, t = peak_of_minimum(low, high, late, motion, curve_profile, solid_profile, path, jet)
     tau = late
     side = 0
     for _ in range(100):
