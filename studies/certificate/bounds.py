@@ -10,7 +10,6 @@ from studies.certificate.cases import Box
 from threadstate.contact import _box_kernel, _range_kernel
 from threadstate.contact._branchless_kernel import profile_numbers
 from threadstate.contact._frame_kernel import motion_numbers
-from threadstate.contact._geometry_kernel import motion_scale
 
 Interval = tuple[float, float]
 
@@ -56,7 +55,7 @@ def claims(one: Box, kernels: Kernels = COMPILED) -> Claims:
     motion, curve, solid = one.search.motion, one.search.curve.packed, one.search.solid.packed
     a = one.half
     tau = 0.5 * (one.start + one.end)
-    b = 0.5 * (one.end - one.start) + _box_kernel.OVERLAP * motion_scale(motion, curve)
+    b = 0.5 * (one.end - one.start) + _box_kernel.OVERLAP * abs(one.end)
     sizes = _range_kernel.size_numbers(motion, curve, solid)
     numbers = motion_numbers(motion), profile_numbers(curve), profile_numbers(solid)
     phi, g, depth = ranges(one.theta, a, tau, b, *numbers[0], *numbers[1:], sizes)

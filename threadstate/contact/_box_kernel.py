@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._branchless_kernel import Numbers, larger, profile_numbers, smaller
 from threadstate.contact._frame_kernel import motion_numbers
-from threadstate.contact._geometry_kernel import motion_scale
 from threadstate.contact._range_kernel import ranges, size_numbers
 from threadstate.thread import _profile_kernel as pk
 
@@ -52,8 +51,8 @@ ALL_OUTSIDE, EXCLUDED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, 
     9.0,
 )
 
-OVERLAP = 2e-15
-"""A box is evaluated longer by so much of time, in units of ``motion_scale``: neighbours overlap, rounded as they are."""
+OVERLAP = 2.0**-51
+"""A box is evaluated longer by so much of its time: neighbours overlap though the middle and half of it are rounded."""
 
 
 @kernel(contract=True, forceinline=True)
@@ -207,11 +206,10 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
     solid = profile_numbers(solid_profile)
     p = solid_profile[pk.P]
     sizes = size_numbers(motion, curve_profile, solid_profile)
-    time_overlap = OVERLAP * motion_scale(motion, curve_profile)
     for i in range(count):
         a = boxes[X_HALF + i]
         start, end = boxes[X_START + i], boxes[X_END + i]
-        tau, b = 0.5 * (start + end), 0.5 * (end - start) + time_overlap
+        tau, b = 0.5 * (start + end), 0.5 * (end - start) + OVERLAP * abs(end)
         of_phi, of_g, depth = ranges(boxes[X_THETA + i], a, tau, b, x_axis, y_axis, origin, rest, curve, solid, sizes)
         boxes[X_CLASS + i], boxes[X_LARGEST_DEPTH + i] = classify_box(a, b, of_phi, of_g, depth, p)
         boxes[X_DEPTH + i] = smaller(of_phi[0], of_g[0])

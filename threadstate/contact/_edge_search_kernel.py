@@ -66,6 +66,9 @@ ENLARGEMENT = 8.0
 ROUND_OFF = 1e-14
 """What the round-off of a distance from a surface is taken for, in thread pitches (docs/certificate.md, section 7)."""
 
+TOUCHING = 4.0
+"""A box in which that distance is known to be so many times larger somewhere does not touch throughout."""
+
 LEAST_DIP = 4e-15
 """The same of the values that bounds of boxes are made of: a curve that leaves the surface by less lies on it."""
 
@@ -381,7 +384,12 @@ def search_edge(
             ):
                 continue
             noise = ROUND_OFF * p
-            touches = gap < JOIN_DISTANCE and half < AZIMUTH_TOLERANCE and abs(boxes[X_DEPTH + i]) < noise
+            touches = (
+                gap < JOIN_DISTANCE
+                and half < AZIMUTH_TOLERANCE
+                and abs(boxes[X_DEPTH + i]) < noise
+                and not TOUCHING * noise < boxes[X_LARGEST_DEPTH + i] < math.inf
+            )
             # Where the curve's curvature at an earlier contact vanishes during a turn, it lies on the surface around.
             lies_on_surface = (
                 box_class > ONE_PLANE and gap < JOIN_DISTANCE and boxes[X_LARGEST_DEPTH + i] < LEAST_DEPTH * p

@@ -47,8 +47,8 @@ UNIT = 2.0**-53
 """The unit round-off of double precision."""
 
 VALUE_ERROR = 4e-15
-"""What the round-off of g and phi in the middle of a box is taken for, in thread pitches: audited, not proved. Beside
-an earlier contact the search cannot tell onsets apart with the bound that is derived (docs/certificate.md, section 6)."""
+"""What the round-off of g and phi in the middle of a box is taken for, in thread pitches: audited, not proved. With the
+bound that is derived the search cannot tell onsets beside an earlier contact apart (certificate, section 6)."""
 
 LARGEST_MISALIGNMENT = 0.25
 """Up to which the bounds that vanish with the misalignment are derived."""
