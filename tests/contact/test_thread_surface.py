@@ -129,7 +129,7 @@ class Below:
 def test_no_turn_passes_a_thread_that_comes_down(states: list[ContactState]) -> None:
     samples, ends = Below(FLAT), 0
     ending = [state for state in states if any(contact.stage > 1 for contact in on_surface(state))]
-    for state in ending[:4] + states[:6]:
+    for state in ending[:3] + states[:3]:
         for turn in turns_of(FLAT, state):
             if turn.turn_deg is None or any(found.features is FeaturePair.FLUSH for found in turn.found):
                 continue

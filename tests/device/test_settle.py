@@ -39,7 +39,7 @@ def random_poses(seed: int, count: int) -> Floats:
 @pytest.fixture(scope="module")
 def states() -> list[SettledState]:
     """Random poses, settled by the default device."""
-    return settle_poses(UNC, random_poses(1, 150))
+    return settle_poses(UNC, random_poses(1, 80))
 
 
 def rotation_of(vector: Floats) -> Floats:
