@@ -214,7 +214,7 @@ def wrong_embedment(solved: SolvedCase) -> str:
 
 
 def _overlaps_beside_contacts(solved: SolvedCase, low: float, high: float) -> bool:
-    """Whether the third pose, lifted by any of ``LIFTS_BETWEEN`` lengths, overlaps beside one of its contacts."""
+    """Whether the third pose overlaps beside one of its contacts at each of ``LIFTS_BETWEEN`` lifts in a range."""
     pair, pose = solved.case.pair, solved.state.poses[2]
     p = pair.thread_pitch
     return all(
