@@ -46,7 +46,7 @@ run:
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target $(VENV)/.kernels node_modules/.served
 	$(BIN)/threadstate run
 
-unit: setup $(VENV)/.oracle $(VENV)/.bytecode
+unit: setup $(VENV)/.oracle
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
@@ -58,7 +58,7 @@ test:
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check all-tests
 
 # Marked as recursive, so that its lines are printed as they come.
-all-tests: setup $(VENV)/.oracle $(VENV)/.bytecode
+all-tests: setup $(VENV)/.oracle
 	+$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder --durations 20
 
 check: $(VENV)/.project $(VENV)/.dependencies node_modules/.installed
@@ -186,11 +186,6 @@ $(VENV)/.kernels: $(SOURCES) $(VENV)/.project
 # processes would.
 $(VENV)/.oracle: $(wildcard oracle/*.py) $(VENV)/.kernels $(VENV)/.dependencies
 	$(BIN)/python -m oracle.warm_up
-	@touch $@
-
-# What the tests import is compiled to bytecode by one process here, not by each process that runs tests.
-$(VENV)/.bytecode: $(VENV)/.kernels $(VENV)/.dependencies
-	@$(BIN)/pytest --collect-only -qq > $@.log || { cat $@.log; exit 1; }
 	@touch $@
 
 LOCK := uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
