@@ -9,6 +9,7 @@
 # make paper      put the paper's statements to the test, write docs/paper-claims.md
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
+# make certificate audit the bounds that close boxes in ball arithmetic, write the end of docs/certificate.md
 # make statics    what a push does to the states, docs/statics.md and its maps
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
@@ -35,7 +36,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -85,6 +86,9 @@ chart: setup
 
 stability: setup
 	$(BIN)/python -m studies.stability
+
+certificate: setup
+	$(BIN)/python -m studies.certificate
 
 statics: setup
 	$(BIN)/python -m studies.statics

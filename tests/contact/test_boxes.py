@@ -21,12 +21,11 @@ from threadstate.contact._branchless_kernel import (
 )
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import M_COPLANAR, MOTION_SIZE, PATH_SIZE, TWO_PI
-from threadstate.contact._range_kernel import ranges
+from threadstate.contact._range_kernel import ranges, size_numbers
 from threadstate.contact._stage_kernel import rotation, set_motions
 from threadstate.contact._surface_kernel import start_height
 from threadstate.state.model import Contact, ContactState, FeaturePair
 from threadstate.state.solve import solve_poses
-from threadstate.thread import _profile_kernel as pk
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 from threadstate.thread.profile import Profile
@@ -89,12 +88,11 @@ def test_ranges_hold_every_point_of_the_box(kind: str, pair: Pair) -> None:
         start = rng.uniform(0, 0.3) if kind == "turn" else rng.uniform(0, 0.012)
         b = 10.0 ** rng.uniform(-10, -1.6) * (1.0 if kind == "turn" else 0.1)
         x_axis, y_axis, origin, rest = motion_numbers(motion)
-        k = curve[pk.LEAD] / TWO_PI
         numbers = profile_numbers(curve), profile_numbers(solid)
-        sizes = (k, curve[pk.R_MAJOR], k * curve[pk.STEEPEST], solid[pk.STEEPEST], 0.5 * solid[pk.R_MINOR])
+        sizes = size_numbers(motion, curve, solid)
         phi, g, depth = ranges(theta, a, start + b, b, x_axis, y_axis, origin, rest, *numbers, sizes)
         seen = jets(np.linspace(theta - a, theta + a, 5), np.linspace(start, start + 2 * b, 5), motion, curve, solid)
-        for (value, by_theta, by_tau, low, high, mixed, mixed_var, by_tau_twice, *changes), columns in (
+        for (value, by_theta, by_tau, low, high, mixed, mixed_var, by_tau_twice, *rest), columns in (
             (phi, (onset.J_PHI, onset.J_PHI_THETA, onset.J_PHI_TAU, onset.J_PHI_THETA_THETA, onset.J_PHI_THETA_TAU)),
             (g, (onset.J_G, onset.J_G_THETA, onset.J_G_TAU, onset.J_G_THETA_THETA, onset.J_G_THETA_TAU)),
         ):
@@ -112,7 +110,7 @@ def test_ranges_hold_every_point_of_the_box(kind: str, pair: Pair) -> None:
             for column, (least, most) in zip(columns, allowed, strict=True):
                 assert least - ROUND_OFF <= seen[:, column].min()
                 assert seen[:, column].max() <= most + ROUND_OFF
-            for column, middle, changed in zip(columns[1:], (by_theta, by_tau), changes, strict=False):
+            for column, middle, changed in zip(columns[1:], (by_theta, by_tau), rest[:-3], strict=False):
                 assert np.abs(seen[:, column] - middle).max() <= changed + ROUND_OFF
         assert (-motion[19] * seen[:, onset.J_Z]).min() >= depth - ROUND_OFF
 

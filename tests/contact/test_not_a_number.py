@@ -62,17 +62,17 @@ def test_no_box_is_excluded_by_nan() -> None:
     excluded = 0
     for _ in range(4000):
         scale = 10.0 ** rng.uniform(-4, 0)
-        numbers = rng.normal(0.0, 1.0, 19) * np.repeat([scale, 1.0], [10, 9])
-        for first, count in ((0, 10), (10, 9)):
+        numbers = rng.normal(0.0, 1.0, 25) * np.repeat([scale, 1.0], [13, 12])
+        for first, count in ((0, 13), (13, 12)):
             numbers[first + 3], numbers[first + 4] = sorted(numbers[first + 3 : first + 5])
             numbers[first + 6 : first + count] = np.abs(numbers[first + 6 : first + count])
         a, b = 10.0 ** rng.uniform(-6, -0.5, 2)
 
         def box_class(values: Floats, a: float = a, b: float = b) -> float:
-            phi, g = tuple(values[:10].tolist()), tuple(values[10:].tolist())
+            phi, g = tuple(values[:13].tolist()), tuple(values[13:].tolist())
             return float(box.classify_box(a, b, phi, g, -1.0, P)[0])
 
-        for i in range(19):
+        for i in range(25):
             unknown = numbers.copy()
             unknown[i] = math.nan
             if box_class(unknown) <= box.EXCLUDED:

@@ -27,7 +27,7 @@ PAIR = quarter_twenty_unc()
 OPTIONS = SolveOptions()
 TILTS = [
     (0.0, -4.0),
-    (2.0, 1.0),
+    (-2.0, 1.0),
     (3.0, 3.0),
     *map(tuple, np.random.default_rng(17).uniform(-4.0, 4.0, (2, 2)).tolist()),
 ]

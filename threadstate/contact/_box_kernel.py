@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._branchless_kernel import Numbers, larger, profile_numbers, smaller
 from threadstate.contact._frame_kernel import motion_numbers
-from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._range_kernel import ranges
+from threadstate.contact._range_kernel import error_beside, ranges, size_numbers
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
 # Boxes are stored column by column in a flat buffer of that capacity: middle and half-width of theta, start and end of
-# tau, class, min(g, phi) in the middle, upper bound on phi_thetatheta.
+# tau, class, min(g, phi) in the middle, range of phi_thetatheta, least g; then g and phi in the
+# middle as differences from a contact, and its distance, NaN where they are not given (``_beside_kernel``).
 CAPACITY = 4096
 X_THETA = 0
 X_HALF = CAPACITY
@@ -31,9 +31,13 @@ X_START = 2 * CAPACITY
 X_END = 3 * CAPACITY
 X_CLASS = 4 * CAPACITY
 X_DEPTH = 5 * CAPACITY
-X_PHI_THETA_THETA = 6 * CAPACITY
-X_LARGEST_DEPTH = 7 * CAPACITY
-BOXES_SIZE = 8 * CAPACITY
+X_BEND_LOW = 6 * CAPACITY
+X_BEND_HIGH = 7 * CAPACITY
+X_G_LOW = 8 * CAPACITY
+X_G_BESIDE = 9 * CAPACITY
+X_PHI_BESIDE = 10 * CAPACITY
+X_GAP = 11 * CAPACITY
+BOXES_SIZE = 12 * CAPACITY
 
 # Classes, in this order: no onset and no point inside; no onset (excluded); at most one onset, on the edge, the thread
 # or the plane; at most one peak of min(g, phi) at each time, of that kind, but whether and when it rises through zero
@@ -52,47 +56,44 @@ ALL_OUTSIDE, EXCLUDED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, 
     9.0,
 )
 
-ROUND_OFF = 4e-15
-"""Bound on the round-off of the values in the middle of a box, in thread pitches."""
+OVERLAP = 2.0**-51
+"""A box is evaluated longer by so much of its time: neighbours overlap though the middle and half of it are rounded."""
 
 
 @kernel(contract=True, forceinline=True)
 def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float) -> tuple[float, float]:
-    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`.
-
-    Also returns a bound on the distance from the surface that limits the depth in the whole box; infinite where that
-    may be either of them.
+    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`, and the least g in it.
 
     In names, ``tt``, ``tv`` and ``vv`` are second derivatives by theta twice, theta and tau, tau twice; ``bound`` is a
     bound on the size, ``var`` on the variation from the value in the middle, ``low`` and ``high`` are the range.
     """
     phi, phi_theta, phi_tau, phi_tt_low, phi_tt_high, phi_tv_mid, phi_tv_var, phi_vv_bound = of_phi[:8]
-    phi_theta_change, phi_tau_change = of_phi[8:]
-    g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound, g_theta_change = of_g
-    round_off = ROUND_OFF * p
+    phi_theta_change, phi_tau_change, phi_error, phi_theta_error, phi_tau_error = of_phi[8:]
+    g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound, g_theta_change = of_g[:9]
+    g_error, g_theta_error, g_tau_error = of_g[9:]
     phi_tv_bound = abs(phi_tv_mid) + phi_tv_var
     g_tv_bound = abs(g_tv_mid) + g_tv_var
     phi_tt_bound = larger(phi_tt_high, -phi_tt_low)
     g_tt_bound = larger(g_tt_high, -g_tt_low)
-    phi_theta_bound = abs(phi_theta) + phi_tv_bound * b
+    phi_theta_bound = abs(phi_theta) + phi_theta_error + phi_tv_bound * b
     peak_offset = smaller(phi_theta_bound / -phi_tt_high if phi_tt_high < 0.0 else a, a)
-    phi_time_change = abs(phi_tau) * b + smaller(0.5 * phi_vv_bound * b, phi_tau_change) * b
+    phi_time_change = abs(phi_tau) * b + smaller(phi_tau_error + 0.5 * phi_vv_bound * b, phi_tau_change) * b
     phi_azimuth_change = (abs(phi_theta) + phi_theta_change) * a
     phi_rise = phi_theta_bound * peak_offset + 0.5 * phi_tt_high * peak_offset * peak_offset
     phi_fall = phi_theta_bound * a - 0.5 * smaller(phi_tt_low, 0.0) * a * a
-    phi_high = phi + phi_time_change + smaller(phi_rise, phi_azimuth_change) + round_off
-    phi_low = phi - phi_time_change - smaller(phi_fall, phi_azimuth_change) - round_off
-    g_time_change = abs(g_tau) * b + 0.5 * g_vv_bound * b * b
+    phi_high = phi + phi_time_change + smaller(phi_rise, phi_azimuth_change) + phi_error
+    phi_low = phi - phi_time_change - smaller(phi_fall, phi_azimuth_change) - phi_error
+    g_time_change = (abs(g_tau) + g_tau_error) * b + 0.5 * g_vv_bound * b * b
     g_azimuth_change = (abs(g_theta) + g_theta_change) * a
-    g_linear_change = abs(g_theta) * a + g_tv_bound * a * b
+    g_linear_change = (abs(g_theta) + g_theta_error) * a + g_tv_bound * a * b
     g_rise = g_linear_change + 0.5 * larger(g_tt_high, 0.0) * a * a
     g_fall = g_linear_change - 0.5 * smaller(g_tt_low, 0.0) * a * a
-    g_high = g + g_time_change + smaller(g_rise, g_azimuth_change) + round_off
-    g_low = g - g_time_change - smaller(g_fall, g_azimuth_change) - round_off
-    phi_theta_var = smaller(phi_tt_bound * a + phi_tv_bound * b, phi_theta_change) + round_off
-    phi_tau_var = smaller(phi_tv_bound * a + phi_vv_bound * b, phi_tau_change) + round_off
-    g_theta_var = smaller(g_tt_bound * a + g_tv_bound * b, g_theta_change) + round_off
-    g_tau_var = g_tv_bound * a + g_vv_bound * b + round_off
+    g_high = g + g_time_change + smaller(g_rise, g_azimuth_change) + g_error
+    g_low = g - g_time_change - smaller(g_fall, g_azimuth_change) - g_error
+    phi_theta_var = smaller(phi_tt_bound * a + phi_tv_bound * b + phi_theta_error, phi_theta_change)
+    phi_tau_var = smaller(phi_tv_bound * a + phi_vv_bound * b + phi_tau_error, phi_tau_change)
+    g_theta_var = smaller(g_tt_bound * a + g_tv_bound * b + g_theta_error, g_theta_change)
+    g_tau_var = g_tv_bound * a + g_vv_bound * b + g_tau_error
     phi_monotonic = abs(phi_theta) > phi_theta_var
     g_monotonic = abs(g_theta) > g_theta_var
     all_outside = phi_high < 0.0 or g_high < 0.0 or depth > p
@@ -106,14 +107,17 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
         + abs(phi_tau) * g_theta_var
     )
     remainder_g = (
-        smaller(0.5 * g_tt_bound * a + g_tv_bound * b, g_theta_change) * a + 0.5 * g_vv_bound * b * b + round_off
+        smaller(0.5 * g_tt_bound * a + g_tv_bound * b + g_theta_error, g_theta_change) * a
+        + (0.5 * g_vv_bound * b + g_tau_error) * b
+        + g_error
     )
     remainder_phi = (
         smaller(
-            0.5 * phi_tt_bound * a * a + phi_tv_bound * a * b + 0.5 * phi_vv_bound * b * b,
+            (0.5 * phi_tt_bound * a + phi_tv_bound * b + phi_theta_error) * a
+            + (0.5 * phi_vv_bound * b + phi_tau_error) * b,
             phi_theta_change * a + phi_tau_change * b,
         )
-        + round_off
+        + phi_error
     )
     edge_root_excluded = abs(g * phi_tau - phi * g_tau) > a * abs(jac) + remainder_g * abs(
         phi_tau
@@ -121,7 +125,7 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
         phi_theta
     ) + remainder_phi * abs(g_theta)
     phi_tt_mid = 0.5 * (phi_tt_low + phi_tt_high)
-    remainder_slope = 0.5 * (phi_tt_high - phi_tt_low) * a + phi_tv_var * b + round_off
+    remainder_slope = 0.5 * (phi_tt_high - phi_tt_low) * a + phi_tv_var * b + phi_theta_error
     det = phi_theta * phi_tv_mid - phi_tau * phi_tt_mid
     thread_root_excluded = abs(phi_tau * phi_theta - phi * phi_tv_mid) > a * abs(det) + remainder_phi * abs(
         phi_tv_mid
@@ -129,7 +133,7 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
         det
     ) + remainder_phi * abs(phi_tt_mid) + remainder_slope * abs(phi_theta)
     g_tt_mid = 0.5 * (g_tt_low + g_tt_high)
-    remainder_slope = 0.5 * (g_tt_high - g_tt_low) * a + g_tv_var * b + round_off
+    remainder_slope = 0.5 * (g_tt_high - g_tt_low) * a + g_tv_var * b + g_theta_error
     det = g_theta * g_tv_mid - g_tau * g_tt_mid
     plane_root_excluded = abs(g_tau * g_theta - g * g_tv_mid) > a * abs(det) + remainder_g * abs(
         g_tv_mid
@@ -144,8 +148,10 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
     one_thread = peak_thread and abs(phi_tau) > phi_tau_var
     one_plane = peak_plane and abs(g_tau) > g_tau_var
     edge_peak_sinks = one_edge and jac * (phi_theta - g_theta) < 0.0
-    thread_peak_no_onset = one_thread and (phi_tau < 0.0 or phi - phi_tau * b - 0.5 * phi_vv_bound * b * b > round_off)
-    plane_peak_no_onset = one_plane and (g_tau < 0.0 or g - g_tau * b - 0.5 * g_vv_bound * b * b > round_off)
+    thread_peak_is_open = phi - (phi_tau + phi_tau_error + 0.5 * phi_vv_bound * b) * b > phi_error
+    plane_peak_is_open = g - (g_tau + g_tau_error + 0.5 * g_vv_bound * b) * b > g_error
+    thread_peak_no_onset = one_thread and (phi_tau < 0.0 or thread_peak_is_open)
+    plane_peak_no_onset = one_plane and (g_tau < 0.0 or plane_peak_is_open)
     no_edge = (
         g_low > 0.0
         or phi_low > 0.0
@@ -185,9 +191,7 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
     box_class = ONE_THREAD if one_thread else box_class
     box_class = ONE_EDGE if one_edge else box_class
     box_class = EXCLUDED if excluded else box_class
-    largest_depth = larger(g_high, -g_low) if phi_low > 0.0 else math.inf
-    largest_depth = larger(phi_high, -phi_low) if g_low > 0.0 else largest_depth
-    return ALL_OUTSIDE if all_outside else box_class, largest_depth
+    return ALL_OUTSIDE if all_outside else box_class, g_low
 
 
 @kernel(contract=True)
@@ -196,20 +200,17 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
     x_axis, y_axis, origin, rest = motion_numbers(motion)
     curve = profile_numbers(curve_profile)
     solid = profile_numbers(solid_profile)
-    p = curve_profile[pk.P]
-    k = curve_profile[pk.LEAD] / TWO_PI
-    sizes = (
-        k,
-        curve_profile[pk.R_MAJOR],
-        abs(k) * curve_profile[pk.STEEPEST],
-        solid_profile[pk.STEEPEST],
-        0.5 * solid_profile[pk.R_MINOR],
-    )
+    p = solid_profile[pk.P]
+    sizes = size_numbers(motion, curve_profile, solid_profile)
     for i in range(count):
         a = boxes[X_HALF + i]
         start, end = boxes[X_START + i], boxes[X_END + i]
-        tau, b = 0.5 * (start + end), 0.5 * (end - start)
+        tau, b = 0.5 * (start + end), 0.5 * (end - start) + OVERLAP * abs(end)
         of_phi, of_g, depth = ranges(boxes[X_THETA + i], a, tau, b, x_axis, y_axis, origin, rest, curve, solid, sizes)
-        boxes[X_CLASS + i], boxes[X_LARGEST_DEPTH + i] = classify_box(a, b, of_phi, of_g, depth, p)
+        g, phi = boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i]
+        error = error_beside(tau, sizes) * boxes[X_GAP + i]
+        of_g = of_g if math.isnan(g) else (g, *of_g[1:9], error, *of_g[10:])
+        of_phi = of_phi if math.isnan(phi) else (phi, *of_phi[1:10], error, *of_phi[11:])
+        boxes[X_CLASS + i], boxes[X_G_LOW + i] = classify_box(a, b, of_phi, of_g, depth, p)
         boxes[X_DEPTH + i] = smaller(of_phi[0], of_g[0])
-        boxes[X_PHI_THETA_THETA + i] = of_phi[4]
+        boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = of_phi[3], of_phi[4]

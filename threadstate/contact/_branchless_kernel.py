@@ -104,13 +104,6 @@ def smaller(x: float, y: float) -> float:
 
 
 @kernel(contract=True, forceinline=True)
-def clamp(x: float, low: float, high: float) -> float:
-    """``x`` clipped to [low, high]."""
-    x = low if x <= low else x
-    return high if x >= high else x
-
-
-@kernel(contract=True, forceinline=True)
 def profile_numbers(profile: Array) -> Numbers:
     """The parameters of a packed profile that :func:`radius_and_slope` and :func:`second_derivative_range` take.
 
@@ -186,6 +179,15 @@ def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float, b
 
 
 @kernel(contract=True, forceinline=True)
+def fillet_second_derivative(d: float, rho2: float, least: float) -> float:
+    """The size of f'' on a fillet of squared radius ``rho2`` at ``d`` from its flat; ``least`` ends it at the flank."""
+    d = 0.0 if d <= 0.0 else d
+    radicand = rho2 - d * d
+    radicand = rho2 * least if radicand <= rho2 * least else radicand
+    return rho2 / (radicand * math.sqrt(radicand))
+
+
+@kernel(contract=True, forceinline=True)
 def second_derivative_range(u: float, reach: float, rises: bool, numbers: Numbers) -> tuple[float, float]:
     """Smallest and largest ``f''`` within ``reach`` of ``u`` of a half period; NaN at a corner without a fillet, or of
     NaN.
@@ -195,6 +197,7 @@ def second_derivative_range(u: float, reach: float, rises: bool, numbers: Number
     minor2, major2 = numbers[26:28]
     u_flat = numbers[0] if rises else numbers[7]
     u_flank = numbers[1] if rises else numbers[8]
+    cot = numbers[2] if rises else numbers[9]
     u_crest = numbers[3] if rises else numbers[10]
     u_top = numbers[4] if rises else numbers[11]
     far_flat = numbers[5] if rises else numbers[12]
@@ -203,15 +206,11 @@ def second_derivative_range(u: float, reach: float, rises: bool, numbers: Number
     last = u + reach
     on_minor = last > u_flat and first < u_flank
     on_major = first < u_top and last > u_crest
-    d = clamp(last - u_flat if on_minor else u_top - last, 0.0, u_flank - u_flat if on_minor else u_top - u_crest)
-    rho2 = minor2 if on_minor else major2
-    radicand = rho2 - d * d
-    high = rho2 / (radicand * math.sqrt(radicand))
+    # At the flank a fillet's slope is cot: there rho^2 - d^2 is rho^2 / (1 + cot^2), and not less anywhere on it.
+    least = 1.0 / (1.0 + cot * cot)
+    high = fillet_second_derivative(last - u_flat if on_minor else u_top - last, minor2 if on_minor else major2, least)
     high = high if on_minor else (-high if first >= u_crest and last <= u_top else 0.0)
-    d = clamp(u_top - first if on_major else first - u_flat, 0.0, u_top - u_crest if on_major else u_flank - u_flat)
-    rho2 = major2 if on_major else minor2
-    radicand = rho2 - d * d
-    low = rho2 / (radicand * math.sqrt(radicand))
+    low = fillet_second_derivative(u_top - first if on_major else first - u_flat, major2 if on_major else minor2, least)
     low = -low if on_major else (low if first >= u_flat and last <= u_flank else 0.0)
     either = first < far_flat or last > far_top
     low = numbers[28] if either else low

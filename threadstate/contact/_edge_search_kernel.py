@@ -8,69 +8,61 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._beside_kernel import BESIDE, K_G, K_PHI, K_TANGENT, nearest_contact, values_beside
 from threadstate.contact._box_kernel import (
     ALL_OUTSIDE,
     CAPACITY,
     EXCLUDED,
     ONE_EDGE,
     ONE_PLANE,
-    ONE_THREAD,
     PEAK_EDGE,
-    PEAK_THREAD,
     SPLIT_THETA,
     SPLIT_TIME,
+    X_BEND_HIGH,
+    X_BEND_LOW,
     X_CLASS,
     X_DEPTH,
     X_END,
+    X_G_BESIDE,
+    X_G_LOW,
+    X_GAP,
     X_HALF,
-    X_LARGEST_DEPTH,
-    X_PHI_THETA_THETA,
+    X_PHI_BESIDE,
     X_START,
     X_THETA,
     classify_boxes,
 )
-from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, TWO_PI, motion_scale
+from threadstate.contact._flank_kernel import no_tangency_on_flanks
+from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, motion_scale
 from threadstate.contact._onset_kernel import (
-    J_G,
-    J_PHI,
     J_X,
     J_Y,
     J_Z,
     JET_SIZE,
-    bracketed_onset,
     insert_candidate,
     is_contact,
     newton_onset,
     rises,
-    set_jet,
+    set_jet_beside,
 )
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-INITIAL_BOXES = 32
+INITIAL_BOXES = 25
 """Number of boxes over all azimuths with which the search of a span of time begins."""
 
 AZIMUTH_TOLERANCE = 1e-6
 """Half-width (rad) around an earlier contact within which nothing is distinguished from it."""
 
-JOIN_DISTANCE = 1e-2
-"""Distance (rad) from an earlier contact up to which an onset may be joined to it."""
+PIECES = 8
+"""Of the way from an earlier contact to a box: so many boxes are evaluated at once."""
 
-CONCAVITY_REACH = 16.0
-"""Distance from an earlier contact, in half-widths of a box, up to which phi is tested for concavity from there on."""
+SLACK = 1e-12
+"""Of the size of a sum: more than what its round-off can be."""
 
 ENLARGEMENT = 8.0
 """How many times larger the box is in which the onset is searched for that was not found in a narrow box."""
-
-ROUND_OFF = 1e-14
-"""Bound on the round-off of a distance from a surface, in thread pitches."""
-
-LEAST_DIP = 4e-15
-"""The same of the values that bounds of boxes are made of: a curve that leaves the surface by less lies on it."""
-
-LEAST_DEPTH = 6e-15
-"""A box in which the distance from the surface is less lies on it; the bound on the round-off is part of that."""
 
 MAX_BOXES = 16_000
 
@@ -78,7 +70,7 @@ SLENDER = 50.0
 """A box whose duration, over its half-width, is more than this is split by time: at a corner one of azimuth may leave
 its uncertainty as it is."""
 
-NARROWEST = 1e-16
+NARROWEST = 2.0**-51
 """Half-width (rad) of the narrowest box that is split: of a narrower one the sides are the same number."""
 
 NEWTON_COST = 24
@@ -98,13 +90,18 @@ MAX_ENTRIES = 16
 
 @kernel()
 def set_initial_boxes(since: float, until: float, boxes: Array) -> int:
-    """Sets the boxes over all azimuths with which the search of a span of time begins; returns their number."""
-    for i in range(INITIAL_BOXES):
-        boxes[X_THETA + i] = TWO_PI * (i + 0.5) / INITIAL_BOXES
-        boxes[X_HALF + i] = math.pi / INITIAL_BOXES
+    """Sets the boxes over all azimuths with which the search of a span of time begins; returns their number.
+
+    Their half-widths are powers of two, and their middles multiples of them: halves are exact, and leave no gap.
+    """
+    half = 2.0 ** math.floor(math.log2(math.pi / INITIAL_BOXES))
+    count = math.ceil(math.pi / half)
+    for i in range(count):
+        boxes[X_THETA + i] = (2 * i + 1 - count) * half
+        boxes[X_HALF + i] = half
         boxes[X_START + i] = since
         boxes[X_END + i] = until
-    return INITIAL_BOXES
+    return count
 
 
 @kernel()
@@ -151,18 +148,30 @@ def split_boxes(count: int, boxes: Array, spare_boxes: Array) -> int:
 
 
 @kernel()
-def contact_distance(theta: float, contact_azimuths: Array, azimuth_count: int) -> float:
-    """Distance from an azimuth to the nearest earlier contact (rad)."""
-    nearest = math.pi
-    for j in range(azimuth_count):
-        gap = theta - contact_azimuths[j]
-        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
-        nearest = min(nearest, abs(gap))
-    return nearest
+def evaluate_boxes(
+    count: int,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    kept: Array,
+    path: Array,
+    boxes: Array,
+) -> None:
+    """Sets the classes of boxes; g and phi beside contacts in ``kept`` are differences from them."""
+    for i in range(count):
+        boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i], boxes[X_GAP + i] = math.nan, math.nan, math.nan
+    if kept[0, 0] > 0.0:
+        for i in range(count):
+            start, end = boxes[X_START + i], boxes[X_END + i]
+            if boxes[X_HALF + i] <= BESIDE and 0.5 * (end - start) <= BESIDE:
+                boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i], boxes[X_GAP + i] = values_beside(
+                    boxes[X_THETA + i], 0.5 * (start + end), motion, curve_profile, solid_profile, kept, path
+                )
+    classify_boxes(count, motion, curve_profile, solid_profile, boxes)
 
 
 @kernel()
-def concave_from_contact(
+def evaluate_box(
     theta: float,
     half: float,
     start: float,
@@ -170,28 +179,67 @@ def concave_from_contact(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
-    contact_azimuths: Array,
-    azimuth_count: int,
+    kept: Array,
+    path: Array,
+    boxes: Array,
+) -> float:
+    """The class of a single box, which is set as the first one of ``boxes``."""
+    boxes[X_THETA], boxes[X_HALF], boxes[X_START], boxes[X_END] = theta, half, start, end
+    evaluate_boxes(1, motion, curve_profile, solid_profile, kept, path, boxes)
+    return boxes[X_CLASS]
+
+
+@kernel()
+def contact_distance(theta: float, kept: Array) -> float:
+    """Distance from an azimuth to the nearest earlier contact (rad)."""
+    return abs(nearest_contact(theta, kept)[0])
+
+
+@kernel()
+def no_onset_from_contact(
+    theta: float,
+    half: float,
+    start: float,
+    end: float,
+    bend_low: float,
+    bend_high: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    kept: Array,
     scratch: Array,
 ) -> bool:
-    """Whether phi is concave from the nearest earlier contact to the far end of a box, at all times of the box.
+    """Whether the bend of phi from the nearest contact to a box excludes a tangency with the thread in it.
 
-    At that contact phi is not negative, so that phi then rises through zero at no maximum between.
+    At a tangency the integral of s phi_thetatheta over the distance s from the contact is phi at the contact, which is
+    zero; where phi_theta is zero there, too, so is that of phi_thetatheta, and of (s - s0) phi_thetatheta for any s0
+    (docs/certificate.md, section 7). ``bend_low`` and ``bend_high`` are the range of phi_thetatheta over the box.
     """
-    nearest = math.inf
-    for j in range(azimuth_count):
-        gap = theta - contact_azimuths[j]
-        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
-        if abs(gap) < abs(nearest):
-            nearest = gap
-    near = theta - nearest
-    far = theta + math.copysign(half, nearest)
-    scratch[X_THETA] = 0.5 * (near + far)
-    scratch[X_HALF] = 0.5 * abs(far - near) + 1e-12
-    scratch[X_START] = start
-    scratch[X_END] = end
-    classify_boxes(1, motion, curve_profile, solid_profile, scratch)
-    return scratch[X_PHI_THETA_THETA] < 0.0
+    nearest, contact, row = nearest_contact(theta, kept)
+    gap = abs(nearest)
+    width = (gap - half) / PIECES
+    for i in range(PIECES):
+        scratch[X_THETA + i] = contact + math.copysign((i + 0.5) * width, nearest)
+        scratch[X_HALF + i] = 0.5 * width + 1e-15
+        scratch[X_START + i], scratch[X_END + i] = start, end
+        scratch[X_G_BESIDE + i], scratch[X_PHI_BESIDE + i], scratch[X_GAP + i] = math.nan, math.nan, math.nan
+    classify_boxes(PIECES, motion, curve_profile, solid_profile, scratch)
+    touches = kept[row, K_PHI] != 0.0
+    tangent = touches and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
+    for j in range(1 + PIECES if tangent else 1):
+        last = 2.0 * half * (gap - j * width)
+        low, high = min(bend_low, 0.0) * last, max(bend_high, 0.0) * last
+        size = high - low
+        for i in range(PIECES):
+            weight = (i + 0.5 - j) * width * width
+            one, other = weight * scratch[X_BEND_LOW + i], weight * scratch[X_BEND_HIGH + i]
+            low += min(one, other)
+            high += max(one, other)
+            size += max(abs(one), abs(other))
+        if high < -SLACK * size or (touches and low > SLACK * size):
+            return True
+    way = math.copysign(gap + half, nearest)
+    return tangent and no_tangency_on_flanks(contact, way, start, end, motion, curve_profile, solid_profile)
 
 
 @kernel()
@@ -204,64 +252,46 @@ def onset_only_outside(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
+    kept: Array,
     scratch: Array,
     path: Array,
     jet: Array,
 ) -> bool:
     """Whether a larger box has at most one onset, too, and has it outside of this one."""
-    span = end - start
-    scratch[X_THETA] = theta
-    scratch[X_HALF] = half * ENLARGEMENT
-    scratch[X_START] = start - ENLARGEMENT * span
-    scratch[X_END] = end + ENLARGEMENT * span
-    classify_boxes(1, motion, curve_profile, solid_profile, scratch)
-    if scratch[X_CLASS] != box_class:
-        return scratch[X_CLASS] <= EXCLUDED
+    wide, span = half * ENLARGEMENT, end - start
+    since, until = start - ENLARGEMENT * span, end + ENLARGEMENT * span
+    found = evaluate_box(theta, wide, since, until, motion, curve_profile, solid_profile, kept, path, scratch)
+    if found != box_class:
+        return found <= EXCLUDED
     inside, t, tau = newton_onset(
-        box_class,
-        theta,
-        half * ENLARGEMENT,
-        scratch[X_START],
-        scratch[X_END],
-        motion,
-        curve_profile,
-        solid_profile,
-        path,
-        jet,
+        box_class, theta, wide, since, until, motion, curve_profile, solid_profile, kept, path, jet
     )
     return inside and (abs(t - theta) >= half or tau <= start or tau >= end)
 
 
 @kernel()
-def joined_to_contact(
+def is_the_one(
+    box_class: int,
     theta: float,
+    half: float,
+    start: float,
+    end: float,
+    t: float,
     tau: float,
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
-    contact_azimuths: Array,
-    azimuth_count: int,
-    noise: float,
+    kept: Array,
     path: Array,
-    jet: Array,
+    scratch: Array,
 ) -> bool:
-    """Whether an onset beside an earlier contact is joined to it: the curve between is outside by ``noise`` at most.
-
-    At the earlier contact the curve touches at all times, so that round-off alone can make a peak beside it rise.
-    """
-    for j in range(azimuth_count):
-        gap = theta - contact_azimuths[j]
-        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
-        if abs(gap) < AZIMUTH_TOLERANCE:
-            return True
-        if abs(gap) < JOIN_DISTANCE:
-            leaves = False
-            for i in range(1, 8):
-                set_jet(theta - gap * i / 8.0, tau, motion, curve_profile, solid_profile, path, jet)
-                leaves = leaves or not (jet[J_G] >= -noise and jet[J_PHI] >= -noise)
-            if not leaves:
-                return True
-    return False
+    """Whether a root found in a box, or just beside it, is the only one there: the box widened to it has one, too."""
+    if abs(t - theta) <= half and start <= tau <= end:
+        return True
+    wide, since, until = max(half, abs(t - theta)), min(start, tau), max(end, tau)
+    return (
+        evaluate_box(theta, wide, since, until, motion, curve_profile, solid_profile, kept, path, scratch) == box_class
+    )
 
 
 @kernel()
@@ -290,8 +320,7 @@ def search_edge(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
-    contact_azimuths: Array,
-    azimuth_count: int,
+    kept: Array,
     best: float,
     any_onset: bool,
     tie_tolerance: float,
@@ -303,7 +332,7 @@ def search_edge(
 ) -> tuple[int, int, float]:
     """Contacts of the edge curve of ``curve_profile`` with the solid of ``solid_profile`` from ``since`` to ``until``.
 
-    ``contact_azimuths`` are those of earlier contacts on this curve, ``best`` the earliest time known: the search ends
+    ``kept`` are the earlier contacts on this curve, ``best`` is the earliest time known: the search ends
     ``tie_tolerance`` after it. With ``any_onset`` an onset that is not a contact ends the search, too. Returns the
     number of candidates in ``found`` (earliest first), the number of boxes evaluated (OVERFLOW: too many) and the
     earliest time. Onsets that are not contacts are added to ``entries``: there the edge enters an open overlap.
@@ -311,14 +340,13 @@ def search_edge(
     path = np.empty(PATH_SIZE)
     jet = np.empty(JET_SIZE)
     wedge = np.empty(9)
-    p = solid_profile[pk.P]
     slender = SLENDER * motion_scale(motion, solid_profile)
     evaluated = 0
     narrowest = math.inf
     n = set_initial_boxes(since, min(until, best + tie_tolerance), boxes)
     while n > 0:
         n = pad_boxes(n, boxes)
-        classify_boxes(n, motion, curve_profile, solid_profile, boxes)
+        evaluate_boxes(n, motion, curve_profile, solid_profile, kept, path, boxes)
         evaluated += n
         m = 0
         for i in range(n):
@@ -329,82 +357,74 @@ def search_edge(
                 continue
             theta = boxes[X_THETA + i]
             end = boxes[X_END + i]
-            gap = contact_distance(theta, contact_azimuths, azimuth_count)
+            gap = contact_distance(theta, kept)
             if gap + half < AZIMUTH_TOLERANCE or (gap <= half + 1e-13 and box_class < SPLIT_THETA):
                 continue
-            concave = box_class == ONE_THREAD or box_class == PEAK_THREAD
             if (
-                concave
-                and gap < CONCAVITY_REACH * half
-                and concave_from_contact(
+                half < gap < BESIDE
+                and boxes[X_G_LOW + i] > 0.0
+                and no_onset_from_contact(
                     theta,
                     half,
                     start,
                     end,
+                    boxes[X_BEND_LOW + i],
+                    boxes[X_BEND_HIGH + i],
                     motion,
                     curve_profile,
                     solid_profile,
-                    contact_azimuths,
-                    azimuth_count,
+                    kept,
                     spare_boxes,
                 )
             ):
                 continue
-            noise = ROUND_OFF * p
-            touches = gap < JOIN_DISTANCE and half < AZIMUTH_TOLERANCE and abs(boxes[X_DEPTH + i]) < noise
-            # Where the curve's curvature at an earlier contact vanishes during a turn, it lies on the surface around.
-            lies_on_surface = (
-                box_class > ONE_PLANE and gap < JOIN_DISTANCE and boxes[X_LARGEST_DEPTH + i] < LEAST_DEPTH * p
-            )
-            if (touches or lies_on_surface) and joined_to_contact(
-                theta,
-                0.5 * (start + end),
-                motion,
-                curve_profile,
-                solid_profile,
-                contact_azimuths,
-                azimuth_count,
-                noise if touches else LEAST_DIP * p,
-                path,
-                jet,
-            ):
-                continue
-            if touches or box_class <= ONE_PLANE:
-                kind = box_class
-                if touches:
-                    wide, span = ENLARGEMENT * half, ENLARGEMENT * (end - start)
-                    inside, kind, t, tau = bracketed_onset(
-                        theta, wide, start - span, end + span, motion, curve_profile, solid_profile, path, jet
-                    )
-                else:
-                    inside, t, tau = newton_onset(
-                        box_class, theta, half, start, end, motion, curve_profile, solid_profile, path, jet
-                    )
-                if inside:
-                    set_jet(t, tau, motion, curve_profile, solid_profile, path, jet)
-                if (
-                    inside
-                    and tau <= best + tie_tolerance
-                    and rises(kind, jet)
-                    and not joined_to_contact(
-                        t, tau, motion, curve_profile, solid_profile, contact_azimuths, azimuth_count, noise, path, jet
-                    )
-                ):
-                    set_jet(t, tau, motion, curve_profile, solid_profile, path, jet)
-                    onset_is_contact = is_contact(kind, t, tau, motion, curve_profile, solid_profile, jet, wedge)
-                    if onset_is_contact:
-                        x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
-                        count = insert_candidate(tau, kind, t, math.atan2(y, x), x, y, z, count, found)
-                    else:
-                        insert_entry(tau, t, motion, jet, entries)
-                    if onset_is_contact or any_onset:
-                        best = min(best, tau)
-                if touches:
-                    continue
+            if box_class <= ONE_PLANE:
+                inside, t, tau = newton_onset(
+                    box_class, theta, half, start, end, motion, curve_profile, solid_profile, kept, path, jet
+                )
+                inside = inside and is_the_one(
+                    box_class,
+                    theta,
+                    half,
+                    start,
+                    end,
+                    t,
+                    tau,
+                    motion,
+                    curve_profile,
+                    solid_profile,
+                    kept,
+                    path,
+                    spare_boxes,
+                )
+                if inside and tau <= best + tie_tolerance:
+                    set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
+                    if rises(box_class, jet) and contact_distance(t, kept) >= AZIMUTH_TOLERANCE:
+                        onset_is_contact = is_contact(
+                            box_class, t, tau, motion, curve_profile, solid_profile, jet, wedge
+                        )
+                        if onset_is_contact:
+                            x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
+                            count = insert_candidate(tau, box_class, t, math.atan2(y, x), x, y, z, count, found)
+                        else:
+                            insert_entry(tau, t, motion, jet, entries)
+                        if onset_is_contact or any_onset:
+                            best = min(best, tau)
                 if inside or (
                     half < AZIMUTH_TOLERANCE
                     and onset_only_outside(
-                        box_class, theta, half, start, end, motion, curve_profile, solid_profile, spare_boxes, path, jet
+                        box_class,
+                        theta,
+                        half,
+                        start,
+                        end,
+                        motion,
+                        curve_profile,
+                        solid_profile,
+                        kept,
+                        spare_boxes,
+                        path,
+                        jet,
                     )
                 ):
                     continue
@@ -428,22 +448,22 @@ def find_inside(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
-    contact_azimuths: Array,
-    azimuth_count: int,
+    kept: Array,
     shallow: float,
     narrow: float,
     boxes: Array,
     spare_boxes: Array,
 ) -> tuple[int, float]:
-    """Whether the edge curve is inside the other solid at the start of a motion, except at ``contact_azimuths``.
+    """Whether the edge curve is inside the other solid at the start of a motion, except at the contacts in ``kept``.
 
     Returns INSIDE and the azimuth of a point that is; OUTSIDE: nowhere by more than ``shallow`` thread pitches over
     more than ``narrow`` (rad); UNDECIDED: too many boxes.
     """
+    path = np.empty(PATH_SIZE)
     n = set_initial_boxes(0.0, 0.0, boxes)
     while n > 0:
         n = pad_boxes(n, boxes)
-        classify_boxes(n, motion, curve_profile, solid_profile, boxes)
+        evaluate_boxes(n, motion, curve_profile, solid_profile, kept, path, boxes)
         m = 0
         deepest, azimuth = shallow * solid_profile[pk.P], 0.0
         for i in range(n):
@@ -454,9 +474,7 @@ def find_inside(
             theta, depth = boxes[X_THETA + i], boxes[X_DEPTH + i]
             if depth > deepest:
                 deepest, azimuth = depth, theta
-            if (box_class == ONE_EDGE or box_class == PEAK_EDGE) and contact_distance(
-                theta, contact_azimuths, azimuth_count
-            ) <= half:
+            if (box_class == ONE_EDGE or box_class == PEAK_EDGE) and contact_distance(theta, kept) <= half:
                 continue
             m = move_to_front(i, 0.0, False, m, boxes)
         if deepest > shallow * solid_profile[pk.P]:

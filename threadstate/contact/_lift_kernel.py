@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact import _ridge_kernel as ridge
+from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE, set_bounds
 from threadstate.contact._branchless_kernel import larger, smaller
 from threadstate.contact._edge_search_kernel import INSIDE, OUTSIDE, UNDECIDED, find_inside
@@ -172,19 +173,19 @@ def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array,
     boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = work
     bounds = np.empty(BOUNDS_SIZE)
     path = np.empty(PATH_SIZE)
-    no_azimuths = np.empty(0)
+    no_contacts = new_kept(0)
     raised = pose.copy()
     raised[11] += lift
     left = high - lift
     up = np.array([0.0, 0.0, 1.0])
     set_motions(raised, False, False, up, up, bolt_motion, nut_motion)
     outcome, theta = find_inside(
-        bolt_motion, bolt, nut, no_azimuths, 0, WITNESS_DEPTH, WITNESS_HALF_WIDTH, boxes, spare_boxes
+        bolt_motion, bolt, nut, no_contacts, WITNESS_DEPTH, WITNESS_HALF_WIDTH, boxes, spare_boxes
     )
     if outcome == INSIDE:
         return INSIDE, lift + edge_point_inside_until(theta, left, bolt_motion, bolt, nut, bounds, path)
     nut_outcome, theta = find_inside(
-        nut_motion, nut, bolt, no_azimuths, 0, WITNESS_DEPTH, WITNESS_HALF_WIDTH, boxes, spare_boxes
+        nut_motion, nut, bolt, no_contacts, WITNESS_DEPTH, WITNESS_HALF_WIDTH, boxes, spare_boxes
     )
     if nut_outcome == INSIDE:
         return INSIDE, lift + edge_point_inside_until(theta, left, nut_motion, nut, bolt, bounds, path)

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
+from threadstate.contact._beside_kernel import values_beside
+from threadstate.contact._box_kernel import ONE_EDGE, ONE_THREAD
 from threadstate.contact._geometry_kernel import (
     M_COPLANAR,
     M_KIND,
@@ -41,10 +42,6 @@ MAX_CANDIDATES = 16
 J_G, J_G_THETA, J_G_TAU, J_PHI, J_PHI_THETA, J_PHI_TAU = range(6)
 J_G_THETA_THETA, J_G_THETA_TAU, J_PHI_THETA_THETA, J_PHI_THETA_TAU, J_X, J_Y, J_Z = range(6, 13)
 JET_SIZE = 13
-
-TIMES_OF_PEAK = 8
-HALVINGS_OF_TIME = 40
-"""Of a box in which a peak comes in or goes out: parts of its time, and halvings of one of them."""
 
 
 @kernel()
@@ -103,6 +100,25 @@ def set_jet(
 
 
 @kernel()
+def set_jet_beside(
+    theta: float,
+    tau: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    kept: Array,
+    path: Array,
+    jet: Array,
+) -> None:
+    """The same; beside contacts in ``kept`` g and phi are differences from them."""
+    set_jet(theta, tau, motion, curve_profile, solid_profile, path, jet)
+    if kept[0, 0] != 0.0:
+        g, phi, _ = values_beside(theta, tau, motion, curve_profile, solid_profile, kept, path)
+        jet[J_G] = jet[J_G] if math.isnan(g) else g
+        jet[J_PHI] = jet[J_PHI] if math.isnan(phi) else phi
+
+
+@kernel()
 def newton_onset(
     kind: int,
     theta: float,
@@ -112,6 +128,7 @@ def newton_onset(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
+    kept: Array,
     path: Array,
     jet: Array,
 ) -> tuple[bool, float, float]:
@@ -125,7 +142,7 @@ def newton_onset(
     step = motion_scale(motion, curve_profile)
     before = math.inf
     for _ in range(40):
-        set_jet(t, tau, motion, curve_profile, solid_profile, path, jet)
+        set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
         if kind == ONE_EDGE:
             f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
             f1, c, d = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
@@ -151,146 +168,6 @@ def newton_onset(
             return inside, t, tau
         before = size
     return False, t, tau
-
-
-@kernel()
-def peak_of_minimum(
-    low: float,
-    high: float,
-    tau: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    path: Array,
-    jet: Array,
-) -> tuple[bool, int, float]:
-    """A local maximum over theta of min(g, phi) between two azimuths by bisection: whether there is one, kind, azimuth.
-
-    No second derivative is used: it jumps where a flank meets its fillet, and Newton's method may not converge there.
-    """
-    set_jet(low, tau, motion, curve_profile, solid_profile, path, jet)
-    low_on_plane = jet[J_G] < jet[J_PHI]
-    if (jet[J_G_THETA] if low_on_plane else jet[J_PHI_THETA]) <= 0.0:
-        return False, 0, low
-    set_jet(high, tau, motion, curve_profile, solid_profile, path, jet)
-    high_on_plane = jet[J_G] < jet[J_PHI]
-    if (jet[J_G_THETA] if high_on_plane else jet[J_PHI_THETA]) >= 0.0:
-        return False, 0, high
-    while True:
-        middle = 0.5 * (low + high)
-        if not low < middle < high:
-            break
-        set_jet(middle, tau, motion, curve_profile, solid_profile, path, jet)
-        middle_on_plane = jet[J_G] < jet[J_PHI]
-        if (jet[J_G_THETA] if middle_on_plane else jet[J_PHI_THETA]) > 0.0:
-            low, low_on_plane = middle, middle_on_plane
-        else:
-            high, high_on_plane = middle, middle_on_plane
-    set_jet(low, tau, motion, curve_profile, solid_profile, path, jet)
-    if low_on_plane != high_on_plane:
-        return True, int(ONE_EDGE), low
-    return True, int(ONE_PLANE if low_on_plane else ONE_THREAD), low
-
-
-@kernel()
-def times_of_rise(
-    low: float,
-    high: float,
-    start: float,
-    end: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    path: Array,
-    jet: Array,
-) -> tuple[float, float, float, float]:
-    """Two times between which the peak of min(g, phi) between two azimuths rises through zero, each with its value.
-
-    The earlier value is above zero, or one of them not a number, where there are none. A peak that is between the
-    azimuths for a part of the time only is looked for at times between, and halved down to where it comes in.
-    """
-    found, _, _ = peak_of_minimum(low, high, start, motion, curve_profile, solid_profile, path, jet)
-    early, before = start, (min(jet[J_G], jet[J_PHI]) if found else math.nan)
-    found_late, _, _ = peak_of_minimum(low, high, end, motion, curve_profile, solid_profile, path, jet)
-    late, after = end, (min(jet[J_G], jet[J_PHI]) if found_late else math.nan)
-    if found and (found_late or before > 0.0):
-        return early, before, late, after
-    outside = start
-    for i in range(1, TIMES_OF_PEAK):
-        tau = start + (end - start) * i / TIMES_OF_PEAK
-        found, _, _ = peak_of_minimum(low, high, tau, motion, curve_profile, solid_profile, path, jet)
-        value = min(jet[J_G], jet[J_PHI])
-        if found and value > 0.0:
-            late, after = tau, value
-            break
-        if found:
-            early, before = tau, value
-        else:
-            outside = tau
-    for _ in range(HALVINGS_OF_TIME):
-        if not (math.isnan(before) and after > 0.0):
-            break
-        tau = 0.5 * (outside + late)
-        found, _, _ = peak_of_minimum(low, high, tau, motion, curve_profile, solid_profile, path, jet)
-        value = min(jet[J_G], jet[J_PHI])
-        if not found:
-            outside = tau
-        elif value > 0.0:
-            late, after = tau, value
-        else:
-            early, before = tau, value
-    return early, before, late, after
-
-
-@kernel()
-def bracketed_onset(
-    theta: float,
-    half: float,
-    start: float,
-    end: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    path: Array,
-    jet: Array,
-) -> tuple[bool, int, float, float]:
-    """An onset in a box narrower than azimuths are resolved to: whether there is one, its kind, azimuth and time.
-
-    There the peak of min(g, phi) rises from below zero to above it. The time is found by regula falsi (Illinois).
-    """
-    low, high = theta - half, theta + half
-    early, before, late, after = times_of_rise(low, high, start, end, motion, curve_profile, solid_profile, path, jet)
-    if not before <= 0.0 <= after:
-        return False, 0, theta, early
-    _, kind, t = peak_of_minimum(low, high, late, motion, curve_profile, solid_profile, path, jet)
-    tau = late
-    side = 0
-    for _ in range(100):
-        if after == before:
-            # Both are zero: the curve touches throughout, and no time is between.
-            break
-        tau = (early * after - late * before) / (after - before)
-        if not early < tau < late:
-            # The bracket is as narrow as round-off lets it be.
-            break
-        found, kind, t = peak_of_minimum(low, high, tau, motion, curve_profile, solid_profile, path, jet)
-        if not found:
-            # It has left the box in between.
-            return False, kind, t, tau
-        value = min(jet[J_G], jet[J_PHI])
-        if value < 0.0:
-            early, before = tau, value
-            if side == -1:
-                after *= 0.5
-            side = -1
-        else:
-            late, after = tau, value
-            if side == 1:
-                before *= 0.5
-            side = 1
-        if value == 0.0:
-            break
-    return True, kind, t, tau
 
 
 @kernel()

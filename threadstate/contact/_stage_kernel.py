@@ -12,6 +12,7 @@ from threadstate.contact import _rectangle_kernel as rect
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact import _thread_surface_kernel as ts
+from threadstate.contact._beside_kernel import K_TANGENT, keep, new_kept
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
@@ -218,27 +219,26 @@ def on_nut_edge(contact: Array, nut: Array) -> bool:
 
 
 @kernel()
-def set_contact_azimuths(
-    known: Array, known_count: int, pose: Array, bolt: Array, nut: Array, bolt_azimuths: Array, nut_azimuths: Array
-) -> tuple[int, int]:
-    """Sets the azimuths in [0, 2 pi) of contacts on the bolt's and on the nut's edge curve; returns their numbers.
+def keep_contacts(
+    known: Array, known_count: int, pose: Array, bolt: Array, nut: Array, bolt_kept: Array, nut_kept: Array
+) -> None:
+    """Sets the lists of contacts on the bolt's and on the nut's edge curve (``_beside_kernel``).
 
     Where a contact changes from a part's edge to its thread or its flat face it is on both within the tolerance: the
     edge there must not count as another contact.
     """
-    on_bolt_count = 0
-    on_nut_count = 0
+    bolt_kept[0, 0], nut_kept[0, 0] = 0.0, 0.0
+    bolt_kept[0, K_TANGENT] = nut_kept[0, K_TANGENT] = 1.0 if known_count == 1 else 0.0
     for i in range(known_count):
         pair = int(known[i, K_PAIR])
-        if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD or on_bolt_edge(known[i], pose, bolt):
-            bolt_azimuths[on_bolt_count] = known[i, K_BOLT_AZIMUTH] - TWO_PI * math.floor(
-                known[i, K_BOLT_AZIMUTH] / TWO_PI
-            )
-            on_bolt_count += 1
-        if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE or on_nut_edge(known[i], nut):
-            nut_azimuths[on_nut_count] = known[i, K_NUT_AZIMUTH] - TWO_PI * math.floor(known[i, K_NUT_AZIMUTH] / TWO_PI)
-            on_nut_count += 1
-    return on_bolt_count, on_nut_count
+        if pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD:
+            keep(known[i, K_BOLT_AZIMUTH], pair != EDGE_THREAD, pair != EDGE_SURFACE, bolt_kept)
+        elif on_bolt_edge(known[i], pose, bolt):
+            keep(known[i, K_BOLT_AZIMUTH], False, False, bolt_kept)
+        if pair == EDGE_EDGE or pair == BASE_EDGE or pair == THREAD_EDGE:
+            keep(known[i, K_NUT_AZIMUTH], pair != THREAD_EDGE, pair != BASE_EDGE, nut_kept)
+        elif on_nut_edge(known[i], nut):
+            keep(known[i, K_NUT_AZIMUTH], False, False, nut_kept)
 
 
 @kernel()
@@ -279,11 +279,8 @@ def earliest(
     """
     boxes, spare_boxes, bolt_found, nut_found, bolt_motion, nut_motion, rectangles, tangencies, entries = work
     on_surface = np.empty((ts.MAX_FOUND, tk.TANGENCY_SIZE))
-    bolt_azimuths = np.empty(2)
-    nut_azimuths = np.empty(2)
-    bolt_azimuth_count, nut_azimuth_count = set_contact_azimuths(
-        known, known_count, pose, bolt, nut, bolt_azimuths, nut_azimuths
-    )
+    bolt_kept, nut_kept = new_kept(known_count), new_kept(known_count)
+    keep_contacts(known, known_count, pose, bolt, nut, bolt_kept, nut_kept)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, bolt_motion, nut_motion)
     any_onset = not is_turn
@@ -302,8 +299,7 @@ def earliest(
             bolt_motion,
             bolt,
             nut,
-            bolt_azimuths,
-            bolt_azimuth_count,
+            bolt_kept,
             best,
             any_onset,
             tie_tolerance,
@@ -319,8 +315,7 @@ def earliest(
             nut_motion,
             nut,
             bolt,
-            nut_azimuths,
-            nut_azimuth_count,
+            nut_kept,
             best,
             any_onset,
             tie_tolerance,
@@ -430,18 +425,11 @@ def earliest(
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
     boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = work
-    bolt_azimuths = np.empty(count)
-    nut_azimuths = np.empty(count)
-    bolt_azimuth_count, nut_azimuth_count = set_contact_azimuths(
-        contacts, count, pose, bolt, nut, bolt_azimuths, nut_azimuths
-    )
+    bolt_kept, nut_kept = new_kept(count), new_kept(count)
+    keep_contacts(contacts, count, pose, bolt, nut, bolt_kept, nut_kept)
     down = np.array([0.0, 0.0, -1.0])
     set_motions(pose, False, False, down, down, bolt_motion, nut_motion)
-    outcome, _ = find_inside(
-        bolt_motion, bolt, nut, bolt_azimuths, bolt_azimuth_count, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes
-    )
+    outcome, _ = find_inside(bolt_motion, bolt, nut, bolt_kept, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes)
     if outcome == OUTSIDE:
-        outcome, _ = find_inside(
-            nut_motion, nut, bolt, nut_azimuths, nut_azimuth_count, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes
-        )
+        outcome, _ = find_inside(nut_motion, nut, bolt, nut_kept, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes)
     return outcome != OUTSIDE

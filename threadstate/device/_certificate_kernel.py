@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._beside_kernel import keep, new_kept
 from threadstate.contact._edge_search_kernel import OUTSIDE, find_inside
 from threadstate.contact._ridge_kernel import deepest_thread_point
 from threadstate.contact._stage_kernel import (
@@ -38,27 +39,22 @@ FREE, EDGE_INSIDE, THREAD_INSIDE = range(3)
 def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, nut: Array, stage: Work) -> int:
     """Whether the parts overlap at a pose by more than ``limit`` (a length), beside the places at which they touch."""
     boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = stage
-    bolt_azimuths = np.empty(MAX_PLACES)
-    nut_azimuths = np.empty(MAX_PLACES)
-    on_bolt, on_nut = 0, 0
+    on_bolt, on_nut = new_kept(MAX_PLACES), new_kept(MAX_PLACES)
     for i in range(count):
         pair = int(places[i, G_PAIR])
         if pair != BASE_EDGE and pair != THREAD_EDGE and pair != THREAD_THREAD:
-            bolt_azimuths[on_bolt] = places[i, G_THETA]
-            on_bolt += 1
+            keep(places[i, G_THETA], False, False, on_bolt)
         if pair == BASE_EDGE or pair == THREAD_EDGE:
-            nut_azimuths[on_nut] = places[i, G_THETA]
-            on_nut += 1
+            keep(places[i, G_THETA], False, False, on_nut)
         elif pair == EDGE_EDGE:
-            nut_azimuths[on_nut] = math.atan2(places[i, G_POINT + 1], places[i, G_POINT])
-            on_nut += 1
+            keep(math.atan2(places[i, G_POINT + 1], places[i, G_POINT]), False, False, on_nut)
     down = np.array([0.0, 0.0, -1.0])
     set_motions(pose, False, False, down, down, bolt_motion, nut_motion)
     shallow = limit / bolt[pk.P]
-    outcome, _ = find_inside(bolt_motion, bolt, nut, bolt_azimuths, on_bolt, shallow, NARROW, boxes, spare_boxes)
+    outcome, _ = find_inside(bolt_motion, bolt, nut, on_bolt, shallow, NARROW, boxes, spare_boxes)
     if outcome != OUTSIDE:
         return EDGE_INSIDE
-    outcome, _ = find_inside(nut_motion, nut, bolt, nut_azimuths, on_nut, shallow, NARROW, boxes, spare_boxes)
+    outcome, _ = find_inside(nut_motion, nut, bolt, on_nut, shallow, NARROW, boxes, spare_boxes)
     if outcome != OUTSIDE:
         return EDGE_INSIDE
     inside, _, _, _ = deepest_thread_point(bolt_motion, limit, RIDGE_AZIMUTHS, bolt, nut)

@@ -16,8 +16,9 @@ from threadstate._compile import kernel
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _tangency_kernel as tk
+from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
-from threadstate.contact._edge_search_kernel import ROUND_OFF, joined_to_contact
+from threadstate.contact._edge_search_kernel import AZIMUTH_TOLERANCE, contact_distance
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE, copy_numbers
 from threadstate.contact._onset_kernel import (
     J_G,
@@ -33,7 +34,7 @@ from threadstate.contact._onset_kernel import (
     is_contact,
     newton_onset,
     rises,
-    set_jet,
+    set_jet_beside,
 )
 from threadstate.contact._solve_kernel import (
     FLUSH_MARGIN,
@@ -60,8 +61,8 @@ from threadstate.contact._stage_kernel import (
     THREAD_SURFACE,
     THREAD_THREAD,
     axis_in_both_planes,
+    keep_contacts,
     rotation,
-    set_contact_azimuths,
     set_motions,
     turned,
 )
@@ -98,8 +99,8 @@ def new_work() -> Work:
         np.empty(tk.PLACEMENT_SIZE),
         np.empty(tk.JET_SIZE),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
-        np.empty(2),
-        np.empty(2),
+        new_kept(2),
+        new_kept(2),
     )
 
 
@@ -130,22 +131,21 @@ def follow_edge_point(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
-    contact_azimuths: Array,
-    azimuth_count: int,
+    kept: Array,
     work: Work,
 ) -> tuple[bool, float, float]:
     """The contact of one kind near an azimuth and a time of an edge: whether there is one, its azimuth and time.
 
-    ``contact_azimuths`` are those of earlier contacts on the edge. The point is left in the jet.
+    ``kept`` are the earlier contacts on the edge. The point is left in the jet.
     """
     _, _, path, jet, wedge, _, _, _, _, _ = work
     span = REACH_TURN if motion[12] > 0.0 else REACH_HEIGHT * solid_profile[pk.P]
     found, t, time = newton_onset(
-        kind, theta, REACH_AZIMUTH, tau - span, tau + span, motion, curve_profile, solid_profile, path, jet
+        kind, theta, REACH_AZIMUTH, tau - span, tau + span, motion, curve_profile, solid_profile, kept, path, jet
     )
     if not found:
         return False, t, time
-    set_jet(t, time, motion, curve_profile, solid_profile, path, jet)
+    set_jet_beside(t, time, motion, curve_profile, solid_profile, kept, path, jet)
     # A peak of the lesser of g and phi, at which the other one is not negative.
     if kind == ONE_EDGE:
         is_peak = jet[J_G_THETA] * jet[J_PHI_THETA] < 0.0
@@ -153,15 +153,8 @@ def follow_edge_point(
         is_peak = jet[J_PHI_THETA_THETA] < 0.0 and jet[J_G] >= 0.0
     else:
         is_peak = jet[J_G_THETA_THETA] < 0.0 and jet[J_PHI] >= 0.0
-    if not is_peak or not rises(kind, jet):
+    if not is_peak or not rises(kind, jet) or contact_distance(t, kept) < AZIMUTH_TOLERANCE:
         return False, t, time
-    noise = ROUND_OFF * solid_profile[pk.P]
-    if azimuth_count > 0:
-        if joined_to_contact(
-            t, time, motion, curve_profile, solid_profile, contact_azimuths, azimuth_count, noise, path, jet
-        ):
-            return False, t, time
-        set_jet(t, time, motion, curve_profile, solid_profile, path, jet)
     return is_contact(kind, t, time, motion, curve_profile, solid_profile, jet, wedge), t, time
 
 
@@ -170,8 +163,6 @@ def follow_candidate(
     candidate: Array,
     tau: float,
     limit: float,
-    bolt_azimuth_count: int,
-    nut_azimuth_count: int,
     bolt: Array,
     nut: Array,
     work: Work,
@@ -179,9 +170,9 @@ def follow_candidate(
 ) -> bool:
     """Sets the contact of a motion that is near a candidate; False where there is none.
 
-    The motion and the azimuths of earlier contacts, so many on each edge, are in ``work``.
+    The motion and the earlier contacts on each edge are in ``work``.
     """
-    bolt_motion, nut_motion, _, jet, _, placement, tangency_jet, tangencies, bolt_azimuths, nut_azimuths = work
+    bolt_motion, nut_motion, _, jet, _, placement, tangency_jet, tangencies, bolt_kept, nut_kept = work
     pair = int(candidate[F_PAIR])
     contact[K_PAIR] = pair
     if pair == THREAD_THREAD:
@@ -201,7 +192,7 @@ def follow_candidate(
     if pair == BASE_EDGE or pair == THREAD_EDGE:
         kind = int(ONE_PLANE) if pair == BASE_EDGE else int(ONE_THREAD)
         found, theta, time = follow_edge_point(
-            kind, candidate[F_NUT_AZIMUTH], tau, nut_motion, nut, bolt, nut_azimuths, nut_azimuth_count, work
+            kind, candidate[F_NUT_AZIMUTH], tau, nut_motion, nut, bolt, nut_kept, work
         )
         r = pk.radius(-nut[pk.LEAD] / (2.0 * math.pi) * theta, nut)
         contact[K_BOLT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
@@ -210,7 +201,7 @@ def follow_candidate(
     else:
         kind = int(ONE_EDGE) if pair == EDGE_EDGE else int(ONE_PLANE) if pair == EDGE_SURFACE else int(ONE_THREAD)
         found, theta, time = follow_edge_point(
-            kind, candidate[F_BOLT_AZIMUTH], tau, bolt_motion, bolt, nut, bolt_azimuths, bolt_azimuth_count, work
+            kind, candidate[F_BOLT_AZIMUTH], tau, bolt_motion, bolt, nut, bolt_kept, work
         )
         contact[K_BOLT_AZIMUTH] = theta
         contact[K_NUT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
@@ -239,14 +230,14 @@ def earliest_candidate(
     """
     is_turn = stage > 1
     set_motions(pose, is_turn, axis_in_both_planes(known, stage - 1), point, axis, work[0], work[1])
-    on_bolt_count, on_nut_count = set_contact_azimuths(known, stage - 1, pose, bolt, nut, work[8], work[9])
+    keep_contacts(known, stage - 1, pose, bolt, nut, work[8], work[9])
     one = np.empty(CONTACT_SIZE)
     contact[K_TIME] = math.inf
     for i in range(CANDIDATES):
         if candidates[i, F_STAGE] != stage:
             continue
         tau = candidates[i, F_TIME] if is_turn else pose[11] - candidates[i, F_TIME]
-        if not follow_candidate(candidates[i], tau, limit, on_bolt_count, on_nut_count, bolt, nut, work, one):
+        if not follow_candidate(candidates[i], tau, limit, bolt, nut, work, one):
             continue
         if one[K_TIME] >= contact[K_TIME]:
             continue
