@@ -97,13 +97,13 @@ def no_tangency_on_flanks(
     curve_profile: Array,
     solid_profile: Array,
 ) -> bool:
-    """Whether phi_thetathetatheta keeps its sign from ``contact`` over ``way`` (rad, signed), from ``start`` to ``end``.
+    """Whether phi_thetathetatheta keeps its sign from ``contact`` over ``way`` (rad) at all times of a span.
 
     At the contact phi = phi_theta = 0 at all times. False also where either profile is not straight there.
     """
     x_axis, y_axis, origin, rest = motion_numbers(motion)
     turning = rest[0]
-    k, r_bound, _, cot, _, base_error, error_by_time, _ = size_numbers(motion, curve_profile, solid_profile)
+    k, r_bound, _, _, _, base_error, error_by_time, _ = size_numbers(motion, curve_profile, solid_profile)
     theta, a = contact + 0.5 * way, 0.5 * abs(way) * (1.0 + 1e-15) + 1e-15
     tau, b = 0.5 * (start + end), 0.5 * (end - start) + 1e-15 * abs(end)
     error = base_error + error_by_time * abs(tau)
@@ -143,7 +143,6 @@ def no_tangency_on_flanks(
     # The solid's flank.
     w = complex(r * p[0] + o[0], r * p[1] + o[1])
     z = r * p[2] + o[2]
-    radius = abs(w)
     _, f1, u, rises = radius_and_slope(z - k * math.atan2(w.imag, w.real), profile_numbers(solid_profile))
     speed = offset_speed + turning * r_bound
     inverse_r = 1.0 / ((1.0 - deviation - tilt) * r_low * 0.5 * (1.0 + cosine - turning * b))
