@@ -35,6 +35,9 @@ from threadstate.contact._box_kernel import (
 from threadstate.contact._flank_kernel import no_tangency_on_flanks
 from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, motion_scale
 from threadstate.contact._onset_kernel import (
+    C_KIND,
+    C_THETA,
+    C_TIME,
     J_X,
     J_Y,
     J_Z,
@@ -54,6 +57,12 @@ INITIAL_BOXES = 25
 
 AZIMUTH_TOLERANCE = 1e-6
 """Half-width (rad) around an earlier contact within which nothing is distinguished from it."""
+
+SAME_AZIMUTH = 0.01
+"""Distance (rad) up to which two roots, each found to round-off, may be the same one."""
+
+NARROW = 16.0
+"""A box beside a contact narrower than its distance over this is split by time: the way to it counts, not its width."""
 
 PIECES = 8
 """Of the way from an earlier contact to a box: so many boxes are evaluated at once."""
@@ -295,6 +304,33 @@ def is_the_one(
 
 
 @kernel()
+def is_listed(
+    box_class: int,
+    t: float,
+    tau: float,
+    motion: Array,
+    curve_profile: Array,
+    solid_profile: Array,
+    kept: Array,
+    path: Array,
+    scratch: Array,
+    count: int,
+    found: Array,
+) -> bool:
+    """Whether a root is a candidate that is listed: there is a box around both that has at most one onset."""
+    for i in range(count):
+        if found[i, C_KIND] == box_class and abs(found[i, C_THETA] - t) < SAME_AZIMUTH:
+            theta, half = 0.5 * (found[i, C_THETA] + t), 0.5 * abs(found[i, C_THETA] - t) + 1e-15
+            start, end = min(found[i, C_TIME], tau), max(found[i, C_TIME], tau)
+            found_class = evaluate_box(
+                theta, half, start, end, motion, curve_profile, solid_profile, kept, path, scratch
+            )
+            if found_class == box_class:
+                return True
+    return False
+
+
+@kernel()
 def insert_entry(tau: float, theta: float, motion: Array, jet: Array, entries: Array) -> None:
     """Inserts the point of the bolt's thread at which an edge enters an open overlap; a full list drops the latest."""
     place = int(entries[0, 0]) + 1
@@ -405,7 +441,20 @@ def search_edge(
                         )
                         if onset_is_contact:
                             x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
-                            count = insert_candidate(tau, box_class, t, math.atan2(y, x), x, y, z, count, found)
+                            if not is_listed(
+                                box_class,
+                                t,
+                                tau,
+                                motion,
+                                curve_profile,
+                                solid_profile,
+                                kept,
+                                path,
+                                spare_boxes,
+                                count,
+                                found,
+                            ):
+                                count = insert_candidate(tau, box_class, t, math.atan2(y, x), x, y, z, count, found)
                         else:
                             insert_entry(tau, t, motion, jet, entries)
                         if onset_is_contact or any_onset:
@@ -433,6 +482,7 @@ def search_edge(
                 box_class == SPLIT_TIME
                 or (box_class < SPLIT_THETA and end - start > half)
                 or end - start > slender * half
+                or half < gap / NARROW < BESIDE / NARROW
             )
             narrowest = min(narrowest, half)
             m = move_to_front(i, min(end, best + tie_tolerance), by_time, m, boxes)

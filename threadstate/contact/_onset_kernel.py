@@ -27,6 +27,7 @@ from threadstate.contact._geometry_kernel import (
     turn_vector,
     velocity,
 )
+from threadstate.contact._range_kernel import size_numbers
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -119,6 +120,14 @@ def set_jet_beside(
 
 
 @kernel()
+def jet_errors(tau: float, motion: Array, curve_profile: Array, solid_profile: Array) -> tuple[float, float]:
+    """Bounds on the round-off of g and phi and of their derivatives by theta (docs/certificate.md, section 6)."""
+    k, r, r1, cot, r_minor, base_error, error_by_time, _ = size_numbers(motion, curve_profile, solid_profile)
+    error = (1.0 + cot * (1.0 + abs(k) / r_minor)) * (base_error + error_by_time * abs(tau))
+    return error, error * (1.0 + 2.0 * math.sqrt(r * r + r1 * r1) / r_minor)
+
+
+@kernel()
 def newton_onset(
     kind: int,
     theta: float,
@@ -134,8 +143,11 @@ def newton_onset(
 ) -> tuple[bool, float, float]:
     """The one onset or end of overlap in a box by Newton's method: whether it is in the box, its azimuth and time.
 
-    ``kind`` is the class of the box: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0.
+    ``kind`` is the class of the box: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0. Where steps have become as
+    small as what round-off makes of them the root is in the box if it is no farther outside than that.
     """
+    value_error, slope_error = jet_errors(0.5 * (start + end), motion, curve_profile, solid_profile)
+    second_error = value_error if kind == ONE_EDGE else slope_error
     t = theta
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
@@ -159,12 +171,15 @@ def newton_onset(
         dtau = (f0 * c - f1 * a) / det
         t += dt
         tau += dtau
-        if abs(t - theta) > 2.0 * half or abs(tau - 0.5 * (start + end)) > 2.0 * span:
-            return False, t, tau
         size = abs(dt) / (1.0 + abs(t)) + abs(dtau) / (step + abs(tau))
-        if size <= 4e-16 or (size < 1e-11 and size >= 0.5 * before):
-            slack = 1e-13 * step
-            inside = abs(t - theta) <= half * (1.0 + 1e-9) + 1e-13 and start - slack <= tau <= end + slack
+        t_error = (abs(b) * second_error + abs(d) * value_error) / abs(det)
+        tau_error = (abs(c) * value_error + abs(a) * second_error) / abs(det)
+        if abs(t - theta) > 2.0 * half + t_error or abs(tau - 0.5 * (start + end)) > 2.0 * span + tau_error:
+            return False, t, tau
+        settled = size < 1e-11 or (abs(dt) <= t_error and abs(dtau) <= tau_error)
+        if size <= 4e-16 or (settled and size >= 0.5 * before):
+            t_slack, tau_slack = 1e-13 + t_error, 1e-13 * step + tau_error
+            inside = abs(t - theta) <= half * (1.0 + 1e-9) + t_slack and start - tau_slack <= tau <= end + tau_slack
             return inside, t, tau
         before = size
     return False, t, tau
