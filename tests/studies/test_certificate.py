@@ -30,6 +30,7 @@ from studies.certificate.profiles import ball_profile
 from studies.certificate.study import Found, audit_boxes, failures
 from threadstate.contact import _branchless_kernel, _frame_kernel, _range_kernel
 from threadstate.contact import _onset_kernel as onset
+from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._geometry_kernel import M_COPLANAR, PATH_SIZE
 
 FAULTS = {
@@ -66,9 +67,9 @@ FAULTS = {
     "1 / rho^2 that keeps still": ("curvature_factor = inverse_r *", "curvature_factor = 0.0 * inverse_r *"),
     "a radius that is never small": ("near_axis = radius - move < 0.5 * r_minor", "near_axis = False"),
     "a hundredth of the round-off": ("position_error = base_error", "position_error = 0.01 * base_error"),
-    "a tenth of the round-off of values": (
-        "        value_error,\n        theta_error,",
-        "        0.1 * value_error,\n        theta_error,",
+    "a fortieth of the round-off of values": (
+        "        gradient_bound * position_error,\n        theta_error,",
+        "        0.025 * gradient_bound * position_error,\n        theta_error,",
     ),
 }
 """Of the ranges' kernel, a text and the fault that replaces it."""
@@ -212,6 +213,7 @@ def onset_boxes() -> Iterator[Box]:
                 search.motion,
                 search.curve.packed,
                 search.solid.packed,
+                new_kept(0),
                 path,
                 jet,
             )

@@ -205,6 +205,13 @@ def contact_distance(theta: float, kept: Array) -> float:
 
 
 @kernel()
+def is_tangent(theta: float, kept: Array) -> bool:
+    """Whether at the nearest contact phi = phi_theta = 0 at all times: on the thread, its tangent the axis."""
+    _, _, row = nearest_contact(theta, kept)
+    return kept[row, K_PHI] != 0.0 and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
+
+
+@kernel()
 def no_onset_from_contact(
     theta: float,
     half: float,
@@ -233,8 +240,7 @@ def no_onset_from_contact(
         scratch[X_START + i], scratch[X_END + i] = start, end
         scratch[X_G_BESIDE + i], scratch[X_PHI_BESIDE + i], scratch[X_GAP + i] = math.nan, math.nan, math.nan
     classify_boxes(PIECES, motion, curve_profile, solid_profile, scratch)
-    touches = kept[row, K_PHI] != 0.0
-    tangent = touches and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
+    touches, tangent = kept[row, K_PHI] != 0.0, is_tangent(theta, kept)
     for j in range(1 + PIECES if tangent else 1):
         last = 2.0 * half * (gap - j * width)
         low, high = min(bend_low, 0.0) * last, max(bend_high, 0.0) * last
@@ -482,7 +488,7 @@ def search_edge(
                 box_class == SPLIT_TIME
                 or (box_class < SPLIT_THETA and end - start > half)
                 or end - start > slender * half
-                or half < gap / NARROW < BESIDE / NARROW
+                or (half < gap / NARROW < BESIDE / NARROW and is_tangent(theta, kept))
             )
             narrowest = min(narrowest, half)
             m = move_to_front(i, min(end, best + tie_tolerance), by_time, m, boxes)

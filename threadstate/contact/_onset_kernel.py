@@ -152,7 +152,7 @@ def newton_onset(
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
     step = motion_scale(motion, curve_profile)
-    before = math.inf
+    before, t_error = math.inf, 0.0
     for _ in range(40):
         set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
         if kind == ONE_EDGE:
@@ -172,7 +172,8 @@ def newton_onset(
         t += dt
         tau += dtau
         size = abs(dt) / (1.0 + abs(t)) + abs(dtau) / (step + abs(tau))
-        t_error = (abs(b) * second_error + abs(d) * value_error) / abs(det)
+        # At a junction of flank and fillet steps of round-off lead from the one side to the other.
+        t_error = max((abs(b) * second_error + abs(d) * value_error) / abs(det), 0.5 * t_error)
         tau_error = (abs(c) * value_error + abs(a) * second_error) / abs(det)
         if abs(t - theta) > 2.0 * half + t_error or abs(tau - 0.5 * (start + end)) > 2.0 * span + tau_error:
             return False, t, tau
