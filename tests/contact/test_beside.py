@@ -170,7 +170,7 @@ def test_third_derivatives_keep_the_sign_that_excludes_a_tangency() -> None:
         start = float(10.0 ** rng.uniform(-9.0, -2.0))
         end = start + float(10.0 ** rng.uniform(-13.0, -3.0))
         numbers = search.motion, search.curve.packed, search.solid.packed
-        if flank.no_tangency_on_flanks(contact, way, start, end, *numbers):
+        if flank.no_tangency_on_flanks(contact, way, start, end, *numbers)[0]:
             excluded += 1
             seen = [third_derivative(search, contact + x * way, t) for x in (0.01, 0.5, 0.99) for t in (start, end)]
             assert all(value > 0 for value in seen) or all(value < 0 for value in seen)
@@ -213,7 +213,7 @@ def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]
             if (
                 half < gap < beside.BESIDE
                 and boxes[box.X_G_LOW + i] > 0.0
-                and edge_search.no_onset_from_contact(theta, half, start, end, *bends, *numbers, one.kept, scratch)
+                and edge_search.no_onset_from_contact(theta, half, start, end, *bends, *numbers, one.kept, scratch)[0]
             ):
                 yield theta, half, start, end
             elif left < 100:

@@ -205,13 +205,6 @@ def contact_distance(theta: float, kept: Array) -> float:
 
 
 @kernel()
-def is_tangent(theta: float, kept: Array) -> bool:
-    """Whether at the nearest contact phi = phi_theta = 0 at all times: on the thread, its tangent the axis."""
-    _, _, row = nearest_contact(theta, kept)
-    return kept[row, K_PHI] != 0.0 and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
-
-
-@kernel()
 def no_onset_from_contact(
     theta: float,
     half: float,
@@ -224,12 +217,13 @@ def no_onset_from_contact(
     solid_profile: Array,
     kept: Array,
     scratch: Array,
-) -> bool:
+) -> tuple[bool, bool]:
     """Whether the bend of phi from the nearest contact to a box excludes a tangency with the thread in it.
 
     At a tangency the integral of s phi_thetatheta over the distance s from the contact is phi at the contact, which is
     zero; where phi_theta is zero there, too, so is that of phi_thetatheta, and of (s - s0) phi_thetatheta for any s0
     (docs/certificate.md, section 7). ``bend_low`` and ``bend_high`` are the range of phi_thetatheta over the box.
+    Then whether it may do so in a shorter time.
     """
     nearest, contact, row = nearest_contact(theta, kept)
     gap = abs(nearest)
@@ -240,7 +234,8 @@ def no_onset_from_contact(
         scratch[X_START + i], scratch[X_END + i] = start, end
         scratch[X_G_BESIDE + i], scratch[X_PHI_BESIDE + i], scratch[X_GAP + i] = math.nan, math.nan, math.nan
     classify_boxes(PIECES, motion, curve_profile, solid_profile, scratch)
-    touches, tangent = kept[row, K_PHI] != 0.0, is_tangent(theta, kept)
+    touches = kept[row, K_PHI] != 0.0
+    tangent = touches and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):
         last = 2.0 * half * (gap - j * width)
         low, high = min(bend_low, 0.0) * last, max(bend_high, 0.0) * last
@@ -252,9 +247,11 @@ def no_onset_from_contact(
             high += max(one, other)
             size += max(abs(one), abs(other))
         if high < -SLACK * size or (touches and low > SLACK * size):
-            return True
+            return True, False
+    if not tangent:
+        return False, False
     way = math.copysign(gap + half, nearest)
-    return tangent and no_tangency_on_flanks(contact, way, start, end, motion, curve_profile, solid_profile)
+    return no_tangency_on_flanks(contact, way, start, end, motion, curve_profile, solid_profile)
 
 
 @kernel()
@@ -402,10 +399,9 @@ def search_edge(
             gap = contact_distance(theta, kept)
             if gap + half < AZIMUTH_TOLERANCE or (gap <= half + 1e-13 and box_class < SPLIT_THETA):
                 continue
-            if (
-                half < gap < BESIDE
-                and boxes[X_G_LOW + i] > 0.0
-                and no_onset_from_contact(
+            shorter = False
+            if half < gap < BESIDE and boxes[X_G_LOW + i] > 0.0:
+                no_onset, shorter = no_onset_from_contact(
                     theta,
                     half,
                     start,
@@ -418,8 +414,8 @@ def search_edge(
                     kept,
                     spare_boxes,
                 )
-            ):
-                continue
+                if no_onset:
+                    continue
             if box_class <= ONE_PLANE:
                 inside, t, tau = newton_onset(
                     box_class, theta, half, start, end, motion, curve_profile, solid_profile, kept, path, jet
@@ -488,7 +484,7 @@ def search_edge(
                 box_class == SPLIT_TIME
                 or (box_class < SPLIT_THETA and end - start > half)
                 or end - start > slender * half
-                or (half < gap / NARROW < BESIDE / NARROW and is_tangent(theta, kept))
+                or (shorter and half < gap / NARROW)
             )
             narrowest = min(narrowest, half)
             m = move_to_front(i, min(end, best + tie_tolerance), by_time, m, boxes)

@@ -101,11 +101,11 @@ def no_tangency_on_flanks(
     motion: Array,
     curve_profile: Array,
     solid_profile: Array,
-) -> bool:
+) -> tuple[bool, bool]:
     """Whether phi_thetathetatheta keeps its sign from ``contact`` over ``way`` (rad) at all times of a span.
 
     Where phi = phi_theta = 0 at the contact at all times there is no second place with phi = phi_theta = 0 then. False
-    also where either profile is not straight there.
+    also where either profile is not straight there. Then whether the span's length is most of what leaves it undecided.
     """
     k, r_bound, _, _, _, base_error, error_by_time, _ = size_numbers(motion, curve_profile, solid_profile)
     theta, a = contact + 0.5 * way, 0.5 * abs(way) * (1.0 + 4.0 * UNIT) + 8.0 * UNIT
@@ -115,7 +115,7 @@ def no_tangency_on_flanks(
     r, slope, u, rises = radius_and_slope(-k * theta, curve)
     low, high = second_derivative_range(u, abs(k) * a + error, rises, curve)
     if not (low == 0.0 and high == 0.0):
-        return False
+        return False, False
     r1 = -k * slope
     r_low = r - abs(r1) * a - error
 
@@ -140,7 +140,7 @@ def no_tangency_on_flanks(
     farthest = (math.hypot(o[0], o[1]) + speed * b + error) / (least_a * r_low)
     tilted = sine * sine
     if not (least_a > 0.75 and farthest + tilted < LARGEST_DEVIATION):
-        return False
+        return False, False
     mu = abs(r1) / r_low
     l1, l2, l3, l4 = logarithm_bounds(farthest, tilted, mu)
     e3 = l3 + 3.0 * l1 * l2 + l1**3
@@ -157,7 +157,7 @@ def no_tangency_on_flanks(
     s_theta = sine * (r + abs(r1) * (1.0 + a)) + abs(k) * (1.0 + l1)
     low, high = second_derivative_range(u, s_theta * a + helix * (speed * b + 2.0 * error), rises, solid)
     if not (low == 0.0 and high == 0.0):
-        return False
+        return False, False
 
     radial, around = third_derivatives(deviation, tilt, r1 / r)
     third = abs(a_) * r * radial + f1 * (3.0 * r1 * p[2] + r * q[2] + k * around)
@@ -167,4 +167,5 @@ def no_tangency_on_flanks(
     rate = rate_bound(c, (speed, turning * c[0], turning * c[1], turning * c[2]), larger_r, inverse_r, f1, k)
     round_off = UNIT * r_bound * (6.0 + 28.0 * abs(tau)) + error_by_time * abs(tau) + UNIT * 8.0 * speed
     round_off += UNIT * 8.0 * math.sqrt(origin[0] ** 2 + origin[1] ** 2 + origin[2] ** 2)
-    return abs(third) > fourth * a + rate * b + ROUND_OFF * (1.0 + abs(f1) * helix) * round_off
+    certain = abs(third) - fourth * a - ROUND_OFF * (1.0 + abs(f1) * helix) * round_off
+    return certain > rate * b, certain > 0.0 or rate * b > fourth * a
