@@ -12,6 +12,7 @@ from tests.contact.samples import Floats, random_poses
 from tests.thread.shapes import BUTTRESS, TURNED_BUTTRESS
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _onset_kernel as onset
+from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._branchless_kernel import (
     azimuth,
     profile_numbers,
@@ -19,6 +20,7 @@ from threadstate.contact._branchless_kernel import (
     second_derivative_range,
     sine_cosine,
 )
+from threadstate.contact._edge_search_kernel import evaluate_box
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import M_COPLANAR, MOTION_SIZE, PATH_SIZE, TWO_PI
 from threadstate.contact._range_kernel import ranges, size_numbers
@@ -179,10 +181,9 @@ def test_small_boxes_around_an_onset_hold_no_other(states: list[ContactState]) -
     boxes = np.zeros(box.BOXES_SIZE)
     for theta, time, motion, curve, solid in onsets(states):
         if motion[M_COPLANAR] == 0.0:
-            boxes[box.X_THETA], boxes[box.X_HALF] = theta, 1e-7
-            boxes[box.X_START], boxes[box.X_END] = time - 1e-9, time + 1e-9
-            box.classify_boxes(1, motion, curve, solid, boxes)
-            assert boxes[box.X_CLASS] in (box.ONE_EDGE, box.ONE_THREAD, box.ONE_PLANE)
+            span = time - 1e-9, time + 1e-9
+            found = evaluate_box(theta, 1e-7, *span, motion, curve, solid, new_kept(0), np.empty(PATH_SIZE), boxes)
+            assert found in (box.ONE_EDGE, box.ONE_THREAD, box.ONE_PLANE)
 
 
 def test_elementary_functions_without_branches() -> None:

@@ -52,7 +52,7 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
     """``earliest`` interpreted, with an edge search that fills its list of candidates, so far apart in time."""
 
     def crowded_search(*arguments: Floats) -> tuple[int, int, float]:
-        count, found = int(arguments[12]), arguments[13]
+        count, found = int(arguments[11]), arguments[12]
         assert found.shape[1] == CANDIDATE_SIZE
         for i in range(len(found)):
             count = insert_candidate(1e-4 + apart * i, int(ONE_EDGE), 0.3 * i, 0.3 * i, *around(i), 0.0, count, found)

@@ -11,10 +11,10 @@ import pytest
 from tests.contact.samples import Floats
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _branchless_kernel as branchless
-from threadstate.contact import _onset_kernel as onset
 from threadstate.contact import _rectangle_kernel as rectangle
+from threadstate.contact._beside_kernel import K_TANGENT, keep, new_kept
 from threadstate.contact._bound_kernel import BOUNDS_SIZE, set_bounds
-from threadstate.contact._edge_search_kernel import ROUND_OFF, joined_to_contact
+from threadstate.contact._edge_search_kernel import no_onset_from_contact
 from threadstate.contact._entry_kernel import half_space
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
 from threadstate.contact._lift_kernel import inside_until
@@ -105,14 +105,16 @@ def test_a_rectangle_of_unknown_place_stays_undecided() -> None:
         assert rectangle.classify_rectangle(small, 0.01, unknown_motion, bolt, nut, bounds, path) == rectangle.UNDECIDED
 
 
-def test_an_onset_is_not_joined_to_a_contact_across_nan() -> None:
+@pytest.mark.parametrize("on_plane", [True, False])
+def test_an_unknown_way_from_a_contact_excludes_nothing(on_plane: bool) -> None:
     motion, _ = descent((2.0, -3.0, 100.0), -0.02)
     motion[9] = math.nan
-    path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
-    azimuths = np.array([1.0])
-    assert not joined_to_contact(
-        1.005, 0.0, motion, PAIR.bolt.packed, PAIR.nut.packed, azimuths, 1, ROUND_OFF * P, path, jet
-    )
+    kept = new_kept(1)
+    keep(1.0, on_plane, True, kept)
+    kept[0, K_TANGENT] = 1.0
+    numbers = motion, PAIR.bolt.packed, PAIR.nut.packed
+    no_onset = no_onset_from_contact(1.005, 1e-4, 0.0, 1e-6, 1.0, 2.0, *numbers, kept, np.zeros(box.BOXES_SIZE))
+    assert no_onset == (False, False)
 
 
 def test_a_bolt_whose_lowest_point_is_unknown_does_not_meet_the_surface_first() -> None:

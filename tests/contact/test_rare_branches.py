@@ -24,6 +24,7 @@ from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _solve_kernel as solve
 from threadstate.contact import _stage_kernel as stage
 from threadstate.contact import _tangency_kernel as tangency
+from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
@@ -130,7 +131,7 @@ def test_an_edge_that_lies_in_the_other_plane_is_undecided(height: float, outcom
     """Level on the surface every box of the edge over the nut's flat touches: no list is long enough."""
     motion, _ = descents(pose_at((0.0, 0.0, 90.0), height))
     boxes, spare_boxes = stage.new_work()[:2]
-    found, _ = edge_search.find_inside(motion, BOLT, NUT, np.empty(0), 0, 1e-12, 1e-11, boxes, spare_boxes)
+    found, _ = edge_search.find_inside(motion, BOLT, NUT, new_kept(0), 1e-12, 1e-11, boxes, spare_boxes)
     assert found == outcome
 
 
@@ -146,7 +147,7 @@ def test_a_level_edge_has_no_onset_of_its_own_with_the_plane() -> None:
     """g has no slope along the edge: the Jacobian of g = g_theta = 0 is singular."""
     motion, _ = descents(pose_at((0.0, 0.0, 90.0), 1e-3))
     path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
-    assert not onset.newton_onset(ONE_PLANE, 1.0, 0.1, 0.0, 2e-3, motion, BOLT, NUT, path, jet)[0]
+    assert not onset.newton_onset(ONE_PLANE, 1.0, 0.1, 0.0, 2e-3, motion, BOLT, NUT, new_kept(0), path, jet)[0]
 
 
 def test_edges_that_run_along_each_other_are_not_separated() -> None:
@@ -315,8 +316,10 @@ def test_a_contact_of_the_base_on_the_nut_s_edge_is_recorded_by_the_rules() -> N
 @pytest.mark.parametrize(("inward", "counted"), [(1e-3, 0), (1e-9, 1)])
 def test_a_contact_of_the_base_counts_as_one_of_the_bolt_s_edge_beside_it(inward: float, counted: int) -> None:
     pose, contact = base_on_edge(inward)
-    azimuths = np.empty(2), np.empty(2)
-    assert stage.set_contact_azimuths(contact[None, :], 1, pose, BOLT, NUT, *azimuths) == (counted, 1)
+    on_bolt, on_nut = new_kept(1), new_kept(1)
+    stage.keep_contacts(contact[None, :], 1, pose, BOLT, NUT, on_bolt, on_nut)
+    assert (on_bolt[0, 0], on_nut[0, 0]) == (counted, 1)
+    assert on_nut[1].tolist() == [contact[stage.K_NUT_AZIMUTH], 1.0, 0.0]
 
 
 @pytest.mark.parametrize(("outward", "counted"), [(1e-3, 0), (1e-9, 1)])
@@ -324,6 +327,7 @@ def test_a_contact_with_the_surface_counts_as_one_of_the_nut_s_edge_beside_it(ou
     azimuth = 2.0
     r = radius(-P * azimuth / (2 * math.pi), nut_profile(PAIR)) + outward
     contact = np.array([0.0, stage.EDGE_SURFACE, 1.0, azimuth, r * math.cos(azimuth), r * math.sin(azimuth), 0.0])
-    azimuths = np.empty(2), np.empty(2)
-    pose = pose_at((1.0, -2.0, 50.0), 0.0)
-    assert stage.set_contact_azimuths(contact[None, :], 1, pose, BOLT, NUT, *azimuths) == (1, counted)
+    on_bolt, on_nut = new_kept(1), new_kept(1)
+    stage.keep_contacts(contact[None, :], 1, pose_at((1.0, -2.0, 50.0), 0.0), BOLT, NUT, on_bolt, on_nut)
+    assert (on_bolt[0, 0], on_nut[0, 0]) == (1, counted)
+    assert on_bolt[1].tolist() == [contact[stage.K_BOLT_AZIMUTH], 1.0, 0.0]

@@ -32,6 +32,7 @@ from threadstate.contact._box_kernel import (
     X_THETA,
     classify_boxes,
 )
+from threadstate.contact._branchless_kernel import larger, smaller
 from threadstate.contact._flank_kernel import no_tangency_on_flanks
 from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, motion_scale
 from threadstate.contact._onset_kernel import (
@@ -42,6 +43,7 @@ from threadstate.contact._onset_kernel import (
     J_Y,
     J_Z,
     JET_SIZE,
+    TIME_SLACK,
     insert_candidate,
     is_contact,
     newton_onset,
@@ -238,14 +240,14 @@ def no_onset_from_contact(
     tangent = touches and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):
         last = 2.0 * half * (gap - j * width)
-        low, high = min(bend_low, 0.0) * last, max(bend_high, 0.0) * last
+        low, high = smaller(bend_low, 0.0) * last, larger(bend_high, 0.0) * last
         size = high - low
         for i in range(PIECES):
             weight = (i + 0.5 - j) * width * width
             one, other = weight * scratch[X_BEND_LOW + i], weight * scratch[X_BEND_HIGH + i]
-            low += min(one, other)
-            high += max(one, other)
-            size += max(abs(one), abs(other))
+            low += smaller(one, other)
+            high += larger(one, other)
+            size += larger(abs(one), abs(other))
         if high < -SLACK * size or (touches and low > SLACK * size):
             return True, False
     if not tangent:
@@ -374,12 +376,15 @@ def search_edge(
     ``kept`` are the earlier contacts on this curve, ``best`` is the earliest time known: the search ends
     ``tie_tolerance`` after it. With ``any_onset`` an onset that is not a contact ends the search, too. Returns the
     number of candidates in ``found`` (earliest first), the number of boxes evaluated (OVERFLOW: too many) and the
-    earliest time. Onsets that are not contacts are added to ``entries``: there the edge enters an open overlap.
+    earliest time. A root that round-off puts before the start counts as before it. Onsets that are not contacts are
+    added to ``entries``: there the edge enters an open overlap.
     """
     path = np.empty(PATH_SIZE)
     jet = np.empty(JET_SIZE)
     wedge = np.empty(9)
-    slender = SLENDER * motion_scale(motion, solid_profile)
+    scale = motion_scale(motion, solid_profile)
+    slender = SLENDER * scale
+    earliest = since - TIME_SLACK * scale
     evaluated = 0
     narrowest = math.inf
     n = set_initial_boxes(since, min(until, best + tie_tolerance), boxes)
@@ -435,7 +440,7 @@ def search_edge(
                     path,
                     spare_boxes,
                 )
-                if inside and tau <= best + tie_tolerance:
+                if inside and earliest <= tau <= best + tie_tolerance:
                     set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
                     if rises(box_class, jet) and contact_distance(t, kept) >= AZIMUTH_TOLERANCE:
                         onset_is_contact = is_contact(

@@ -38,6 +38,9 @@ C_TIME, C_KIND, C_THETA, C_OTHER_THETA, C_X, C_Y, C_Z = range(7)
 CANDIDATE_SIZE = 7
 MAX_CANDIDATES = 16
 
+TIME_SLACK = 1e-13
+"""How far beside a box in time, in units of ``motion_scale``, a root still counts as in it."""
+
 # A jet: g, phi and their derivatives by theta and tau; their second derivatives by theta twice and by theta and tau;
 # the position of the edge point.
 J_G, J_G_THETA, J_G_TAU, J_PHI, J_PHI_THETA, J_PHI_TAU = range(6)
@@ -179,7 +182,7 @@ def newton_onset(
             return False, t, tau
         settled = size < 1e-11 or (abs(dt) <= t_error and abs(dtau) <= tau_error)
         if size <= 4e-16 or (settled and size >= 0.5 * before):
-            t_slack, tau_slack = 1e-13 + t_error, 1e-13 * step + tau_error
+            t_slack, tau_slack = 1e-13 + t_error, TIME_SLACK * step + tau_error
             inside = abs(t - theta) <= half * (1.0 + 1e-9) + t_slack and start - tau_slack <= tau <= end + tau_slack
             return inside, t, tau
         before = size
