@@ -1,0 +1,410 @@
+"""States to fifty digits: the equations of their contacts solved in balls, stage upon stage.
+
+A solver's state says which features touch and about where. From there Newton's method solves the equations of the
+method's sections 1 and 4, with profiles from the threads' dimensions; the last step, taken over a ball about the
+solution, proves that the ball holds one and only one. What is uncertain of a stage is in the balls that the next
+stage starts from. Whether another contact comes earlier is not looked at.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from flint import arb, arb_mat, ctx
+from numpy.typing import NDArray
+
+from studies.certificate.balls import ZERO
+from studies.certificate.functions import Function, FunctionVector, variables
+from studies.certificate.profiles import BallProfile, ball_profile
+from threadstate.contact import _record_kernel as rk
+from threadstate.contact import _stage_kernel as sk
+from threadstate.thread.pair import Pair
+
+Floats = NDArray[np.float64]
+Vector = tuple[arb, arb, arb]
+Matrix = tuple[Vector, Vector, Vector]
+Equations = Callable[[tuple[arb, ...]], tuple[list[arb], list[tuple[arb, ...]]]]
+
+PRECISION = 240
+"""Bits of all balls: what Newton's method and three stages lose leaves more than fifty digits."""
+
+MOST_STEPS = 60
+SETTLED = arb(2) ** -200
+"""A step of Newton's method, in radians or thread pitches, after which the solution is enclosed."""
+
+EDGES_OF_BOLT = (sk.EDGE_EDGE, sk.EDGE_SURFACE, sk.EDGE_THREAD)
+EDGES_OF_NUT = (sk.BASE_EDGE, sk.THREAD_EDGE)
+IN_SURFACE = (sk.EDGE_SURFACE, sk.BASE_EDGE, sk.THREAD_SURFACE)
+
+
+class UncoveredError(Exception):
+    """A state whose equations are not solved here; the message says why."""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Bolt to nut: ``x_nut = rotation x_bolt + origin``."""
+
+    rotation: Matrix
+    origin: Vector
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A contact: its features as in a record, its point in the nut's frame, its azimuth on bolt and nut (rad)."""
+
+    features: int
+    point: Vector
+    bolt_azimuth: arb
+    nut_azimuth: arb
+
+
+@dataclass(frozen=True)
+class ExactState:
+    """The height of first contact and the turns (rad, None where a stage is absent), the contacts, the poses."""
+
+    height: arb
+    turns: tuple[arb | None, arb | None]
+    contacts: tuple[Contact, ...]
+    poses: tuple[Pose, ...]
+
+
+def dot(a: Vector, b: Vector) -> arb:
+    """The scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """The cross product."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def added(a: Vector, b: Vector) -> Vector:
+    """The sum of two vectors."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def scaled(a: Vector, factor: arb) -> Vector:
+    """A vector times a number."""
+    return a[0] * factor, a[1] * factor, a[2] * factor
+
+
+def unit(a: Vector) -> Vector:
+    """The vector of length 1."""
+    return scaled(a, 1 / dot(a, a).sqrt())
+
+
+def rotated(matrix: Matrix, vector: Vector) -> Vector:
+    """The matrix times the vector."""
+    return dot(matrix[0], vector), dot(matrix[1], vector), dot(matrix[2], vector)
+
+
+def columns(matrix: Matrix) -> Matrix:
+    """The transposed matrix."""
+    x, y, z = (tuple(row[i] for row in matrix) for i in range(3))
+    return x, y, z  # type: ignore[return-value]
+
+
+def azimuth(x: arb, y: arb) -> arb:
+    """The azimuth of a point (rad), with no seam where the ball lies."""
+    around = arb(math.atan2(float(y.mid()), float(x.mid())))
+    sine, cosine = around.sin_cos()
+    turned: arb = ((y * cosine - x * sine) / (x * cosine + y * sine)).atan() + around
+    return turned
+
+
+def constants(vector: Vector, like: Function) -> FunctionVector:
+    """A vector that does not depend on the variables."""
+    still = like.scaled(ZERO)
+    return still.shifted(vector[0]), still.shifted(vector[1]), still.shifted(vector[2])
+
+
+def transformed(matrix: Matrix, vector: FunctionVector) -> FunctionVector:
+    """A matrix of numbers times a vector of functions."""
+    x, y, z = (vector[0].scaled(a) + vector[1].scaled(b) + vector[2].scaled(c) for a, b, c in matrix)
+    return x, y, z
+
+
+def moved(vector: FunctionVector, by: Vector) -> FunctionVector:
+    """A vector of functions plus one of numbers."""
+    return vector[0].shifted(by[0]), vector[1].shifted(by[1]), vector[2].shifted(by[2])
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A motion of the bolt from a pose: a turn by ``time`` (rad) about an axis through ``point``.
+
+    Without an axis it is the way along the nut's axis, and ``time`` is the height of the bolt's origin.
+    """
+
+    start: Pose
+    point: Vector = (ZERO, ZERO, ZERO)
+    axis: Vector | None = None
+
+    def turned(self, arm: FunctionVector, sine: Function, cosine: Function) -> FunctionVector:
+        """A vector turned about the axis (Rodrigues)."""
+        assert self.axis is not None
+        a, b, c = self.axis
+        projected = transformed(((a * a, a * b, a * c), (a * b, b * b, b * c), (a * c, b * c, c * c)), arm)
+        normal = transformed(((ZERO, -c, b), (c, ZERO, -a), (-b, a, ZERO)), arm)
+        x, y, z = (projected[i] + (arm[i] - projected[i]) * cosine + normal[i] * sine for i in range(3))
+        return x, y, z
+
+    def to_nut(self, point: FunctionVector, time: Function) -> FunctionVector:
+        """A point of the bolt's frame in the nut's."""
+        turned = transformed(self.start.rotation, point)
+        if self.axis is None:
+            return turned[0], turned[1], turned[2] + time
+        back = scaled(self.point, arb(-1))
+        return moved(
+            self.turned(moved(turned, added(self.start.origin, back)), *time.sine_and_cosine()), self.point
+        )
+
+    def to_bolt(self, point: FunctionVector, time: Function) -> FunctionVector:
+        """A point of the nut's frame in the bolt's."""
+        back = columns(self.start.rotation)
+        if self.axis is None:
+            return transformed(back, (point[0], point[1], point[2] - time))
+        sine, cosine = time.sine_and_cosine()
+        arm = self.turned(moved(point, scaled(self.point, arb(-1))), sine.scaled(arb(-1)), cosine)
+        return transformed(back, moved(arm, added(self.point, scaled(self.start.origin, arb(-1)))))
+
+    def pose(self, time: arb) -> Pose:
+        """The pose after the motion."""
+        (at,) = variables((time,))
+        origin = values(self.to_nut(constants((ZERO, ZERO, ZERO), at), at))
+        axes = []
+        for i in range(3):
+            end = (arb(int(i == 0)), arb(int(i == 1)), arb(int(i == 2)))
+            axes.append(added(values(self.to_nut(constants(end, at), at)), scaled(origin, arb(-1))))
+        return Pose(columns((axes[0], axes[1], axes[2])), origin)
+
+
+def values(vector: FunctionVector) -> Vector:
+    """The values of a vector of functions."""
+    return vector[0].value, vector[1].value, vector[2].value
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Both profiles, the thread pitch, and the lead per radian."""
+
+    bolt: BallProfile
+    nut: BallProfile
+    pitch: arb
+    advance: arb
+
+
+def profiled(s: Function, profile: BallProfile) -> Function:
+    """The radius of a profile at an axial coordinate."""
+    jet = profile.exactly(s.value)
+    return s.composed((jet.radius, jet.slope, jet.low.union(jet.high)))
+
+
+def surface(theta: Function, z: Function, profile: BallProfile, advance: arb) -> FunctionVector:
+    """The point of a thread at an azimuth and an axial position, in its own frame."""
+    r = profiled(z - theta.scaled(advance), profile)
+    sine, cosine = theta.sine_and_cosine()
+    return r * cosine, r * sine, z
+
+
+def clearance(point: FunctionVector, profile: BallProfile, advance: arb) -> Function:
+    """``r - f(s)`` at a point of the profile's own frame."""
+    x, y, z = point
+    around = arb(math.atan2(float(y.value.mid()), float(x.value.mid())))
+    sine, cosine = around.sin_cos()
+    forward, sideways = x.scaled(cosine) + y.scaled(sine), y.scaled(cosine) - x.scaled(sine)
+    theta = (sideways * forward.reciprocal()).arc_tangent().shifted(around)
+    return (x * x + y * y).root() - profiled(z - theta.scaled(advance), profile)
+
+
+def place(features: int, unknowns: tuple[Function, ...], parts: Parts, motion: Motion) -> FunctionVector:
+    """The contact's point on the part that the unknowns are azimuths of, in the other part's frame.
+
+    The unknowns are the azimuth on an edge and the time; where a thread touches with its side, azimuth and axial
+    position on the bolt's thread and the time.
+    """
+    theta, time = unknowns[0], unknowns[-1]
+    z = unknowns[1] if len(unknowns) == 3 else theta.scaled(ZERO)
+    if features in EDGES_OF_NUT:
+        return motion.to_bolt(surface(theta, z, parts.nut, parts.advance), time)
+    return motion.to_nut(surface(theta, z, parts.bolt, parts.advance), time)
+
+
+def equations(features: int, parts: Parts, motion: Motion) -> Equations:
+    """What vanishes at a contact of these features, with its derivatives by the unknowns.
+
+    Edge on edge: the height over the nut's surface and the clearance of the threads; else the one of them that the
+    other part has there, and its derivatives along the touching part.
+    """
+
+    def evaluated(unknowns: tuple[arb, ...]) -> tuple[list[arb], list[tuple[arb, ...]]]:
+        point = place(features, variables(unknowns), parts, motion)
+        profile = parts.bolt if features in EDGES_OF_NUT else parts.nut
+        if features == sk.EDGE_EDGE:
+            both = point[2], clearance(point, profile, parts.advance)
+            return [one.value for one in both], [one.first for one in both]
+        one = point[2] if features in IN_SURFACE else clearance(point, profile, parts.advance)
+        along = range(len(unknowns) - 1)
+        return [one.value, *(one.first[i] for i in along)], [one.first, *(one.second[i] for i in along)]
+
+    return evaluated
+
+
+def newton_step(system: Equations, at: tuple[arb, ...], over: tuple[arb, ...]) -> list[arb]:
+    """Newton's step from a point, with the derivatives over a ball.
+
+    Raises:
+        UncoveredError: the derivatives may be singular.
+    """
+    residual, _ = system(at)
+    _, slopes = system(over)
+    try:
+        step = arb_mat([list(row) for row in slopes]).solve(arb_mat([[one] for one in residual]))
+    except ZeroDivisionError:
+        raise UncoveredError("the equations may be singular") from None
+    return [-step[i, 0] for i in range(len(at))]
+
+
+def solved(system: Equations, start: tuple[arb, ...], scale: arb) -> tuple[arb, ...]:
+    """Balls that hold the one solution near a start, proved by a step of Newton's method over them.
+
+    ``scale`` is the size of the unknowns.
+
+    Raises:
+        UncoveredError: Newton's method does not settle, or nothing is proved.
+    """
+    at = start
+    for _ in range(MOST_STEPS):
+        step = newton_step(system, at, at)
+        at = tuple((x + d).mid() for x, d in zip(at, step, strict=True))
+        if all(abs(d.mid()) < SETTLED * scale for d in step):
+            break
+    else:
+        raise UncoveredError("Newton's method does not settle")
+    reach = [SETTLED * scale] * len(at)
+    for _ in range(8):
+        step = newton_step(system, at, tuple(x + arb(0, r) for x, r in zip(at, reach, strict=True)))
+        if all(d.abs_upper() < r for d, r in zip(step, reach, strict=True)):
+            return tuple(x + d for x, d in zip(at, step, strict=True))
+        reach = [(2 * d.abs_upper()).max(r) for d, r in zip(step, reach, strict=True)]
+    raise UncoveredError("no ball is proved to hold one solution")
+
+
+def solved_contact(contact: Floats, time: float, parts: Parts, motion: Motion) -> tuple[Contact, arb]:
+    """The contact that a record's one stands for, and its time."""
+    features = int(contact[rk.P_PAIR])
+    nut_point, bolt_point = contact[rk.P_POINT : rk.P_POINT + 3], contact[rk.P_BOLT_POINT : rk.P_BOLT_POINT + 3]
+    x, y, _ = nut_point if features in EDGES_OF_NUT else bolt_point
+    start = [arb(math.atan2(y, x)), arb(time)]
+    if features in (sk.THREAD_THREAD, sk.THREAD_SURFACE):
+        start.insert(1, arb(bolt_point[2]))
+    found = solved(equations(features, parts, motion), tuple(start), parts.pitch)
+    there = values(place(features, variables(found), parts, motion))
+    time_found = found[-1]
+    if features in EDGES_OF_NUT:
+        point = values(surface(*variables((found[0], ZERO)), parts.nut, parts.advance))
+        return Contact(features, point, azimuth(there[0], there[1]), found[0]), time_found
+    return Contact(features, there, found[0], azimuth(there[0], there[1])), time_found
+
+
+def tangent(contact: Contact, pose: Pose, parts: Parts) -> Vector:
+    """The unit tangent t0 at a first contact, counter-clockwise (method, section 4)."""
+    x, y, z = contact.point
+    on_bolt = contact.features in EDGES_OF_BOLT and contact.features != sk.EDGE_EDGE
+    if contact.features == sk.THREAD_THREAD:
+        along: Vector = (-y, x, parts.advance)
+    else:
+        profile, at = (parts.bolt, contact.bolt_azimuth) if on_bolt else (parts.nut, contact.nut_azimuth)
+        if contact.features == sk.THREAD_SURFACE:
+            arm = rotated(columns(pose.rotation), added(contact.point, scaled(pose.origin, arb(-1))))
+            along = rotated(pose.rotation, (-arm[1], arm[0], parts.advance))
+        else:
+            curve = surface(*variables((at, ZERO)), profile, parts.advance)
+            along = (curve[0].first[0], curve[1].first[0], curve[2].first[0])
+            along = rotated(pose.rotation, along) if on_bolt else along
+    along = unit(along)
+    return along if x * along[1] - y * along[0] > 0 else scaled(along, arb(-1))
+
+
+def first_pose(pose_deg: Floats) -> Pose:
+    """The orientation of a pose in degrees, with the bolt's origin at the nut's (method, section 2)."""
+    (sa, ca), (sb, cb), (sc, cc) = ((arb(float(one)) * arb.pi() / 180).sin_cos() for one in pose_deg)
+    return Pose(
+        (
+            (cc * cb, cc * sb * sa - sc * ca, cc * sb * ca + sc * sa),
+            (sc * cb, sc * sb * sa + cc * ca, sc * sb * ca - cc * sa),
+            (-sb, cb * sa, cb * ca),
+        ),
+        (ZERO, ZERO, ZERO),
+    )
+
+
+def pivot_axis(contacts: list[Contact], pose: Pose) -> Vector:
+    """The unit axis from one contact to the other, in the sense that lowers the bolt's origin (method, section 4).
+
+    Raises:
+        UncoveredError: the origin may lie over the axis.
+    """
+    first, second = (one.point for one in contacts)
+    axis = unit(added(second, scaled(first, arb(-1))))
+    sinks = cross(axis, added(pose.origin, scaled(first, arb(-1))))[2]
+    if sinks.contains(ZERO):
+        raise UncoveredError("the bolt's origin may lie over the pivot axis")
+    return axis if sinks < 0 else scaled(axis, arb(-1))
+
+
+def flush_turn(pose: Pose, axis: Vector) -> arb:
+    """The turn about a horizontal axis in the bolt's base plane after which the base is level."""
+    normal = (pose.rotation[0][2], pose.rotation[1][2], pose.rotation[2][2])
+    return ((axis[0] * normal[1] - axis[1] * normal[0]) / normal[2]).atan()
+
+
+def exact_state(pair: Pair, pose_deg: Floats, record: Floats) -> ExactState:
+    """The state of a pose (roll, pitch, phase, shape (3,), degrees) that a solver's record is near to.
+
+    Lengths are in the pair's unit. The points of a patch are not solved.
+
+    Raises:
+        UncoveredError: the record is unresolved, level or a tie, or the solution is not proved.
+    """
+    with ctx.workprec(PRECISION):
+        parts = Parts(
+            ball_profile(pair.bolt),
+            ball_profile(pair.nut),
+            arb(pair.thread_pitch),
+            arb(pair.lead) / (2 * arb.pi()),
+        )
+        return _state(parts, first_pose(pose_deg), record)
+
+
+def _state(parts: Parts, start: Pose, record: Floats) -> ExactState:
+    if record[rk.O_STATUS] != sk.RESOLVED:
+        raise UncoveredError("the record is unresolved")
+    if int(record[rk.O_FLAGS]) & (rk.FLAG_TIE | rk.FLAG_BALANCED):
+        raise UncoveredError("contacts are simultaneous, or both senses of the third turn are followed")
+    listed = record[rk.O_CONTACT :].reshape(-1, rk.POINT_SIZE)[: int(record[rk.O_CONTACTS])]
+    if listed[0, rk.P_PAIR] == sk.FLUSH:
+        raise UncoveredError("the bolt is level")
+    contact, height = solved_contact(listed[0], float(record[rk.O_POSE + 11]), parts, Motion(start))
+    contacts, poses, turns = [contact], [Motion(start).pose(height)], []
+    for stage, column in ((2, rk.O_LAMBDA), (3, rk.O_MU)):
+        if np.isnan(record[column]):
+            break
+        axis = scaled(tangent(contact, poses[0], parts), arb(-1)) if stage == 2 else pivot_axis(contacts, poses[1])
+        motion = Motion(poses[-1], contacts[0].point, axis)
+        flush = listed[-1, rk.P_PAIR] == sk.FLUSH and int(record[rk.O_POSES]) == stage
+        if flush:
+            turns.append(flush_turn(poses[-1], axis))
+        else:
+            contact, turn = solved_contact(listed[stage - 1], float(record[column]), parts, motion)
+            contacts.append(contact)
+            turns.append(turn)
+        poses.append(motion.pose(turns[-1]))
+        if flush:
+            break
+    turns += [None] * (2 - len(turns))
+    return ExactState(height, (turns[0], turns[1]), tuple(contacts), tuple(poses))
