@@ -18,14 +18,26 @@ from numpy.typing import NDArray
 
 from studies.certificate.balls import ZERO
 from studies.certificate.functions import Function, FunctionVector, variables
+from studies.certificate.placements import (
+    NOWHERE,
+    Motion,
+    Pose,
+    Vector,
+    added,
+    azimuth,
+    columns,
+    cross,
+    rotated,
+    scaled,
+    unit,
+    values,
+)
 from studies.certificate.profiles import BallProfile, ball_profile
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _stage_kernel as sk
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
-Vector = tuple[arb, arb, arb]
-Matrix = tuple[Vector, Vector, Vector]
 Equations = Callable[[tuple[arb, ...]], tuple[list[arb], list[tuple[arb, ...]]]]
 
 PRECISION = 240
@@ -42,14 +54,6 @@ IN_SURFACE = (sk.EDGE_SURFACE, sk.BASE_EDGE, sk.THREAD_SURFACE)
 
 class UncoveredError(Exception):
     """A state whose equations are not solved here; the message says why."""
-
-
-@dataclass(frozen=True)
-class Pose:
-    """Bolt to nut: ``x_nut = rotation x_bolt + origin``."""
-
-    rotation: Matrix
-    origin: Vector
 
 
 @dataclass(frozen=True)
@@ -70,122 +74,6 @@ class ExactState:
     turns: tuple[arb | None, arb | None]
     contacts: tuple[Contact, ...]
     poses: tuple[Pose, ...]
-
-
-def dot(a: Vector, b: Vector) -> arb:
-    """The scalar product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """The cross product."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def added(a: Vector, b: Vector) -> Vector:
-    """The sum of two vectors."""
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-def scaled(a: Vector, factor: arb) -> Vector:
-    """A vector times a number."""
-    return a[0] * factor, a[1] * factor, a[2] * factor
-
-
-def unit(a: Vector) -> Vector:
-    """The vector of length 1."""
-    return scaled(a, 1 / dot(a, a).sqrt())
-
-
-def rotated(matrix: Matrix, vector: Vector) -> Vector:
-    """The matrix times the vector."""
-    return dot(matrix[0], vector), dot(matrix[1], vector), dot(matrix[2], vector)
-
-
-def columns(matrix: Matrix) -> Matrix:
-    """The transposed matrix."""
-    x, y, z = (tuple(row[i] for row in matrix) for i in range(3))
-    return x, y, z  # type: ignore[return-value]
-
-
-def azimuth(x: arb, y: arb) -> arb:
-    """The azimuth of a point (rad), with no seam where the ball lies."""
-    around = arb(math.atan2(float(y.mid()), float(x.mid())))
-    sine, cosine = around.sin_cos()
-    turned: arb = ((y * cosine - x * sine) / (x * cosine + y * sine)).atan() + around
-    return turned
-
-
-def constants(vector: Vector, like: Function) -> FunctionVector:
-    """A vector that does not depend on the variables."""
-    still = like.scaled(ZERO)
-    return still.shifted(vector[0]), still.shifted(vector[1]), still.shifted(vector[2])
-
-
-def transformed(matrix: Matrix, vector: FunctionVector) -> FunctionVector:
-    """A matrix of numbers times a vector of functions."""
-    x, y, z = (vector[0].scaled(a) + vector[1].scaled(b) + vector[2].scaled(c) for a, b, c in matrix)
-    return x, y, z
-
-
-def moved(vector: FunctionVector, by: Vector) -> FunctionVector:
-    """A vector of functions plus one of numbers."""
-    return vector[0].shifted(by[0]), vector[1].shifted(by[1]), vector[2].shifted(by[2])
-
-
-@dataclass(frozen=True)
-class Motion:
-    """A motion of the bolt from a pose: a turn by ``time`` (rad) about an axis through ``point``.
-
-    Without an axis it is the way along the nut's axis, and ``time`` is the height of the bolt's origin.
-    """
-
-    start: Pose
-    point: Vector = (ZERO, ZERO, ZERO)
-    axis: Vector | None = None
-
-    def turned(self, arm: FunctionVector, sine: Function, cosine: Function) -> FunctionVector:
-        """A vector turned about the axis (Rodrigues)."""
-        assert self.axis is not None
-        a, b, c = self.axis
-        projected = transformed(((a * a, a * b, a * c), (a * b, b * b, b * c), (a * c, b * c, c * c)), arm)
-        normal = transformed(((ZERO, -c, b), (c, ZERO, -a), (-b, a, ZERO)), arm)
-        x, y, z = (projected[i] + (arm[i] - projected[i]) * cosine + normal[i] * sine for i in range(3))
-        return x, y, z
-
-    def to_nut(self, point: FunctionVector, time: Function) -> FunctionVector:
-        """A point of the bolt's frame in the nut's."""
-        turned = transformed(self.start.rotation, point)
-        if self.axis is None:
-            return turned[0], turned[1], turned[2] + time
-        back = scaled(self.point, arb(-1))
-        return moved(
-            self.turned(moved(turned, added(self.start.origin, back)), *time.sine_and_cosine()), self.point
-        )
-
-    def to_bolt(self, point: FunctionVector, time: Function) -> FunctionVector:
-        """A point of the nut's frame in the bolt's."""
-        back = columns(self.start.rotation)
-        if self.axis is None:
-            return transformed(back, (point[0], point[1], point[2] - time))
-        sine, cosine = time.sine_and_cosine()
-        arm = self.turned(moved(point, scaled(self.point, arb(-1))), sine.scaled(arb(-1)), cosine)
-        return transformed(back, moved(arm, added(self.point, scaled(self.start.origin, arb(-1)))))
-
-    def pose(self, time: arb) -> Pose:
-        """The pose after the motion."""
-        (at,) = variables((time,))
-        origin = values(self.to_nut(constants((ZERO, ZERO, ZERO), at), at))
-        axes = []
-        for i in range(3):
-            end = (arb(int(i == 0)), arb(int(i == 1)), arb(int(i == 2)))
-            axes.append(added(values(self.to_nut(constants(end, at), at)), scaled(origin, arb(-1))))
-        return Pose(columns((axes[0], axes[1], axes[2])), origin)
-
-
-def values(vector: FunctionVector) -> Vector:
-    """The values of a vector of functions."""
-    return vector[0].value, vector[1].value, vector[2].value
 
 
 @dataclass(frozen=True)
@@ -219,6 +107,12 @@ def clearance(point: FunctionVector, profile: BallProfile, advance: arb) -> Func
     forward, sideways = x.scaled(cosine) + y.scaled(sine), y.scaled(cosine) - x.scaled(sine)
     theta = (sideways * forward.reciprocal()).arc_tangent().shifted(around)
     return (x * x + y * y).root() - profiled(z - theta.scaled(advance), profile)
+
+
+def edge(theta: arb, profile: BallProfile, advance: arb) -> FunctionVector:
+    """The point of an edge at an azimuth, in its own frame, with derivatives by the azimuth alone."""
+    (at,) = variables((theta,))
+    return surface(at, at.scaled(ZERO), profile, advance)
 
 
 def place(features: int, unknowns: tuple[Function, ...], parts: Parts, motion: Motion) -> FunctionVector:
@@ -306,14 +200,14 @@ def solved_contact(contact: Floats, time: float, parts: Parts, motion: Motion) -
     there = values(place(features, variables(found), parts, motion))
     time_found = found[-1]
     if features in EDGES_OF_NUT:
-        point = values(surface(*variables((found[0], ZERO)), parts.nut, parts.advance))
+        point = values(edge(found[0], parts.nut, parts.advance))
         return Contact(features, point, azimuth(there[0], there[1]), found[0]), time_found
     return Contact(features, there, found[0], azimuth(there[0], there[1])), time_found
 
 
 def tangent(contact: Contact, pose: Pose, parts: Parts) -> Vector:
     """The unit tangent t0 at a first contact, counter-clockwise (method, section 4)."""
-    x, y, z = contact.point
+    x, y, _ = contact.point
     on_bolt = contact.features in EDGES_OF_BOLT and contact.features != sk.EDGE_EDGE
     if contact.features == sk.THREAD_THREAD:
         along: Vector = (-y, x, parts.advance)
@@ -323,7 +217,7 @@ def tangent(contact: Contact, pose: Pose, parts: Parts) -> Vector:
             arm = rotated(columns(pose.rotation), added(contact.point, scaled(pose.origin, arb(-1))))
             along = rotated(pose.rotation, (-arm[1], arm[0], parts.advance))
         else:
-            curve = surface(*variables((at, ZERO)), profile, parts.advance)
+            curve = edge(at, profile, parts.advance)
             along = (curve[0].first[0], curve[1].first[0], curve[2].first[0])
             along = rotated(pose.rotation, along) if on_bolt else along
     along = unit(along)
@@ -339,7 +233,7 @@ def first_pose(pose_deg: Floats) -> Pose:
             (sc * cb, sc * sb * sa + cc * ca, sc * sb * ca - cc * sa),
             (-sb, cb * sa, cb * ca),
         ),
-        (ZERO, ZERO, ZERO),
+        NOWHERE,
     )
 
 
@@ -372,13 +266,50 @@ def exact_state(pair: Pair, pose_deg: Floats, record: Floats) -> ExactState:
         UncoveredError: the record is unresolved, level or a tie, or the solution is not proved.
     """
     with ctx.workprec(PRECISION):
-        parts = Parts(
-            ball_profile(pair.bolt),
-            ball_profile(pair.nut),
-            arb(pair.thread_pitch),
-            arb(pair.lead) / (2 * arb.pi()),
-        )
-        return _state(parts, first_pose(pose_deg), record)
+        return _state(parts_of(pair), first_pose(pose_deg), record)
+
+
+def stage_from_record(pair: Pair, record: Floats, stage: int) -> tuple[Contact, arb]:
+    """The contact of stage 2 or 3 and its turn (rad), as they follow from what the record says of earlier stages.
+
+    Raises:
+        UncoveredError: the solution is not proved.
+    """
+    with ctx.workprec(PRECISION):
+        parts = parts_of(pair)
+        first, second = (recorded_contact(one) for one in listed_contacts(record)[:2])
+        pose = recorded_pose(record, stage - 1)
+        if stage == 2:
+            axis, turn = scaled(tangent(first, pose, parts), arb(-1)), record[rk.O_LAMBDA]
+        else:
+            axis, turn = pivot_axis([first, second], pose), record[rk.O_MU]
+        return solved_contact(listed_contacts(record)[stage - 1], float(turn), parts, Motion(pose, first.point, axis))
+
+
+def parts_of(pair: Pair) -> Parts:
+    """The parts of a pair."""
+    bolt, nut = ball_profile(pair.bolt), ball_profile(pair.nut)
+    return Parts(bolt, nut, arb(pair.thread_pitch), arb(pair.lead) / (2 * arb.pi()))
+
+
+def listed_contacts(record: Floats) -> Floats:
+    """The contacts of a record, by rows."""
+    return record[rk.O_CONTACT :].reshape(-1, rk.POINT_SIZE)[: int(record[rk.O_CONTACTS])]
+
+
+def recorded_pose(record: Floats, stage: int) -> Pose:
+    """The pose of a stage as a record has it."""
+    at = rk.O_POSE + 12 * (stage - 1)
+    numbers = [arb(float(one)) for one in record[at : at + 12]]
+    x, y, z, origin = ((numbers[i], numbers[i + 1], numbers[i + 2]) for i in (0, 3, 6, 9))
+    return Pose((x, y, z), origin)
+
+
+def recorded_contact(contact: Floats) -> Contact:
+    """A contact as a record has it."""
+    x, y, z = (arb(float(one)) for one in contact[rk.P_POINT : rk.P_POINT + 3])
+    bolt_x, bolt_y = (arb(float(one)) for one in contact[rk.P_BOLT_POINT : rk.P_BOLT_POINT + 2])
+    return Contact(int(contact[rk.P_PAIR]), (x, y, z), azimuth(bolt_x, bolt_y), azimuth(x, y))
 
 
 def _state(parts: Parts, start: Pose, record: Floats) -> ExactState:
@@ -386,25 +317,22 @@ def _state(parts: Parts, start: Pose, record: Floats) -> ExactState:
         raise UncoveredError("the record is unresolved")
     if int(record[rk.O_FLAGS]) & (rk.FLAG_TIE | rk.FLAG_BALANCED):
         raise UncoveredError("contacts are simultaneous, or both senses of the third turn are followed")
-    listed = record[rk.O_CONTACT :].reshape(-1, rk.POINT_SIZE)[: int(record[rk.O_CONTACTS])]
+    listed = listed_contacts(record)
     if listed[0, rk.P_PAIR] == sk.FLUSH:
         raise UncoveredError("the bolt is level")
     contact, height = solved_contact(listed[0], float(record[rk.O_POSE + 11]), parts, Motion(start))
-    contacts, poses, turns = [contact], [Motion(start).pose(height)], []
+    contacts, poses = [contact], [Motion(start).pose(height)]
+    turns: list[arb | None] = [None, None]
     for stage, column in ((2, rk.O_LAMBDA), (3, rk.O_MU)):
         if np.isnan(record[column]):
             break
         axis = scaled(tangent(contact, poses[0], parts), arb(-1)) if stage == 2 else pivot_axis(contacts, poses[1])
         motion = Motion(poses[-1], contacts[0].point, axis)
-        flush = listed[-1, rk.P_PAIR] == sk.FLUSH and int(record[rk.O_POSES]) == stage
-        if flush:
-            turns.append(flush_turn(poses[-1], axis))
+        if listed[-1, rk.P_PAIR] == sk.FLUSH and int(record[rk.O_POSES]) == stage:
+            turn = flush_turn(poses[-1], axis)
         else:
             contact, turn = solved_contact(listed[stage - 1], float(record[column]), parts, motion)
             contacts.append(contact)
-            turns.append(turn)
-        poses.append(motion.pose(turns[-1]))
-        if flush:
-            break
-    turns += [None] * (2 - len(turns))
+        turns[stage - 2] = turn
+        poses.append(motion.pose(turn))
     return ExactState(height, (turns[0], turns[1]), tuple(contacts), tuple(poses))
