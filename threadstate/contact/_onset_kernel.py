@@ -119,6 +119,22 @@ def set_jet_beside(
 
 
 @kernel()
+def onset_step(kind: int, jet: Array) -> tuple[float, float, float]:
+    """Newton's step to an onset of a kind of box: the determinant, and the changes of azimuth and time."""
+    if kind == ONE_EDGE:
+        f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
+        f1, c, d = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
+    elif kind == ONE_THREAD:
+        f0, a, b = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
+        f1, c, d = jet[J_PHI_THETA], jet[J_PHI_THETA_THETA], jet[J_PHI_THETA_TAU]
+    else:
+        f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
+        f1, c, d = jet[J_G_THETA], jet[J_G_THETA_THETA], jet[J_G_THETA_TAU]
+    det = a * d - b * c
+    return det, (f1 * b - f0 * d) / det, (f0 * c - f1 * a) / det
+
+
+@kernel()
 def newton_onset(
     kind: int,
     theta: float,
@@ -143,20 +159,9 @@ def newton_onset(
     before = math.inf
     for _ in range(40):
         set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
-        if kind == ONE_EDGE:
-            f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
-            f1, c, d = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
-        elif kind == ONE_THREAD:
-            f0, a, b = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
-            f1, c, d = jet[J_PHI_THETA], jet[J_PHI_THETA_THETA], jet[J_PHI_THETA_TAU]
-        else:
-            f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
-            f1, c, d = jet[J_G_THETA], jet[J_G_THETA_THETA], jet[J_G_THETA_TAU]
-        det = a * d - b * c
-        if det == 0.0:
+        determinant, dt, dtau = onset_step(kind, jet)
+        if determinant == 0.0:
             return False, t, tau
-        dt = (f1 * b - f0 * d) / det
-        dtau = (f0 * c - f1 * a) / det
         t += dt
         tau += dtau
         if abs(t - theta) > 2.0 * half or abs(tau - 0.5 * (start + end)) > 2.0 * span:
