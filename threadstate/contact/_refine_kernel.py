@@ -69,8 +69,8 @@ REACH = 1e-3
 """How far (rad, and times ``motion_scale``) from where it was found a contact is refined: beyond is another root."""
 
 SETTLED = 1e-14
-"""A step of Newton's method (rad, and times ``motion_scale``) after which the error is below 1e-20: its derivatives are
-right to 1e-6 at least."""
+"""A step of Newton's method (rad, and times ``motion_scale``) after which the contact is refined: its derivatives, in
+doubles, are right to 1e-6 at tilts of 1e-6 deg, so that 1e-20 is left."""
 
 ZERO: Pair = (0.0, 0.0)
 ONE: Pair = (1.0, 0.0)
@@ -232,25 +232,38 @@ def fillet_rise(distance: Pair, radius: float) -> tuple[Pair, Pair]:
 
 
 @kernel()
+def fillet_end(height: float, cot: float, radius: float) -> Pair:
+    """How far from the pitch radius along the axis the flat of a fillet ends, at ``height`` from the pitch radius.
+
+    That of method, section 1, with the fillet exactly tangent to the flank of slope ``cot``: where a fillet touches a
+    flank the gap beside it is less than what stored boundaries are rounded by.
+    """
+    squared = add(ONE, exact_product(cot, cot))
+    tangents = multiply(subtract(square_root(squared), ONE), (radius, 0.0))
+    return divide(add((height, 0.0), tangents), (cot, 0.0))
+
+
+@kernel()
 def radius_and_slope(s: Pair, profile: Array) -> tuple[Pair, Pair]:
     """``f`` and ``f'`` at ``s``."""
-    p = profile[pk.P]
+    p, pitch_radius = profile[pk.P], profile[pk.R_PITCH]
     u = subtract(s, exact_product(p, math.floor(s[0] / p - profile[pk.S_ROOT] / p)))
     half = 0
     if u[0] > profile[pk.S_CREST]:
         half = pk.FALLING
         u = subtract((0.5 * p, 0.0), u)
-    sign = 1.0 if half == 0 else -1.0
+    sign, cot = 1.0 if half == 0 else -1.0, profile[pk.COT + half]
     if u[0] <= profile[pk.U_FLAT + half]:
         return (profile[pk.R_MINOR], 0.0), ZERO
     if u[0] < profile[pk.U_FLANK + half]:
-        rise, slope = fillet_rise(subtract(u, (profile[pk.U_FLAT + half], 0.0)), profile[pk.RHO_MINOR])
+        end = fillet_end(pitch_radius - profile[pk.R_MINOR], cot, profile[pk.RHO_MINOR])
+        rise, slope = fillet_rise(add(u, end), profile[pk.RHO_MINOR])
         return add((profile[pk.R_MINOR], 0.0), rise), (sign * slope[0], sign * slope[1])
     if u[0] <= profile[pk.U_CREST + half]:
-        cot = profile[pk.COT + half]
-        return add((profile[pk.R_PITCH], 0.0), multiply(u, (cot, 0.0))), (sign * cot, 0.0)
+        return add((pitch_radius, 0.0), multiply(u, (cot, 0.0))), (sign * cot, 0.0)
     if u[0] < profile[pk.U_TOP + half]:
-        rise, slope = fillet_rise(subtract((profile[pk.U_TOP + half], 0.0), u), profile[pk.RHO_MAJOR])
+        end = fillet_end(profile[pk.R_MAJOR] - pitch_radius, cot, profile[pk.RHO_MAJOR])
+        rise, slope = fillet_rise(subtract(end, u), profile[pk.RHO_MAJOR])
         return subtract((profile[pk.R_MAJOR], 0.0), rise), (sign * slope[0], sign * slope[1])
     return (profile[pk.R_MAJOR], 0.0), ZERO
 
