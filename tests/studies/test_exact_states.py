@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from studies.certificate.exact import PRECISION, ExactState, Floats, UncoveredError, exact_state, stage_from_record
+from studies.certificate.exact import PRECISION, ExactState, UncoveredError, exact_state, stage_from_record
 from studies.certificate.states import KINDS, QUANTITIES, Comparison, compared, errors, random_poses, row
-from tests.contact.samples import Floats as Row
+from tests.contact.samples import Floats
 from threadstate.contact import _record_kernel as rk
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
@@ -27,13 +27,13 @@ AT_A_FILLET = 1e-11
 """Third turns (rad) about an axis through two contacts that are a hundredth of a thread pitch apart."""
 
 
-def record_of(pair: Pair, *pose_deg: float) -> Row:
+def record_of(pair: Pair, *pose_deg: float) -> Floats:
     """The solver's record of one pose."""
-    records: Row = solve_records(pair, SolveOptions(), np.array([pose_deg]))
+    records: Floats = solve_records(pair, SolveOptions(), np.array([pose_deg]))
     return records[0]
 
 
-def solved(pair: Pair, *pose_deg: float) -> tuple[ExactState, Row]:
+def solved(pair: Pair, *pose_deg: float) -> tuple[ExactState, Floats]:
     """The exact state of a pose and the solver's record."""
     record = record_of(pair, *pose_deg)
     return exact_state(pair, np.array(pose_deg), record), record
@@ -67,8 +67,8 @@ def test_a_left_hand_pair_is_the_mirror_image() -> None:
     exact, _ = solved(pair_by_designation("M6"), 1.0, -2.0, 10.0)
     mirrored, _ = solved(pair_by_designation("M6x1-6g/6H LH"), -1.0, -2.0, -10.0)
     assert exact.height.overlaps(mirrored.height)
-    for turn, other in zip(exact.turns, mirrored.turns, strict=True):
-        assert turn is not None and turn.overlaps(other)
+    for turn, mirrored_turn in zip(exact.turns, mirrored.turns, strict=True):
+        assert turn is not None and mirrored_turn is not None and turn.overlaps(mirrored_turn)
     for contact, other in zip(exact.contacts, mirrored.contacts, strict=True):
         x, y, z = contact.point
         assert x.overlaps(other.point[0]) and y.overlaps(-other.point[1]) and z.overlaps(other.point[2])
@@ -77,9 +77,9 @@ def test_a_left_hand_pair_is_the_mirror_image() -> None:
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("designation", ["1/4-20 UNC", "M6", SHARP])
 def test_states_agree_with_exact_ones(kind: str, designation: str) -> None:
-    poses = random_poses(kind, 6)
+    poses = random_poses(kind, 3)
     found = compared(designation, poses, solve_records(pair_by_designation(designation), SolveOptions(), poses))
-    assert len(found.errors["height"]) >= 4
+    assert len(found.errors["height"]) == 3
     for name in QUANTITIES:
         assert max(found.errors.get(name, [0.0])) < ROUND_OFF, name
 
@@ -115,15 +115,20 @@ def test_a_second_contact_beside_the_first_costs_the_third_turn_no_digits(
         (rk.O_STATUS, 1.0, "unresolved"),
         (rk.O_FLAGS, rk.FLAG_TIE, "simultaneous"),
         (rk.O_CONTACT + rk.P_PAIR, 7.0, "level"),
-        (rk.O_LAMBDA, 0.7, "settle|proved|singular"),
     ],
 )
 def test_what_is_not_covered_is_said(column: int, number: float, reason: str) -> None:
     record = record_of(UNC, 1.0, -2.0, 10.0)
     record[column] = number
-    if column == rk.O_LAMBDA:
-        record[rk.O_CONTACT + rk.POINT_SIZE + rk.P_BOLT_POINT : rk.O_CONTACT + rk.POINT_SIZE + 8] = 0.1, 0.1, 0.0
     with pytest.raises(UncoveredError, match=reason):
+        exact_state(UNC, np.array([1.0, -2.0, 10.0]), record)
+
+
+def test_the_first_contact_does_not_pass_for_the_second() -> None:
+    record = record_of(UNC, 1.0, -2.0, 10.0)
+    first = record[rk.O_CONTACT : rk.O_CONTACT + rk.POINT_SIZE].copy()
+    record[rk.O_CONTACT + rk.POINT_SIZE : rk.O_CONTACT + 2 * rk.POINT_SIZE] = first
+    with pytest.raises(UncoveredError, match=r"singular|settle|proved"):
         exact_state(UNC, np.array([1.0, -2.0, 10.0]), record)
 
 
