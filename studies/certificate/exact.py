@@ -44,7 +44,9 @@ PRECISION = 240
 """Bits of all balls: what Newton's method and three stages lose leaves more than fifty digits."""
 
 MOST_STEPS = 60
-SETTLED = arb(2) ** -200
+NEAR = arb(1) / 50
+"""How far (rad, and thread pitches) a solution may be from the record: beyond, another contact is meant."""
+SETTLED = arb(2) ** -180
 """A step of Newton's method, in radians or thread pitches, after which the solution is enclosed."""
 
 EDGES_OF_BOLT = (sk.EDGE_EDGE, sk.EDGE_SURFACE, sk.EDGE_THREAD)
@@ -175,6 +177,8 @@ def solved(system: Equations, start: tuple[arb, ...], scale: arb) -> tuple[arb, 
     for _ in range(MOST_STEPS):
         step = newton_step(system, at, at)
         at = tuple((x + d).mid() for x, d in zip(at, step, strict=True))
+        if not all(abs(x - x0) < NEAR for x, x0 in zip(at, start, strict=True)):
+            raise UncoveredError("no solution is near the record")
         if all(abs(d.mid()) < SETTLED * scale for d in step):
             break
     else:
