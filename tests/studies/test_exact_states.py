@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from flint import arb, ctx
 
+from studies.certificate import states
 from studies.certificate.exact import PRECISION, ExactState, UncoveredError, exact_state, stage_from_record
 from studies.certificate.states import KINDS, QUANTITIES, Comparison, compared, errors, random_poses, row
 from tests.contact.samples import Floats
@@ -150,3 +152,26 @@ def test_the_table_says_what_was_left_out() -> None:
     line = row("two poses", found)
     assert line.startswith("| two poses | 1 |")
     assert "1 the bolt is level" in line
+
+
+def test_the_command_prints_a_row_for_each_pair_and_kind(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    def records_of(checkout: Path, poses: dict[str, Floats]) -> dict[str, Floats]:
+        shift = 1e-6 if checkout == tmp_path else 0.0
+        records = {name: solve_records(UNC, SolveOptions(), asked) for name, asked in poses.items()}
+        for some in records.values():
+            some[:, rk.O_POSE + 11] += shift
+        return records
+
+    monkeypatch.setattr(states, "records_of", records_of)
+    monkeypatch.setattr("sys.argv", ["states", "--poses", "1", "--pairs", "1/4-20 UNC", "--beside", str(tmp_path)])
+    states.main()
+    _, _, *rows = capsys.readouterr().out.splitlines()
+    expected = [f"1/4-20 UNC, {kind}" for kind in KINDS]
+    assert [one.split(" | ")[0].removeprefix("| ") for one in rows] == [
+        *expected,
+        *(f"{name}, {tmp_path}" for name in expected),
+    ]
+    assert all(float(one.split(" | ")[2]) < ROUND_OFF for one in rows[:3])
+    assert all(float(one.split(" | ")[2]) == pytest.approx(2e-5, rel=0.05) for one in rows[3:])
