@@ -32,7 +32,7 @@ SEED = 30
 
 QUANTITIES = ("height", "second turn", "third turn", "first place", "second place", "third place")
 OWN = ("second place, own", "third turn, own")
-"""How far these are from what follows exactly from the record's numbers of earlier stages: the error of the stage itself
+"""How far these are from what follows exactly from the record's numbers of earlier stages: the error of the stage
 where it goes on from these numbers, else what it would cost to do so."""
 
 SOLVING = """
