@@ -40,7 +40,7 @@ from threadstate.thread.pair import Pair
 Floats = NDArray[np.float64]
 Equations = Callable[[tuple[arb, ...]], tuple[list[arb], list[tuple[arb, ...]]]]
 
-PRECISION = 240
+PRECISION = 300
 """Bits of all balls: what Newton's method and three stages lose leaves more than fifty digits."""
 
 MOST_STEPS = 60

@@ -84,11 +84,21 @@ def errors(pair: Pair, exact: ExactState, record: Floats) -> dict[str, float]:
                 found[name] = distance((turn,), record[[column]])
         for name, contact, one in zip(QUANTITIES[3:], exact.contacts, listed, strict=False):
             found[name] = distance(contact.point, one[rk.P_POINT : rk.P_POINT + 3]) / p
-        for stage in range(2, 1 + len(exact.contacts)):
-            contact, turn = stage_from_record(pair, record, stage)
-            one = listed[stage - 1, rk.P_POINT : rk.P_POINT + 3]
-            name = OWN[stage - 2]
-            found[name] = distance(contact.point, one) / p if stage == 2 else distance((turn,), record[[rk.O_MU]])
+    return found
+
+
+def own_errors(pair: Pair, exact: ExactState, record: Floats) -> dict[str, float]:
+    """The errors of ``OWN``, as far as the record's own numbers lead to a contact."""
+    listed, found = record[rk.O_CONTACT :].reshape(-1, rk.POINT_SIZE), {}
+    with ctx.workprec(PRECISION):
+        for stage, name in zip(range(2, 1 + len(exact.contacts)), OWN, strict=False):
+            try:
+                contact, turn = stage_from_record(pair, record, stage)
+            except UncoveredError:
+                continue
+            place = listed[stage - 1, rk.P_POINT : rk.P_POINT + 3]
+            second = distance(contact.point, place) / pair.thread_pitch
+            found[name] = second if stage == 2 else distance((turn,), record[[rk.O_MU]])
     return found
 
 
@@ -107,10 +117,11 @@ class Comparison:
     def add(self, pair: Pair, pose_deg: Floats, record: Floats) -> None:
         """Put a record beside the exact state."""
         try:
-            found = errors(pair, exact_state(pair, pose_deg, record), record)
+            exact = exact_state(pair, pose_deg, record)
         except UncoveredError as error:
             self.uncovered[str(error)] += 1
             return
+        found = errors(pair, exact, record) | own_errors(pair, exact, record)
         for name, size in found.items():
             self.errors.setdefault(name, []).append(size)
 
