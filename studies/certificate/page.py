@@ -8,7 +8,7 @@ from studies.certificate.audit import MOST_BALLS
 from studies.certificate.bounds import IN_MIDDLE, OVER_BOX
 from studies.certificate.study import CLASSES, Found
 
-HEADING = "## 10. The audit"
+HEADING = "## 11. The audit"
 
 CLAIMS = len(OVER_BOX) + len(IN_MIDDLE) + 1
 """Of a box: its ranges, its values in the middle, its class."""

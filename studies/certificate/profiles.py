@@ -111,11 +111,11 @@ class BallProfile:
 
     def over(self, s: arb) -> Jet:
         """The three over a ball of s; slope and second derivative over one that is wider by ``DISPLACED``."""
-        slopes = self._over(s + arb(0, DISPLACED) * self.thread_pitch)
-        return Jet(self._over(s).radius, slopes.slope, slopes.low, slopes.high)
+        slopes = self.exactly(s + arb(0, DISPLACED) * self.thread_pitch)
+        return Jet(self.exactly(s).radius, slopes.slope, slopes.low, slopes.high)
 
-    def _over(self, s: arb) -> Jet:
-        """Of its parts on the rising and on the falling half together."""
+    def exactly(self, s: arb) -> Jet:
+        """The three over a ball of s, of its parts on the rising and on the falling half together."""
         p = self.thread_pitch
         # The halves part in the middles of the flats.
         root = (self.rising.ends[0] - self.falling.ends[0]) / 2 - p / 4

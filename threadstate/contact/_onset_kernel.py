@@ -131,6 +131,30 @@ def jet_errors(tau: float, motion: Array, curve_profile: Array, solid_profile: A
 
 
 @kernel()
+def onset_step(
+    kind: int, jet: Array, value_error: float, slope_error: float
+) -> tuple[float, float, float, float, float]:
+    """Newton's step to an onset of a kind of box: the determinant, the changes of azimuth and time, their errors.
+
+    The errors are what those of values and of slopes make of the step.
+    """
+    if kind == ONE_EDGE:
+        f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
+        f1, c, d = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
+    elif kind == ONE_THREAD:
+        f0, a, b = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
+        f1, c, d = jet[J_PHI_THETA], jet[J_PHI_THETA_THETA], jet[J_PHI_THETA_TAU]
+    else:
+        f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
+        f1, c, d = jet[J_G_THETA], jet[J_G_THETA_THETA], jet[J_G_THETA_TAU]
+    det = a * d - b * c
+    second_error = value_error if kind == ONE_EDGE else slope_error
+    t_error = (abs(b) * second_error + abs(d) * value_error) / abs(det)
+    tau_error = (abs(c) * value_error + abs(a) * second_error) / abs(det)
+    return det, (f1 * b - f0 * d) / det, (f0 * c - f1 * a) / det, t_error, tau_error
+
+
+@kernel()
 def newton_onset(
     kind: int,
     theta: float,
@@ -150,34 +174,21 @@ def newton_onset(
     small as what round-off makes of them the root is in the box if it is no farther outside than that.
     """
     value_error, slope_error = jet_errors(0.5 * (start + end), motion, curve_profile, solid_profile)
-    second_error = value_error if kind == ONE_EDGE else slope_error
     t = theta
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
     step = motion_scale(motion, curve_profile)
-    before, t_error = math.inf, 0.0
+    before, t_error_before = math.inf, 0.0
     for _ in range(40):
         set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
-        if kind == ONE_EDGE:
-            f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
-            f1, c, d = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
-        elif kind == ONE_THREAD:
-            f0, a, b = jet[J_PHI], jet[J_PHI_THETA], jet[J_PHI_TAU]
-            f1, c, d = jet[J_PHI_THETA], jet[J_PHI_THETA_THETA], jet[J_PHI_THETA_TAU]
-        else:
-            f0, a, b = jet[J_G], jet[J_G_THETA], jet[J_G_TAU]
-            f1, c, d = jet[J_G_THETA], jet[J_G_THETA_THETA], jet[J_G_THETA_TAU]
-        det = a * d - b * c
-        if det == 0.0:
+        determinant, dt, dtau, t_error, tau_error = onset_step(kind, jet, value_error, slope_error)
+        if determinant == 0.0:
             return False, t, tau
-        dt = (f1 * b - f0 * d) / det
-        dtau = (f0 * c - f1 * a) / det
         t += dt
         tau += dtau
         size = abs(dt) / (1.0 + abs(t)) + abs(dtau) / (step + abs(tau))
         # At a junction of flank and fillet steps of round-off lead from the one side to the other.
-        t_error = max((abs(b) * second_error + abs(d) * value_error) / abs(det), 0.5 * t_error)
-        tau_error = (abs(c) * value_error + abs(a) * second_error) / abs(det)
+        t_error = max(t_error, 0.5 * t_error_before)
         if abs(t - theta) > 2.0 * half + t_error or abs(tau - 0.5 * (start + end)) > 2.0 * span + tau_error:
             return False, t, tau
         settled = size < 1e-11 or (abs(dt) <= t_error and abs(dtau) <= tau_error)
@@ -185,7 +196,7 @@ def newton_onset(
             t_slack, tau_slack = 1e-13 + t_error, TIME_SLACK * step + tau_error
             inside = abs(t - theta) <= half * (1.0 + 1e-9) + t_slack and start - tau_slack <= tau <= end + tau_slack
             return inside, t, tau
-        before = size
+        before, t_error_before = size, t_error
     return False, t, tau
 
 

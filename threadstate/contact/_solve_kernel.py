@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
+from threadstate.contact import _refine_kernel as refine
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
 from threadstate.contact._lift_kernel import RETRY_OFFSET, crests_overlap, least_lift
 from threadstate.contact._search_kernel import Search, search_address, search_at
@@ -191,6 +192,10 @@ def solve_pose(
     tie_tolerance = options[S_TIE]
     turn_tolerance = tie_tolerance / bolt[pk.R_MAJOR]
     thread_search = PROVED if options[S_PROVE] > 0.0 else RIDGES
+    # Poses, axis and contacts in sums of two doubles, from one stage to the next.
+    fine_start, fine_pose, fine_second = np.empty((12, 2)), np.empty((12, 2)), np.empty((12, 2))
+    fine_point, fine_axis = np.zeros((3, 2)), np.zeros((3, 2))
+    first, latest = np.empty((refine.REFINED_SIZE, 2)), np.empty((refine.REFINED_SIZE, 2))
 
     # First stage: straight down.
     rotation(roll, pitch, phase, pose)
@@ -201,7 +206,9 @@ def solve_pose(
     axis[2] = -1.0
     simultaneous = 1
     if options[S_CONVEX] > 0.0 and meets_surface_first(pose, bolt, nut, found[0]):
-        time = high - found[0, K_TIME]
+        pose[11] = found[0, K_TIME]
+        refine.widen_numbers(pose, fine_pose)
+        refine.set_unrefined(found[0], fine_pose, first)
     else:
         count, status, _ = search(
             pose,
@@ -222,7 +229,22 @@ def solve_pose(
             record[rk.O_STATUS] = UNRESOLVED
             return
         simultaneous, time = sort_simultaneous(found, count, tie_tolerance)
-    pose[11] = high - time
+        refine.set_first_pose(roll, pitch, phase, high, fine_start)
+        fine_axis[2, 0] = -1.0
+        refine.refine_contact(
+            False,
+            fine_start,
+            fine_point,
+            fine_axis,
+            bolt,
+            nut,
+            found[0],
+            time,
+            simultaneous == 1,
+            fine_pose,
+            first,
+        )
+        refine.round_numbers(fine_pose, pose)
     copy_numbers(found[0], known[0])
     rk.append_pose(pose, record)
     rk.append_contact(1, known[0], pose, bolt, nut, record)
@@ -233,19 +255,23 @@ def solve_pose(
 
     # Second stage: the turn about the tangent at the first contact.
     for i in range(3):
-        point[i] = known[0, K_X + i]
+        refine.set_entry(fine_point, i, refine.entry(first, refine.F_POINT + i))
+    refine.round_numbers(fine_point, point)
     second = np.empty(12)
     third_is_simultaneous = False
     if simultaneous > 1:
         record[rk.O_LAMBDA] = 0.0
         copy_numbers(found[1], known[1])
         copy_numbers(pose, second)
+        fine_second = fine_pose.copy()
+        refine.set_unrefined(known[1], fine_second, latest)
         for i in range(2, simultaneous):
             copy_numbers(found[i], found[i - 2])
         simultaneous -= 2
         third_is_simultaneous = simultaneous > 0
     else:
-        second_axis(known[0], pose, bolt, nut, axis)
+        refine.set_second_axis(int(known[0, K_PAIR]), first, fine_pose, bolt, nut, fine_axis)
+        refine.round_numbers(fine_axis, axis)
         limit = options[S_TURN_LIMIT]
         flush = -1.0
         if int(known[0, K_PAIR]) == EDGE_SURFACE:
@@ -270,8 +296,20 @@ def solve_pose(
         simultaneous, time = sort_simultaneous(found, count, turn_tolerance)
         if simultaneous > 1:
             add_flag(record, rk.FLAG_TIE)
-        record[rk.O_LAMBDA] = time
-        turned(pose, point, axis, time, second)
+        record[rk.O_LAMBDA] = refine.refine_contact(
+            True,
+            fine_pose,
+            fine_point,
+            fine_axis,
+            bolt,
+            nut,
+            found[0],
+            time,
+            simultaneous == 1,
+            fine_second,
+            latest,
+        )
+        refine.round_numbers(fine_second, second)
         copy_numbers(found[0], known[1])
         for i in range(1, simultaneous):
             copy_numbers(found[i], found[i - 1])
@@ -283,13 +321,8 @@ def solve_pose(
         add_flag(record, rk.FLAG_GRAZING)
 
     # Third stage: the turn about the pivot axis, in the sense that lowers the bolt's origin.
-    n = 0.0
-    for i in range(3):
-        axis[i] = known[1, K_X + i] - known[0, K_X + i]
-        n += axis[i] * axis[i]
-    n = math.sqrt(n)
-    for i in range(3):
-        axis[i] /= n
+    refine.set_pivot_axis(first, latest, fine_axis)
+    refine.round_numbers(fine_axis, axis)
     ox, oy, oz = second[9] - point[0], second[10] - point[1], second[11] - point[2]
     cx = axis[1] * oz - axis[2] * oy
     cy = axis[2] * ox - axis[0] * oz
@@ -300,18 +333,20 @@ def solve_pose(
         append_third_pose(second, 0.0, known, simultaneous, tie_tolerance, bolt, nut, search, work, found, record)
         return
     if cz > 0.0:
-        for i in range(3):
-            axis[i] = -axis[i]
+        refine.reverse(fine_axis)
     if abs(cz) > tie_tolerance:
-        third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, record)
+        third_stage(
+            fine_second, fine_point, fine_axis, known, options, bolt, nut, search, work, found, extremes, record
+        )
         return
     # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is chosen.
     add_flag(record, rk.FLAG_BALANCED)
     other_record = record.copy()
-    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, record)
-    for i in range(3):
-        axis[i] = -axis[i]
-    third_stage(second, point, axis, known, options, bolt, nut, search, work, found, extremes, other_record)
+    third_stage(fine_second, fine_point, fine_axis, known, options, bolt, nut, search, work, found, extremes, record)
+    refine.reverse(fine_axis)
+    third_stage(
+        fine_second, fine_point, fine_axis, known, options, bolt, nut, search, work, found, extremes, other_record
+    )
     choose_shorter_turn(record, other_record)
 
 
@@ -332,9 +367,9 @@ def choose_shorter_turn(record: Array, other_record: Array) -> None:
 
 @kernel()
 def third_stage(
-    second: Array,
-    point: Array,
-    axis: Array,
+    fine_second: Array,
+    fine_point: Array,
+    fine_axis: Array,
     known: Array,
     options: Array,
     bolt: Array,
@@ -345,7 +380,14 @@ def third_stage(
     extremes: Array,
     record: Array,
 ) -> None:
-    """The turn about the pivot axis up to the third contact, the drop and the embedment."""
+    """The turn about the pivot axis up to the third contact, the drop and the embedment.
+
+    Pose, point and axis are sums of two doubles (``_refine_kernel``).
+    """
+    second, point, axis = np.empty(12), np.empty(3), np.empty(3)
+    refine.round_numbers(fine_second, second)
+    refine.round_numbers(fine_point, point)
+    refine.round_numbers(fine_axis, axis)
     tie_tolerance = options[S_TIE]
     turn_tolerance = tie_tolerance / bolt[pk.R_MAJOR]
     thread_search = PROVED if options[S_PROVE] > 0.0 else RIDGES
@@ -373,8 +415,21 @@ def third_stage(
     simultaneous, time = sort_simultaneous(found, count, turn_tolerance)
     if simultaneous > 1:
         add_flag(record, rk.FLAG_TIE)
-    record[rk.O_MU] = time
-    turned(second, point, axis, time, third)
+    fine_third, latest = np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
+    record[rk.O_MU] = refine.refine_contact(
+        True,
+        fine_second,
+        fine_point,
+        fine_axis,
+        bolt,
+        nut,
+        found[0],
+        time,
+        simultaneous == 1,
+        fine_third,
+        latest,
+    )
+    refine.round_numbers(fine_third, third)
     append_third_pose(
         third, second[11] - third[11], known, simultaneous, tie_tolerance, bolt, nut, search, work, found, record
     )

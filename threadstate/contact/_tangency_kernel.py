@@ -187,6 +187,25 @@ def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, j
 
 
 @kernel()
+def tangency_step(jet: Array) -> tuple[float, float, float, float]:
+    """Newton's step to phi = A = B = 0: the determinant, and the changes of u, z and tau."""
+    phi, a, b, rate = jet[J_PHI], jet[J_A], jet[J_B], jet[J_RATE]
+    uu, uz, zz, ut, zt = jet[J_UU], jet[J_UZ], jet[J_ZZ], jet[J_UT], jet[J_ZT]
+    # Cramer's rule: minors of the rows of A and B, and the combinations of A and B with each column.
+    minor_u = uz * zt - ut * zz
+    minor_z = uu * zt - ut * uz
+    minor_t = uu * zz - uz * uz
+    rest_u = a * uz - uu * b
+    rest_z = a * zz - uz * b
+    rest_t = a * zt - ut * b
+    det = a * minor_u - b * minor_z + rate * minor_t
+    du = (-phi * minor_u + b * rest_t - rate * rest_z) / det
+    dz = (phi * minor_z - a * rest_t + rate * rest_u) / det
+    dt = (-phi * minor_t + a * rest_z - b * rest_u) / det
+    return det, du, dz, dt
+
+
+@kernel()
 def newton_tangency(
     theta_start: float,
     z_start: float,
@@ -215,21 +234,9 @@ def newton_tangency(
     fillet = min(bolt[pk.RHO_MINOR], bolt[pk.RHO_MAJOR], nut[pk.RHO_MINOR], nut[pk.RHO_MAJOR])
     settled = max(1e-8, 2.0 * ROUND_OFF * bolt[pk.P] / fillet)
     for _ in range(30):
-        phi, a, b, rate = jet[J_PHI], jet[J_A], jet[J_B], jet[J_RATE]
-        uu, uz, zz, ut, zt = jet[J_UU], jet[J_UZ], jet[J_ZZ], jet[J_UT], jet[J_ZT]
-        # Cramer's rule: minors of the rows of A and B, and the combinations of A and B with each column.
-        minor_u = uz * zt - ut * zz
-        minor_z = uu * zt - ut * uz
-        minor_t = uu * zz - uz * uz
-        rest_u = a * uz - uu * b
-        rest_z = a * zz - uz * b
-        rest_t = a * zt - ut * b
-        det = a * minor_u - b * minor_z + rate * minor_t
-        if det == 0.0:
+        determinant, du, dz, dt = tangency_step(jet)
+        if determinant == 0.0:
             return count
-        du = (-phi * minor_u + b * rest_t - rate * rest_z) / det
-        dz = (phi * minor_z - a * rest_t + rate * rest_u) / det
-        dt = (-phi * minor_t + a * rest_z - b * rest_u) / det
         theta += du
         z += k * du + dz
         tau += dt

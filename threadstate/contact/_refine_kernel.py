@@ -1,0 +1,559 @@
+"""Contacts and poses to the last digit: Newton's method on residuals in sums of two doubles.
+
+Of nearly coaxial parts the place of a contact is where terms balance that vanish with the tilt: round-off of g and phi,
+and of a rotation in doubles, hides it. A second contact beside the first takes over what the axis lost, and the pivot
+axis through both magnifies it by one over their distance (docs/certificate.md, section 10). So each contact that a
+search has found is refined, and the next stage starts from the pose, the point and the axis that follow.
+
+Arrays of such sums have two columns, high and low: a pose of twelve rows (rotation by rows, origin), a point or an axis
+of three, and what is known of a contact.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact import _onset_kernel as onset
+from threadstate.contact import _tangency_kernel as tk
+from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
+from threadstate.contact._double_double_kernel import (
+    TWO_PI,
+    Pair,
+    add,
+    azimuth,
+    divide,
+    exact_product,
+    multiply,
+    sine_cosine,
+    sine_versine,
+    square_root,
+    subtract,
+)
+from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE, motion_scale
+from threadstate.contact._stage_kernel import (
+    BASE_EDGE,
+    EDGE_EDGE,
+    EDGE_SURFACE,
+    EDGE_THREAD,
+    K_BOLT_AZIMUTH,
+    K_NUT_AZIMUTH,
+    K_PAIR,
+    K_TIME,
+    K_X,
+    K_Y,
+    K_Z,
+    THREAD_EDGE,
+    THREAD_SURFACE,
+    THREAD_THREAD,
+    set_motions,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+Vector = tuple[Pair, Pair, Pair]
+
+POSE_SIZE = 12
+
+# What is known of a contact: time, azimuth and axial position on the part that touches with an edge, or with its side
+# (the bolt), and the point in the nut's frame.
+F_TIME, F_THETA, F_AXIAL, F_POINT = range(4)
+REFINED_SIZE = 6
+
+MOST_STEPS = 12
+
+REACH = 1e-3
+"""How far (rad, and times ``motion_scale``) from where it was found a contact is refined: beyond is another root."""
+
+SETTLED = 1e-14
+"""A step of Newton's method (rad, and times ``motion_scale``) after which the contact is refined: its derivatives, in
+doubles, are right to 1e-6 at tilts of 1e-6 deg, so that 1e-20 is left."""
+
+ZERO: Pair = (0.0, 0.0)
+ONE: Pair = (1.0, 0.0)
+
+
+@kernel(forceinline=True)
+def entry(numbers: Array, i: int) -> Pair:
+    """A row."""
+    return numbers[i, 0], numbers[i, 1]
+
+
+@kernel(forceinline=True)
+def set_entry(numbers: Array, i: int, x: Pair) -> None:
+    """Sets a row."""
+    numbers[i, 0], numbers[i, 1] = x
+
+
+@kernel(forceinline=True)
+def vector_at(numbers: Array, i: int) -> Vector:
+    """Three rows from ``i`` on."""
+    return entry(numbers, i), entry(numbers, i + 1), entry(numbers, i + 2)
+
+
+@kernel(forceinline=True)
+def set_vector(numbers: Array, i: int, v: Vector) -> None:
+    """Sets three rows from ``i`` on."""
+    set_entry(numbers, i, v[0])
+    set_entry(numbers, i + 1, v[1])
+    set_entry(numbers, i + 2, v[2])
+
+
+@kernel()
+def round_numbers(numbers: Array, out: Array) -> None:
+    """Sets doubles to the nearest of such sums."""
+    for i in range(out.shape[0]):
+        out[i] = numbers[i, 0]
+
+
+@kernel()
+def widen_numbers(numbers: Array, out: Array) -> None:
+    """Sets such sums to doubles."""
+    for i in range(numbers.shape[0]):
+        out[i, 0], out[i, 1] = numbers[i], 0.0
+
+
+@kernel()
+def product_sum(a: Pair, x: Pair, b: Pair, y: Pair) -> Pair:
+    """``a x + b y``."""
+    return add(multiply(a, x), multiply(b, y))
+
+
+@kernel()
+def dot(a: Vector, b: Vector) -> Pair:
+    """The scalar product."""
+    return add(product_sum(a[0], b[0], a[1], b[1]), multiply(a[2], b[2]))
+
+
+@kernel()
+def cross(a: Vector, b: Vector) -> Vector:
+    """The cross product."""
+    return (
+        subtract(multiply(a[1], b[2]), multiply(a[2], b[1])),
+        subtract(multiply(a[2], b[0]), multiply(a[0], b[2])),
+        subtract(multiply(a[0], b[1]), multiply(a[1], b[0])),
+    )
+
+
+@kernel()
+def plus(a: Vector, b: Vector) -> Vector:
+    """The sum of two vectors."""
+    return add(a[0], b[0]), add(a[1], b[1]), add(a[2], b[2])
+
+
+@kernel()
+def times(a: Vector, factor: Pair) -> Vector:
+    """A vector times a number."""
+    return multiply(a[0], factor), multiply(a[1], factor), multiply(a[2], factor)
+
+
+@kernel()
+def rotated(pose: Array, v: Vector) -> Vector:
+    """A vector of the bolt's frame in the nut's."""
+    return dot(vector_at(pose, 0), v), dot(vector_at(pose, 3), v), dot(vector_at(pose, 6), v)
+
+
+@kernel()
+def rotated_back(pose: Array, v: Vector) -> Vector:
+    """A vector of the nut's frame in the bolt's."""
+    return plus(plus(times(vector_at(pose, 0), v[0]), times(vector_at(pose, 3), v[1])), times(vector_at(pose, 6), v[2]))
+
+
+@kernel()
+def set_first_pose(roll: float, pitch: float, phase: float, high: float, out: Array) -> None:
+    """``Rz(phase) Ry(pitch) Rx(roll)``, angles in rad, and the origin at a height."""
+    sa, ca = sine_cosine((roll, 0.0))
+    sb, cb = sine_cosine((pitch, 0.0))
+    sc, cc = sine_cosine((phase, 0.0))
+    sb_sa, sb_ca = multiply(sb, sa), multiply(sb, ca)
+    set_vector(
+        out,
+        0,
+        (
+            multiply(cc, cb),
+            subtract(multiply(cc, sb_sa), multiply(sc, ca)),
+            product_sum(cc, sb_ca, sc, sa),
+        ),
+    )
+    set_vector(
+        out,
+        3,
+        (
+            multiply(sc, cb),
+            product_sum(sc, sb_sa, cc, ca),
+            subtract(multiply(sc, sb_ca), multiply(cc, sa)),
+        ),
+    )
+    set_vector(out, 6, ((-sb[0], -sb[1]), multiply(cb, sa), multiply(cb, ca)))
+    set_vector(out, 9, (ZERO, ZERO, (high, 0.0)))
+
+
+@kernel()
+def set_moved(pose: Array, is_turn: bool, point: Array, axis: Array, time: Pair, out: Array) -> None:
+    """Sets the pose after ``time`` of a motion, a turn of up to pi / 4 or a translation along the axis."""
+    a = vector_at(axis, 0)
+    if not is_turn:
+        for i in range(9):
+            set_entry(out, i, entry(pose, i))
+        set_vector(out, 9, plus(vector_at(pose, 9), times(a, time)))
+        return
+    sine, versine = sine_versine(time)
+    minus = (-1.0, 0.0)
+    centre = vector_at(point, 0)
+    for j in range(4):
+        v = entry(pose, j), entry(pose, 3 + j), entry(pose, 6 + j)
+        if j == 3:
+            v = plus(vector_at(pose, 9), times(centre, minus))
+        normal = cross(a, v)
+        v = plus(v, plus(times(normal, sine), times(cross(a, normal), versine)))
+        if j == 3:
+            set_vector(out, 9, plus(centre, v))
+        else:
+            set_entry(out, j, v[0])
+            set_entry(out, 3 + j, v[1])
+            set_entry(out, 6 + j, v[2])
+
+
+@kernel()
+def advance(profile: Array) -> Pair:
+    """The lead per radian."""
+    return divide((profile[pk.LEAD], 0.0), TWO_PI)
+
+
+@kernel()
+def fillet_rise(distance: Pair, radius: float) -> tuple[Pair, Pair]:
+    """How far a fillet has left its flat at a distance beside it, and its slope."""
+    root = square_root(multiply(subtract((radius, 0.0), distance), add((radius, 0.0), distance)))
+    rise = divide(multiply(distance, distance), add((radius, 0.0), root))
+    return rise, divide(distance, root)
+
+
+@kernel()
+def fillet_end(height: float, cot: float, radius: float) -> Pair:
+    """How far from the pitch radius along the axis the flat of a fillet ends, at ``height`` from the pitch radius.
+
+    That of method, section 1, with the fillet exactly tangent to the flank of slope ``cot``: where a fillet touches a
+    flank the gap beside it is less than what stored boundaries are rounded by.
+    """
+    squared = add(ONE, exact_product(cot, cot))
+    tangents = multiply(subtract(square_root(squared), ONE), (radius, 0.0))
+    return divide(add((height, 0.0), tangents), (cot, 0.0))
+
+
+@kernel()
+def radius_and_slope(s: Pair, profile: Array) -> tuple[Pair, Pair]:
+    """``f`` and ``f'`` at ``s``."""
+    p, pitch_radius = profile[pk.P], profile[pk.R_PITCH]
+    u = subtract(s, exact_product(p, math.floor(s[0] / p - profile[pk.S_ROOT] / p)))
+    half = 0
+    if u[0] > profile[pk.S_CREST]:
+        half = pk.FALLING
+        u = subtract((0.5 * p, 0.0), u)
+    sign, cot = 1.0 if half == 0 else -1.0, profile[pk.COT + half]
+    if u[0] <= profile[pk.U_FLAT + half]:
+        return (profile[pk.R_MINOR], 0.0), ZERO
+    if u[0] < profile[pk.U_FLANK + half]:
+        end = fillet_end(pitch_radius - profile[pk.R_MINOR], cot, profile[pk.RHO_MINOR])
+        rise, slope = fillet_rise(add(u, end), profile[pk.RHO_MINOR])
+        return add((profile[pk.R_MINOR], 0.0), rise), (sign * slope[0], sign * slope[1])
+    if u[0] <= profile[pk.U_CREST + half]:
+        return add((pitch_radius, 0.0), multiply(u, (cot, 0.0))), (sign * cot, 0.0)
+    if u[0] < profile[pk.U_TOP + half]:
+        end = fillet_end(profile[pk.R_MAJOR] - pitch_radius, cot, profile[pk.RHO_MAJOR])
+        rise, slope = fillet_rise(subtract(end, u), profile[pk.RHO_MAJOR])
+        return subtract((profile[pk.R_MAJOR], 0.0), rise), (sign * slope[0], sign * slope[1])
+    return (profile[pk.R_MAJOR], 0.0), ZERO
+
+
+@kernel()
+def thread_point(theta: Pair, z: Pair, profile: Array) -> tuple[Vector, Vector, Vector]:
+    """The point of a thread in its own frame, its derivative along the helix by azimuth, and along the axis by z."""
+    k = advance(profile)
+    r, slope = radius_and_slope(subtract(z, multiply(k, theta)), profile)
+    s, c = sine_cosine(theta)
+    x, y = multiply(r, c), multiply(r, s)
+    return (x, y, z), ((-y[0], -y[1]), x, k), (multiply(slope, c), multiply(slope, s), ONE)
+
+
+@kernel()
+def edge_slope(along: Vector, up: Vector, k: Pair) -> Vector:
+    """The derivative of an edge by azimuth: along the helix, and back down to the edge's plane."""
+    return plus(along, times(up, (-k[0], -k[1])))
+
+
+@kernel()
+def clearance(x: Vector, profile: Array) -> tuple[Pair, Pair, Pair]:
+    """``r - f(s)`` at a point of the profile's own frame, the radius, and f'."""
+    r = square_root(product_sum(x[0], x[0], x[1], x[1]))
+    f, slope = radius_and_slope(subtract(x[2], multiply(advance(profile), azimuth(x[0], x[1]))), profile)
+    return subtract(r, f), r, slope
+
+
+@kernel()
+def clearance_slope(x: Vector, way: Vector, r: Pair, slope: Pair, k: Pair) -> Pair:
+    """The derivative of the clearance along a way."""
+    radial = divide(product_sum(x[0], way[0], x[1], way[1]), r)
+    turn = divide(subtract(multiply(x[0], way[1]), multiply(x[1], way[0])), multiply(r, r))
+    return subtract(radial, multiply(slope, subtract(way[2], multiply(k, turn))))
+
+
+@kernel()
+def set_edge_residuals(
+    on_bolt: bool, theta: Pair, pose: Array, bolt: Array, nut: Array, jet: Array, refined: Array
+) -> None:
+    """Sets g, phi and their derivatives by azimuth in a jet of ``_onset_kernel``, and the point in the nut's frame."""
+    curve, solid = (bolt, nut) if on_bolt else (nut, bolt)
+    sigma = 1.0 if on_bolt else -1.0
+    k = advance(curve)
+    at, along, up = thread_point(theta, ZERO, curve)
+    way = edge_slope(along, up, k)
+    if on_bolt:
+        x, way = plus(rotated(pose, at), vector_at(pose, 9)), rotated(pose, way)
+        set_vector(refined, F_POINT, x)
+    else:
+        set_vector(refined, F_POINT, at)
+        x = rotated_back(pose, plus(at, times(vector_at(pose, 9), (-1.0, 0.0))))
+        way = rotated_back(pose, way)
+    gap, r, slope = clearance(x, solid)
+    jet[onset.J_G], jet[onset.J_G_THETA] = -sigma * x[2][0], -sigma * way[2][0]
+    jet[onset.J_PHI] = sigma * gap[0]
+    jet[onset.J_PHI_THETA] = sigma * clearance_slope(x, way, r, slope, k)[0]
+
+
+@kernel()
+def set_thread_residuals(
+    theta: Pair, z: Pair, pose: Array, bolt: Array, nut: Array, jet: Array, refined: Array
+) -> None:
+    """Sets phi, A and B in a jet of ``_tangency_kernel``, and the point in the nut's frame."""
+    k = advance(bolt)
+    at, along, up = thread_point(theta, z, bolt)
+    x = plus(rotated(pose, at), vector_at(pose, 9))
+    set_vector(refined, F_POINT, x)
+    gap, r, slope = clearance(x, nut)
+    jet[tk.J_PHI] = gap[0]
+    jet[tk.J_A] = clearance_slope(x, rotated(pose, along), r, slope, k)[0]
+    jet[tk.J_B] = clearance_slope(x, rotated(pose, up), r, slope, k)[0]
+
+
+@kernel()
+def set_unrefined(contact: Array, pose: Array, refined: Array) -> None:
+    """Sets what is known of a contact in doubles."""
+    pair = int(contact[K_PAIR])
+    on_nut = pair == BASE_EDGE or pair == THREAD_EDGE
+    set_entry(refined, F_TIME, (contact[K_TIME], 0.0))
+    set_entry(refined, F_THETA, (contact[K_NUT_AZIMUTH] if on_nut else contact[K_BOLT_AZIMUTH], 0.0))
+    set_entry(refined, F_AXIAL, ZERO)
+    for i in range(3):
+        set_entry(refined, F_POINT + i, (contact[K_X + i], 0.0))
+    if pair == THREAD_THREAD:
+        x = plus(vector_at(refined, F_POINT), times(vector_at(pose, 9), (-1.0, 0.0)))
+        set_entry(refined, F_AXIAL, rotated_back(pose, x)[2])
+
+
+@kernel()
+def refine_edge(
+    pair: int,
+    is_turn: bool,
+    pose: Array,
+    point: Array,
+    axis: Array,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    moved: Array,
+    refined: Array,
+) -> bool:
+    """Newton's method from ``refined``, in place, for a contact on an edge; False where it does not settle nearby."""
+    on_bolt = pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD
+    curve, solid = (bolt, nut) if on_bolt else (nut, bolt)
+    kind = ONE_EDGE if pair == EDGE_EDGE else (ONE_THREAD if pair == EDGE_THREAD or pair == THREAD_EDGE else ONE_PLANE)
+    path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
+    unit = motion_scale(motion, bolt)
+    theta, time = entry(refined, F_THETA), entry(refined, F_TIME)
+    start, since = theta[0], time[0]
+    settled = False
+    for _ in range(MOST_STEPS):
+        set_moved(pose, is_turn, point, axis, time, moved)
+        onset.set_jet(theta[0], time[0], motion, curve, solid, path, jet)
+        set_edge_residuals(on_bolt, theta, moved, bolt, nut, jet, refined)
+        if settled:
+            set_entry(refined, F_THETA, theta)
+            set_entry(refined, F_TIME, time)
+            return True
+        _, d_theta, d_time, _, _ = onset.onset_step(kind, jet, 0.0, 0.0)
+        theta, time = add(theta, (d_theta, 0.0)), add(time, (d_time, 0.0))
+        if not (abs(theta[0] - start) <= REACH and abs(time[0] - since) <= REACH * unit):
+            return False
+        settled = abs(d_theta) <= SETTLED and abs(d_time) <= SETTLED * unit
+    return False
+
+
+@kernel()
+def refine_thread(
+    is_turn: bool,
+    pose: Array,
+    point: Array,
+    axis: Array,
+    motion: Array,
+    bolt: Array,
+    nut: Array,
+    moved: Array,
+    refined: Array,
+) -> bool:
+    """The same where thread meets thread."""
+    placement, jet = np.empty(tk.PLACEMENT_SIZE), np.empty(tk.JET_SIZE)
+    unit = motion_scale(motion, bolt)
+    theta, z, time = entry(refined, F_THETA), entry(refined, F_AXIAL), entry(refined, F_TIME)
+    start, from_z, since = theta[0], z[0], time[0]
+    k = advance(bolt)
+    settled = False
+    for _ in range(MOST_STEPS):
+        set_moved(pose, is_turn, point, axis, time, moved)
+        tk.set_placement(motion, time[0], placement)
+        tk.set_jet(theta[0], z[0], placement, bolt, nut, jet)
+        set_thread_residuals(theta, z, moved, bolt, nut, jet, refined)
+        if settled:
+            set_entry(refined, F_THETA, theta)
+            set_entry(refined, F_AXIAL, z)
+            set_entry(refined, F_TIME, time)
+            return True
+        _, du, dz, dt = tk.tangency_step(jet)
+        theta, time = add(theta, (du, 0.0)), add(time, (dt, 0.0))
+        z = add(z, add(multiply(k, (du, 0.0)), (dz, 0.0)))
+        if not (
+            abs(theta[0] - start) <= REACH
+            and abs(z[0] - from_z) <= REACH * bolt[pk.P]
+            and abs(time[0] - since) <= REACH * unit
+        ):
+            return False
+        settled = abs(du) <= SETTLED and abs(dz) <= SETTLED * bolt[pk.P] and abs(dt) <= SETTLED * unit
+    return False
+
+
+@kernel()
+def refine_found(
+    is_turn: bool,
+    pose: Array,
+    point: Array,
+    axis: Array,
+    bolt: Array,
+    nut: Array,
+    contact: Array,
+    moved: Array,
+    refined: Array,
+) -> bool:
+    """Refines a contact that a motion has come to, in ``refined``, and the pose then; False where nothing settles."""
+    pair = int(contact[K_PAIR])
+    if pair == THREAD_SURFACE:
+        return False
+    start, centre, direction = np.empty(POSE_SIZE), np.empty(3), np.empty(3)
+    round_numbers(pose, start)
+    round_numbers(point, centre)
+    round_numbers(axis, direction)
+    bolt_motion, nut_motion = np.empty(MOTION_SIZE), np.empty(MOTION_SIZE)
+    set_motions(start, is_turn, False, centre, direction, bolt_motion, nut_motion)
+    if pair == THREAD_THREAD:
+        return refine_thread(is_turn, pose, point, axis, bolt_motion, bolt, nut, moved, refined)
+    motion = nut_motion if pair == BASE_EDGE or pair == THREAD_EDGE else bolt_motion
+    return refine_edge(pair, is_turn, pose, point, axis, motion, bolt, nut, moved, refined)
+
+
+@kernel()
+def refine_contact(
+    is_turn: bool,
+    pose: Array,
+    point: Array,
+    axis: Array,
+    bolt: Array,
+    nut: Array,
+    contact: Array,
+    time: float,
+    alone: bool,
+    moved: Array,
+    refined: Array,
+) -> float:
+    """Refines the contact that a motion comes to at ``time``; sets what is known of it and the pose then, ``moved``.
+
+    A contact that is not ``alone`` stays as it is, and so does one that Newton's method does not lead to nearby: one
+    whose place is not determined, and the bolt's thread on the nut's surface. Returns the time.
+    """
+    set_moved(pose, is_turn, point, axis, (time, 0.0), moved)
+    set_unrefined(contact, moved, refined)
+    if not alone:
+        return time
+    if refine_found(is_turn, pose, point, axis, bolt, nut, contact, moved, refined):
+        pair = int(contact[K_PAIR])
+        if pair == EDGE_EDGE or pair == EDGE_SURFACE:
+            set_entry(refined, F_POINT + 2, ZERO)
+        set_contact(moved, refined, contact)
+        return contact[K_TIME]
+    set_moved(pose, is_turn, point, axis, (time, 0.0), moved)
+    set_unrefined(contact, moved, refined)
+    return time
+
+
+@kernel()
+def set_contact(pose: Array, refined: Array, contact: Array) -> None:
+    """Rounds a refined contact."""
+    pair = int(contact[K_PAIR])
+    x = vector_at(refined, F_POINT)
+    contact[K_TIME] = refined[F_TIME, 0]
+    contact[K_X], contact[K_Y], contact[K_Z] = x[0][0], x[1][0], x[2][0]
+    if pair == BASE_EDGE or pair == THREAD_EDGE:
+        arm = rotated_back(pose, plus(x, times(vector_at(pose, 9), (-1.0, 0.0))))
+        contact[K_NUT_AZIMUTH] = refined[F_THETA, 0]
+        contact[K_BOLT_AZIMUTH] = math.atan2(arm[1][0], arm[0][0])
+    else:
+        contact[K_BOLT_AZIMUTH] = refined[F_THETA, 0]
+        contact[K_NUT_AZIMUTH] = math.atan2(x[1][0], x[0][0])
+
+
+@kernel()
+def set_unit(x: Vector, reverse: bool, out: Array) -> None:
+    """Sets the unit vector along another, or against it."""
+    length = square_root(dot(x, x))
+    if reverse:
+        length = (-length[0], -length[1])
+    set_vector(out, 0, (divide(x[0], length), divide(x[1], length), divide(x[2], length)))
+
+
+@kernel()
+def set_second_axis(pair: int, refined: Array, pose: Array, bolt: Array, nut: Array, out: Array) -> None:
+    """Sets the axis of the second turn (``second_axis`` of ``_solve_kernel``) from a refined contact."""
+    x = vector_at(refined, F_POINT)
+    k = advance(bolt)
+    if pair == THREAD_THREAD:
+        way = ((-x[1][0], -x[1][1]), x[0], k)
+    elif pair == THREAD_SURFACE:
+        arm = rotated_back(pose, plus(x, times(vector_at(pose, 9), (-1.0, 0.0))))
+        way = rotated(pose, ((-arm[1][0], -arm[1][1]), arm[0], k))
+    elif pair == EDGE_SURFACE:
+        # The line in both planes: at a corner, too, where the edge has no tangent.
+        nx, ny = entry(pose, 2), entry(pose, 5)
+        way = ((-ny[0], -ny[1]), nx, ZERO)
+    elif pair == EDGE_THREAD:
+        _, along, up = thread_point(entry(refined, F_THETA), ZERO, bolt)
+        way = rotated(pose, edge_slope(along, up, k))
+    else:
+        theta = azimuth(x[0], x[1]) if pair == EDGE_EDGE else entry(refined, F_THETA)
+        _, along, up = thread_point(theta, ZERO, nut)
+        way = edge_slope(along, up, k)
+    if pair == THREAD_SURFACE:
+        way = (way[0], way[1], ZERO)
+    set_unit(way, x[0][0] * way[1][0] - x[1][0] * way[0][0] > 0.0, out)
+
+
+@kernel()
+def set_pivot_axis(first: Array, second: Array, out: Array) -> None:
+    """Sets the unit axis from one refined contact to another."""
+    set_unit(plus(vector_at(second, F_POINT), times(vector_at(first, F_POINT), (-1.0, 0.0))), False, out)
+
+
+@kernel()
+def reverse(numbers: Array) -> None:
+    """Changes every sign."""
+    for i in range(numbers.shape[0]):
+        numbers[i, 0], numbers[i, 1] = -numbers[i, 0], -numbers[i, 1]
