@@ -111,7 +111,7 @@ def radius_difference(s: float, ds: float, profile: Array) -> float:
     return half_difference(u, du, half, profile)
 
 
-@kernel()
+@kernel(forceinline=True)
 def nearest_contact(theta: float, kept: Array) -> tuple[float, float, int]:
     """How far ``theta`` is from the nearest contact (rad; infinite: there is none), its azimuth within pi, its row."""
     nearest, contact, row = math.inf, 0.0, 0

@@ -25,19 +25,21 @@ Array = NDArray[np.float64]
 # tau, class, min(g, phi) in the middle, range of phi_thetatheta, least g; then g and phi in the
 # middle as differences from a contact, and its distance, NaN where they are not given (``_beside_kernel``).
 CAPACITY = 4096
+COLUMN = CAPACITY + 16
+"""Distance of columns: a power of two would have the same rows of all of them compete for the same lines of a cache."""
 X_THETA = 0
-X_HALF = CAPACITY
-X_START = 2 * CAPACITY
-X_END = 3 * CAPACITY
-X_CLASS = 4 * CAPACITY
-X_DEPTH = 5 * CAPACITY
-X_BEND_LOW = 6 * CAPACITY
-X_BEND_HIGH = 7 * CAPACITY
-X_G_LOW = 8 * CAPACITY
-X_G_BESIDE = 9 * CAPACITY
-X_PHI_BESIDE = 10 * CAPACITY
-X_GAP = 11 * CAPACITY
-BOXES_SIZE = 12 * CAPACITY
+X_HALF = COLUMN
+X_START = 2 * COLUMN
+X_END = 3 * COLUMN
+X_CLASS = 4 * COLUMN
+X_DEPTH = 5 * COLUMN
+X_BEND_LOW = 6 * COLUMN
+X_BEND_HIGH = 7 * COLUMN
+X_G_LOW = 8 * COLUMN
+X_G_BESIDE = 9 * COLUMN
+X_PHI_BESIDE = 10 * COLUMN
+X_GAP = 11 * COLUMN
+BOXES_SIZE = 12 * COLUMN
 
 # Classes, in this order: no onset and no point inside; no onset (excluded); at most one onset, on the edge, the thread
 # or the plane; at most one peak of min(g, phi) at each time, of that kind, but whether and when it rises through zero

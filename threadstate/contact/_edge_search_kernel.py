@@ -66,8 +66,15 @@ SAME_AZIMUTH = 0.01
 NARROW = 16.0
 """A box beside a contact narrower than its distance over this is split by time: the way to it counts, not its width."""
 
+FINE = 2.0**-10
+"""Half-width (rad) of boxes from which on what is known of earlier contacts is used: of larger ones most are dropped
+without, at less cost."""
+
 PIECES = 8
 """Of the way from an earlier contact to a box: so many boxes are evaluated at once."""
+
+ASIDE = 3.0
+"""How far from a contact, in half-widths, a box is in which Newton's method is tried: nearer it ends in the contact."""
 
 SLACK = 1e-12
 """Of the size of a sum: more than what its round-off can be."""
@@ -174,7 +181,7 @@ def evaluate_boxes(
     if kept[0, 0] > 0.0:
         for i in range(count):
             start, end = boxes[X_START + i], boxes[X_END + i]
-            if boxes[X_HALF + i] <= BESIDE and 0.5 * (end - start) <= BESIDE:
+            if boxes[X_HALF + i] <= FINE and 0.5 * (end - start) <= BESIDE:
                 boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i], boxes[X_GAP + i] = values_beside(
                     boxes[X_THETA + i], 0.5 * (start + end), motion, curve_profile, solid_profile, kept, path
                 )
@@ -200,7 +207,7 @@ def evaluate_box(
     return boxes[X_CLASS]
 
 
-@kernel()
+@kernel(forceinline=True)
 def contact_distance(theta: float, kept: Array) -> float:
     """Distance from an azimuth to the nearest earlier contact (rad)."""
     return abs(nearest_contact(theta, kept)[0])
@@ -405,7 +412,7 @@ def search_edge(
             if gap + half < AZIMUTH_TOLERANCE or (gap <= half + 1e-13 and box_class < SPLIT_THETA):
                 continue
             shorter = False
-            if half < gap < BESIDE and boxes[X_G_LOW + i] > 0.0:
+            if half <= FINE and half < gap < BESIDE and boxes[X_G_LOW + i] > 0.0:
                 no_onset, shorter = no_onset_from_contact(
                     theta,
                     half,
@@ -421,7 +428,7 @@ def search_edge(
                 )
                 if no_onset:
                     continue
-            if box_class <= ONE_PLANE:
+            if box_class <= ONE_PLANE and gap > ASIDE * half:
                 inside, t, tau = newton_onset(
                     box_class, theta, half, start, end, motion, curve_profile, solid_profile, kept, path, jet
                 )
