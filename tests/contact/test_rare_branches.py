@@ -34,12 +34,14 @@ from threadstate.state.decode import decoded_states
 from threadstate.state.model import FeaturePair
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_pose
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
+from threadstate.thread.pair import Pair
 from threadstate.thread.regions import Region
 
 pytestmark = pytest.mark.slow
 
 PAIR = quarter_twenty_unc()
+SHARP = pair_by_designation("1/4-16 ACME-2G with sharp corners")
 BOLT, NUT = PAIR.bolt.packed, PAIR.nut.packed
 P = PAIR.thread_pitch
 TIE_INCH = 2e-11 * P
@@ -78,11 +80,12 @@ def least_lift(pose: Floats) -> float:
     return float(length)
 
 
-def solved(pose: PoseDeg) -> Floats:
+def solved(pose: PoseDeg, pair: Pair = PAIR) -> Floats:
     """The record of a pose, decided or not."""
     options, rows = np.zeros(solve.OPTIONS_SIZE), np.empty((1, record.RECORD_SIZE))
-    options[solve.S_TURN_LIMIT], options[solve.S_TIE], options[solve.S_CONVEX] = math.radians(45.0), TIE_INCH, 1.0
-    solve.solve_rows(np.radians([pose]), options, BOLT, NUT, rows)
+    tie = 2e-11 * pair.thread_pitch
+    options[solve.S_TURN_LIMIT], options[solve.S_TIE], options[solve.S_CONVEX] = math.radians(45.0), tie, 1.0
+    solve.solve_rows(np.radians([pose]), options, pair.bolt.packed, pair.nut.packed, rows)
     return rows[0]
 
 
@@ -90,20 +93,34 @@ def solved(pose: PoseDeg) -> Floats:
 
 
 @pytest.mark.parametrize(
-    ("pose", "poses"),
+    ("pair", "pose", "poses"),
     [
-        ((-1.2375523956506059e-08, 2.4438895320331914e-08, -0.6157607325936723), 0),
-        ((0.0009377165331601753, 0.002716068435739592, 1.1404050124514917), 1),
-        ((2.903245030657479e-05, 6.360621194900974e-05, 0.19721446962774447), 2),
-        ((1e-4, 5e-5, 0.0), 3),
+        (PAIR, (3.576567074329921e-06, 1.941986622585566e-06, -1.7142272342935438), 0),
+        (PAIR, (1.8398712734907334e-05, 0.00012444704985027888, 2.243004327857509), 1),
+        (PAIR, (1.735635670838846e-09, 9.606987204942213e-10, 1.9080351168902752), 2),
+        (SHARP, (-1.848321590093091e-09, 2.75804603556617e-06, -0.2093575674421757), 3),
     ],
 )
-def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pose: PoseDeg, poses: int) -> None:
+def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pair: Pair, pose: PoseDeg, poses: int) -> None:
     """One for each stage, and one for the embedment: ``poses`` of the three were found."""
-    row = solved(pose)
+    row = solved(pose, pair)
     assert (row[record.O_STATUS], row[record.O_POSES]) == (stage.UNRESOLVED, poses)
     with pytest.raises(UnresolvedPoseError, match="before every box was excluded"):
-        solve_pose(PAIR, *pose)
+        solve_pose(pair, *pose)
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [
+        (0.0009377165331601753, 0.002716068435739592, 1.1404050124514917),
+        (2.903245030657479e-05, 6.360621194900974e-05, 0.19721446962774447),
+        (1e-4, 5e-5, 0.0),
+    ],
+)
+def test_nearly_level_poses_whose_flanks_nearly_touch_as_a_whole_are_decided(pose: PoseDeg) -> None:
+    state = solve_pose(PAIR, *pose)
+    assert len(state.contacts) >= 3
+    assert state.poses[0].translation[2] == pytest.approx(first_height(PAIR, *pose).height, abs=HEIGHT_TOLERANCE_INCH)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._beside_kernel import values_beside
+from threadstate.contact._beside_kernel import BESIDE, nearest_contact, values_beside
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_THREAD
 from threadstate.contact._geometry_kernel import (
     M_COPLANAR,
@@ -37,6 +37,9 @@ Array = NDArray[np.float64]
 C_TIME, C_KIND, C_THETA, C_OTHER_THETA, C_X, C_Y, C_Z = range(7)
 CANDIDATE_SIZE = 7
 MAX_CANDIDATES = 16
+
+STALLS = 4
+"""After so many steps that were not half as long as the one before Newton's method has come to round-off."""
 
 TIME_SLACK = 1e-13
 """How far beside a box in time, in units of ``motion_scale``, a root still counts as in it."""
@@ -170,15 +173,18 @@ def newton_onset(
 ) -> tuple[bool, float, float]:
     """The one onset or end of overlap in a box by Newton's method: whether it is in the box, its azimuth and time.
 
-    ``kind`` is the class of the box: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0. Where steps have become as
-    small as what round-off makes of them the root is in the box if it is no farther outside than that.
+    ``kind`` is the class of the box: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0. Where steps to a
+    tangency away from earlier contacts have become as small as what round-off makes of them the root is in the box if
+    it is no farther outside than that.
     """
-    value_error, slope_error = jet_errors(0.5 * (start + end), motion, curve_profile, solid_profile)
+    value_error, slope_error = 0.0, 0.0
+    if kind != ONE_EDGE and not abs(nearest_contact(theta, kept)[0]) < BESIDE:
+        value_error, slope_error = jet_errors(0.5 * (start + end), motion, curve_profile, solid_profile)
     t = theta
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
     step = motion_scale(motion, curve_profile)
-    before, t_error_before = math.inf, 0.0
+    before, t_error_before, stalls = math.inf, 0.0, 0
     for _ in range(40):
         set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
         determinant, dt, dtau, t_error, tau_error = onset_step(kind, jet, value_error, slope_error)
@@ -191,8 +197,9 @@ def newton_onset(
         t_error = max(t_error, 0.5 * t_error_before)
         if abs(t - theta) > 2.0 * half + t_error or abs(tau - 0.5 * (start + end)) > 2.0 * span + tau_error:
             return False, t, tau
-        settled = size < 1e-11 or (abs(dt) <= t_error and abs(dtau) <= tau_error)
-        if size <= 4e-16 or (settled and size >= 0.5 * before):
+        stalls += 1 if size >= 0.5 * before else 0
+        round_off = stalls >= STALLS and abs(dt) <= t_error and abs(dtau) <= tau_error
+        if size <= 4e-16 or (size < 1e-11 and size >= 0.5 * before) or round_off:
             t_slack, tau_slack = 1e-13 + t_error, TIME_SLACK * step + tau_error
             inside = abs(t - theta) <= half * (1.0 + 1e-9) + t_slack and start - tau_slack <= tau <= end + tau_slack
             return inside, t, tau
