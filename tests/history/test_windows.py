@@ -30,8 +30,9 @@ def test_the_jump_at_roll_0_pitch_minus_4() -> None:
     assert jump is not None
     assert 357.0 < jump.phase_deg < 358.0
     assert jump.width_deg <= 1e-8
+    # Nearer than that two contacts are nearer to each other than round-off tells.
     before, after, later = (
-        solve_pose(PAIR, 0.0, -4.0, jump.phase_deg + offset).poses[0].translation[2] for offset in (-1e-9, 1e-9, 1e-6)
+        solve_pose(PAIR, 0.0, -4.0, jump.phase_deg + offset).poses[0].translation[2] for offset in (-2e-9, 1e-9, 1e-6)
     )
     # Before the jump the height falls as the root of the phase that is left, behind it by the lead.
     assert before == pytest.approx(jump.height_before, abs=5e-8)
