@@ -1,0 +1,584 @@
+"""A bolt that is turned: the command's phase moves, the bolt follows its minimum, and falls where that ends.
+
+Each step begins where the last two lead, or from the last pose, and descends to a minimum near by. A step that ends
+farther away than allowed, or with other contacts, is halved: down to ``EVENT_WIDTH`` for contacts, and down to
+``LEAST_STEP`` where no minimum is near. From there the bolt falls.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
+from threadstate.contact._stage_kernel import Work as StageWork
+from threadstate.contact._stage_kernel import new_work as new_stage
+from threadstate.device._certificate_kernel import overlap
+from threadstate.device._chart_kernel import (
+    COORDINATES,
+    D_CENTRE,
+    D_PLACE,
+    D_ROTATION,
+    N_CENTRE,
+    N_OFFSET,
+    PLACE_SIZE,
+    elastic_energy,
+    set_place,
+)
+from threadstate.device._flush_kernel import centre_of_pressure, flush_until, set_flush, tip_over
+from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_VALUE
+from threadstate.device._places_kernel import Threads, new_threads
+from threadstate.device._rest_kernel import (
+    AT_REST,
+    FLUSH,
+    TOO_FAR,
+    UNSETTLED,
+    Work,
+    descend,
+    new_work,
+)
+from threadstate.device._settle_kernel import (
+    END_OVERLAP,
+    END_TOLERANCE,
+    FALL_STEP,
+    FALL_STEPS,
+    LAST_STEPS,
+    LEAST_GAP,
+    OVERLAP_LIMIT,
+    PATH_OVERLAP,
+    PATH_TOLERANCE,
+    STEP_LENGTH,
+    STEPS,
+    TIP,
+    distance,
+)
+from threadstate.device._strip_kernel import (
+    C_FORCE,
+    C_NORMAL,
+    C_PAIR,
+    C_POINT,
+    CONTACT_SIZE,
+    MAX_CONTACTS,
+    is_near_strip,
+    set_strip,
+    strip_holds,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+DEGREE = math.pi / 180.0
+
+FIRST_STEP, LARGEST_STEP, EVENT_WIDTH, LEAST_STEP = 0.25 * DEGREE, 2.0 * DEGREE, 0.05 * DEGREE, 1e-3 * DEGREE
+"""Steps of the phase (rad): the first, the longest, those in which contacts change, and the shortest."""
+
+LOADED = 1e-6
+"""Part of the push from which on a place counts as a contact."""
+
+SNAP_SPAN, SNAP_FALL = 3.0 * DEGREE, 0.05
+"""A snap: the origin goes down by more than this part of a thread pitch within this span of phase."""
+
+BELOW_TOP = 1e-9
+"""How far below the nut's top, in nominal radii, a contact on a thread lies after a snap."""
+
+TORQUE_LIMIT = 20.0
+"""Torque, over push times nominal radius, from which on the bolt counts as jammed."""
+
+ON_CONTACTS, ON_SURFACE, ON_STRIP = range(3)
+"""What holds the bolt: contacts at points, the nut's surface, a strip of flank."""
+
+# How a leg ends; the ends of a descent that are failures come after these.
+TURNED, SNAPPED, TORQUE_PASSED, FULL = range(4)
+FAILED = 10
+
+# A point of the path: phase (rad), what holds the bolt, potential, elastic energy, torque, number of contacts,
+# coordinates, rotation by rows and translation.
+T_PHASE, T_KIND, T_POTENTIAL, T_ENERGY, T_TORQUE, T_COUNT, T_COORDINATES, T_POSE = 0, 1, 2, 3, 4, 5, 6, 12
+POINT_SIZE = 24
+MAX_POINTS = 2500
+
+# An event: which, phase (rad), phase before, features before and after (-1: none), a point, drop, way, potential lost.
+E_KIND, E_PHASE, E_BEFORE, E_OLD_PAIR, E_PAIR, E_POINT, E_DROP, E_WAY, E_LOSS = 0, 1, 2, 3, 4, 5, 8, 9, 10
+EVENT_SIZE = 11
+MAX_EVENTS = 400
+GAINED, LOST, MOVED, FALL, SNAP, ON_FLUSH, OFF_FLUSH, LAID_ON_STRIP, OFF_STRIP = range(9)
+
+# A command in numbers: the rotation at phase 0 by rows, whether the phase is about the bolt, the commanded height.
+M_TILT, M_ABOUT_BOLT, M_HEIGHT = 0, 9, 10
+COMMAND_SIZE = 11
+
+# The result of a leg: how it ended, numbers of points and events, descents, the certificate's word of the end.
+L_STATUS, L_POINTS, L_EVENTS, L_DESCENTS, L_OVERLAP = range(5)
+LEG_SIZE = 5
+
+Leg = tuple[Array, Array, Array, Array]
+"""Of a leg: result, points, contacts of each point, events."""
+
+
+@kernel()
+def set_phase(phase: float, command: Array, device: Array) -> None:
+    """Sets the commanded rotation and place of a device at a phase (rad)."""
+    c, s = math.cos(phase), math.sin(phase)
+    for i in range(3):
+        a, b, d = command[M_TILT + i], command[M_TILT + 3 + i], command[M_TILT + 6 + i]
+        if command[M_ABOUT_BOLT] > 0.0:
+            row = M_TILT + 3 * i
+            a, b, d = command[row], command[row + 1], command[row + 2]
+            device[D_ROTATION + 3 * i] = a * c + b * s
+            device[D_ROTATION + 3 * i + 1] = b * c - a * s
+            device[D_ROTATION + 3 * i + 2] = d
+        else:
+            device[D_ROTATION + i] = c * a - s * b
+            device[D_ROTATION + 3 + i] = s * a + c * b
+            device[D_ROTATION + 6 + i] = d
+    for i in range(3):
+        device[D_PLACE + i] = device[D_CENTRE] * device[D_ROTATION + 3 * i + 2]
+    device[D_PLACE + 2] += command[M_HEIGHT]
+
+
+@kernel()
+def torque_of(q: Array, count: int, contacts: Array, command: Array, device: Array) -> float:
+    """The hand's work a radian of phase: the torque about the axis that the phase turns about."""
+    by_q = np.empty(COORDINATES)
+    elastic_energy(q, device, by_q)
+    ax, ay, az = 0.0, 0.0, 1.0
+    torque = 0.0
+    if command[M_ABOUT_BOLT] > 0.0:
+        ax, ay, az = command[M_TILT + 2], command[M_TILT + 5], command[M_TILT + 8]
+    else:
+        # The commanded place of the centre goes round.
+        x, y = device[D_CENTRE] * device[D_ROTATION + 2], device[D_CENTRE] * device[D_ROTATION + 5]
+        torque = by_q[3] * y - by_q[4] * x
+    for i in range(count):
+        f = contacts[i, C_FORCE]
+        fx, fy, fz = f * contacts[i, C_NORMAL], f * contacts[i, C_NORMAL + 1], f * contacts[i, C_NORMAL + 2]
+        px, py, pz = contacts[i, C_POINT] - q[3], contacts[i, C_POINT + 1] - q[4], contacts[i, C_POINT + 2] - q[5]
+        torque -= ax * (py * fz - pz * fy) + ay * (pz * fx - px * fz) + az * (px * fy - py * fx)
+    return torque
+
+
+@kernel()
+def set_contacts(count: int, push: float, work: Work, contacts: Array) -> int:
+    """Sets the contacts that carry a force from the places of a descent's end; returns their number."""
+    places, multipliers = work[0], work[15]
+    used = 0
+    for i in range(count):
+        force = multipliers[i] * places[i, G_NORM]
+        if force > LOADED * push and used < MAX_CONTACTS:
+            contacts[used, C_PAIR] = places[i, G_PAIR]
+            for j in range(3):
+                contacts[used, C_POINT + j] = places[i, G_POINT + j]
+                contacts[used, C_NORMAL + j] = places[i, G_NORMAL + j]
+            contacts[used, C_FORCE] = force
+            used += 1
+    return used
+
+
+@kernel()
+def set_flush_contact(q: Array, push: float, device: Array, contacts: Array) -> int:
+    """Sets the resultant of the pressure on the nut's surface as one contact; 1."""
+    place = np.empty(PLACE_SIZE)
+    set_place(q, device, place)
+    x, y, force, _ = centre_of_pressure(q, push, place, device)
+    contacts[0, C_PAIR] = FLUSH_PAIR
+    contacts[0, C_POINT], contacts[0, C_POINT + 1], contacts[0, C_POINT + 2] = x, y, 0.0
+    contacts[0, C_NORMAL], contacts[0, C_NORMAL + 1], contacts[0, C_NORMAL + 2] = 0.0, 0.0, 1.0
+    contacts[0, C_FORCE] = force
+    return 1
+
+
+@kernel()
+def changes(count: int, contacts: Array, next_count: int, next_contacts: Array, gone: Array, new: Array) -> int:
+    """How many contacts have no counterpart of the same features: sets which are gone, and which are new."""
+    total = 0
+    for i in range(count):
+        gone[i] = 1.0
+    for i in range(next_count):
+        best, nearest = -1, math.inf
+        for j in range(count):
+            if gone[j] > 0.0 and contacts[j, C_PAIR] == next_contacts[i, C_PAIR]:
+                apart = 0.0
+                for h in range(3):
+                    apart += (contacts[j, C_POINT + h] - next_contacts[i, C_POINT + h]) ** 2
+                if apart < nearest:
+                    best, nearest = j, apart
+        new[i] = 1.0 if best < 0 else 0.0
+        total += 1 if best < 0 else 0
+        if best >= 0:
+            gone[best] = 0.0
+    for j in range(count):
+        total += 1 if gone[j] > 0.0 else 0
+    return total
+
+
+@kernel()
+def add_event(kind: int, phase: float, before: float, old_pair: float, pair: float, result: Array, events: Array) -> int:
+    """Adds an event and returns its row; a full list keeps its last row for what comes later."""
+    i = min(int(result[L_EVENTS]), MAX_EVENTS - 1)
+    for j in range(EVENT_SIZE):
+        events[i, j] = 0.0
+    events[i, E_KIND], events[i, E_PHASE], events[i, E_BEFORE] = kind, phase, before
+    events[i, E_OLD_PAIR], events[i, E_PAIR] = old_pair, pair
+    result[L_EVENTS] = i + 1
+    return i
+
+
+@kernel()
+def add_changes(
+    phase: float,
+    before: float,
+    count: int,
+    contacts: Array,
+    next_count: int,
+    next_contacts: Array,
+    gone: Array,
+    new: Array,
+    result: Array,
+    events: Array,
+) -> None:
+    """Adds an event for each contact that is gained or lost; one that is both, by features, has moved."""
+    for i in range(next_count):
+        if new[i] == 0.0:
+            continue
+        best, nearest = -1, math.inf
+        for j in range(count):
+            if gone[j] > 0.0:
+                apart = 0.0
+                for h in range(3):
+                    apart += (contacts[j, C_POINT + h] - next_contacts[i, C_POINT + h]) ** 2
+                if apart < nearest:
+                    best, nearest = j, apart
+        old_pair = contacts[best, C_PAIR] if best >= 0 else -1.0
+        kind = MOVED if best >= 0 else GAINED
+        row = add_event(kind, phase, before, old_pair, next_contacts[i, C_PAIR], result, events)
+        for h in range(3):
+            events[row, E_POINT + h] = next_contacts[i, C_POINT + h]
+        if best >= 0:
+            gone[best] = 0.0
+    for j in range(count):
+        if gone[j] > 0.0:
+            row = add_event(LOST, phase, before, contacts[j, C_PAIR], -1.0, result, events)
+            for h in range(3):
+                events[row, E_POINT + h] = contacts[j, C_POINT + h]
+
+
+@kernel()
+def add_point(
+    phase: float,
+    kind: int,
+    q: Array,
+    push: float,
+    count: int,
+    contacts: Array,
+    command: Array,
+    device: Array,
+    leg: Leg,
+) -> bool:
+    """Adds a point to the path; False where it is full."""
+    result, points, all_contacts, _ = leg
+    i = int(result[L_POINTS])
+    if i == MAX_POINTS:
+        return False
+    by_q = np.empty(COORDINATES)
+    place = np.empty(PLACE_SIZE)
+    energy = elastic_energy(q, device, by_q)
+    set_place(q, device, place)
+    points[i, T_PHASE], points[i, T_KIND], points[i, T_COUNT] = phase, kind, count
+    points[i, T_ENERGY], points[i, T_POTENTIAL] = energy, energy + push * q[5]
+    points[i, T_TORQUE] = torque_of(q, count, contacts, command, device)
+    copy_numbers(q, points[i, T_COORDINATES : T_COORDINATES + COORDINATES])
+    copy_numbers(place[0:12], points[i, T_POSE : T_POSE + 12])
+    for j in range(count):
+        copy_numbers(contacts[j], all_contacts[i, j])
+    result[L_POINTS] = i + 1
+    return True
+
+
+@kernel()
+def has_snapped(leg: Leg, bolt: Array) -> bool:
+    """Whether the last points are a snap: down far enough within its span, onto a thread below the nut's top."""
+    result, points, all_contacts, _ = leg
+    last = int(result[L_POINTS]) - 1
+    height = points[last, T_POSE + 11]
+    is_below = points[last, T_KIND] == ON_STRIP
+    for j in range(int(points[last, T_COUNT])):
+        is_below = is_below or all_contacts[last, j, C_POINT + 2] < -BELOW_TOP * bolt[pk.R_MAJOR]
+    i = last - 1
+    while is_below and i >= 0 and abs(points[i, T_PHASE] - points[last, T_PHASE]) <= SNAP_SPAN * (1.0 + 1e-9):
+        if points[i, T_POSE + 11] - height > SNAP_FALL * bolt[pk.P]:
+            return True
+        i -= 1
+    return False
+
+
+@kernel()
+def predict(phase: float, q: Array, leg: Leg, is_smooth: bool, device: Array, trial: Array) -> None:
+    """Sets where a step to a phase begins: on the line through the last two points, or as the hand carries the bolt.
+
+    ``device`` has the command at the new phase. The compliance centre keeps its shift from the command.
+    """
+    result, points, _, _ = leg
+    last = int(result[L_POINTS]) - 1
+    copy_numbers(q, trial)
+    if is_smooth and last > 0:
+        span = points[last, T_PHASE] - points[last - 1, T_PHASE]
+        part = (phase - points[last, T_PHASE]) / span
+        for j in range(COORDINATES):
+            trial[j] += part * (points[last, T_COORDINATES + j] - points[last - 1, T_COORDINATES + j])
+
+
+@kernel()
+def add_fall(
+    phase: float, before: float, q: Array, trial: Array, push: float, lost: float, device: Array, leg: Leg
+) -> None:
+    """Adds a fall from ``q`` to ``trial``; ``lost`` is the potential lost."""
+    result, _, _, events = leg
+    place = np.empty(PLACE_SIZE)
+    row = add_event(FALL, phase, before, -1.0, -1.0, result, events)
+    set_place(q, device, place)
+    x, y, z = place[N_OFFSET], place[N_OFFSET + 1], place[N_OFFSET + 2]
+    set_place(trial, device, place)
+    events[row, E_DROP] = z - place[N_OFFSET + 2]
+    events[row, E_WAY] = math.sqrt(
+        (x - place[N_OFFSET]) ** 2 + (y - place[N_OFFSET + 1]) ** 2 + (z - place[N_OFFSET + 2]) ** 2
+    )
+    events[row, E_LOSS] = lost
+    for j in range(3):
+        events[row, E_POINT + j] = place[N_CENTRE + j]
+
+
+@kernel()
+def potential_of(q: Array, push: float, device: Array) -> float:
+    """The potential of the bolt."""
+    by_q = np.empty(COORDINATES)
+    return elastic_energy(q, device, by_q) + push * q[5]
+
+
+@kernel()
+def laid_on_strip(
+    q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array
+) -> tuple[bool, int]:
+    """Whether a bolt beside the level pose on the strip lies there, at no higher potential; moves it, in place."""
+    place = np.empty(PLACE_SIZE)
+    level = np.empty(COORDINATES)
+    leave = np.empty(COORDINATES)
+    set_place(q, device, place)
+    if not is_near_strip(place, bolt) or not set_strip(place[N_OFFSET + 2], device, strip, bolt, level):
+        return False, 0
+    if distance(q, level, device) > STEP_LENGTH * bolt[pk.R_MAJOR]:
+        return False, 0
+    if potential_of(level, push, device) > potential_of(q, push, device) + 1e-9 * push * bolt[pk.R_MAJOR]:
+        return False, 0
+    holds, count = strip_holds(level, push, device, strip, bolt, nut, contacts, leave)
+    if holds:
+        copy_numbers(level, q)
+    return holds, count
+
+
+@kernel()
+def closed_step(
+    kind: int, q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array, trial: Array
+) -> tuple[bool, int, float]:
+    """The pose on the surface or the strip at a new command: whether it is held there, its contacts, where it tips.
+
+    Where it is not held ``trial`` is set to the pose tipped a little in the direction in which the bolt leaves.
+    """
+    leave = np.empty(COORDINATES)
+    place = np.empty(PLACE_SIZE)
+    if kind == ON_SURFACE:
+        until, direction = flush_until(push, device, bolt, nut, trial)
+        if until > push:
+            return True, set_flush_contact(trial, push, device, contacts), 0.0
+        # The centre of pressure has left the patch: the bolt tips towards it.
+        set_place(trial, device, place)
+        x, y, _, _ = centre_of_pressure(trial, push, place, device)
+        direction = math.atan2(y - place[N_OFFSET + 1], x - place[N_OFFSET])
+        tip_over(direction, TIP, place, trial)
+        return False, 0, direction
+    set_place(q, device, place)
+    if not set_strip(place[N_OFFSET + 2], device, strip, bolt, trial):
+        copy_numbers(q, trial)
+        return False, 0, 0.0
+    holds, count = strip_holds(trial, push, device, strip, bolt, nut, contacts, leave)
+    if not holds:
+        for j in range(COORDINATES):
+            trial[j] += TIP * leave[j]
+    return holds, count, 0.0
+
+
+@kernel()
+def follow_phase(
+    q: Array,
+    kind: int,
+    start: float,
+    end: float,
+    stop_at_snap: bool,
+    push: float,
+    command: Array,
+    device: Array,
+    strip: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Work,
+    leg: Leg,
+) -> tuple[int, int]:
+    """Follows the bolt from ``q``, in place, while the phase goes from ``start`` to ``end`` (rad).
+
+    Returns how it ended and what holds the bolt then. ``leg`` is set.
+    """
+    result, points, all_contacts, events = leg
+    for j in range(LEG_SIZE):
+        result[j] = 0.0
+    r = bolt[pk.R_MAJOR]
+    contacts = np.empty((MAX_CONTACTS, CONTACT_SIZE))
+    next_contacts = np.empty((MAX_CONTACTS, CONTACT_SIZE))
+    gone, new = np.empty(MAX_CONTACTS), np.empty(MAX_CONTACTS)
+    trial = np.empty(COORDINATES)
+    predicted = np.empty(COORDINATES)
+    direction = 1.0 if end > start else -1.0
+    phase, step = start, FIRST_STEP
+    is_smooth = False
+    set_phase(phase, command, device)
+    if kind == ON_CONTACTS:
+        status, found = descend(
+            q, push, STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, PATH_TOLERANCE, PATH_OVERLAP,
+            device, bolt, nut, threads, work,
+        )
+        if status != AT_REST:
+            return FAILED + status, kind
+        count = set_contacts(found, push, work, contacts)
+    else:
+        _, count, _ = closed_step(kind, q, push, device, strip, bolt, nut, contacts, trial)
+    add_point(phase, kind, q, push, count, contacts, command, device, leg)
+    while direction * (end - phase) > 0.0:
+        left = direction * (end - phase)
+        is_last = step >= left
+        target = end if is_last else phase + direction * step
+        size = left if is_last else step
+        set_phase(target, command, device)
+        next_kind, next_count, status, lost = kind, 0, AT_REST, 0.0
+        fell = False
+        if kind != ON_CONTACTS:
+            held, next_count, _ = closed_step(kind, q, push, device, strip, bolt, nut, next_contacts, trial)
+            if not held and size > EVENT_WIDTH:
+                step = 0.5 * size
+                continue
+            if not held:
+                next_kind = ON_CONTACTS
+                add_event(
+                    OFF_FLUSH if kind == ON_SURFACE else OFF_STRIP, target, phase, FLUSH_PAIR, -1.0, result, events
+                )
+                copy_numbers(trial, q)
+                kind = ON_CONTACTS
+                is_smooth = False
+        if next_kind == ON_CONTACTS:
+            predict(target, q, leg, is_smooth, device, trial)
+            copy_numbers(trial, predicted)
+            result[L_DESCENTS] += 1
+            status, found = descend(
+                trial, push, STEP_LENGTH * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP,
+                device, bolt, nut, threads, work,
+            )
+            if (status == TOO_FAR or status == UNSETTLED) and size > LEAST_STEP:
+                step = max(0.5 * size, LEAST_STEP)
+                continue
+            if status == TOO_FAR or status == UNSETTLED:
+                copy_numbers(q, trial)
+                lost = potential_of(trial, push, device)
+                status, found = descend(
+                    trial, push, FALL_STEP * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP,
+                    device, bolt, nut, threads, work,
+                )
+                fell = True
+            if status == FLUSH:
+                set_flush(device, trial)
+                next_kind = ON_SURFACE
+                next_count = set_flush_contact(trial, push, device, next_contacts)
+            elif status == AT_REST:
+                next_count = set_contacts(found, push, work, next_contacts)
+                laid, on_strip = laid_on_strip(trial, push, device, strip, bolt, nut, next_contacts)
+                if laid:
+                    next_kind, next_count = ON_STRIP, on_strip
+            else:
+                return FAILED + status, kind
+        changed = changes(count, contacts, next_count, next_contacts, gone, new)
+        if not fell and (changed > 0 or next_kind != kind) and size > EVENT_WIDTH:
+            step = max(0.5 * size, EVENT_WIDTH)
+            continue
+        if fell:
+            lost -= potential_of(trial, push, device)
+            fell = distance(q, trial, device) > STEP_LENGTH * r
+        if fell:
+            add_fall(target, phase, q, trial, push, lost, device, leg)
+        if next_kind != kind:
+            add_event(
+                ON_FLUSH if next_kind == ON_SURFACE else LAID_ON_STRIP, target, phase, -1.0, FLUSH_PAIR, result, events
+            )
+        elif changed > 0:
+            add_changes(target, phase, count, contacts, next_count, next_contacts, gone, new, result, events)
+        is_smooth = changed == 0 and not fell and next_kind == kind and kind == ON_CONTACTS
+        phase, kind, count = target, next_kind, next_count
+        copy_numbers(trial, q)
+        for j in range(count):
+            copy_numbers(next_contacts[j], contacts[j])
+        if not add_point(phase, kind, q, push, count, contacts, command, device, leg):
+            return FULL, kind
+        if abs(points[int(result[L_POINTS]) - 1, T_TORQUE]) > TORQUE_LIMIT * push * r:
+            return TORQUE_PASSED, kind
+        if stop_at_snap and has_snapped(leg, bolt):
+            return SNAPPED, kind
+        step = min(2.0 * size, LARGEST_STEP)
+    return TURNED, kind
+
+
+@kernel()
+def certified_end(
+    q: Array, kind: int, push: float, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work,
+    stage: StageWork,
+) -> int:
+    """What the certificate says of the overlap at a leg's end; moves the bolt, in place, to the last digits."""
+    r = bolt[pk.R_MAJOR]
+    place = np.empty(PLACE_SIZE)
+    touching = 0
+    if kind == ON_CONTACTS:
+        _, found = descend(
+            q, push, STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP,
+            device, bolt, nut, threads, work,
+        )
+        for j in range(found):
+            if work[0][j, G_VALUE] > -LEAST_GAP * r:
+                copy_numbers(work[0][j], work[0][touching])
+                touching += 1
+    set_place(q, device, place)
+    return overlap(place[0:12], OVERLAP_LIMIT * r, touching, work[0], bolt, nut, stage)
+
+
+@kernel(nogil=True)
+def turn_with(
+    q: Array,
+    kind: int,
+    start: float,
+    end: float,
+    stop_at_snap: bool,
+    push: float,
+    command: Array,
+    device: Array,
+    strip: Array,
+    bolt: Array,
+    nut: Array,
+    leg: Leg,
+) -> tuple[int, int]:
+    """Turns a bolt from ``q``, in place: how it ended and what holds the bolt then; sets the leg."""
+    threads = new_threads(bolt)
+    work = new_work()
+    status, kind = follow_phase(
+        q, kind, start, end, stop_at_snap, push, command, device, strip, bolt, nut, threads, work, leg
+    )
+    leg[0][L_STATUS] = status
+    leg[0][L_OVERLAP] = certified_end(q, kind, push, device, bolt, nut, threads, work, new_stage())
+    return status, kind
