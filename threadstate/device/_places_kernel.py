@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._ridge_grid_kernel import CROSSINGS_SIZE, GRID_SIZE, MAX_CROSSINGS, set_columns
-from threadstate.contact._ridge_kernel import nearby_maximum, ridge_maxima
+from threadstate.contact._ridge_kernel import (
+    FIRST_RIDGE_STEP,
+    FIRST_WINDOW,
+    bracketed_maximum,
+    nearby_maximum,
+    ridge_maxima,
+)
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -243,6 +249,11 @@ def add_threads(
             placement[9 + i] = place[N_OFFSET + i] + base * place[N_ROTATION + 3 * i + 2]
         for j in range(ridge_maxima(RIDGE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
             theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
+            if not converged:
+                # From beside a ridge of flank on flank Newton's method does not ascend.
+                theta, z, converged = bracketed_maximum(
+                    maxima[j, 0], maxima[j, 1], FIRST_RIDGE_STEP, FIRST_WINDOW * p, placement, bolt, nut, jet
+                )
             if not converged or jet[J_PHI] < -reach or base + z <= 0.0 or jet[J_Z] >= 0.0:
                 continue
             theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
