@@ -1,8 +1,8 @@
 """The level pose in which the bolt lies on the nut's flank along a strip, and whether a push holds it there.
 
 Flank lies on flank where both axes coincide and the bolt is as high as its turn asks. Pressure anywhere on the strip
-balances the wrenches of the convex cone of its points; that cone is taken from inside, over points along both of the
-strip's edges.
+balances the wrenches of the convex cone of its points; that cone is taken from inside, over points of the
+strip's outline.
 """
 
 from __future__ import annotations
@@ -40,8 +40,9 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-SAMPLES = 96
-"""Points along each edge of a strip; their cone lies within the strip's."""
+SAMPLES, END_SAMPLES = 64, 24
+OUTLINE = 2 * (SAMPLES + END_SAMPLES)
+"""Points along each helix and each end of a strip's outline; their cone lies within the strip's."""
 
 BALANCED = 1e-9
 """Wrench (over the push) that the strip may leave unbalanced where it counts as holding the bolt."""
@@ -89,8 +90,21 @@ def set_strip(near: float, device: Array, strip: Array, bolt: Array, q: Array) -
 
 
 @kernel()
+def strip_parameters(i: int, height: float, strip: Array) -> tuple[float, float]:
+    """A point of a strip's outline: its radius, and its height in the nut's frame.
+
+    The outline is two helices, at the least and the largest radius, then both ends, at the nut's top and at the base.
+    """
+    if i < 2 * SAMPLES:
+        return strip[S_LOW + i // SAMPLES], height * (i % SAMPLES) / (SAMPLES - 1)
+    i -= 2 * SAMPLES
+    part = (i % END_SAMPLES + 1) / (END_SAMPLES + 1)
+    return strip[S_LOW] + part * (strip[S_HIGH] - strip[S_LOW]), height * (i // END_SAMPLES)
+
+
+@kernel()
 def set_strip_rows(place: Array, device: Array, strip: Array, nut: Array, rows: Array, points: Array) -> int:
-    """Sets the strip's points with their normals, and the gradients of the overlap there in lengths; their number."""
+    """Sets the points of all strips' outlines with normals, and the overlap's gradients there in lengths; how many."""
     n = free_coordinates(device)
     k = nut[pk.LEAD] / TWO_PI
     count = 0
@@ -98,33 +112,30 @@ def set_strip_rows(place: Array, device: Array, strip: Array, nut: Array, rows: 
     m = place[N_ROTATION : N_ROTATION + 9]
     jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
     by_q = np.empty(COORDINATES)
+    cot = nut[pk.COT]
     for start in range(starts):
-        for edge in range(2):
-            radius = strip[S_LOW + edge]
-            s = pk.inverse(radius, 0, nut)
-            cot = nut[pk.COT]
-            for i in range(SAMPLES):
-                z = place[N_OFFSET + 2] * i / (SAMPLES - 1)
-                theta = (z - s) / k + start * TWO_PI / starts
-                x, y = radius * math.cos(theta), radius * math.sin(theta)
-                kr = cot * k / radius
-                nx, ny, nz = -x / radius + kr * y / radius, -y / radius - kr * x / radius, cot
-                norm = math.sqrt(nx * nx + ny * ny + nz * nz)
-                nx, ny, nz = nx / norm, ny / norm, nz / norm
-                ax, ay, az = x - place[N_CENTRE], y - place[N_CENTRE + 1], z - place[N_CENTRE + 2]
-                mx, my, mz = ay * nz - az * ny, az * nx - ax * nz, ax * ny - ay * nx
-                for j in range(3):
-                    by_q[j] = -(m[j] * mx + m[3 + j] * my + m[6 + j] * mz)
-                x0, y0, z0 = by_q[0], by_q[1], by_q[2]
-                for j in range(3):
-                    by_q[j] = jacobian[j] * x0 + jacobian[3 + j] * y0 + jacobian[6 + j] * z0
-                by_q[3], by_q[4], by_q[5] = -nx, -ny, -nz
-                for j in range(n):
-                    h = coordinate(j, device)
-                    rows[count, j] = by_q[h] / scale(h, device)
-                points[count, 0], points[count, 1], points[count, 2] = x, y, z
-                points[count, 3], points[count, 4], points[count, 5] = nx, ny, nz
-                count += 1
+        for i in range(OUTLINE):
+            radius, z = strip_parameters(i, place[N_OFFSET + 2], strip)
+            theta = (z - pk.inverse(radius, 0, nut)) / k + start * TWO_PI / starts
+            x, y = radius * math.cos(theta), radius * math.sin(theta)
+            kr = cot * k / radius
+            nx, ny, nz = -x / radius + kr * y / radius, -y / radius - kr * x / radius, cot
+            norm = math.sqrt(nx * nx + ny * ny + nz * nz)
+            nx, ny, nz = nx / norm, ny / norm, nz / norm
+            ax, ay, az = x - place[N_CENTRE], y - place[N_CENTRE + 1], z - place[N_CENTRE + 2]
+            mx, my, mz = ay * nz - az * ny, az * nx - ax * nz, ax * ny - ay * nx
+            wx = -(m[0] * mx + m[3] * my + m[6] * mz)
+            wy = -(m[1] * mx + m[4] * my + m[7] * mz)
+            wz = -(m[2] * mx + m[5] * my + m[8] * mz)
+            for j in range(3):
+                by_q[j] = jacobian[j] * wx + jacobian[3 + j] * wy + jacobian[6 + j] * wz
+            by_q[3], by_q[4], by_q[5] = -nx, -ny, -nz
+            for j in range(n):
+                h = coordinate(j, device)
+                rows[count, j] = by_q[h] / scale(h, device)
+            points[count, 0], points[count, 1], points[count, 2] = x, y, z
+            points[count, 3], points[count, 4], points[count, 5] = nx, ny, nz
+            count += 1
     return count
 
 
@@ -144,7 +155,7 @@ def strip_holds(
     factor = np.empty((COORDINATES, COORDINATES))
     gradient = np.empty(COORDINATES)
     by_q = np.empty(COORDINATES)
-    most = 2 * SAMPLES * int(strip[S_STARTS])
+    most = OUTLINE * int(strip[S_STARTS])
     rows = np.empty((most, COORDINATES))
     points = np.empty((most, 6))
     set_place(q, device, place)

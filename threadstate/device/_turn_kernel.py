@@ -79,6 +79,13 @@ FIRST_STEP, LARGEST_STEP, EVENT_WIDTH, LEAST_STEP = 0.25 * DEGREE, 2.0 * DEGREE,
 LOADED = 1e-6
 """Part of the push from which on a place counts as a contact."""
 
+LEVEL_REACH = 1e-3
+"""How near (nominal radii) to a level pose on the surface or on a strip a bolt is laid there, if it is held there."""
+
+BRIDGE = 1.0 * DEGREE
+"""The longest step (rad) tried past a phase at which no step is short enough: beside a level pose and where contacts
+take turns minima are there whose descent goes round in circles."""
+
 SNAP_SPAN, SNAP_FALL = 3.0 * DEGREE, 0.05
 """A snap: the origin goes down by more than this part of a thread pitch within this span of phase."""
 
@@ -105,7 +112,7 @@ MAX_POINTS = 2500
 E_KIND, E_PHASE, E_BEFORE, E_OLD_PAIR, E_PAIR, E_POINT, E_DROP, E_WAY, E_LOSS = 0, 1, 2, 3, 4, 5, 8, 9, 10
 EVENT_SIZE = 11
 MAX_EVENTS = 400
-GAINED, LOST, MOVED, FALL, SNAP, ON_FLUSH, OFF_FLUSH, LAID_ON_STRIP, OFF_STRIP = range(9)
+GAINED, LOST, MOVED, FALL, SNAP, ON_FLUSH, OFF_FLUSH, LAID_ON_STRIP, OFF_STRIP, BRIDGED = range(10)
 
 # A command in numbers: the rotation at phase 0 by rows, whether the phase is about the bolt, the commanded height.
 M_TILT, M_ABOUT_BOLT, M_HEIGHT = 0, 9, 10
@@ -359,24 +366,30 @@ def potential_of(q: Array, push: float, device: Array) -> float:
 
 
 @kernel()
-def laid_on_strip(
+def laid_level(
     q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array
-) -> tuple[bool, int]:
-    """Whether a bolt beside the level pose on the strip lies there, at no higher potential; moves it, in place."""
+) -> tuple[int, int]:
+    """What holds a bolt that is beside a level pose in which it lies on the surface or on a strip; its contacts.
+
+    It is moved there, in place. A level pose that is held is a minimum of the potential: the only one near by.
+    """
     place = np.empty(PLACE_SIZE)
     level = np.empty(COORDINATES)
     leave = np.empty(COORDINATES)
+    near = LEVEL_REACH * bolt[pk.R_MAJOR]
     set_place(q, device, place)
-    if not is_near_strip(place, bolt) or not set_strip(place[N_OFFSET + 2], device, strip, bolt, level):
-        return False, 0
-    if distance(q, level, device) > STEP_LENGTH * bolt[pk.R_MAJOR]:
-        return False, 0
-    if potential_of(level, push, device) > potential_of(q, push, device) + 1e-9 * push * bolt[pk.R_MAJOR]:
-        return False, 0
-    holds, count = strip_holds(level, push, device, strip, bolt, nut, contacts, leave)
-    if holds:
-        copy_numbers(level, q)
-    return holds, count
+    if is_near_strip(place, bolt) and set_strip(place[N_OFFSET + 2], device, strip, bolt, level):
+        if distance(q, level, device) < near:
+            holds, count = strip_holds(level, push, device, strip, bolt, nut, contacts, leave)
+            if holds:
+                copy_numbers(level, q)
+                return ON_STRIP, count
+    if abs(place[N_OFFSET + 2]) < near and set_flush(device, level) and distance(q, level, device) < near:
+        until, _ = flush_until(push, device, bolt, nut, level)
+        if until > push:
+            copy_numbers(level, q)
+            return ON_SURFACE, set_flush_contact(q, push, device, contacts)
+    return ON_CONTACTS, 0
 
 
 @kernel()
@@ -439,10 +452,10 @@ def follow_phase(
     next_contacts = np.empty((MAX_CONTACTS, CONTACT_SIZE))
     gone, new = np.empty(MAX_CONTACTS), np.empty(MAX_CONTACTS)
     trial = np.empty(COORDINATES)
-    predicted = np.empty(COORDINATES)
+    begun = np.empty(COORDINATES)
     direction = 1.0 if end > start else -1.0
     phase, step = start, FIRST_STEP
-    is_smooth = False
+    is_smooth, is_bridging, is_falling = False, False, False
     set_phase(phase, command, device)
     if kind == ON_CONTACTS:
         status, found = descend(
@@ -462,52 +475,61 @@ def follow_phase(
         size = left if is_last else step
         set_phase(target, command, device)
         next_kind, next_count, status, lost = kind, 0, AT_REST, 0.0
-        fell = False
+        fell, held = False, True
         if kind != ON_CONTACTS:
             held, next_count, _ = closed_step(kind, q, push, device, strip, bolt, nut, next_contacts, trial)
-            if not held and size > EVENT_WIDTH:
+            if not held and size > EVENT_WIDTH and not is_bridging:
                 step = 0.5 * size
                 continue
-            if not held:
-                next_kind = ON_CONTACTS
-                add_event(
-                    OFF_FLUSH if kind == ON_SURFACE else OFF_STRIP, target, phase, FLUSH_PAIR, -1.0, result, events
-                )
-                copy_numbers(trial, q)
-                kind = ON_CONTACTS
-                is_smooth = False
-        if next_kind == ON_CONTACTS:
-            predict(target, q, leg, is_smooth, device, trial)
-            copy_numbers(trial, predicted)
-            result[L_DESCENTS] += 1
-            status, found = descend(
-                trial, push, STEP_LENGTH * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP,
-                device, bolt, nut, threads, work,
-            )
-            if (status == TOO_FAR or status == UNSETTLED) and size > LEAST_STEP:
-                step = max(0.5 * size, LEAST_STEP)
-                continue
-            if status == TOO_FAR or status == UNSETTLED:
-                copy_numbers(q, trial)
+        if kind == ON_CONTACTS or not held:
+            next_kind = ON_CONTACTS
+            if held:
+                predict(target, q, leg, is_smooth, device, trial)
+            copy_numbers(trial, begun)
+            laid, laid_count = ON_CONTACTS, 0
+            if is_falling:
+                copy_numbers(begun if not held else q, trial)
                 lost = potential_of(trial, push, device)
                 status, found = descend(
                     trial, push, FALL_STEP * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP,
                     device, bolt, nut, threads, work,
                 )
                 fell = True
+            else:
+                result[L_DESCENTS] += 1
+                status, found = descend(
+                    trial, push, STEP_LENGTH * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP,
+                    device, bolt, nut, threads, work,
+                )
+                if held and (status == AT_REST or status == UNSETTLED):
+                    if status == UNSETTLED:
+                        copy_numbers(begun, trial)
+                    laid, laid_count = laid_level(trial, push, device, strip, bolt, nut, next_contacts)
+                    if laid != ON_CONTACTS:
+                        status = AT_REST
+                if status == TOO_FAR or status == UNSETTLED:
+                    if size > LEAST_STEP and not is_bridging and held:
+                        step = max(0.5 * size, LEAST_STEP)
+                        continue
+                    if status == UNSETTLED and size < min(BRIDGE, left):
+                        is_bridging = True
+                        step = 2.0 * size
+                        continue
+                    is_falling = True
+                    step = LEAST_STEP if held else EVENT_WIDTH
+                    continue
             if status == FLUSH:
                 set_flush(device, trial)
                 next_kind = ON_SURFACE
                 next_count = set_flush_contact(trial, push, device, next_contacts)
+            elif laid != ON_CONTACTS:
+                next_kind, next_count = laid, laid_count
             elif status == AT_REST:
                 next_count = set_contacts(found, push, work, next_contacts)
-                laid, on_strip = laid_on_strip(trial, push, device, strip, bolt, nut, next_contacts)
-                if laid:
-                    next_kind, next_count = ON_STRIP, on_strip
             else:
                 return FAILED + status, kind
         changed = changes(count, contacts, next_count, next_contacts, gone, new)
-        if not fell and (changed > 0 or next_kind != kind) and size > EVENT_WIDTH:
+        if not fell and not is_bridging and (changed > 0 or next_kind != kind) and size > EVENT_WIDTH:
             step = max(0.5 * size, EVENT_WIDTH)
             continue
         if fell:
@@ -515,13 +537,18 @@ def follow_phase(
             fell = distance(q, trial, device) > STEP_LENGTH * r
         if fell:
             add_fall(target, phase, q, trial, push, lost, device, leg)
-        if next_kind != kind:
+        if kind != ON_CONTACTS and next_kind != kind:
+            add_event(OFF_FLUSH if kind == ON_SURFACE else OFF_STRIP, target, phase, FLUSH_PAIR, -1.0, result, events)
+        if next_kind != ON_CONTACTS and next_kind != kind:
             add_event(
                 ON_FLUSH if next_kind == ON_SURFACE else LAID_ON_STRIP, target, phase, -1.0, FLUSH_PAIR, result, events
             )
-        elif changed > 0:
+        if changed > 0 and next_kind == kind:
             add_changes(target, phase, count, contacts, next_count, next_contacts, gone, new, result, events)
         is_smooth = changed == 0 and not fell and next_kind == kind and kind == ON_CONTACTS
+        if is_bridging and not fell:
+            add_event(BRIDGED, target, phase, -1.0, -1.0, result, events)
+        is_bridging, is_falling = False, False
         phase, kind, count = target, next_kind, next_count
         copy_numbers(trial, q)
         for j in range(count):
