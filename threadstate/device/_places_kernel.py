@@ -66,6 +66,9 @@ MAX_PLACES = 24
 SCAN_REACH = 0.01
 """An interval is divided where one of its ends is above the reach less this part of the nominal radius."""
 
+RIDGE_REACH = 0.01
+"""A maximum is bracketed along its ridge where phi is above the reach less this part of a thread pitch."""
+
 MAX_PITCHES = 4
 """How many thread pitches of the bolt are searched from its base up: a bolt that is deeper is refused."""
 
@@ -249,7 +252,7 @@ def add_threads(
             placement[9 + i] = place[N_OFFSET + i] + base * place[N_ROTATION + 3 * i + 2]
         for j in range(ridge_maxima(RIDGE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
             theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
-            if not converged:
+            if not converged and jet[J_PHI] > -reach - RIDGE_REACH * p:
                 # From beside a ridge of flank on flank Newton's method does not ascend.
                 theta, z, converged = bracketed_maximum(
                     maxima[j, 0], maxima[j, 1], FIRST_RIDGE_STEP, FIRST_WINDOW * p, placement, bolt, nut, jet

@@ -17,10 +17,11 @@ from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.contact._stage_kernel import Work as StageWork
 from threadstate.contact._stage_kernel import new_work as new_stage
-from threadstate.device._certificate_kernel import overlap
+from threadstate.device._certificate_kernel import FREE, overlap
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
+    D_FINE,
     D_PLACE,
     D_ROTATION,
     N_CENTRE,
@@ -31,7 +32,7 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._flush_kernel import centre_of_pressure, flush_until, set_flush, tip_over
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_VALUE
-from threadstate.device._places_kernel import Threads, new_threads
+from threadstate.device._places_kernel import FINE, FINEST, Threads, new_threads
 from threadstate.device._rest_kernel import (
     AT_REST,
     FLUSH,
@@ -53,7 +54,6 @@ from threadstate.device._settle_kernel import (
     PATH_TOLERANCE,
     STEP_LENGTH,
     STEPS,
-    TIP,
     distance,
 )
 from threadstate.device._strip_kernel import (
@@ -76,13 +76,19 @@ DEGREE = math.pi / 180.0
 FIRST_STEP, LARGEST_STEP, EVENT_WIDTH, LEAST_STEP = 0.25 * DEGREE, 2.0 * DEGREE, 0.05 * DEGREE, 1e-3 * DEGREE
 """Steps of the phase (rad): the first, the longest, those in which contacts change, and the shortest."""
 
+DESCENT_STEP = 3e-3
+"""The longest step of a descent in a step of the phase, in nominal radii."""
+
 LOADED = 1e-6
 """Part of the push from which on a place counts as a contact."""
+
+TIP = 1e-4
+"""How far (rad) a bolt is tipped that a level pose no longer holds."""
 
 LEVEL_REACH = 1e-3
 """How near (nominal radii) to a level pose on the surface or on a strip a bolt is laid there, if it is held there."""
 
-BRIDGE = 1.0 * DEGREE
+BRIDGE = 2.0 * DEGREE
 """The longest step (rad) tried past a phase at which no step is short enough: beside a level pose and where contacts
 take turns minima are there whose descent goes round in circles."""
 
@@ -393,6 +399,30 @@ def laid_level(
 
 
 @kernel()
+def fall_down(
+    q: Array, push: float, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
+) -> tuple[int, int]:
+    """Falls from ``q``, in place, to a minimum: how the descent ended, and the number of places there.
+
+    Where it does not end it begins again with places of contact searched more finely, and then with longer steps.
+    """
+    r = bolt[pk.R_MAJOR]
+    start = q.copy()
+    status, found = UNSETTLED, 0
+    for attempt in range(3):
+        copy_numbers(start, q)
+        device[D_FINE] = FINEST if attempt == 1 else FINE
+        longest = STEP_LENGTH if attempt == 2 else FALL_STEP
+        status, found = descend(
+            q, push, longest * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP, device, bolt, nut, threads, work
+        )
+        if status != UNSETTLED:
+            break
+    device[D_FINE] = FINE
+    return status, found
+
+
+@kernel()
 def closed_step(
     kind: int, q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array, trial: Array
 ) -> tuple[bool, int, float]:
@@ -459,7 +489,7 @@ def follow_phase(
     set_phase(phase, command, device)
     if kind == ON_CONTACTS:
         status, found = descend(
-            q, push, STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, PATH_TOLERANCE, PATH_OVERLAP,
+            q, push, DESCENT_STEP * r, STEP_LENGTH * r, LAST_STEPS, PATH_TOLERANCE, PATH_OVERLAP,
             device, bolt, nut, threads, work,
         )
         if status != AT_REST:
@@ -490,15 +520,12 @@ def follow_phase(
             if is_falling:
                 copy_numbers(begun if not held else q, trial)
                 lost = potential_of(trial, push, device)
-                status, found = descend(
-                    trial, push, FALL_STEP * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP,
-                    device, bolt, nut, threads, work,
-                )
+                status, found = fall_down(trial, push, device, bolt, nut, threads, work)
                 fell = True
             else:
                 result[L_DESCENTS] += 1
                 status, found = descend(
-                    trial, push, STEP_LENGTH * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP,
+                    trial, push, DESCENT_STEP * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP,
                     device, bolt, nut, threads, work,
                 )
                 if held and (status == AT_REST or status == UNSETTLED):
@@ -509,11 +536,11 @@ def follow_phase(
                         status = AT_REST
                 if status == TOO_FAR or status == UNSETTLED:
                     if size > LEAST_STEP and not is_bridging and held:
-                        step = max(0.5 * size, LEAST_STEP)
+                        step = max(0.25 * size, LEAST_STEP)
                         continue
                     if status == UNSETTLED and size < min(BRIDGE, left):
                         is_bridging = True
-                        step = 2.0 * size
+                        step = 4.0 * size
                         continue
                     is_falling = True
                     step = LEAST_STEP if held else EVENT_WIDTH
@@ -572,9 +599,12 @@ def certified_end(
     r = bolt[pk.R_MAJOR]
     place = np.empty(PLACE_SIZE)
     touching = 0
+    if kind != ON_CONTACTS:
+        # Level on the surface, or in phase on a strip: nothing overlaps.
+        return FREE
     if kind == ON_CONTACTS:
         _, found = descend(
-            q, push, STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP,
+            q, push, DESCENT_STEP * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP,
             device, bolt, nut, threads, work,
         )
         for j in range(found):

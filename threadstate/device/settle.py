@@ -95,23 +95,35 @@ def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, 
     check_pair(pair)
     held = (device or default_device()).in_unit(pair.unit)
     numbers = device_numbers(pair, held)
-    rotations = np.empty((len(wanted), 9))
-    heights = np.full(len(wanted), math.nan)
-    tips = np.zeros((len(wanted), 3))
-    is_flush = np.zeros(len(wanted), dtype=bool)
-    for i, (roll_deg, pitch_deg, phase_deg) in enumerate(wanted):
-        rotations[i] = commanded_rotation(roll_deg, pitch_deg, phase_deg, held.about)
+    rotations, rows = settled_rows(pair, held, numbers, wanted)
+    return [
+        settled_state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows))
+        for i in range(len(wanted))
+    ]
+
+
+def settled_rows(pair: Pair, device: Device, numbers: Floats, poses_deg: Floats) -> tuple[Floats, sk.Rows]:
+    """The commanded rotations of poses, shape (n, 9), and the kernels' rows of where they settle.
+
+    ``device`` is in the pair's unit, ``numbers`` are its :func:`device_numbers`.
+    """
+    rotations = np.empty((len(poses_deg), 9))
+    heights = np.full(len(poses_deg), math.nan)
+    tips = np.zeros((len(poses_deg), 3))
+    is_flush = np.zeros(len(poses_deg), dtype=bool)
+    for i, (roll_deg, pitch_deg, phase_deg) in enumerate(poses_deg):
+        rotations[i] = commanded_rotation(roll_deg, pitch_deg, phase_deg, device.about)
         if abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG:
             heights[i], tips[i] = level_start(pair, phase_deg, rotations[i])
             is_flush[i] = not tips[i].any()
-    rows = new_rows(len(wanted))
+    rows = new_rows(len(poses_deg))
     chosen = np.flatnonzero(~is_flush)
     part = new_rows(len(chosen))
     sk.settle_rows(
         rotations[chosen],
         heights[chosen],
         tips[chosen],
-        held.push,
+        device.push,
         numbers.copy(),
         pair.bolt.packed,
         pair.nut.packed,
@@ -121,9 +133,7 @@ def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, 
         whole[chosen] = some
     rows[0][is_flush, sk.R_STATUS] = rest.FLUSH
     rows[0][is_flush, sk.R_HEIGHT] = heights[is_flush]
-    return [
-        _state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows)) for i in range(len(wanted))
-    ]
+    return rotations, rows
 
 
 def check_pair(pair: Pair) -> None:
@@ -182,7 +192,7 @@ def new_rows(count: int) -> sk.Rows:
     )
 
 
-def _state(
+def settled_state(
     pair: Pair,
     device: Device,
     numbers: Floats,
@@ -213,7 +223,7 @@ def _state(
         shift = q[3:] - numbers[ck.D_PLACE : ck.D_PLACE + 3]
         energy = ck.elastic_energy(q, numbers, np.empty(ck.COORDINATES))
         matrix = pose[:9].reshape(3, 3)
-        placed = StagePose(tuple(_vector(line) for line in matrix), _vector(pose[9:]))  # type: ignore[arg-type]
+        placed = StagePose(tuple(vector_of(line) for line in matrix), vector_of(pose[9:]))  # type: ignore[arg-type]
         return SettledState(
             roll_deg,
             pitch_deg,
@@ -221,8 +231,8 @@ def _state(
             Outcome.SETTLED,
             flags,
             placed,
-            _vector(shift),
-            _vector(np.degrees(q[:3])),
+            vector_of(shift),
+            vector_of(np.degrees(q[:3])),
             contacts,
             float(energy),
             fallen,
@@ -250,10 +260,10 @@ def _state(
     loaded = multipliers * places[:, gk.G_NORM] > NO_FORCE * device.push
     contacts = tuple(
         LoadedContact(
-            _vector(place[gk.G_POINT : gk.G_POINT + 3]),
-            _vector(place[gk.G_NORMAL : gk.G_NORMAL + 3]),
+            vector_of(place[gk.G_POINT : gk.G_POINT + 3]),
+            vector_of(place[gk.G_NORMAL : gk.G_NORMAL + 3]),
             FEATURES[int(place[gk.G_PAIR])],
-            _vector(multiplier * place[gk.G_NORM] * place[gk.G_NORMAL : gk.G_NORMAL + 3]),
+            vector_of(multiplier * place[gk.G_NORM] * place[gk.G_NORMAL : gk.G_NORMAL + 3]),
         )
         for place, multiplier in zip(places[loaded], multipliers[loaded], strict=True)
     )
@@ -294,11 +304,11 @@ def _point(point: Floats) -> PathPoint:
         float(point[sk.P_PUSH]),
         float(point[sk.P_ENERGY]),
         float(point[sk.P_POTENTIAL]),
-        _vector(point[sk.P_COORDINATES : sk.P_COORDINATES + 3]),
-        _vector(point[sk.P_COORDINATES + 3 : sk.P_COORDINATES + 6]),
+        vector_of(point[sk.P_COORDINATES : sk.P_COORDINATES + 3]),
+        vector_of(point[sk.P_COORDINATES + 3 : sk.P_COORDINATES + 6]),
     )
 
 
-def _vector(numbers: Floats) -> Vector:
+def vector_of(numbers: Floats) -> Vector:
     x, y, z = (float(number) for number in numbers)
     return x, y, z
