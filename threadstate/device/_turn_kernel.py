@@ -46,7 +46,6 @@ from threadstate.device._settle_kernel import (
     END_OVERLAP,
     END_TOLERANCE,
     FALL_STEP,
-    FALL_STEPS,
     LAST_STEPS,
     LEAST_GAP,
     OVERLAP_LIMIT,
@@ -92,6 +91,15 @@ BRIDGE = 2.0 * DEGREE
 """The longest step (rad) tried past a phase at which no step is short enough: beside a level pose and where contacts
 take turns minima are there whose descent goes round in circles."""
 
+ENERGY_STEP = 1e-6
+"""Potential, over push times nominal radius, that a step may leave unexplained by the torque: more is a fall."""
+
+MAX_DESCENTS = 2000
+"""Descents after which a leg is given up."""
+
+TURN_FALL_STEPS = 300
+"""Steps of the descent of a fall."""
+
 SNAP_SPAN, SNAP_FALL = 3.0 * DEGREE, 0.05
 """A snap: the origin goes down by more than this part of a thread pitch within this span of phase."""
 
@@ -118,11 +126,12 @@ MAX_POINTS = 2500
 E_KIND, E_PHASE, E_BEFORE, E_OLD_PAIR, E_PAIR, E_POINT, E_DROP, E_WAY, E_LOSS = 0, 1, 2, 3, 4, 5, 8, 9, 10
 EVENT_SIZE = 11
 MAX_EVENTS = 400
-GAINED, LOST, MOVED, FALL, SNAP, ON_FLUSH, OFF_FLUSH, LAID_ON_STRIP, OFF_STRIP, BRIDGED = range(10)
+GAINED, LOST, MOVED, FALL, SNAP, ON_FLUSH, OFF_FLUSH, ON_FLANK, OFF_STRIP, BRIDGED = range(10)
 
-# A command in numbers: the rotation at phase 0 by rows, whether the phase is about the bolt, the commanded height.
-M_TILT, M_ABOUT_BOLT, M_HEIGHT = 0, 9, 10
-COMMAND_SIZE = 11
+# A command in numbers: the rotation at phase 0 by rows, whether the phase is about the bolt, the commanded height, the
+# push.
+M_TILT, M_ABOUT_BOLT, M_HEIGHT, M_PUSH = 0, 9, 10, 11
+COMMAND_SIZE = 12
 
 # The result of a leg: how it ended, numbers of points and events, descents, the certificate's word of the end.
 L_STATUS, L_POINTS, L_EVENTS, L_DESCENTS, L_OVERLAP = range(5)
@@ -130,6 +139,17 @@ LEG_SIZE = 5
 
 Leg = tuple[Array, Array, Array, Array]
 """Of a leg: result, points, contacts of each point, events."""
+
+# Where a leg is: phase and next step (rad), what holds the bolt, its number of contacts, whether the last step was
+# smooth, whether longer steps are tried, whether the bolt falls next.
+S_PHASE, S_STEP, S_KIND, S_COUNT, S_SMOOTH, S_BRIDGING, S_FALLING = range(7)
+STATE_SIZE = 7
+
+# What becomes of a step: it is taken, tried again with another length, or the leg ends here.
+TAKEN, AGAIN, ENDED = range(3)
+
+Setting = tuple[Array, Array, Array, Array, Array, Threads, Work]
+"""What a leg is followed with: command, device, strip, bolt, nut, and the work of searches and descents."""
 
 
 @kernel()
@@ -229,7 +249,9 @@ def changes(count: int, contacts: Array, next_count: int, next_contacts: Array, 
 
 
 @kernel()
-def add_event(kind: int, phase: float, before: float, old_pair: float, pair: float, result: Array, events: Array) -> int:
+def add_event(
+    kind: int, phase: float, before: float, old_pair: float, pair: float, result: Array, events: Array
+) -> int:
     """Adds an event and returns its row; a full list keeps its last row for what comes later."""
     i = min(int(result[L_EVENTS]), MAX_EVENTS - 1)
     for j in range(EVENT_SIZE):
@@ -280,17 +302,7 @@ def add_changes(
 
 
 @kernel()
-def add_point(
-    phase: float,
-    kind: int,
-    q: Array,
-    push: float,
-    count: int,
-    contacts: Array,
-    command: Array,
-    device: Array,
-    leg: Leg,
-) -> bool:
+def add_point(state: Array, q: Array, contacts: Array, command: Array, device: Array, leg: Leg) -> bool:
     """Adds a point to the path; False where it is full."""
     result, points, all_contacts, _ = leg
     i = int(result[L_POINTS])
@@ -300,8 +312,9 @@ def add_point(
     place = np.empty(PLACE_SIZE)
     energy = elastic_energy(q, device, by_q)
     set_place(q, device, place)
-    points[i, T_PHASE], points[i, T_KIND], points[i, T_COUNT] = phase, kind, count
-    points[i, T_ENERGY], points[i, T_POTENTIAL] = energy, energy + push * q[5]
+    count = int(state[S_COUNT])
+    points[i, T_PHASE], points[i, T_KIND], points[i, T_COUNT] = state[S_PHASE], state[S_KIND], count
+    points[i, T_ENERGY], points[i, T_POTENTIAL] = energy, energy + command[M_PUSH] * q[5]
     points[i, T_TORQUE] = torque_of(q, count, contacts, command, device)
     copy_numbers(q, points[i, T_COORDINATES : T_COORDINATES + COORDINATES])
     copy_numbers(place[0:12], points[i, T_POSE : T_POSE + 12])
@@ -329,11 +342,8 @@ def has_snapped(leg: Leg, bolt: Array) -> bool:
 
 
 @kernel()
-def predict(phase: float, q: Array, leg: Leg, is_smooth: bool, device: Array, trial: Array) -> None:
-    """Sets where a step to a phase begins: on the line through the last two points, or as the hand carries the bolt.
-
-    ``device`` has the command at the new phase. The compliance centre keeps its shift from the command.
-    """
+def predict(phase: float, q: Array, leg: Leg, is_smooth: bool, trial: Array) -> None:
+    """Sets where a step to a phase begins: on the line through the last two points, or as the hand carries the bolt."""
     result, points, _, _ = leg
     last = int(result[L_POINTS]) - 1
     copy_numbers(q, trial)
@@ -345,9 +355,7 @@ def predict(phase: float, q: Array, leg: Leg, is_smooth: bool, device: Array, tr
 
 
 @kernel()
-def add_fall(
-    phase: float, before: float, q: Array, trial: Array, push: float, lost: float, device: Array, leg: Leg
-) -> None:
+def add_fall(phase: float, before: float, q: Array, trial: Array, lost: float, device: Array, leg: Leg) -> None:
     """Adds a fall from ``q`` to ``trial``; ``lost`` is the potential lost."""
     result, _, _, events = leg
     place = np.empty(PLACE_SIZE)
@@ -384,12 +392,12 @@ def laid_level(
     leave = np.empty(COORDINATES)
     near = LEVEL_REACH * bolt[pk.R_MAJOR]
     set_place(q, device, place)
-    if is_near_strip(place, bolt) and set_strip(place[N_OFFSET + 2], device, strip, bolt, level):
-        if distance(q, level, device) < near:
-            holds, count = strip_holds(level, push, device, strip, bolt, nut, contacts, leave)
-            if holds:
-                copy_numbers(level, q)
-                return ON_STRIP, count
+    is_level = is_near_strip(place, bolt) and set_strip(place[N_OFFSET + 2], device, strip, bolt, level)
+    if is_level and distance(q, level, device) < near:
+        holds, count = strip_holds(level, push, device, strip, bolt, nut, contacts, leave)
+        if holds:
+            copy_numbers(level, q)
+            return ON_STRIP, count
     if abs(place[N_OFFSET + 2]) < near and set_flush(device, level) and distance(q, level, device) < near:
         until, _ = flush_until(push, device, bolt, nut, level)
         if until > push:
@@ -414,7 +422,18 @@ def fall_down(
         device[D_FINE] = FINEST if attempt == 1 else FINE
         longest = STEP_LENGTH if attempt == 2 else FALL_STEP
         status, found = descend(
-            q, push, longest * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP, device, bolt, nut, threads, work
+            q,
+            push,
+            longest * r,
+            math.inf,
+            TURN_FALL_STEPS,
+            PATH_TOLERANCE,
+            PATH_OVERLAP,
+            device,
+            bolt,
+            nut,
+            threads,
+            work,
         )
         if status != UNSETTLED:
             break
@@ -423,194 +442,306 @@ def fall_down(
 
 
 @kernel()
-def closed_step(
-    kind: int, q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array, trial: Array
-) -> tuple[bool, int, float]:
-    """The pose on the surface or the strip at a new command: whether it is held there, its contacts, where it tips.
+def closed_step(kind: int, q: Array, setting: Setting, contacts: Array, trial: Array) -> tuple[bool, int]:
+    """The pose on the surface or the strip at a new command: whether it is held there, and its number of contacts.
 
     Where it is not held ``trial`` is set to the pose tipped a little in the direction in which the bolt leaves.
     """
+    command, device, strip, bolt, nut, _, _ = setting
+    push = command[M_PUSH]
     leave = np.empty(COORDINATES)
     place = np.empty(PLACE_SIZE)
     if kind == ON_SURFACE:
         until, direction = flush_until(push, device, bolt, nut, trial)
         if until > push:
-            return True, set_flush_contact(trial, push, device, contacts), 0.0
+            return True, set_flush_contact(trial, push, device, contacts)
         # The centre of pressure has left the patch: the bolt tips towards it.
         set_place(trial, device, place)
         x, y, _, _ = centre_of_pressure(trial, push, place, device)
         direction = math.atan2(y - place[N_OFFSET + 1], x - place[N_OFFSET])
         tip_over(direction, TIP, place, trial)
-        return False, 0, direction
+        return False, 0
     set_place(q, device, place)
     if not set_strip(place[N_OFFSET + 2], device, strip, bolt, trial):
         copy_numbers(q, trial)
-        return False, 0, 0.0
+        return False, 0
     holds, count = strip_holds(trial, push, device, strip, bolt, nut, contacts, leave)
     if not holds:
         for j in range(COORDINATES):
             trial[j] += TIP * leave[j]
-    return holds, count, 0.0
+    return holds, count
+
+
+@kernel()
+def descent_near(q: Array, steps: int, setting: Setting) -> tuple[int, int]:
+    """Descends from ``q``, in place, to a minimum near by: how it ended, and the number of places there."""
+    command, device, _, bolt, nut, threads, work = setting
+    r = bolt[pk.R_MAJOR]
+    return descend(
+        q,
+        command[M_PUSH],
+        DESCENT_STEP * r,
+        STEP_LENGTH * r,
+        steps,
+        PATH_TOLERANCE,
+        PATH_OVERLAP,
+        device,
+        bolt,
+        nut,
+        threads,
+        work,
+    )
+
+
+@kernel()
+def minimum_near(
+    size: float, left: float, held: bool, state: Array, setting: Setting, trial: Array, contacts: Array, leg: Leg
+) -> tuple[int, int, int, int]:
+    """The minimum near ``trial``, in place, for a step of a size (rad): what becomes of the step.
+
+    Then how the descent ended, what holds the bolt there, and its number of contacts. ``held`` is False where the bolt
+    is leaving a level pose. Where no minimum is near the next step is shorter, then longer, then a fall.
+    """
+    command, device, strip, bolt, nut, _, work = setting
+    push = command[M_PUSH]
+    begun = trial.copy()
+    leg[0][L_DESCENTS] += 1
+    status, found = descent_near(trial, STEPS, setting)
+    if held and (status == AT_REST or status == UNSETTLED):
+        if status == UNSETTLED:
+            copy_numbers(begun, trial)
+        laid, count = laid_level(trial, push, device, strip, bolt, nut, contacts)
+        if laid != ON_CONTACTS:
+            return TAKEN, AT_REST, laid, count
+    if status == TOO_FAR or status == UNSETTLED:
+        if size > LEAST_STEP and state[S_BRIDGING] == 0.0 and held:
+            state[S_STEP] = max(0.25 * size, LEAST_STEP)
+        elif status == UNSETTLED and size < min(BRIDGE, left):
+            state[S_BRIDGING] = 1.0
+            state[S_STEP] = min(4.0 * size, BRIDGE)
+        else:
+            state[S_FALLING] = 1.0
+            state[S_STEP] = LEAST_STEP if held else EVENT_WIDTH
+        return AGAIN, status, ON_CONTACTS, 0
+    if status == FLUSH:
+        set_flush(device, trial)
+        return TAKEN, AT_REST, ON_SURFACE, set_flush_contact(trial, push, device, contacts)
+    if status != AT_REST:
+        return ENDED, status, ON_CONTACTS, 0
+    return TAKEN, AT_REST, ON_CONTACTS, set_contacts(found, push, work, contacts)
+
+
+@kernel()
+def minimum_below(trial: Array, setting: Setting, contacts: Array) -> tuple[int, int, int, int]:
+    """The minimum that the bolt falls to from ``trial``, in place; returns as :func:`minimum_near`."""
+    command, device, _, bolt, nut, threads, work = setting
+    push = command[M_PUSH]
+    status, found = fall_down(trial, push, device, bolt, nut, threads, work)
+    if status == FLUSH:
+        set_flush(device, trial)
+        return TAKEN, AT_REST, ON_SURFACE, set_flush_contact(trial, push, device, contacts)
+    if status != AT_REST:
+        return ENDED, status, ON_CONTACTS, 0
+    return TAKEN, AT_REST, ON_CONTACTS, set_contacts(found, push, work, contacts)
+
+
+@kernel()
+def try_step(
+    target: float, left: float, q: Array, state: Array, setting: Setting, trial: Array, contacts: Array, leg: Leg
+) -> tuple[int, int, int, int]:
+    """The equilibrium after a step to a phase, in ``trial``; returns as :func:`minimum_near`."""
+    command, device, _, _, _, _, _ = setting
+    size = abs(target - state[S_PHASE])
+    kind = int(state[S_KIND])
+    held = True
+    set_phase(target, command, device)
+    if kind != ON_CONTACTS:
+        held, count = closed_step(kind, q, setting, contacts, trial)
+        if held:
+            return TAKEN, AT_REST, kind, count
+        if size > EVENT_WIDTH and state[S_BRIDGING] == 0.0:
+            state[S_STEP] = 0.5 * size
+            return AGAIN, AT_REST, kind, 0
+    elif state[S_FALLING] > 0.0:
+        copy_numbers(q, trial)
+    else:
+        predict(target, q, leg, state[S_SMOOTH] > 0.0, trial)
+    if state[S_FALLING] > 0.0:
+        return minimum_below(trial, setting, contacts)
+    return minimum_near(size, left, held, state, setting, trial, contacts, leg)
+
+
+@kernel()
+def refused(size: float, changed: bool, lost: float, state: Array) -> bool:
+    """Whether a step has to be shorter: contacts change in it, or the potential does as the torque does not explain.
+
+    Sets the next step where it is.
+    """
+    if state[S_FALLING] > 0.0 or state[S_BRIDGING] > 0.0:
+        return False
+    if changed and size > EVENT_WIDTH:
+        state[S_STEP] = max(0.5 * size, EVENT_WIDTH)
+        return True
+    if abs(lost) > ENERGY_STEP and size > LEAST_STEP:
+        state[S_STEP] = max(0.5 * size, LEAST_STEP)
+        return True
+    return False
+
+
+@kernel()
+def add_step_events(
+    target: float,
+    kind: int,
+    count: int,
+    next_kind: int,
+    next_count: int,
+    bridged: bool,
+    contacts: Array,
+    next_contacts: Array,
+    gone: Array,
+    new: Array,
+    before: float,
+    leg: Leg,
+) -> None:
+    """Adds what a step to a phase changes: what holds the bolt, contacts, and whether it was bridged."""
+    result, _, _, events = leg
+    if kind != ON_CONTACTS and next_kind != kind:
+        add_event(OFF_FLUSH if kind == ON_SURFACE else OFF_STRIP, target, before, FLUSH_PAIR, -1.0, result, events)
+    if next_kind != ON_CONTACTS and next_kind != kind:
+        add_event(ON_FLUSH if next_kind == ON_SURFACE else ON_FLANK, target, before, -1.0, FLUSH_PAIR, result, events)
+    if next_kind == ON_CONTACTS and kind == ON_CONTACTS:
+        add_changes(target, before, count, contacts, next_count, next_contacts, gone, new, result, events)
+    if bridged:
+        add_event(BRIDGED, target, before, -1.0, -1.0, result, events)
+
+
+@kernel()
+def step_on(
+    end: float, q: Array, state: Array, setting: Setting, contacts: Array, next_contacts: Array, leg: Leg
+) -> tuple[int, int]:
+    """Takes a step towards ``end``, or says that it has to be tried again: what became of it, and how a descent ended.
+
+    ``q``, state and contacts are those after the step where it is taken.
+    """
+    command, device, _, bolt, _, _, _ = setting
+    result, points, _, _ = leg
+    trial = np.empty(COORDINATES)
+    gone, new = np.empty(MAX_CONTACTS), np.empty(MAX_CONTACTS)
+    before, kind, count = state[S_PHASE], int(state[S_KIND]), int(state[S_COUNT])
+    left = abs(end - before)
+    size = min(state[S_STEP], left)
+    target = end if size == left else before + (size if end > before else -size)
+    scale = command[M_PUSH] * bolt[pk.R_MAJOR]
+    verdict, status, next_kind, next_count = try_step(target, left, q, state, setting, trial, next_contacts, leg)
+    if verdict != TAKEN:
+        return verdict, status
+    changed = changes(count, contacts, next_count, next_contacts, gone, new)
+    last = int(result[L_POINTS]) - 1
+    lost = points[last, T_POTENTIAL] - potential_of(trial, command[M_PUSH], device)
+    next_torque = torque_of(trial, next_count, next_contacts, command, device)
+    lost += 0.5 * (points[last, T_TORQUE] + next_torque) * (target - before)
+    if refused(size, changed > 0 or next_kind != kind, lost / scale, state):
+        return AGAIN, status
+    bridged = state[S_BRIDGING] > 0.0 and state[S_FALLING] == 0.0
+    fell = not bridged and lost > ENERGY_STEP * scale
+    if fell:
+        add_fall(target, before, q, trial, lost, device, leg)
+    add_step_events(
+        target, kind, count, next_kind, next_count, bridged, contacts, next_contacts, gone, new, before, leg
+    )
+    state[S_SMOOTH] = 1.0 if changed == 0 and not fell and next_kind == kind and kind == ON_CONTACTS else 0.0
+    state[S_PHASE], state[S_KIND], state[S_COUNT] = target, next_kind, next_count
+    state[S_BRIDGING], state[S_FALLING] = 0.0, 0.0
+    state[S_STEP] = min(2.0 * size, LARGEST_STEP)
+    copy_numbers(trial, q)
+    for j in range(next_count):
+        copy_numbers(next_contacts[j], contacts[j])
+    return TAKEN, status
+
+
+@kernel()
+def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, contacts: Array) -> int:
+    """Sets the state of a leg and its contacts at its beginning; how the descent there ended."""
+    command, device, _, _, _, _, work = setting
+    trial = np.empty(COORDINATES)
+    for j in range(STATE_SIZE):
+        state[j] = 0.0
+    state[S_PHASE], state[S_STEP], state[S_KIND] = start, FIRST_STEP, kind
+    set_phase(start, command, device)
+    if kind != ON_CONTACTS:
+        _, count = closed_step(kind, q, setting, contacts, trial)
+        state[S_COUNT] = count
+        return AT_REST
+    status, found = descent_near(q, LAST_STEPS, setting)
+    state[S_COUNT] = set_contacts(found, command[M_PUSH], work, contacts)
+    return status
 
 
 @kernel()
 def follow_phase(
-    q: Array,
-    kind: int,
-    start: float,
-    end: float,
-    stop_at_snap: bool,
-    push: float,
-    command: Array,
-    device: Array,
-    strip: Array,
-    bolt: Array,
-    nut: Array,
-    threads: Threads,
-    work: Work,
-    leg: Leg,
+    q: Array, kind: int, start: float, end: float, stop_at_snap: bool, setting: Setting, leg: Leg
 ) -> tuple[int, int]:
     """Follows the bolt from ``q``, in place, while the phase goes from ``start`` to ``end`` (rad).
 
     Returns how it ended and what holds the bolt then. ``leg`` is set.
     """
-    result, points, all_contacts, events = leg
+    command, device, _, bolt, _, _, _ = setting
+    result, points, _, _ = leg
     for j in range(LEG_SIZE):
         result[j] = 0.0
-    r = bolt[pk.R_MAJOR]
+    state = np.empty(STATE_SIZE)
     contacts = np.empty((MAX_CONTACTS, CONTACT_SIZE))
     next_contacts = np.empty((MAX_CONTACTS, CONTACT_SIZE))
-    gone, new = np.empty(MAX_CONTACTS), np.empty(MAX_CONTACTS)
-    trial = np.empty(COORDINATES)
-    begun = np.empty(COORDINATES)
-    direction = 1.0 if end > start else -1.0
-    phase, step = start, FIRST_STEP
-    is_smooth, is_bridging, is_falling = False, False, False
-    set_phase(phase, command, device)
-    if kind == ON_CONTACTS:
-        status, found = descend(
-            q, push, DESCENT_STEP * r, STEP_LENGTH * r, LAST_STEPS, PATH_TOLERANCE, PATH_OVERLAP,
-            device, bolt, nut, threads, work,
-        )
-        if status != AT_REST:
-            return FAILED + status, kind
-        count = set_contacts(found, push, work, contacts)
-    else:
-        _, count, _ = closed_step(kind, q, push, device, strip, bolt, nut, contacts, trial)
-    add_point(phase, kind, q, push, count, contacts, command, device, leg)
-    while direction * (end - phase) > 0.0:
-        left = direction * (end - phase)
-        is_last = step >= left
-        target = end if is_last else phase + direction * step
-        size = left if is_last else step
-        set_phase(target, command, device)
-        next_kind, next_count, status, lost = kind, 0, AT_REST, 0.0
-        fell, held = False, True
-        if kind != ON_CONTACTS:
-            held, next_count, _ = closed_step(kind, q, push, device, strip, bolt, nut, next_contacts, trial)
-            if not held and size > EVENT_WIDTH and not is_bridging:
-                step = 0.5 * size
-                continue
-        if kind == ON_CONTACTS or not held:
-            next_kind = ON_CONTACTS
-            if held:
-                predict(target, q, leg, is_smooth, device, trial)
-            copy_numbers(trial, begun)
-            laid, laid_count = ON_CONTACTS, 0
-            if is_falling:
-                copy_numbers(begun if not held else q, trial)
-                lost = potential_of(trial, push, device)
-                status, found = fall_down(trial, push, device, bolt, nut, threads, work)
-                fell = True
-            else:
-                result[L_DESCENTS] += 1
-                status, found = descend(
-                    trial, push, DESCENT_STEP * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP,
-                    device, bolt, nut, threads, work,
-                )
-                if held and (status == AT_REST or status == UNSETTLED):
-                    if status == UNSETTLED:
-                        copy_numbers(begun, trial)
-                    laid, laid_count = laid_level(trial, push, device, strip, bolt, nut, next_contacts)
-                    if laid != ON_CONTACTS:
-                        status = AT_REST
-                if status == TOO_FAR or status == UNSETTLED:
-                    if size > LEAST_STEP and not is_bridging and held:
-                        step = max(0.25 * size, LEAST_STEP)
-                        continue
-                    if status == UNSETTLED and size < min(BRIDGE, left):
-                        is_bridging = True
-                        step = 4.0 * size
-                        continue
-                    is_falling = True
-                    step = LEAST_STEP if held else EVENT_WIDTH
-                    continue
-            if status == FLUSH:
-                set_flush(device, trial)
-                next_kind = ON_SURFACE
-                next_count = set_flush_contact(trial, push, device, next_contacts)
-            elif laid != ON_CONTACTS:
-                next_kind, next_count = laid, laid_count
-            elif status == AT_REST:
-                next_count = set_contacts(found, push, work, next_contacts)
-            else:
-                return FAILED + status, kind
-        changed = changes(count, contacts, next_count, next_contacts, gone, new)
-        if not fell and not is_bridging and (changed > 0 or next_kind != kind) and size > EVENT_WIDTH:
-            step = max(0.5 * size, EVENT_WIDTH)
+    status = begin(q, kind, start, state, setting, contacts)
+    add_point(state, q, contacts, command, device, leg)
+    if status != AT_REST:
+        return FAILED + status, kind
+    limit = TORQUE_LIMIT * command[M_PUSH] * bolt[pk.R_MAJOR]
+    while state[S_PHASE] != end:
+        if result[L_DESCENTS] >= MAX_DESCENTS:
+            return FULL, int(state[S_KIND])
+        verdict, status = step_on(end, q, state, setting, contacts, next_contacts, leg)
+        if verdict == ENDED:
+            return FAILED + status, int(state[S_KIND])
+        if verdict == AGAIN:
             continue
-        if fell:
-            lost -= potential_of(trial, push, device)
-            fell = distance(q, trial, device) > STEP_LENGTH * r
-        if fell:
-            add_fall(target, phase, q, trial, push, lost, device, leg)
-        if kind != ON_CONTACTS and next_kind != kind:
-            add_event(OFF_FLUSH if kind == ON_SURFACE else OFF_STRIP, target, phase, FLUSH_PAIR, -1.0, result, events)
-        if next_kind != ON_CONTACTS and next_kind != kind:
-            add_event(
-                ON_FLUSH if next_kind == ON_SURFACE else LAID_ON_STRIP, target, phase, -1.0, FLUSH_PAIR, result, events
-            )
-        if changed > 0 and next_kind == kind:
-            add_changes(target, phase, count, contacts, next_count, next_contacts, gone, new, result, events)
-        is_smooth = changed == 0 and not fell and next_kind == kind and kind == ON_CONTACTS
-        if is_bridging and not fell:
-            add_event(BRIDGED, target, phase, -1.0, -1.0, result, events)
-        is_bridging, is_falling = False, False
-        phase, kind, count = target, next_kind, next_count
-        copy_numbers(trial, q)
-        for j in range(count):
-            copy_numbers(next_contacts[j], contacts[j])
-        if not add_point(phase, kind, q, push, count, contacts, command, device, leg):
-            return FULL, kind
-        if abs(points[int(result[L_POINTS]) - 1, T_TORQUE]) > TORQUE_LIMIT * push * r:
-            return TORQUE_PASSED, kind
+        if not add_point(state, q, contacts, command, device, leg):
+            return FULL, int(state[S_KIND])
+        if abs(points[int(result[L_POINTS]) - 1, T_TORQUE]) > limit:
+            return TORQUE_PASSED, int(state[S_KIND])
         if stop_at_snap and has_snapped(leg, bolt):
-            return SNAPPED, kind
-        step = min(2.0 * size, LARGEST_STEP)
-    return TURNED, kind
+            return SNAPPED, int(state[S_KIND])
+    return TURNED, int(state[S_KIND])
 
 
 @kernel()
-def certified_end(
-    q: Array, kind: int, push: float, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work,
-    stage: StageWork,
-) -> int:
+def certified_end(q: Array, kind: int, setting: Setting, stage: StageWork) -> int:
     """What the certificate says of the overlap at a leg's end; moves the bolt, in place, to the last digits."""
-    r = bolt[pk.R_MAJOR]
-    place = np.empty(PLACE_SIZE)
-    touching = 0
+    command, device, _, bolt, nut, threads, work = setting
     if kind != ON_CONTACTS:
         # Level on the surface, or in phase on a strip: nothing overlaps.
         return FREE
-    if kind == ON_CONTACTS:
-        _, found = descend(
-            q, push, DESCENT_STEP * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP,
-            device, bolt, nut, threads, work,
-        )
-        for j in range(found):
-            if work[0][j, G_VALUE] > -LEAST_GAP * r:
-                copy_numbers(work[0][j], work[0][touching])
-                touching += 1
+    r = bolt[pk.R_MAJOR]
+    place = np.empty(PLACE_SIZE)
+    touching = 0
+    _, found = descend(
+        q,
+        command[M_PUSH],
+        STEP_LENGTH * r,
+        STEP_LENGTH * r,
+        LAST_STEPS,
+        END_TOLERANCE,
+        END_OVERLAP,
+        device,
+        bolt,
+        nut,
+        threads,
+        work,
+    )
+    for j in range(found):
+        if work[0][j, G_VALUE] > -LEAST_GAP * r:
+            copy_numbers(work[0][j], work[0][touching])
+            touching += 1
     set_place(q, device, place)
     return overlap(place[0:12], OVERLAP_LIMIT * r, touching, work[0], bolt, nut, stage)
 
@@ -622,7 +753,6 @@ def turn_with(
     start: float,
     end: float,
     stop_at_snap: bool,
-    push: float,
     command: Array,
     device: Array,
     strip: Array,
@@ -631,11 +761,8 @@ def turn_with(
     leg: Leg,
 ) -> tuple[int, int]:
     """Turns a bolt from ``q``, in place: how it ended and what holds the bolt then; sets the leg."""
-    threads = new_threads(bolt)
-    work = new_work()
-    status, kind = follow_phase(
-        q, kind, start, end, stop_at_snap, push, command, device, strip, bolt, nut, threads, work, leg
-    )
+    setting = (command, device, strip, bolt, nut, new_threads(bolt), new_work())
+    status, kind = follow_phase(q, kind, start, end, stop_at_snap, setting, leg)
     leg[0][L_STATUS] = status
-    leg[0][L_OVERLAP] = certified_end(q, kind, push, device, bolt, nut, threads, work, new_stage())
+    leg[0][L_OVERLAP] = certified_end(q, kind, setting, new_stage())
     return status, kind

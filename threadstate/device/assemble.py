@@ -56,7 +56,7 @@ EVENTS = {
     tk.FALL: EventKind.FALL,
     tk.ON_FLUSH: EventKind.ON_SURFACE,
     tk.OFF_FLUSH: EventKind.OFF_SURFACE,
-    tk.LAID_ON_STRIP: EventKind.ON_STRIP,
+    tk.ON_FLANK: EventKind.ON_STRIP,
     tk.OFF_STRIP: EventKind.OFF_STRIP,
     tk.BRIDGED: EventKind.BRIDGED,
 }
@@ -99,13 +99,13 @@ def assemble_pose(
     command[:9] = commanded_rotation(roll, pitch, 0.0, held.about)
     command[tk.M_ABOUT_BOLT] = held.about is About.BOLT
     command[tk.M_HEIGHT] = row[0][sk.R_HEIGHT]
-    legs = _turned(pair, held, numbers, command, row, float(phase), strategy)
+    command[tk.M_PUSH] = held.push
+    legs = _turned(pair, numbers, command, row, float(phase), strategy)
     return _path(pair, held, numbers, command, legs, start, strategy)
 
 
 def _turned(
     pair: Pair,
-    device: Device,
     numbers: Floats,
     command: Floats,
     row: tuple[Floats, ...],
@@ -133,7 +133,6 @@ def _turned(
             phase,
             phase + math.radians(turn_deg),
             stops_at_snap,
-            device.push,
             command,
             numbers,
             strip_numbers(pair),
@@ -211,9 +210,7 @@ def _path(
         max(math.hypot(*point.rotation_deg) for point in points),
         max(math.hypot(*point.shift[:2]) for point in points),
     )
-    return AssemblyPath(
-        start, strategy, 0.0, outcome, flags, tuple(events), tuple(points), energy, margins, travel
-    )
+    return AssemblyPath(start, strategy, 0.0, outcome, flags, tuple(events), tuple(points), energy, margins, travel)
 
 
 def _point(row: Floats, contacts: Floats, numbers: Floats, command: Floats) -> AssemblyPoint:
