@@ -58,7 +58,8 @@ NEAR = 1e-3
 S_DOWN, S_LOW, S_HIGH, S_STARTS = range(4)
 STRIP_SIZE = 4
 
-# A contact that carries a force: pair of features, point in the nut's frame, unit normal into the bolt, force (N).
+# A contact that carries a force: pair of features, point in the nut's frame, direction of the force on the bolt (the
+# unit normal; on a strip with friction less mu times the direction of slip), normal force (N).
 C_PAIR, C_POINT, C_NORMAL, C_FORCE = 0, 1, 4, 7
 CONTACT_SIZE = 8
 MAX_CONTACTS = 8
@@ -103,8 +104,14 @@ def strip_parameters(i: int, height: float, strip: Array) -> tuple[float, float]
 
 
 @kernel()
-def set_strip_rows(place: Array, device: Array, strip: Array, nut: Array, rows: Array, points: Array) -> int:
-    """Sets the points of all strips' outlines with normals, and the overlap's gradients there in lengths; how many."""
+def set_strip_rows(
+    mu: float, sense: float, place: Array, device: Array, strip: Array, nut: Array, rows: Array, points: Array
+) -> int:
+    """Sets the points of all strips' outlines, the directions of forces there, and their rows; returns how many.
+
+    A direction is the normal less mu times that of the slip, of a screw motion of counter-clockwise (1) or clockwise
+    (-1) ``sense``; a row has minus what a unit force does along each free coordinate, as lengths.
+    """
     n = free_coordinates(device)
     k = nut[pk.LEAD] / TWO_PI
     count = 0
@@ -121,7 +128,8 @@ def set_strip_rows(place: Array, device: Array, strip: Array, nut: Array, rows: 
             kr = cot * k / radius
             nx, ny, nz = -x / radius + kr * y / radius, -y / radius - kr * x / radius, cot
             norm = math.sqrt(nx * nx + ny * ny + nz * nz)
-            nx, ny, nz = nx / norm, ny / norm, nz / norm
+            speed = sense * mu / math.sqrt(radius * radius + k * k)
+            nx, ny, nz = nx / norm + speed * y, ny / norm - speed * x, nz / norm - speed * k
             ax, ay, az = x - place[N_CENTRE], y - place[N_CENTRE + 1], z - place[N_CENTRE + 2]
             mx, my, mz = ay * nz - az * ny, az * nx - ax * nz, ax * ny - ay * nx
             wx = -(m[0] * mx + m[3] * my + m[6] * mz)
@@ -141,9 +149,20 @@ def set_strip_rows(place: Array, device: Array, strip: Array, nut: Array, rows: 
 
 @kernel()
 def strip_holds(
-    q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array, leave: Array
+    q: Array,
+    push: float,
+    mu: float,
+    sense: float,
+    device: Array,
+    strip: Array,
+    bolt: Array,
+    nut: Array,
+    contacts: Array,
+    leave: Array,
 ) -> tuple[bool, int]:
     """Whether pressure on the strip balances device and push at its level pose ``q``; the number of ``contacts`` set.
+
+    With friction ``mu`` of a bolt that is screwed counter-clockwise (``sense`` 1) or clockwise (-1) along the strip.
 
     The contacts are points whose forces do, at most as many as there are free coordinates. Where it does not hold
     ``leave`` is set to the direction, of unit length in the coordinates, in which the bolt leaves the strip.
@@ -162,7 +181,7 @@ def strip_holds(
     set_metric(n, place, device, metric)
     cholesky(metric, n, factor)
     set_gradient(n, q, push, device, by_q, gradient)
-    count = set_strip_rows(place, device, strip, nut, rows, points)
+    count = set_strip_rows(mu, sense, place, device, strip, nut, rows, points)
     limits = np.zeros(count)
     forces = np.empty(count)
     step = np.empty(COORDINATES)

@@ -94,8 +94,8 @@ take turns minima are there whose descent goes round in circles."""
 ENERGY_STEP = 1e-6
 """Potential, over push times nominal radius, that a step may leave unexplained by the torque: more is a fall."""
 
-MAX_DESCENTS = 2000
-"""Descents after which a leg is given up."""
+MAX_DESCENTS, MAX_FAILURES = 2000, 50
+"""Descents, and descents that did not end, after which a leg is given up."""
 
 TURN_FALL_STEPS = 300
 """Steps of the descent of a fall."""
@@ -133,9 +133,10 @@ GAINED, LOST, MOVED, FALL, SNAP, ON_FLUSH, OFF_FLUSH, ON_FLANK, OFF_STRIP, BRIDG
 M_TILT, M_ABOUT_BOLT, M_HEIGHT, M_PUSH = 0, 9, 10, 11
 COMMAND_SIZE = 12
 
-# The result of a leg: how it ended, numbers of points and events, descents, the certificate's word of the end.
-L_STATUS, L_POINTS, L_EVENTS, L_DESCENTS, L_OVERLAP = range(5)
-LEG_SIZE = 5
+# The result of a leg: how it ended, numbers of points, of events, of descents and of those that did not end, what the
+# certificate says of the end.
+L_STATUS, L_POINTS, L_EVENTS, L_DESCENTS, L_FAILURES, L_OVERLAP = range(6)
+LEG_SIZE = 6
 
 Leg = tuple[Array, Array, Array, Array]
 """Of a leg: result, points, contacts of each point, events."""
@@ -394,7 +395,7 @@ def laid_level(
     set_place(q, device, place)
     is_level = is_near_strip(place, bolt) and set_strip(place[N_OFFSET + 2], device, strip, bolt, level)
     if is_level and distance(q, level, device) < near:
-        holds, count = strip_holds(level, push, device, strip, bolt, nut, contacts, leave)
+        holds, count = strip_holds(level, push, 0.0, 0.0, device, strip, bolt, nut, contacts, leave)
         if holds:
             copy_numbers(level, q)
             return ON_STRIP, count
@@ -465,7 +466,7 @@ def closed_step(kind: int, q: Array, setting: Setting, contacts: Array, trial: A
     if not set_strip(place[N_OFFSET + 2], device, strip, bolt, trial):
         copy_numbers(q, trial)
         return False, 0
-    holds, count = strip_holds(trial, push, device, strip, bolt, nut, contacts, leave)
+    holds, count = strip_holds(trial, push, 0.0, 0.0, device, strip, bolt, nut, contacts, leave)
     if not holds:
         for j in range(COORDINATES):
             trial[j] += TIP * leave[j]
@@ -514,6 +515,7 @@ def minimum_near(
         if laid != ON_CONTACTS:
             return TAKEN, AT_REST, laid, count
     if status == TOO_FAR or status == UNSETTLED:
+        leg[0][L_FAILURES] += 1 if status == UNSETTLED else 0
         if size > LEAST_STEP and state[S_BRIDGING] == 0.0 and held:
             state[S_STEP] = max(0.25 * size, LEAST_STEP)
         elif status == UNSETTLED and size < min(BRIDGE, left):
@@ -698,7 +700,7 @@ def follow_phase(
         return FAILED + status, kind
     limit = TORQUE_LIMIT * command[M_PUSH] * bolt[pk.R_MAJOR]
     while state[S_PHASE] != end:
-        if result[L_DESCENTS] >= MAX_DESCENTS:
+        if result[L_DESCENTS] >= MAX_DESCENTS or result[L_FAILURES] >= MAX_FAILURES:
             return FULL, int(state[S_KIND])
         verdict, status = step_on(end, q, state, setting, contacts, next_contacts, leg)
         if verdict == ENDED:

@@ -76,7 +76,8 @@ def assemble_pose(
 ) -> AssemblyPath:
     """The path of a bolt that settles at a commanded pose and is turned; angles in degrees.
 
-    Forces, section 5, without friction. The device is the default one of forces, section 4, unless another is given.
+    Forces, section 5, without friction; a left-hand bolt is turned the other way round. The device is the default one
+    of forces, section 4, unless another is given.
     The path is a sequence of equilibria, at most 2 deg of phase apart, and 0.05 deg where contacts change. The same
     input gives the same bits.
 
@@ -121,9 +122,11 @@ def _turned(
         tk.set_phase(phase, command, numbers)
         q, _ = level_numbers(numbers)
     kind = tk.ON_SURFACE if is_flush else tk.ON_CONTACTS
-    plan = [(-CLOCKWISE_DEG, False)]
+    # A left-hand bolt is turned the other way round: clockwise takes it out.
+    hand = math.copysign(1.0, pair.lead)
+    plan = [(-CLOCKWISE_DEG * hand, False)]
     if strategy is Strategy.CCW_THEN_CW:
-        plan.insert(0, (COUNTER_CLOCKWISE_DEG, True))
+        plan.insert(0, (COUNTER_CLOCKWISE_DEG * hand, True))
     legs: list[tk.Leg] = []
     for turn_deg, stops_at_snap in plan:
         leg = new_leg()
@@ -262,7 +265,7 @@ def _snap(points: list[AssemblyPoint]) -> PathEvent:
     """The snap at the last point: the descent within its span of phase."""
     span = math.degrees(tk.SNAP_SPAN) * (1.0 + 1e-9)
     last = points[-1]
-    near = [point for point in points if last.phase_deg - point.phase_deg <= span]
+    near = [point for point in points if abs(last.phase_deg - point.phase_deg) <= span]
     highest = max(near, key=lambda point: point.pose.translation[2])
     drop = highest.pose.translation[2] - last.pose.translation[2]
     way = math.dist(highest.pose.translation, last.pose.translation)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from threadstate.device import _rest_kernel as rest
 from threadstate.device import _turn_kernel as tk
 from threadstate.device.assembly_model import AssemblyMargins, AssemblyOutcome, AssemblyPoint, Strategy
@@ -62,7 +64,7 @@ def lead_margin(pair: Pair, points: Sequence[AssemblyPoint]) -> float:
     worst = 0.0
     for point in points:
         turned = point.phase_deg - last.phase_deg
-        if 0.0 <= turned <= FOLLOWED_DEG:
+        if abs(turned) <= FOLLOWED_DEG:
             height = point.pose.translation[2] - last.pose.translation[2]
             worst = max(worst, abs(height - pair.lead * turned / 360.0))
     return FOLLOWED - worst / abs(followed)
@@ -107,6 +109,6 @@ def snap_margin(pair: Pair, legs: Sequence[tk.Leg]) -> float:
     phases, heights = rows[:count, tk.T_PHASE], rows[:count, tk.T_POSE + 11]
     deepest = 0.0
     for i in range(count):
-        near = (phases <= phases[i]) & (phases[i] - phases <= tk.SNAP_SPAN * (1.0 + 1e-9))
-        deepest = max(deepest, float((heights[near] - heights[i]).max()))
+        near = np.abs(phases[i] - phases[: i + 1]) <= tk.SNAP_SPAN * (1.0 + 1e-9)
+        deepest = max(deepest, float(heights[: i + 1][near].max() - heights[i]))
     return deepest - tk.SNAP_FALL * pair.thread_pitch
