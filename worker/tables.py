@@ -211,7 +211,7 @@ def print_assembly(path: AssemblyDocument) -> None:
         origin = path["path"]["pose"][-1]["translation"]
         rows.add_row(f"last origin ({unit})", f"{_numbers(origin)} at {path['path']['phase'][-1]:.2f} deg")
     for event in path["events"]:
-        what = [text for text in (event["features_before"], event["features"]) if text is not None]
+        what: list[str] = [text for text in (event["features_before"], event["features"]) if text is not None]
         if event["drop"] is not None and event["way"] is not None:
             what.append(f"drop {event['drop']:.6f}, way {event['way']:.6f}")
         rows.add_row(f"{event['kind']} at {event['phase']:.2f} deg", " to ".join(what))

@@ -22,7 +22,6 @@ from threadstate.device.assembly_model import (
     Strategy,
 )
 from threadstate.device.model import About, Device, default_device, diagonal_device
-from threadstate.errors import InvalidValueError
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.hand import Hand
 from threadstate.thread.play import axial_limits
@@ -212,8 +211,3 @@ def test_a_soft_device_lets_the_bolt_slip_off() -> None:
 def test_another_thread_engages() -> None:
     path = assemble_pose(pair_by_designation("M6-6g/6H"), 0.0, 0.0, 330.0)
     assert path.outcome is AssemblyOutcome.ENGAGED
-
-
-def test_friction_is_refused() -> None:
-    with pytest.raises(InvalidValueError, match="mu is 0.1"):
-        assemble_pose(UNC, *PAPER, mu=0.1)

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
+from threadstate.contact._stage_kernel import new_work as new_stage
+from threadstate.device._certificate_kernel import overlap
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
@@ -24,7 +26,7 @@ from threadstate.device._chart_kernel import (
     elastic_energy,
     set_place,
 )
-from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT
+from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_VALUE, GAP_SIZE
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -45,12 +47,14 @@ from threadstate.device._modes_kernel import (
     set_velocities,
     solve_mode,
 )
-from threadstate.device._places_kernel import Threads, find_places, new_threads
+from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, Threads, find_places, new_threads
 from threadstate.device._quadratic_kernel import SOLVED as PROGRAM_SOLVED
 from threadstate.device._quadratic_kernel import cholesky, solve_program
 from threadstate.device._rest_kernel import (
     AT_REST,
+    DEEPEST,
     FLUSH,
+    SLIPPED,
     Work,
     descend,
     free_coordinates,
@@ -59,7 +63,7 @@ from threadstate.device._rest_kernel import (
     set_gradient,
     set_metric,
 )
-from threadstate.device._settle_kernel import PATH_OVERLAP, PATH_TOLERANCE, distance
+from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, PATH_OVERLAP, PATH_TOLERANCE, distance
 from threadstate.device._strip_kernel import (
     C_FORCE,
     C_NORMAL,
@@ -71,14 +75,19 @@ from threadstate.device._strip_kernel import (
 from threadstate.device._strip_kernel import CONTACT_SIZE as STRIP_CONTACT_SIZE
 from threadstate.device._strip_kernel import MAX_CONTACTS as STRIP_CONTACTS
 from threadstate.device._turn_kernel import (
+    BELOW_TOP,
     DEGREE,
     LOADED,
     M_ABOUT_BOLT,
+    M_PUSH,
     M_TILT,
+    SNAP_FALL,
+    SNAP_SPAN,
+    TORQUE_LIMIT,
     fall_down,
-    potential_of,
     set_phase,
 )
+from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -96,8 +105,8 @@ STEP_REACH = 2e-2
 """How far (nominal radii) the bolt may go in a step beside where the hand carries it."""
 
 LONGEST_TURN, LONGEST_PUSH = 1.0 * DEGREE, 1.0 / 16.0
-LEAST_PART = 1.0 / 256.0
-"""The longest steps of phase (rad) and of push (parts of its whole), and the shortest over the longest."""
+FIRST_PART, LEAST_PART = 0.25, 1.0 / 256.0
+"""The longest steps of phase (rad) and of push (parts of its whole); the first and the shortest over the longest."""
 
 EDGES = 48
 """Edges of the pyramid inside a friction cone by which a bolt at rest is tested."""
@@ -107,8 +116,16 @@ LAID = 1e-3
 
 MAX_POINTS = 1500
 
-# How a path ends; failures of a descent come after these.
-REACHED, TOO_MANY, ON_PATCH, PATH_FULL, NO_MINIMUM = range(5)
+ENERGY_STEP = 2e-5
+"""Potential, over push times nominal radius, that a step may leave unexplained: more is a fall."""
+
+# How a path ends.
+REACHED, SNAP_REACHED, TORQUE_OVER, SLIPPED_OFF, TOO_DEEP, TOO_MANY, ON_PATCH, PATH_FULL, NO_MINIMUM = range(9)
+GOES_ON, SHORTER = -1, -2
+"""Of a step: the path goes on, or the step has to be shorter."""
+
+FREE_STEPS = 60
+"""Steps of the descent without friction that says which contacts a step may gain."""
 
 # A point: phase (rad), push, whether on a strip, potential, elastic energy, torque, contacts, coordinates, rotation and
 # translation, friction loss of the step, loss of a fall, number of solutions of the step.
@@ -317,7 +334,7 @@ def enumerate_modes(
         if sticking > 1:
             continue
         for j in range(COORDINATES):
-            trial[j] = 0.5 * (carried[j] + free[j])
+            trial[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
         if (
             solve_mode(modes, count, mu, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work)
             != SOLVED
@@ -469,12 +486,151 @@ def kept(count: int, contacts: Array, push: float) -> int:
     return used
 
 
+@kernel()
+def has_ended(i: int, stop_at_snap: bool, count: int, contacts: Array, setting: Setting, path: Path) -> int:
+    """Whether the path ends at its last point: by a snap, by the torque, or as the bolt slipped or went too deep."""
+    command, bolt = setting[0], setting[3]
+    points, _ = path
+    r = bolt[pk.R_MAJOR]
+    if abs(points[i, P_TORQUE]) > TORQUE_LIMIT * command[M_PUSH] * r:
+        return TORQUE_OVER
+    if math.hypot(points[i, P_POSE + 9], points[i, P_POSE + 10]) > r:
+        return SLIPPED_OFF
+    if points[i, P_POSE + 11] < -DEEPEST * bolt[pk.P]:
+        return TOO_DEEP
+    is_below = False
+    for c in range(count):
+        is_below = is_below or contacts[c, K_POINT + 2] < -BELOW_TOP * r
+    j = i - 1
+    while stop_at_snap and is_below and j >= 0:
+        if abs(points[j, P_PHASE] - points[i, P_PHASE]) > SNAP_SPAN * (1.0 + 1e-9):
+            break
+        if points[j, P_POSE + 11] - points[i, P_POSE + 11] > SNAP_FALL * bolt[pk.P]:
+            return SNAP_REACHED
+        j -= 1
+    return GOES_ON
+
+
+@kernel()
+def slide_on_strip(
+    q: Array, push: float, mu: float, turn: float, setting: Setting, contacts: Array, losses: Array
+) -> int:
+    """Moves a bolt that lies, or is beside lying, on a strip along it by ``turn`` (rad), in place; its contacts, or 0.
+
+    The loss is that of forces along the helices of their radii.
+    """
+    bolt = setting[3]
+    level = np.empty(COORDINATES)
+    sense = math.copysign(1.0, turn)
+    count = strip_contacts(q, push, mu, sense, setting, level, contacts)
+    if count == 0:
+        return 0
+    for c in range(count):
+        x, y, k = contacts[c, K_POINT], contacts[c, K_POINT + 1], bolt[pk.LEAD] / (2.0 * math.pi)
+        losses[0] -= turn * (-y * contacts[c, K_FORCE] + x * contacts[c, K_FORCE + 1] + k * contacts[c, K_FORCE + 2])
+    copy_numbers(level, q)
+    return count
+
+
+@kernel()
+def fall_without_friction(q: Array, push: float, setting: Setting, contacts: Array) -> tuple[int, int]:
+    """Lets the bolt fall from ``q``, in place: how the path ends there, if it does, and its number of contacts."""
+    _, device, _, bolt, nut, threads, work, _ = setting
+    status, found = fall_down(q, push, device, bolt, nut, threads, work)
+    if status == SLIPPED:
+        return SLIPPED_OFF, 0
+    if status != AT_REST:
+        return (ON_PATCH if status == FLUSH else NO_MINIMUM), 0
+    count = frictionless_contacts(found, push, work, contacts)
+    return (TOO_MANY if count > MOST_CONTACTS else GOES_ON), count
+
+
+@kernel()
+def step_with_friction(
+    q: Array,
+    push: float,
+    mu: float,
+    turns: bool,
+    is_least: bool,
+    before: Array,
+    count: int,
+    contacts: Array,
+    setting: Setting,
+    solutions: Solutions,
+    losses: Array,
+) -> tuple[int, int]:
+    """A step from ``q`` to a new command, in place: how the path ends there, if it does, and its number of contacts.
+
+    SHORTER where there is no solution or too many contacts, and the step is not the least; ``before`` is the pose
+    before it.
+    """
+    command, device, _, bolt, nut, threads, work, _ = setting
+    free = q.copy()
+    candidates = np.empty((MOST_CONTACTS, K_SIZE))
+    status, found = descend(
+        free,
+        push,
+        STEP_REACH * device[D_SCALE],
+        math.inf,
+        FREE_STEPS,
+        PATH_TOLERANCE,
+        PATH_OVERLAP,
+        device,
+        bolt,
+        nut,
+        threads,
+        work,
+    )
+    if status == FLUSH:
+        return ON_PATCH, 0
+    if status != AT_REST:
+        copy_numbers(q, free)
+        found = 0
+    total = candidates_of(count, contacts, found, setting, push, candidates)
+    if total > MOST_CONTACTS:
+        return (TOO_MANY if is_least else SHORTER), 0
+    unit = command[M_PUSH]
+    number = enumerate_modes(q, q, free, before, push, unit, mu, turns, total, candidates, setting, solutions)
+    losses[2] = number
+    if number == 0:
+        return fall_without_friction(q, push, setting, contacts) if is_least else (SHORTER, 0)
+    best = chosen(number, q, count, contacts, device, solutions)
+    copy_numbers(solutions[0][best], q)
+    losses[0] = friction_loss(count, contacts, int(solutions[2][best]), solutions[1][best])
+    count = int(solutions[2][best])
+    for c in range(count):
+        copy_numbers(solutions[1][best, c], contacts[c])
+    return GOES_ON, kept(count, contacts, unit)
+
+
+@kernel()
+def unexplained(i: int, path: Path) -> float:
+    """The potential lost in the step to a point that neither torque, push nor friction explains."""
+    points, _ = path
+    lost = points[i - 1, P_POTENTIAL] - points[i, P_POTENTIAL] - points[i, P_FRICTION]
+    lost += 0.5 * (points[i - 1, P_TORQUE] + points[i, P_TORQUE]) * (points[i, P_PHASE] - points[i - 1, P_PHASE])
+    height = 0.5 * (points[i - 1, P_COORDINATES + 5] + points[i, P_COORDINATES + 5])
+    return lost + height * (points[i, P_PUSH] - points[i - 1, P_PUSH])
+
+
+@kernel()
+def go_back(i: int, q: Array, contacts: Array, path: Path) -> int:
+    """Sets coordinates and contacts to those of a point; the number of contacts."""
+    points, all_contacts = path
+    copy_numbers(points[i, P_COORDINATES : P_COORDINATES + COORDINATES], q)
+    count = int(points[i, P_COUNT])
+    for c in range(count):
+        copy_numbers(all_contacts[i, c], contacts[c])
+    return count
+
+
 @kernel(nogil=True)
 def follow_friction(
     q: Array,
     phases: Array,
     pushes: Array,
     mu: float,
+    stop_at_snap: bool,
     count: int,
     contacts: Array,
     command: Array,
@@ -483,98 +639,82 @@ def follow_friction(
     bolt: Array,
     nut: Array,
     path: Path,
-) -> tuple[int, int]:
+) -> tuple[int, int, int]:
     """Follows a bolt from ``q``, in place, while phase and push go from the first to the second of theirs.
 
-    ``contacts`` are the ``count`` ones at the beginning, and are set to those of the end. Returns how it ended and the
-    number of points set.
+    ``contacts`` are the ``count`` ones at the beginning, and are set to those of the end. Returns how it ended, the
+    number of points set, and that of contacts.
     """
     setting = (command, device, strip, bolt, nut, new_threads(bolt), new_work(), new_modes_work())
-    threads, work = setting[5], setting[6]
-    r = device[D_SCALE]
     turn, growth = phases[1] - phases[0], pushes[1] - pushes[0]
     turns = turn != 0.0
-    unit = max(abs(pushes[0]), abs(pushes[1]))
     longest = LONGEST_TURN / abs(turn) if turns else LONGEST_PUSH
-    least = LEAST_PART * longest
-    step, reached, i = 0.25 * longest, 0.0, 0
+    step, reached, i = FIRST_PART * longest, 0.0, 0
     on_strip = False
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
         np.empty((MAX_SOLUTIONS, MOST_CONTACTS, K_SIZE)),
         np.empty(MAX_SOLUTIONS, dtype=np.int64),
     )
-    candidates = np.empty((MOST_CONTACTS, K_SIZE))
-    laid = np.empty((STRIP_CONTACTS, K_SIZE))
-    before, free, losses = np.empty(PLACE_SIZE), np.empty(COORDINATES), np.zeros(3)
+    before, losses = np.empty(PLACE_SIZE), np.zeros(3)
     set_phase(phases[0], command, device)
     add_path_point(0, phases[0], pushes[0], False, q, count, contacts, losses, command, device, path)
     while reached < 1.0:
         if i + 1 == MAX_POINTS:
-            return PATH_FULL, i + 1
+            return PATH_FULL, i + 1, count
         size = min(step, 1.0 - reached)
         target = 1.0 if size == 1.0 - reached else reached + size
-        phase, push = phases[0] + target * turn, pushes[0] + target * growth
+        push = pushes[0] + target * growth
         set_phase(phases[0] + reached * turn, command, device)
         set_place(q, device, before)
-        set_phase(phase, command, device)
+        set_phase(phases[0] + target * turn, command, device)
         losses[0], losses[1], losses[2] = 0.0, 0.0, 1.0
-        copy_numbers(q, free)
-        laid_count = strip_contacts(q, push, mu, math.copysign(1.0, turn), setting, free, laid) if turns else 0
-        if laid_count > 0:
-            i += 1
-            travelled = abs(phase - phases[0] - reached * turn)
-            for c in range(laid_count):
-                # Along the helix of its radius, against the force's part along the motion.
-                x, y, k = laid[c, K_POINT], laid[c, K_POINT + 1], bolt[6] / (2.0 * math.pi)
-                along = -y * laid[c, K_FORCE] + x * laid[c, K_FORCE + 1] + k * laid[c, K_FORCE + 2]
-                losses[0] -= math.copysign(1.0, turn) * along * travelled
-            copy_numbers(free, q)
-            on_strip, count, reached = True, laid_count, target
-            add_path_point(i, phase, push, True, q, count, laid, losses, command, device, path)
-            step = min(2.0 * size, longest)
-            continue
-        if on_strip:
-            return ON_PATCH, i + 1
-        status, found = descend(
-            free, push, STEP_REACH * r, math.inf, 60, PATH_TOLERANCE, PATH_OVERLAP, device, bolt, nut, threads, work
-        )
-        if status == FLUSH:
-            return ON_PATCH, i + 1
-        if status != AT_REST:
-            copy_numbers(q, free)
-            found = 0
-        total = candidates_of(count, contacts, found, setting, push, candidates)
-        if total > MOST_CONTACTS:
-            if size > least:
-                step = max(0.5 * size, least)
-                continue
-            return TOO_MANY, i + 1
-        number = enumerate_modes(q, q, free, before, push, unit, mu, turns, total, candidates, setting, solutions)
-        if number == 0 and size > least:
-            step = max(0.5 * size, least)
-            continue
-        losses[2] = number
-        if number == 0:
-            copy_numbers(q, free)
-            status, found = fall_down(free, push, device, bolt, nut, threads, work)
-            if status != AT_REST:
-                return (ON_PATCH if status == FLUSH else NO_MINIMUM), i + 1
-            losses[1] = potential_of(q, push, device) - potential_of(free, push, device)
-            copy_numbers(free, q)
-            count = frictionless_contacts(found, push, work, contacts)
-            if count > MOST_CONTACTS:
-                return TOO_MANY, i + 1
+        is_least = size <= LEAST_PART * longest
+        slid = slide_on_strip(q, push, mu, (target - reached) * turn, setting, contacts, losses) if turns else 0
+        if slid > 0:
+            on_strip, count, ended = True, slid, GOES_ON
+        elif on_strip:
+            return ON_PATCH, i + 1, count
         else:
-            best = chosen(number, q, count, contacts, device, solutions)
-            copy_numbers(solutions[0][best], q)
-            losses[0] = friction_loss(count, contacts, int(solutions[2][best]), solutions[1][best])
-            count = int(solutions[2][best])
-            for c in range(count):
-                copy_numbers(solutions[1][best, c], contacts[c])
+            ended, next_count = step_with_friction(
+                q, push, mu, turns, is_least, before, count, contacts, setting, solutions, losses
+            )
+            if ended == SHORTER:
+                step = max(0.5 * size, LEAST_PART * longest)
+                continue
+            if ended != GOES_ON:
+                return ended, i + 1, count
+            count = next_count
+        add_path_point(
+            i + 1, phases[0] + target * turn, push, on_strip, q, count, contacts, losses, command, device, path
+        )
+        lost = unexplained(i + 1, path)
+        if abs(lost) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and not on_strip:
+            if not is_least:
+                count = go_back(i, q, contacts, path)
+                step = max(0.5 * size, LEAST_PART * longest)
+                continue
+            path[0][i + 1, P_FALL] = max(lost, 0.0)
         i += 1
         reached = target
-        count = kept(count, contacts, unit)
-        add_path_point(i, phase, push, False, q, count, contacts, losses, command, device, path)
+        ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
+        if ended != GOES_ON:
+            return ended, i + 1, count
         step = min(2.0 * size, longest)
-    return REACHED, i + 1
+    return REACHED, i + 1, count
+
+
+@kernel(nogil=True)
+def certified_pose(q: Array, device: Array, bolt: Array, nut: Array) -> int:
+    """What the certificate says of overlaps at a pose, whose places of contact are searched for."""
+    r = bolt[pk.R_MAJOR]
+    place = np.empty(PLACE_SIZE)
+    places = np.empty((MAX_PLACES + 1, GAP_SIZE))
+    set_place(q, device, place)
+    found = find_places(REACH * r, place, device, bolt, nut, new_threads(bolt), np.empty(PLACES_WORK), places)
+    touching = 0
+    for j in range(found):
+        if places[j, G_VALUE] > -LEAST_GAP * r:
+            copy_numbers(places[j], places[touching])
+            touching += 1
+    return overlap(place[0:12], OVERLAP_LIMIT * r, touching, places, bolt, nut, new_stage())

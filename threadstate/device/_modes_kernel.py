@@ -37,11 +37,12 @@ Indices = NDArray[np.int64]
 OPENS, SLIPS, STICKS = range(3)
 """What a contact does in a step."""
 
-MOST_CONTACTS = 4
+MOST_CONTACTS = 5
 """Contacts whose modes are enumerated; of more a step is not decided."""
 
 MOST_UNKNOWNS = COORDINATES + 3 * MOST_CONTACTS
-ITERATIONS = 40
+ITERATIONS, FROZEN, THAW = 40, 10, 1e-6
+"""Iterations; in the first ones, until the residual is small, friction has the directions of the slip in the first."""
 RESIDUAL = 1e-11
 """Largest residual of a mode's equations: forces over the push, gaps and slips over the nominal radius."""
 
@@ -64,9 +65,9 @@ REACH = 5e-3
 """Gap, in nominal radii, up to which places are looked for."""
 
 # A contact of a step: point in the nut's frame, unit normal into the bolt, force on the bolt (N), slip of the bolt's
-# point over the nut in the step, what it does, pair of features.
-K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR = 0, 3, 6, 9, 12, 13
-CONTACT_SIZE = 14
+# point over the nut in the step, what it does, pair of features, direction of the slip that friction opposes.
+K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_DIRECTION = 0, 3, 6, 9, 12, 13, 14
+CONTACT_SIZE = 17
 
 ModesWork = tuple[Array, Array, Array, Array, Array, Array, Array, Array]
 """Places, search, matrix, spare matrix, residual, unknowns, velocities of points, indices of places."""
@@ -191,6 +192,7 @@ def match_places(count: int, contacts: Array, found: int, places: Array, r: floa
 
 @kernel()
 def set_equations(
+    frozen: bool,
     modes: Indices,
     count: int,
     mu: float,
@@ -231,6 +233,7 @@ def set_equations(
         if modes[c] == OPENS:
             for h in range(3):
                 contacts[c, K_FORCE + h] = 0.0
+                contacts[c, K_SLIP + h] = 0.0
             continue
         gap = places[int(indices[c])]
         velocity = velocities[c]
@@ -245,9 +248,11 @@ def set_equations(
         by_normal = np.empty(3)
         slip = math.sqrt(contacts[c, K_SLIP] ** 2 + contacts[c, K_SLIP + 1] ** 2 + contacts[c, K_SLIP + 2] ** 2)
         for h in range(3):
+            if not frozen:
+                contacts[c, K_DIRECTION + h] = contacts[c, K_SLIP + h] / slip if slip > 0.0 else 0.0
             by_normal[h] = contacts[c, K_NORMAL + h]
-            if modes[c] == SLIPS and slip > 0.0:
-                by_normal[h] -= mu * contacts[c, K_SLIP + h] / slip
+            if modes[c] == SLIPS:
+                by_normal[h] -= mu * contacts[c, K_DIRECTION + h]
             force[h] = normal_force * by_normal[h]
         for i in range(n):
             for j in range(n):
@@ -277,7 +282,7 @@ def set_equations(
                     along = ux * velocity[0, i] + uy * velocity[1, i] + uz * velocity[2, i]
                     matrix[row + 1 + t, i] = along
                     matrix[i, row + 1 + t] = -along
-        elif slip > 0.0:
+        elif slip > 0.0 and not frozen:
             # The friction turns with the slip.
             for i in range(n):
                 for j in range(n):
@@ -297,6 +302,15 @@ def set_equations(
             contacts[c, K_FORCE + h] = force[h] * unit
         row += 1 if modes[c] == SLIPS else 3
     return size
+
+
+@kernel()
+def largest(size: int, values: Array) -> float:
+    """The largest size of the first values."""
+    worst = 0.0
+    for i in range(size):
+        worst = max(worst, abs(values[i]))
+    return worst
 
 
 @kernel()
@@ -338,20 +352,25 @@ def solve_mode(
     update = np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS))
     earlier = np.zeros(MOST_UNKNOWNS)
     expected = np.zeros(MOST_UNKNOWNS)
+    frozen, changed = False, True
     for iteration in range(ITERATIONS):
         set_place(q, device, place)
         found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
         if not match_places(count, contacts, found, places, r, indices):
             return UNSOLVED
-        set_equations(modes, count, mu, q, push, unit, place, before, device, contacts, work)
-        worst = 0.0
-        for i in range(size):
-            worst = max(worst, abs(residual[i]))
-        if worst < RESIDUAL:
+        set_equations(frozen, modes, count, mu, q, push, unit, place, before, device, contacts, work)
+        worst = largest(size, residual)
+        if frozen and (worst < THAW or iteration >= FROZEN):
+            frozen, changed = False, True
+            set_equations(frozen, modes, count, mu, q, push, unit, place, before, device, contacts, work)
+            worst = largest(size, residual)
+        if worst < RESIDUAL and not frozen:
             return SOLVED
         if not worst < 1e6:
             return UNSOLVED
-        if iteration > 0:
+        if changed:
+            update[:, :] = 0.0
+        else:
             # Broyden: what the last step changed beyond what the matrix had expected of it.
             length = 0.0
             for i in range(size):
@@ -360,6 +379,9 @@ def solve_mode(
                 off = (residual[i] - expected[i]) / length
                 for j in range(size):
                     update[i, j] += off * step[j]
+        changed = False
+        if iteration == 0:
+            frozen = True
         for i in range(size):
             for j in range(size):
                 spare[i, j] = matrix[i, j] + update[i, j]

@@ -72,6 +72,9 @@ Array = NDArray[np.float64]
 
 DEGREE = math.pi / 180.0
 
+ABOVE = 1.0 + 1e-6
+"""By how much a step has to be longer than the shortest one to be shortened: less is round-off of the phase."""
+
 FIRST_STEP, LARGEST_STEP, EVENT_WIDTH, LEAST_STEP = 0.25 * DEGREE, 2.0 * DEGREE, 0.05 * DEGREE, 1e-3 * DEGREE
 """Steps of the phase (rad): the first, the longest, those in which contacts change, and the shortest."""
 
@@ -516,7 +519,7 @@ def minimum_near(
             return TAKEN, AT_REST, laid, count
     if status == TOO_FAR or status == UNSETTLED:
         leg[0][L_FAILURES] += 1 if status == UNSETTLED else 0
-        if size > LEAST_STEP and state[S_BRIDGING] == 0.0 and held:
+        if size > ABOVE * LEAST_STEP and state[S_BRIDGING] == 0.0 and held:
             state[S_STEP] = max(0.25 * size, LEAST_STEP)
         elif status == UNSETTLED and size < min(BRIDGE, left):
             state[S_BRIDGING] = 1.0
@@ -561,7 +564,7 @@ def try_step(
         held, count = closed_step(kind, q, setting, contacts, trial)
         if held:
             return TAKEN, AT_REST, kind, count
-        if size > EVENT_WIDTH and state[S_BRIDGING] == 0.0:
+        if size > ABOVE * EVENT_WIDTH and state[S_BRIDGING] == 0.0:
             state[S_STEP] = 0.5 * size
             return AGAIN, AT_REST, kind, 0
     elif state[S_FALLING] > 0.0:
@@ -581,10 +584,10 @@ def refused(size: float, changed: bool, lost: float, state: Array) -> bool:
     """
     if state[S_FALLING] > 0.0 or state[S_BRIDGING] > 0.0:
         return False
-    if changed and size > EVENT_WIDTH:
+    if changed and size > ABOVE * EVENT_WIDTH:
         state[S_STEP] = max(0.5 * size, EVENT_WIDTH)
         return True
-    if abs(lost) > ENERGY_STEP and size > LEAST_STEP:
+    if abs(lost) > ENERGY_STEP and size > ABOVE * LEAST_STEP:
         state[S_STEP] = max(0.5 * size, LEAST_STEP)
         return True
     return False

@@ -13,6 +13,7 @@ from threadstate.device.assembly_model import (
     AssemblyTravel,
     EventKind,
     Held,
+    Motion,
     PathEvent,
     Strategy,
 )
@@ -53,6 +54,7 @@ class PathDocument(TypedDict):
     pose: list[PoseDocument]
     deviation: list[DeviationDocument]
     contacts: list[list[LoadedContactDocument]]
+    motions: list[list[Motion]]
     torque: list[float]
     elastic_energy: list[float]
     potential: list[float]
@@ -158,6 +160,7 @@ def _points(points: tuple[AssemblyPoint, ...], factor: float) -> PathDocument:
             for point in points
         ],
         "contacts": [[contact_document(contact, factor) for contact in point.contacts] for point in points],
+        "motions": [list(point.motions) for point in points],
         "torque": [point.torque * factor + 0.0 for point in points],
         "elastic_energy": [point.elastic_energy * factor + 0.0 for point in points],
         "potential": [point.potential * factor + 0.0 for point in points],

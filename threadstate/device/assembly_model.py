@@ -69,8 +69,19 @@ class EventKind(StrEnum):
     """The bolt comes to lie level on a strip of flank."""
     OFF_STRIP = "off_strip"
     """The bolt leaves the strip."""
+    AMBIGUOUS = "ambiguous"
+    """With friction the step has several solutions."""
     BRIDGED = "bridged"
     """No shorter step had a certain end: within this one the path is not resolved."""
+
+
+class Motion(StrEnum):
+    """What a contact with friction does in the step before a point."""
+
+    STICKS = "sticks"
+    """The bolt's point there stays on the nut's."""
+    SLIDES = "slides"
+    """It slides, and friction opposes that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +108,8 @@ class AssemblyPoint:
     """An equilibrium on a path: the command's phase, the bolt's pose, and what device and contacts do.
 
     ``shift`` and ``rotation_deg`` are the device's deviation as of a settled state. ``torque`` is the hand's work a
-    radian of counter-clockwise phase, energies are in N times the pair's unit.
+    radian of counter-clockwise phase, energies are in N times the pair's unit. ``motions`` are those of the contacts in
+    the step that ends here, and ``solutions`` how many it had: none and 1 without friction, 0 after a fall with it.
     """
 
     phase_deg: float
@@ -109,6 +121,8 @@ class AssemblyPoint:
     torque: float
     elastic_energy: float
     potential: float
+    motions: tuple[Motion, ...] = ()
+    solutions: int = 1
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from enum import Enum, auto
 
 import numpy as np
 
-from threadstate.device import _rest_kernel as rest
 from threadstate.device import _turn_kernel as tk
 from threadstate.device.assembly_model import AssemblyMargins, AssemblyOutcome, AssemblyPoint, Strategy
 from threadstate.device.model import Device
@@ -22,35 +22,45 @@ PLAY_SLACK = 1e-3
 """Thread pitches beside the play within which the last height counts as in phase: a level bolt rests on its limit."""
 
 
+class Ending(Enum):
+    """How the last leg of a path ends."""
+
+    TURNED = auto()
+    """Its turn is done, or it has snapped where that ends it."""
+    TORQUE = auto()
+    """The torque has passed its limit."""
+    SLIPPED = auto()
+    """The bolt has left the nut sideways."""
+    FAILED = auto()
+    """A step has no certain end."""
+
+
 def outcome_of(
-    pair: Pair, device: Device, strategy: Strategy, legs: Sequence[tk.Leg], points: Sequence[AssemblyPoint]
+    pair: Pair, device: Device, strategy: Strategy, ending: Ending, legs: Sequence[Sequence[AssemblyPoint]]
 ) -> tuple[AssemblyOutcome, AssemblyMargins]:
-    """The outcome of a path's legs, and its margins; ``points`` are those of all legs."""
-    status = int(legs[-1][0][tk.L_STATUS])
-    reach = pair.bolt.major_diameter / 2.0
+    """The outcome of a path, and its margins, from the points of its legs."""
+    points = [point for leg in legs for point in leg]
     push_torque = device.push * pair.nominal_diameter / 2.0
     torque = tk.TORQUE_LIMIT - max(abs(point.torque) for point in points) / push_torque
+    reach = pair.bolt.major_diameter / 2.0
     offset = reach - max(math.hypot(*point.pose.translation[:2]) for point in points)
-    snap = snap_margin(pair, legs) if strategy is Strategy.CCW_THEN_CW else None
-    lead, play, tilt_deg = None, None, None
-    turns_clockwise = strategy is Strategy.CW or len(legs) > 1
-    if status == tk.FAILED + rest.SLIPPED:
-        outcome = AssemblyOutcome.SLIPPED
-    elif status == tk.TORQUE_PASSED:
-        outcome = AssemblyOutcome.JAMMED
-    elif status >= tk.FAILED or status == tk.FULL:
-        outcome = AssemblyOutcome.UNDECIDED
-    elif not turns_clockwise:
-        outcome = AssemblyOutcome.NO_SNAP
-    else:
-        last = points[-1].pose
-        lead = lead_margin(pair, points[-int(legs[-1][0][tk.L_POINTS]) :])
-        play = play_margin(pair, last)
-        tilt_deg = allowed_tilt_deg(pair, last) - tilt_of(last)
-        is_in_phase = play >= 0.0 and tilt_deg >= 0.0
-        outcome = AssemblyOutcome.ENGAGED if is_in_phase else AssemblyOutcome.CROSS_THREADED
-        if not lead >= 0.0:
-            outcome = AssemblyOutcome.IDLE
+    snap = snap_margin(pair, legs[0]) if strategy is Strategy.CCW_THEN_CW else None
+    if ending is not Ending.TURNED:
+        outcome = {
+            Ending.SLIPPED: AssemblyOutcome.SLIPPED,
+            Ending.TORQUE: AssemblyOutcome.JAMMED,
+            Ending.FAILED: AssemblyOutcome.UNDECIDED,
+        }[ending]
+        return outcome, AssemblyMargins(None, None, None, torque, offset, snap)
+    if strategy is Strategy.CCW_THEN_CW and len(legs) == 1:
+        return AssemblyOutcome.NO_SNAP, AssemblyMargins(None, None, None, torque, offset, snap)
+    last = points[-1].pose
+    lead = lead_margin(pair, legs[-1])
+    play = play_margin(pair, last)
+    tilt_deg = allowed_tilt_deg(pair, last) - tilt_of(last)
+    outcome = AssemblyOutcome.ENGAGED if play >= 0.0 and tilt_deg >= 0.0 else AssemblyOutcome.CROSS_THREADED
+    if not lead >= 0.0:
+        outcome = AssemblyOutcome.IDLE
     return outcome, AssemblyMargins(lead, play, tilt_deg, torque, offset, snap)
 
 
@@ -102,13 +112,13 @@ def allowed_tilt_deg(pair: Pair, pose: StagePose) -> float:
     return tilt * max(1.0, p / depth)
 
 
-def snap_margin(pair: Pair, legs: Sequence[tk.Leg]) -> float:
+def snap_margin(pair: Pair, points: Sequence[AssemblyPoint]) -> float:
     """By how much the deepest descent within the snap's span of phase is deeper than a snap has to be; a length."""
-    result, rows, _, _ = legs[0]
-    count = int(result[tk.L_POINTS])
-    phases, heights = rows[:count, tk.T_PHASE], rows[:count, tk.T_POSE + 11]
+    span = math.degrees(tk.SNAP_SPAN) * (1.0 + 1e-9)
+    phases = np.array([point.phase_deg for point in points])
+    heights = np.array([point.pose.translation[2] for point in points])
     deepest = 0.0
-    for i in range(count):
-        near = np.abs(phases[i] - phases[: i + 1]) <= tk.SNAP_SPAN * (1.0 + 1e-9)
+    for i in range(len(points)):
+        near = np.abs(phases[i] - phases[: i + 1]) <= span
         deepest = max(deepest, float(heights[: i + 1][near].max() - heights[i]))
     return deepest - tk.SNAP_FALL * pair.thread_pitch

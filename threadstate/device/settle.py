@@ -7,17 +7,17 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from threadstate.contact._stage_kernel import rotation
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _gap_kernel as gk
 from threadstate.device import _rest_kernel as rest
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device._places_kernel import FINE, MAX_PLACES
-from threadstate.device.equilibrium import balance, stability
+from threadstate.device.command import command_numbers, commanded_rotation, strip_numbers
+from threadstate.device.equilibrium import BALANCED, balance, stability
 from threadstate.device.flush import flush_contacts, level_numbers, level_start
+from threadstate.device.friction import FrictionPath, settled_with_friction
 from threadstate.device.model import (
-    About,
     Device,
     Fall,
     LoadedContact,
@@ -40,14 +40,14 @@ __all__ = ["settle_pose", "settle_poses"]
 
 Floats = NDArray[np.float64]
 
+LARGEST_FRICTION = 1.0
+"""With more the cones of contacts on flanks hold any load."""
+
 LEAST_FLANK_HALF_ANGLE_DEG = 20.0
 """Flatter flanks can meet the nut's surface away from both edges within the tilts that a device may reach."""
 
 LEAST_FILLET = 0.01
 """Sharper corners than this part of the thread pitch are narrower than what the search of contacts samples."""
-
-BALANCED = 1e-9
-"""Largest residual of an equilibrium, over the push."""
 
 NO_FORCE = 1e-9
 """A contact with less force than this part of the push is one without force."""
@@ -81,21 +81,23 @@ def settle_pose(
 def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, mu: float = 0.0) -> list[SettledState]:
     """The settled states of commanded poses of shape (n, 3): roll, pitch and phase in degrees, in their order.
 
-    Forces, section 5, without friction: the bolt starts at its first contact, and the push grows from 0. The device is
+    Forces, section 5: the bolt starts at its first contact, and the push grows from 0. The device is
     the default one of forces, section 4, unless another is given. A pose without a certain answer is ``undecided``,
     with a flag that says why. The same pose gives the same bits whatever the others are.
 
     Raises:
         InvalidValueError: poses not of shape (n, 3), a value not finite, roll or pitch beyond 10 deg; a friction that
-            is not 0; a pair whose corners are sharper or whose flanks are flatter than the search of contacts covers.
+            is negative or above 1; a pair whose corners are sharper or whose flanks are flatter than the search of
+            contacts covers.
     """
     wanted = checked_poses(poses)
-    if mu != 0.0:
-        raise InvalidValueError("mu", mu, "0: settled states are computed without friction")
+    check_friction(mu)
     check_pair(pair)
     held = (device or default_device()).in_unit(pair.unit)
     numbers = device_numbers(pair, held)
     rotations, rows = settled_rows(pair, held, numbers, wanted)
+    if mu > 0.0:
+        return [state_with_friction(pair, held, numbers, wanted[i], rows[0][i], mu)[0] for i in range(len(wanted))]
     return [
         settled_state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows))
         for i in range(len(wanted))
@@ -136,6 +138,34 @@ def settled_rows(pair: Pair, device: Device, numbers: Floats, poses_deg: Floats)
     return rotations, rows
 
 
+def state_with_friction(
+    pair: Pair, device: Device, numbers: Floats, pose_deg: Floats, result: Floats, mu: float
+) -> tuple[SettledState, FrictionPath | None]:
+    """The state of a pose that settles with friction, and the path that goes on from it; None where it has no start.
+
+    ``result`` is the kernels' of the same pose without friction: the height of its first contact is what counts.
+    """
+    roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
+    is_level = abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG
+    if is_level or result[sk.R_STATUS] == sk.NO_FIRST_CONTACT:
+        flag = SettledFlag.FLUSH if is_level else SettledFlag.FIRST_CONTACT
+        outcome = Outcome.UNDECIDED
+        nothing = (None, None, None, (), None, (), NO_MARGINS, ())
+        return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing), None
+    command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]))
+    return settled_with_friction(pair, device, numbers, command, strip_numbers(pair), pose_deg, mu)
+
+
+def check_friction(mu: float) -> None:
+    """Check a coefficient of friction.
+
+    Raises:
+        InvalidValueError: it is not a number from 0 to the largest one.
+    """
+    if not 0.0 <= mu <= LARGEST_FRICTION:
+        raise InvalidValueError("mu", mu, f"0 to {number_text(LARGEST_FRICTION)}")
+
+
 def check_pair(pair: Pair) -> None:
     """Check that the search of contacts covers a pair.
 
@@ -153,19 +183,6 @@ def check_pair(pair: Pair) -> None:
         fillet = getattr(pair.form, name)
         if fillet < LEAST_FILLET:
             raise InvalidValueError(name, fillet, f"at least {number_text(LEAST_FILLET)} thread pitches for a device")
-
-
-def commanded_rotation(roll_deg: float, pitch_deg: float, phase_deg: float, about: About) -> Floats:
-    """The commanded rotation by rows, shape (9,): bolt to nut (forces, section 4)."""
-    out = np.zeros(12)
-    roll, pitch, phase = math.radians(roll_deg), math.radians(pitch_deg), math.radians(phase_deg)
-    if about is About.NUT:
-        rotation(roll, pitch, phase, out)
-        return out[:9]
-    turn = np.zeros(12)
-    rotation(roll, pitch, 0.0, out)
-    rotation(0.0, 0.0, phase, turn)
-    return np.asarray(out[:9].reshape(3, 3) @ turn[:9].reshape(3, 3)).ravel()
 
 
 def device_numbers(pair: Pair, device: Device) -> Floats:

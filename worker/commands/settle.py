@@ -37,7 +37,7 @@ def settle(
     poses: Poses = None,
     device: DeviceFile = None,
     mu: Annotated[
-        float, number_option("--mu", metavar="M", help="Coefficient of friction; only 0 is computed yet.")
+        float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts, 0 to 1.")
     ] = 0.0,
     pair: PairName = None,
     dimension: Dimensions = None,
