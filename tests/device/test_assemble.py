@@ -21,7 +21,7 @@ from threadstate.device.assembly_model import (
     Held,
     Strategy,
 )
-from threadstate.device.model import About, Device, default_device, diagonal_device
+from threadstate.device.model import About, Device, default_device
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.hand import Hand
 from threadstate.thread.play import axial_limits
@@ -197,15 +197,6 @@ def test_clockwise_at_once_from_the_surface_is_idle() -> None:
     assert path.margins.snap is None
     assert path.margins.lead is not None
     assert path.margins.lead < 0.0
-
-
-def test_a_soft_device_lets_the_bolt_slip_off() -> None:
-    soft = diagonal_device(
-        k_lateral=1e-3, k_axial=0.0, k_tilt=500.0, k_twist=None, centre=0.0, push=10.0, unit=LengthUnit.MILLIMETRE
-    )
-    path = assemble_pose(UNC, 0.0, -4.0, 300.0, soft)
-    assert path.outcome is AssemblyOutcome.SLIPPED
-    assert path.points == () or path.margins is not None
 
 
 def test_another_thread_engages() -> None:

@@ -192,19 +192,29 @@ def torque_with(q: Array, count: int, contacts: Array, command: Array, device: A
 
 
 @kernel()
+def friction_of(contact: Array) -> float:
+    """The size of a contact's force across its normal."""
+    normal, square = 0.0, 0.0
+    for h in range(3):
+        normal += contact[K_FORCE + h] * contact[K_NORMAL + h]
+        square += contact[K_FORCE + h] ** 2
+    return math.sqrt(max(square - normal * normal, 0.0))
+
+
+@kernel()
 def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Array) -> float:
-    """The work that friction takes in a step: the mean of its forces before and after, over the slip.
+    """The work that friction takes in a step: the mean of its sizes before and after, over the slip.
 
     The first contacts of a step are those before it, in their order.
     """
     loss = 0.0
     for i in range(count):
-        now, was = 0.0, 0.0
-        for h in range(3):
-            now -= contacts[i, K_FORCE + h] * contacts[i, K_SLIP + h]
-            if i < earlier_count:
-                was -= earlier[i, K_FORCE + h] * contacts[i, K_SLIP + h]
-        loss += 0.5 * (now + was) if i < earlier_count else 0.5 * now
+        if contacts[i, K_MODE] != SLIPS:
+            continue
+        slip = math.sqrt(contacts[i, K_SLIP] ** 2 + contacts[i, K_SLIP + 1] ** 2 + contacts[i, K_SLIP + 2] ** 2)
+        now = friction_of(contacts[i])
+        was = friction_of(earlier[i]) if i < earlier_count and earlier[i, K_MODE] == SLIPS else now
+        loss += 0.5 * (now + was) * slip
     return loss
 
 
