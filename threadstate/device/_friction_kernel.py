@@ -111,8 +111,9 @@ FIRST_PART, LEAST_PART = 0.25, 1.0 / 256.0
 EDGES = 48
 """Edges of the pyramid inside a friction cone by which a bolt at rest is tested."""
 
-LAID = 1e-3
-"""How near (nominal radii) to the level pose on a strip a bolt is laid there."""
+LAID = 3e-3
+"""How near (nominal radii) to the level pose on a strip a bolt is laid there: along the strip a step takes it half as
+far."""
 
 MAX_POINTS = 1500
 

@@ -96,11 +96,12 @@ take turns minima are there whose descent goes round in circles."""
 ENERGY_STEP = 1e-6
 """Potential, over push times nominal radius, that a step may leave unexplained by the torque: more is a fall."""
 
-MAX_DESCENTS, MAX_FAILURES = 2000, 60
+MAX_DESCENTS, MAX_FAILURES = 2000, 150
 """Descents, and descents that did not end, after which a leg is given up."""
 
-NEAR_STEPS, TURN_FALL_STEPS = 12, 300
-"""Steps of a descent to a minimum near by, and of that of a fall."""
+NEAR_STEPS, SLOW_STEPS, TURN_FALL_STEPS = 12, 48, 300
+"""Steps of a descent to a minimum near by, of one after a step of at most ``EVENT_WIDTH``, as beside the end of a
+minimum it takes many, and of that of a fall."""
 
 SNAP_SPAN, SNAP_FALL = 3.0 * DEGREE, 0.05
 """A snap: the origin goes down by more than this part of a thread pitch within this span of phase."""
@@ -509,7 +510,7 @@ def minimum_near(
     push = command[M_PUSH]
     begun = trial.copy()
     leg[0][L_DESCENTS] += 1
-    status, found = descent_near(trial, NEAR_STEPS, setting)
+    status, found = descent_near(trial, NEAR_STEPS if size > ABOVE * EVENT_WIDTH else SLOW_STEPS, setting)
     if held and (status == AT_REST or status == UNSETTLED):
         if status == UNSETTLED:
             copy_numbers(begun, trial)
