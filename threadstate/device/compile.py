@@ -20,15 +20,15 @@ POSES_DEG = ((0.0, 3.0, 250.0), (1.0, 0.5, 120.0), (0.0, 0.0, 0.0))
 
 
 ENGAGING_DEG, LITTLE_FRICTION = (1.0, -2.0, 10.0), 0.01
-"""A pose that is turned clockwise at once, and a friction with which it is."""
+"""A pose that is turned clockwise at once, and a friction with which another settles."""
 
 
 def load_device() -> None:
     """Call each kernel that is called from Python."""
     pair = quarter_twenty_unc()
     settle_poses(pair, POSES_DEG)
-    for mu in (0.0, LITTLE_FRICTION):
-        assemble_pose(pair, *ENGAGING_DEG, strategy=Strategy.CW, mu=mu)
+    assemble_pose(pair, *ENGAGING_DEG, strategy=Strategy.CW)
+    settle_poses(pair, POSES_DEG[:1], mu=LITTLE_FRICTION)
 
 
 def compile_without_search() -> None:
