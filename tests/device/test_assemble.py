@@ -13,15 +13,9 @@ from numpy.typing import NDArray
 from oracle.pose import pose_rotation
 from oracle.rest import HeldBolt
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import (
-    AssemblyOutcome,
-    AssemblyPath,
-    AssemblyPoint,
-    EventKind,
-    Held,
-    Strategy,
-)
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, AssemblyPoint, EventKind, Held
 from threadstate.device.model import About, Device, default_device
+from threadstate.device.strategy import Strategy
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.hand import Hand
 from threadstate.thread.play import axial_limits

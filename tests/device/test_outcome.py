@@ -7,9 +7,10 @@ import math
 import pytest
 
 from oracle.pose import pose_rotation
-from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, Held, Strategy
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, Held
 from threadstate.device.assembly_outcome import Ending, allowed_tilt_deg, outcome_of, play_margin
 from threadstate.device.model import default_device
+from threadstate.device.strategy import Strategy
 from threadstate.state.model import StagePose
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.play import axial_limits

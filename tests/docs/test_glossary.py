@@ -20,7 +20,7 @@ from threadstate.device.assembly_document import (
     PathDocument,
     TravelDocument,
 )
-from threadstate.device.assembly_model import AssemblyOutcome, EventKind, Held, Strategy
+from threadstate.device.assembly_model import AssemblyOutcome, EventKind, Held
 from threadstate.device.document import (
     DeviationDocument,
     FallDocument,
@@ -29,6 +29,7 @@ from threadstate.device.document import (
     SettledMarginsDocument,
 )
 from threadstate.device.model import Outcome, SettledFlag
+from threadstate.device.strategy import Strategy
 from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.document import StateDocument

@@ -25,7 +25,6 @@ from threadstate.device.assembly_model import (
     EventKind,
     Held,
     PathEvent,
-    Strategy,
 )
 from threadstate.device.assembly_outcome import Ending, outcome_of
 from threadstate.device.command import command_numbers, strip_numbers
@@ -44,6 +43,7 @@ from threadstate.device.settle import (
     state_with_friction,
     vector_of,
 )
+from threadstate.device.strategy import Strategy
 from threadstate.state.model import FeaturePair, StagePose
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair

@@ -15,7 +15,6 @@ from threadstate.device.assembly_model import (
     Held,
     Motion,
     PathEvent,
-    Strategy,
 )
 from threadstate.device.document import (
     DeviationDocument,
@@ -27,6 +26,7 @@ from threadstate.device.document import (
     vector_document,
 )
 from threadstate.device.model import SettledFlag
+from threadstate.device.strategy import Strategy
 from threadstate.state.document import PoseDocument, VectorDocument
 from threadstate.state.model import FeaturePair
 from threadstate.units import LengthUnit

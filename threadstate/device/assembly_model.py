@@ -6,16 +6,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from threadstate.device.model import LoadedContact, SettledFlag, SettledState
+from threadstate.device.strategy import Strategy
 from threadstate.state.model import FeaturePair, StagePose, Vector
-
-
-class Strategy(StrEnum):
-    """How the hand turns the bolt (forces, section 5)."""
-
-    CCW_THEN_CW = "ccw_then_cw"
-    """Counter-clockwise until the snap or through 360 deg, then clockwise through 270 deg."""
-    CW = "cw"
-    """Clockwise through 270 deg at once."""
 
 
 class AssemblyOutcome(StrEnum):

@@ -9,8 +9,9 @@ from enum import Enum, auto
 import numpy as np
 
 from threadstate.device import _turn_kernel as tk
-from threadstate.device.assembly_model import AssemblyMargins, AssemblyOutcome, AssemblyPoint, Strategy
+from threadstate.device.assembly_model import AssemblyMargins, AssemblyOutcome, AssemblyPoint
 from threadstate.device.model import Device
+from threadstate.device.strategy import Strategy
 from threadstate.state.model import StagePose
 from threadstate.thread.pair import Pair
 from threadstate.thread.play import axial_limits

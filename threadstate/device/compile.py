@@ -10,9 +10,9 @@ from threadstate.device import _friction_kernel as fk
 from threadstate.device import _settle_kernel as sk
 from threadstate.device import _turn_kernel as tk
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import Strategy
 from threadstate.device.model import default_device
 from threadstate.device.settle import device_numbers, new_rows, settle_poses
+from threadstate.device.strategy import Strategy
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 POSES_DEG = ((0.0, 3.0, 250.0), (1.0, 0.5, 120.0), (0.0, 0.0, 0.0))

@@ -327,5 +327,6 @@ def _point(point: Floats) -> PathPoint:
 
 
 def vector_of(numbers: Floats) -> Vector:
+    """Three numbers as a vector."""
     x, y, z = (float(number) for number in numbers)
     return x, y, z

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from threadstate.device.assembly_model import Strategy
+from threadstate.device.strategy import Strategy
 from worker.commands.settle import DeviceFile, read_device
 from worker.commands.solve import wanted_poses
 from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
