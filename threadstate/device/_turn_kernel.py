@@ -99,6 +99,9 @@ ENERGY_STEP = 1e-6
 MAX_DESCENTS, MAX_FAILURES = 2000, 150
 """Descents, and descents that did not end, after which a leg is given up."""
 
+LONGER = 2.5
+"""How much longer the steps of a fall become each time that it does not end."""
+
 NEAR_STEPS, SLOW_STEPS, TURN_FALL_STEPS = 12, 48, 300
 """Steps of a descent to a minimum near by, of one after a step of at most ``EVENT_WIDTH``, as beside the end of a
 minimum it takes many, and of that of a fall."""
@@ -421,10 +424,10 @@ def fall_down(
     r = bolt[pk.R_MAJOR]
     start = q.copy()
     status, found = UNSETTLED, 0
-    for attempt in range(3):
+    for attempt in range(5):
         copy_numbers(start, q)
         device[D_FINE] = FINEST if attempt == 1 else FINE
-        longest = STEP_LENGTH if attempt == 2 else FALL_STEP
+        longest = FALL_STEP if attempt < 2 else STEP_LENGTH * LONGER ** (attempt - 2)
         status, found = descend(
             q,
             push,
