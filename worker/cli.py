@@ -16,6 +16,7 @@ from typer.main import get_group
 
 import threadstate
 from threadstate.errors import ThreadstateError
+from worker.commands.assemble import assemble
 from worker.commands.compare import compare
 from worker.commands.copy import copy
 from worker.commands.export import export
@@ -65,6 +66,7 @@ COMMANDS = (
     statics,
     jamming,
     settle,
+    assemble,
     rebuild,
     sweep,
     libraries,

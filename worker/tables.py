@@ -16,6 +16,7 @@ from threadstate.units import LengthUnit, conversion_factor, scale_length
 from worker.output import print_line
 
 if TYPE_CHECKING:
+    from threadstate.device.assembly_document import AssemblyDocument
     from threadstate.device.document import SettledDocument
     from threadstate.statics.extras import Extras
     from threadstate.statics.jamming_document import JammingDocument
@@ -189,6 +190,31 @@ def print_settled(state: SettledDocument) -> None:
         rows.add_row(f"{contact['features']} (N)", f"{_numbers(contact['force'])} at {_numbers(contact['point'])}")
     for fall in state["falls"]:
         rows.add_row(f"fall at {fall['push']:.6f} N ({unit})", f"drop {fall['drop']:.6f}, way {fall['way']:.6f}")
+    rows.print()
+
+
+def print_assembly(path: AssemblyDocument) -> None:
+    """A path, a number a row: how it ends, its margins and energies, then its events."""
+    unit = path["unit"]
+    rows = table("", "")
+    roll, pitch, phase = (number_text(path["roll"]), number_text(path["pitch"]), number_text(path["phase"]))
+    rows.add_row("roll, pitch, phase (deg)", f"{roll}, {pitch}, {phase}")
+    rows.add_row("strategy, mu", f"{path['strategy']}, {number_text(path['mu'])}")
+    rows.add_row("outcome", ", ".join([path["outcome"], *path["flags"]]))
+    if path["margins"] is not None and path["energy"] is not None and path["travel"] is not None:
+        for name, value in path["margins"].items():
+            rows.add_row(f"margin, {name}", "" if value is None else f"{value:.6f}")
+        for name, energy in path["energy"].items():
+            rows.add_row(f"energy, {name} (N {unit})", f"{energy:.6f}")
+        travel = path["travel"]
+        rows.add_row("torque, tilt, shift", _numbers([travel["torque"], travel["tilt"], travel["shift"]]))
+        origin = path["path"]["pose"][-1]["translation"]
+        rows.add_row(f"last origin ({unit})", f"{_numbers(origin)} at {path['path']['phase'][-1]:.2f} deg")
+    for event in path["events"]:
+        what: list[str] = [text for text in (event["features_before"], event["features"]) if text is not None]
+        if event["drop"] is not None and event["way"] is not None:
+            what.append(f"drop {event['drop']:.6f}, way {event['way']:.6f}")
+        rows.add_row(f"{event['kind']} at {event['phase']:.2f} deg", " to ".join(what))
     rows.print()
 
 

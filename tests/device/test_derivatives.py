@@ -20,8 +20,8 @@ from threadstate.contact._stage_kernel import (
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _gap_kernel as gk
 from threadstate.device import _places_kernel as pl
+from threadstate.device.command import commanded_rotation
 from threadstate.device.model import About
-from threadstate.device.settle import commanded_rotation
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 

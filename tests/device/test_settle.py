@@ -270,7 +270,7 @@ def test_the_same_pose_gives_the_same_bits_whatever_the_others_are() -> None:
 
 @pytest.mark.parametrize(
     ("pose", "mu", "name"),
-    [((11.0, 0.0, 0.0), 0.0, "roll"), ((0.0, 0.0, math.inf), 0.0, "phase"), ((0.0, 3.0, 0.0), 0.1, "mu")],
+    [((11.0, 0.0, 0.0), 0.0, "roll"), ((0.0, 0.0, math.inf), 0.0, "phase"), ((0.0, 3.0, 0.0), -0.1, "mu")],
 )
 def test_a_bad_pose_or_friction_is_refused(pose: tuple[float, float, float], mu: float, name: str) -> None:
     with pytest.raises(InvalidValueError, match=name):

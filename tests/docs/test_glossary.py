@@ -12,6 +12,15 @@ from pathlib import Path
 import pytest
 
 from service.app import create_app
+from threadstate.device.assembly_document import (
+    AssemblyDocument,
+    AssemblyMarginsDocument,
+    EnergyDocument,
+    EventDocument,
+    PathDocument,
+    TravelDocument,
+)
+from threadstate.device.assembly_model import AssemblyOutcome, EventKind, Held
 from threadstate.device.document import (
     DeviationDocument,
     FallDocument,
@@ -20,6 +29,7 @@ from threadstate.device.document import (
     SettledMarginsDocument,
 )
 from threadstate.device.model import Outcome, SettledFlag
+from threadstate.device.strategy import Strategy
 from threadstate.network.changes import ChangeKind
 from threadstate.network.moves import Move
 from threadstate.state.document import StateDocument
@@ -89,7 +99,11 @@ def test_every_field_of_an_answer_is_a_term(known: set[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    "names", [StateClass, Flag, FeaturePair, Region, Move, ChangeKind, Verdict, Outcome, SettledFlag]
+    "names",
+    [
+        *(StateClass, Flag, FeaturePair, Region, Move, ChangeKind, Verdict, Outcome, SettledFlag),
+        *(AssemblyOutcome, EventKind, Held, Strategy),
+    ],
 )
 def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]) -> None:
     assert sorted({name.value for name in names} - known) == []
@@ -97,6 +111,11 @@ def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]
 
 def test_every_field_of_a_settled_state_is_a_term(known: set[str]) -> None:
     documents = (SettledDocument, DeviationDocument, LoadedContactDocument, FallDocument, SettledMarginsDocument)
+    assert sorted({name for document in documents for name in document.__annotations__} - known) == []
+
+
+def test_every_field_of_a_path_is_a_term(known: set[str]) -> None:
+    documents = (AssemblyDocument, EventDocument, PathDocument, EnergyDocument, AssemblyMarginsDocument, TravelDocument)
     assert sorted({name for document in documents for name in document.__annotations__} - known) == []
 
 

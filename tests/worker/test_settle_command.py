@@ -86,8 +86,8 @@ def test_a_bad_device_is_a_clear_error(command_line: CommandLine, tmp_path: Path
     assert words in err
 
 
-def test_friction_and_a_missing_file_are_refused(command_line: CommandLine) -> None:
-    code, _, err = command_line.here("settle", *POSE, "--mu", "0.1")
+def test_a_bad_friction_and_a_missing_file_are_refused(command_line: CommandLine) -> None:
+    code, _, err = command_line.here("settle", *POSE, "--mu", "-0.1")
     assert code == 2
-    assert "mu is 0.1; valid: 0" in err
+    assert "mu is -0.1; valid: 0 to 1" in err
     assert command_line.here("settle", *POSE, "--device", "nothing.toml")[0] == 2

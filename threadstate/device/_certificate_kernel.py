@@ -23,7 +23,7 @@ from threadstate.contact._stage_kernel import (
     set_motions,
 )
 from threadstate.device._gap_kernel import G_PAIR, G_POINT, G_THETA
-from threadstate.device._places_kernel import MAX_PLACES
+from threadstate.device._places_kernel import MAX_PITCHES, MAX_PLACES
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -57,5 +57,32 @@ def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, n
     outcome, _ = find_inside(nut_motion, nut, bolt, on_nut, shallow, NARROW, boxes, spare_boxes)
     if outcome != OUTSIDE:
         return EDGE_INSIDE
-    inside, _, _, _ = deepest_thread_point(bolt_motion, limit, RIDGE_AZIMUTHS, bolt, nut)
-    return THREAD_INSIDE if inside else FREE
+    return THREAD_INSIDE if threads_overlap(pose, limit, bolt_motion, nut_motion, bolt, nut) else FREE
+
+
+@kernel()
+def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: Array, bolt: Array, nut: Array) -> bool:
+    """Whether a search finds the threads to overlap by more than ``limit``; the motions are scratch.
+
+    The search covers a thread pitch of each part: of deeper ones each pitch of the bolt is searched with each of the
+    nut beside it, as the same threads moved along their axes.
+    """
+    p = bolt[pk.P]
+    reach = bolt[pk.R_MAJOR] * math.hypot(pose[6], pose[7])
+    moved = pose.copy()
+    down = np.array([0.0, 0.0, -1.0])
+    turn = 0
+    while pose[11] + turn * p * pose[8] < reach and turn < MAX_PITCHES:
+        low = pose[11] + turn * p * pose[8] - reach
+        high = pose[11] + (turn + 1) * p * pose[8] + reach
+        for nut_turn in range(MAX_PITCHES + 1):
+            if low > -nut_turn * p or high < -(nut_turn + 1) * p:
+                continue
+            for i in range(3):
+                moved[9 + i] = pose[9 + i] + turn * p * pose[3 * i + 2] + (nut_turn * p if i == 2 else 0.0)
+            set_motions(moved, False, False, down, down, bolt_motion, nut_motion)
+            inside, _, _, _ = deepest_thread_point(bolt_motion, limit, RIDGE_AZIMUTHS, bolt, nut)
+            if inside:
+                return True
+        turn += 1
+    return False

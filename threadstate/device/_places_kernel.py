@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._ridge_grid_kernel import CROSSINGS_SIZE, GRID_SIZE, MAX_CROSSINGS, set_columns
-from threadstate.contact._ridge_kernel import nearby_maximum, ridge_maxima
+from threadstate.contact._ridge_kernel import (
+    FIRST_RIDGE_STEP,
+    FIRST_WINDOW,
+    bracketed_maximum,
+    nearby_maximum,
+    ridge_maxima,
+)
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -59,6 +65,12 @@ MAX_PLACES = 24
 
 SCAN_REACH = 0.01
 """An interval is divided where one of its ends is above the reach less this part of the nominal radius."""
+
+RIDGE_REACH = 0.01
+"""A maximum is bracketed along its ridge where phi is above the reach less this part of a thread pitch."""
+
+MAX_PITCHES = 4
+"""How many thread pitches of the bolt are searched from its base up: a bolt that is deeper is refused."""
 
 MAX_STEPS = 60
 NEWTON_STEPS = 12
@@ -222,24 +234,41 @@ def add_threads(
     count: int,
     places: Array,
 ) -> int:
-    """Adds the places at which thread overlaps thread away from both edges; returns the number of places then."""
+    """Adds the places at which thread overlaps thread away from both edges; returns the number of places then.
+
+    The search covers one thread pitch of the bolt: of a deeper one each pitch is searched, as the same thread moved
+    down its axis.
+    """
     grid, crossings, maxima, placement, jet = threads
     for i in range(9):
         placement[i] = place[N_ROTATION + i]
-    for i in range(3):
-        placement[9 + i] = place[N_OFFSET + i]
+    p = bolt[pk.P]
     # Nothing of the thread lies below the nut's surface where the base does not.
-    lowest = place[N_OFFSET + 2] - bolt[pk.R_MAJOR] * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
-    if lowest > 0.0:
-        return count
-    for j in range(ridge_maxima(RIDGE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
-        theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
-        if not converged or jet[J_PHI] < -reach or z <= 0.0 or jet[J_Z] >= 0.0:
-            continue
-        theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
-        if converged and jet[J_PHI] >= -reach and z > 0.0 and jet[J_Z] < 0.0:
-            count = add_place(THREAD_THREAD, theta, z, place, device, bolt, nut, work, count, places)
+    below = -lowest_height(place, bolt)
+    turns = min(math.ceil(below / p), MAX_PITCHES)
+    for turn in range(turns):
+        base = turn * p
+        for i in range(3):
+            placement[9 + i] = place[N_OFFSET + i] + base * place[N_ROTATION + 3 * i + 2]
+        for j in range(ridge_maxima(RIDGE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
+            theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
+            if not converged and jet[J_PHI] > -reach - RIDGE_REACH * p:
+                # From beside a ridge of flank on flank Newton's method does not ascend.
+                theta, z, converged = bracketed_maximum(
+                    maxima[j, 0], maxima[j, 1], FIRST_RIDGE_STEP, FIRST_WINDOW * p, placement, bolt, nut, jet
+                )
+            if not converged or jet[J_PHI] < -reach or base + z <= 0.0 or jet[J_Z] >= 0.0:
+                continue
+            theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
+            if converged and jet[J_PHI] >= -reach and base + z > 0.0 and jet[J_Z] < 0.0:
+                count = add_place(THREAD_THREAD, theta, base + z, place, device, bolt, nut, work, count, places)
     return count
+
+
+@kernel()
+def lowest_height(place: Array, bolt: Array) -> float:
+    """A height that no point of the bolt is below."""
+    return place[N_OFFSET + 2] - bolt[pk.R_MAJOR] * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
 
 
 @kernel()

@@ -30,7 +30,14 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._flush_kernel import flush_is_reached
 from threadstate.device._gap_kernel import G_GRADIENT, G_HESSIAN, G_VALUE, GAP_SIZE
-from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, Threads, find_places
+from threadstate.device._places_kernel import (
+    MAX_PITCHES,
+    MAX_PLACES,
+    PLACES_WORK,
+    Threads,
+    find_places,
+    lowest_height,
+)
 from threadstate.device._quadratic_kernel import SOLVED, cholesky, solve_program
 from threadstate.thread import _profile_kernel as pk
 
@@ -44,6 +51,9 @@ bolt's thread can meet the nut's surface."""
 
 NEAR = 1e-3
 """How far (nominal radii) the push alone would take the bolt in the step from which multipliers are estimated."""
+
+DEEPEST = 0.9 * MAX_PITCHES
+"""How deep the bolt may be, in thread pitches: above its last searched pitch nothing is then below the surface."""
 
 LOADED = 1e-6
 """Part of the push from which on a contact carries so much that the bolt is brought back to it."""
@@ -410,8 +420,7 @@ def descend(
         damping = 0.0 if length < 0.5 * longest_step else 0.25 * damping
         if math.hypot(place[N_OFFSET], place[N_OFFSET + 1]) > r:
             return SLIPPED, count
-        lowest = place[N_OFFSET + 2] - r * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
-        if lowest < -bolt[pk.P] or lowest + bolt[pk.P] * place[N_ROTATION + 8] < 0.0:
+        if lowest_height(place, bolt) < -DEEPEST * bolt[pk.P]:
             return DEEP, count
         if bolt[pk.STEEPEST] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
             return TILTED, count

@@ -6,18 +6,29 @@ from pathlib import Path
 
 import numpy as np
 
+from threadstate.device import _friction_kernel as fk
 from threadstate.device import _settle_kernel as sk
+from threadstate.device import _turn_kernel as tk
+from threadstate.device.assemble import assemble_pose
 from threadstate.device.model import default_device
 from threadstate.device.settle import device_numbers, new_rows, settle_poses
+from threadstate.device.strategy import Strategy
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 POSES_DEG = ((0.0, 3.0, 250.0), (1.0, 0.5, 120.0), (0.0, 0.0, 0.0))
 """Poses that end on contacts, flush, and on threads from a level start: each kernel that Python calls is called."""
 
 
+ENGAGING_DEG, LITTLE_FRICTION = (1.0, -2.0, 10.0), 0.01
+"""A pose that is turned clockwise at once, and a friction with which another settles."""
+
+
 def load_device() -> None:
     """Call each kernel that is called from Python."""
-    settle_poses(quarter_twenty_unc(), POSES_DEG)
+    pair = quarter_twenty_unc()
+    settle_poses(pair, POSES_DEG)
+    assemble_pose(pair, *ENGAGING_DEG, strategy=Strategy.CW)
+    settle_poses(pair, POSES_DEG[:1], mu=LITTLE_FRICTION)
 
 
 def compile_without_search() -> None:
@@ -30,4 +41,9 @@ def compile_without_search() -> None:
 
 def device_is_compiled() -> bool:
     """Whether the cache contains the kernels."""
-    return any(Path(str(sk.settle_with.stats.cache_path)).glob("_settle_kernel.settle_with-*.nbc"))
+    kernels = (
+        (sk.settle_with, "_settle_kernel.settle_with"),
+        (tk.turn_with, "_turn_kernel.turn_with"),
+        (fk.follow_friction, "_friction_kernel.follow_friction"),
+    )
+    return all(any(Path(str(one.stats.cache_path)).glob(f"{name}-*.nbc")) for one, name in kernels)

@@ -154,14 +154,14 @@ def settled_document(state: SettledState, unit: LengthUnit, factor: float = 1.0)
         "pose": None
         if state.pose is None
         else {
-            "rotation": [_vector(row) for row in state.pose.rotation],
-            "translation": _vector(state.pose.translation, factor),
+            "rotation": [vector_document(row) for row in state.pose.rotation],
+            "translation": vector_document(state.pose.translation, factor),
         },
         "deviation": None
         if state.shift is None or state.rotation_deg is None
-        else {"shift": _vector(state.shift, factor), "rotation": _vector(state.rotation_deg)},
-        "contacts": [_contact(contact, factor) for contact in state.contacts],
-        "elastic_energy": _scaled(state.elastic_energy, factor),
+        else {"shift": vector_document(state.shift, factor), "rotation": vector_document(state.rotation_deg)},
+        "contacts": [contact_document(contact, factor) for contact in state.contacts],
+        "elastic_energy": scaled(state.elastic_energy, factor),
         "falls": [
             {
                 "push": fall.push,
@@ -174,26 +174,29 @@ def settled_document(state: SettledState, unit: LengthUnit, factor: float = 1.0)
         "flags": list(state.flags),
         "margins": {
             "force": margins.force,
-            "gap": _scaled(margins.gap, factor),
-            "stability": _scaled(margins.stability, 1.0 / factor),
+            "gap": scaled(margins.gap, factor),
+            "stability": scaled(margins.stability, 1.0 / factor),
             "residual": margins.residual,
-            "pressure": _scaled(margins.pressure, factor),
+            "pressure": scaled(margins.pressure, factor),
         },
     }
 
 
-def _contact(contact: LoadedContact, factor: float) -> LoadedContactDocument:
+def contact_document(contact: LoadedContact, factor: float) -> LoadedContactDocument:
+    """The document of a contact, its lengths multiplied by ``factor``."""
     return {
-        "point": _vector(contact.point, factor),
-        "normal": _vector(contact.normal),
+        "point": vector_document(contact.point, factor),
+        "normal": vector_document(contact.normal),
         "features": contact.features,
-        "force": _vector(contact.force),
+        "force": vector_document(contact.force),
     }
 
 
-def _vector(vector: Vector, factor: float = 1.0) -> list[float]:
+def vector_document(vector: Vector, factor: float = 1.0) -> list[float]:
+    """A vector times a factor, without negative zeros."""
     return [number * factor + 0.0 for number in vector]
 
 
-def _scaled(value: float | None, factor: float) -> float | None:
+def scaled(value: float | None, factor: float) -> float | None:
+    """A number times a factor, without a negative zero; None stays."""
     return None if value is None else value * factor + 0.0

@@ -14,6 +14,9 @@ from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 
+BALANCED = 1e-9
+"""Largest residual of an equilibrium, over the push."""
+
 
 def device_wrench(device: Device, q: Floats, pose: Floats, numbers: Floats) -> tuple[Floats, Floats, Floats]:
     """The device's force and moment about the compliance centre in the nut's axes, and its moment's free direction.

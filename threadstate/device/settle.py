@@ -7,17 +7,17 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from threadstate.contact._stage_kernel import rotation
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _gap_kernel as gk
 from threadstate.device import _rest_kernel as rest
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device._places_kernel import FINE, MAX_PLACES
-from threadstate.device.equilibrium import balance, stability
+from threadstate.device.command import command_numbers, commanded_rotation, strip_numbers
+from threadstate.device.equilibrium import BALANCED, balance, stability
 from threadstate.device.flush import flush_contacts, level_numbers, level_start
+from threadstate.device.friction import FrictionPath, settled_with_friction
 from threadstate.device.model import (
-    About,
     Device,
     Fall,
     LoadedContact,
@@ -40,14 +40,14 @@ __all__ = ["settle_pose", "settle_poses"]
 
 Floats = NDArray[np.float64]
 
+LARGEST_FRICTION = 1.0
+"""With more the cones of contacts on flanks hold any load."""
+
 LEAST_FLANK_HALF_ANGLE_DEG = 20.0
 """Flatter flanks can meet the nut's surface away from both edges within the tilts that a device may reach."""
 
 LEAST_FILLET = 0.01
 """Sharper corners than this part of the thread pitch are narrower than what the search of contacts samples."""
-
-BALANCED = 1e-9
-"""Largest residual of an equilibrium, over the push."""
 
 NO_FORCE = 1e-9
 """A contact with less force than this part of the push is one without force."""
@@ -81,37 +81,51 @@ def settle_pose(
 def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, mu: float = 0.0) -> list[SettledState]:
     """The settled states of commanded poses of shape (n, 3): roll, pitch and phase in degrees, in their order.
 
-    Forces, section 5, without friction: the bolt starts at its first contact, and the push grows from 0. The device is
+    Forces, section 5: the bolt starts at its first contact, and the push grows from 0. The device is
     the default one of forces, section 4, unless another is given. A pose without a certain answer is ``undecided``,
     with a flag that says why. The same pose gives the same bits whatever the others are.
 
     Raises:
         InvalidValueError: poses not of shape (n, 3), a value not finite, roll or pitch beyond 10 deg; a friction that
-            is not 0; a pair whose corners are sharper or whose flanks are flatter than the search of contacts covers.
+            is negative or above 1; a pair whose corners are sharper or whose flanks are flatter than the search of
+            contacts covers.
     """
     wanted = checked_poses(poses)
-    if mu != 0.0:
-        raise InvalidValueError("mu", mu, "0: settled states are computed without friction")
+    check_friction(mu)
     check_pair(pair)
     held = (device or default_device()).in_unit(pair.unit)
     numbers = device_numbers(pair, held)
-    rotations = np.empty((len(wanted), 9))
-    heights = np.full(len(wanted), math.nan)
-    tips = np.zeros((len(wanted), 3))
-    is_flush = np.zeros(len(wanted), dtype=bool)
-    for i, (roll_deg, pitch_deg, phase_deg) in enumerate(wanted):
-        rotations[i] = commanded_rotation(roll_deg, pitch_deg, phase_deg, held.about)
+    rotations, rows = settled_rows(pair, held, numbers, wanted)
+    if mu > 0.0:
+        return [state_with_friction(pair, held, numbers, wanted[i], rows[0][i], mu)[0] for i in range(len(wanted))]
+    return [
+        settled_state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows))
+        for i in range(len(wanted))
+    ]
+
+
+def settled_rows(pair: Pair, device: Device, numbers: Floats, poses_deg: Floats) -> tuple[Floats, sk.Rows]:
+    """The commanded rotations of poses, shape (n, 9), and the kernels' rows of where they settle.
+
+    ``device`` is in the pair's unit, ``numbers`` are its :func:`device_numbers`.
+    """
+    rotations = np.empty((len(poses_deg), 9))
+    heights = np.full(len(poses_deg), math.nan)
+    tips = np.zeros((len(poses_deg), 3))
+    is_flush = np.zeros(len(poses_deg), dtype=bool)
+    for i, (roll_deg, pitch_deg, phase_deg) in enumerate(poses_deg):
+        rotations[i] = commanded_rotation(roll_deg, pitch_deg, phase_deg, device.about)
         if abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG:
             heights[i], tips[i] = level_start(pair, phase_deg, rotations[i])
             is_flush[i] = not tips[i].any()
-    rows = new_rows(len(wanted))
+    rows = new_rows(len(poses_deg))
     chosen = np.flatnonzero(~is_flush)
     part = new_rows(len(chosen))
     sk.settle_rows(
         rotations[chosen],
         heights[chosen],
         tips[chosen],
-        held.push,
+        device.push,
         numbers.copy(),
         pair.bolt.packed,
         pair.nut.packed,
@@ -121,9 +135,35 @@ def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, 
         whole[chosen] = some
     rows[0][is_flush, sk.R_STATUS] = rest.FLUSH
     rows[0][is_flush, sk.R_HEIGHT] = heights[is_flush]
-    return [
-        _state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows)) for i in range(len(wanted))
-    ]
+    return rotations, rows
+
+
+def state_with_friction(
+    pair: Pair, device: Device, numbers: Floats, pose_deg: Floats, result: Floats, mu: float
+) -> tuple[SettledState, FrictionPath | None]:
+    """The state of a pose that settles with friction, and the path that goes on from it; None where it has no start.
+
+    ``result`` is the kernels' of the same pose without friction: the height of its first contact is what counts.
+    """
+    roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
+    is_level = abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG
+    if is_level or result[sk.R_STATUS] == sk.NO_FIRST_CONTACT:
+        flag = SettledFlag.FLUSH if is_level else SettledFlag.FIRST_CONTACT
+        outcome = Outcome.UNDECIDED
+        nothing = (None, None, None, (), None, (), NO_MARGINS, ())
+        return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing), None
+    command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]))
+    return settled_with_friction(pair, device, numbers, command, strip_numbers(pair), pose_deg, mu)
+
+
+def check_friction(mu: float) -> None:
+    """Check a coefficient of friction.
+
+    Raises:
+        InvalidValueError: it is not a number from 0 to the largest one.
+    """
+    if not 0.0 <= mu <= LARGEST_FRICTION:
+        raise InvalidValueError("mu", mu, f"0 to {number_text(LARGEST_FRICTION)}")
 
 
 def check_pair(pair: Pair) -> None:
@@ -143,19 +183,6 @@ def check_pair(pair: Pair) -> None:
         fillet = getattr(pair.form, name)
         if fillet < LEAST_FILLET:
             raise InvalidValueError(name, fillet, f"at least {number_text(LEAST_FILLET)} thread pitches for a device")
-
-
-def commanded_rotation(roll_deg: float, pitch_deg: float, phase_deg: float, about: About) -> Floats:
-    """The commanded rotation by rows, shape (9,): bolt to nut (forces, section 4)."""
-    out = np.zeros(12)
-    roll, pitch, phase = math.radians(roll_deg), math.radians(pitch_deg), math.radians(phase_deg)
-    if about is About.NUT:
-        rotation(roll, pitch, phase, out)
-        return out[:9]
-    turn = np.zeros(12)
-    rotation(roll, pitch, 0.0, out)
-    rotation(0.0, 0.0, phase, turn)
-    return np.asarray(out[:9].reshape(3, 3) @ turn[:9].reshape(3, 3)).ravel()
 
 
 def device_numbers(pair: Pair, device: Device) -> Floats:
@@ -182,7 +209,7 @@ def new_rows(count: int) -> sk.Rows:
     )
 
 
-def _state(
+def settled_state(
     pair: Pair,
     device: Device,
     numbers: Floats,
@@ -213,7 +240,7 @@ def _state(
         shift = q[3:] - numbers[ck.D_PLACE : ck.D_PLACE + 3]
         energy = ck.elastic_energy(q, numbers, np.empty(ck.COORDINATES))
         matrix = pose[:9].reshape(3, 3)
-        placed = StagePose(tuple(_vector(line) for line in matrix), _vector(pose[9:]))  # type: ignore[arg-type]
+        placed = StagePose(tuple(vector_of(line) for line in matrix), vector_of(pose[9:]))  # type: ignore[arg-type]
         return SettledState(
             roll_deg,
             pitch_deg,
@@ -221,8 +248,8 @@ def _state(
             Outcome.SETTLED,
             flags,
             placed,
-            _vector(shift),
-            _vector(np.degrees(q[:3])),
+            vector_of(shift),
+            vector_of(np.degrees(q[:3])),
             contacts,
             float(energy),
             fallen,
@@ -250,10 +277,10 @@ def _state(
     loaded = multipliers * places[:, gk.G_NORM] > NO_FORCE * device.push
     contacts = tuple(
         LoadedContact(
-            _vector(place[gk.G_POINT : gk.G_POINT + 3]),
-            _vector(place[gk.G_NORMAL : gk.G_NORMAL + 3]),
+            vector_of(place[gk.G_POINT : gk.G_POINT + 3]),
+            vector_of(place[gk.G_NORMAL : gk.G_NORMAL + 3]),
             FEATURES[int(place[gk.G_PAIR])],
-            _vector(multiplier * place[gk.G_NORM] * place[gk.G_NORMAL : gk.G_NORMAL + 3]),
+            vector_of(multiplier * place[gk.G_NORM] * place[gk.G_NORMAL : gk.G_NORMAL + 3]),
         )
         for place, multiplier in zip(places[loaded], multipliers[loaded], strict=True)
     )
@@ -294,11 +321,12 @@ def _point(point: Floats) -> PathPoint:
         float(point[sk.P_PUSH]),
         float(point[sk.P_ENERGY]),
         float(point[sk.P_POTENTIAL]),
-        _vector(point[sk.P_COORDINATES : sk.P_COORDINATES + 3]),
-        _vector(point[sk.P_COORDINATES + 3 : sk.P_COORDINATES + 6]),
+        vector_of(point[sk.P_COORDINATES : sk.P_COORDINATES + 3]),
+        vector_of(point[sk.P_COORDINATES + 3 : sk.P_COORDINATES + 6]),
     )
 
 
-def _vector(numbers: Floats) -> Vector:
+def vector_of(numbers: Floats) -> Vector:
+    """Three numbers as a vector."""
     x, y, z = (float(number) for number in numbers)
     return x, y, z

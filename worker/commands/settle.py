@@ -16,6 +16,16 @@ from worker.output import print_json
 if TYPE_CHECKING:
     from threadstate.device.model import Device
 
+DeviceFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--device",
+        metavar="FILE",
+        help="The device as a TOML or JSON file.",
+        show_default="the device of docs/device.md",
+    ),
+]
+
 BATCH = 64
 """How many poses are settled before their answers are printed."""
 
@@ -25,17 +35,9 @@ def settle(
     pitch: Pitch = None,
     phase: Phase = None,
     poses: Poses = None,
-    device: Annotated[
-        Path | None,
-        typer.Option(
-            "--device",
-            metavar="FILE",
-            help="The device as a TOML or JSON file.",
-            show_default="the device of docs/device.md",
-        ),
-    ] = None,
+    device: DeviceFile = None,
     mu: Annotated[
-        float, number_option("--mu", metavar="M", help="Coefficient of friction; only 0 is computed yet.")
+        float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts, 0 to 1.")
     ] = 0.0,
     pair: PairName = None,
     dimension: Dimensions = None,

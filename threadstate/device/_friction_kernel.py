@@ -1,0 +1,731 @@
+"""A held bolt with friction: push and phase of the command move in steps, and each step's contact modes are enumerated.
+
+Every solution of a step is counted. The path goes on with the one whose contacts do what they did before, or else with
+the one nearest to where the hand carries the bolt. Where there is none the bolt falls, without friction.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
+from threadstate.contact._stage_kernel import new_work as new_stage
+from threadstate.device._certificate_kernel import overlap
+from threadstate.device._chart_kernel import (
+    COORDINATES,
+    D_CENTRE,
+    D_ROTATION,
+    D_SCALE,
+    N_OFFSET,
+    PLACE_SIZE,
+    elastic_energy,
+    set_place,
+)
+from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_VALUE, GAP_SIZE
+from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
+from threadstate.device._modes_kernel import (
+    K_FORCE,
+    K_MODE,
+    K_NORMAL,
+    K_PAIR,
+    K_POINT,
+    K_SLIP,
+    MOST_CONTACTS,
+    OPENS,
+    REACH,
+    SLIPS,
+    SOLVED,
+    STICKS,
+    ModesWork,
+    is_consistent,
+    new_modes_work,
+    set_velocities,
+    solve_mode,
+)
+from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, Threads, find_places, new_threads
+from threadstate.device._quadratic_kernel import SOLVED as PROGRAM_SOLVED
+from threadstate.device._quadratic_kernel import cholesky, solve_program
+from threadstate.device._rest_kernel import (
+    AT_REST,
+    DEEPEST,
+    FLUSH,
+    SLIPPED,
+    Work,
+    descend,
+    free_coordinates,
+    length_of,
+    new_work,
+    set_gradient,
+    set_metric,
+)
+from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, PATH_OVERLAP, PATH_TOLERANCE, distance
+from threadstate.device._strip_kernel import (
+    C_FORCE,
+    C_NORMAL,
+    C_POINT,
+    is_near_strip,
+    set_strip,
+    strip_holds,
+)
+from threadstate.device._strip_kernel import CONTACT_SIZE as STRIP_CONTACT_SIZE
+from threadstate.device._strip_kernel import MAX_CONTACTS as STRIP_CONTACTS
+from threadstate.device._turn_kernel import (
+    BELOW_TOP,
+    DEGREE,
+    LOADED,
+    M_ABOUT_BOLT,
+    M_PUSH,
+    M_TILT,
+    SNAP_FALL,
+    SNAP_SPAN,
+    TORQUE_LIMIT,
+    fall_down,
+    set_phase,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+MAX_SOLUTIONS = 8
+"""The most solutions of a step that are told apart."""
+
+DISTINCT = 1e-6
+"""How far apart (nominal radii) the bolt is in two solutions."""
+
+SAME_CONTACT = 0.03
+"""Points of two contacts (nominal radii) that are nearer to each other are one contact's."""
+
+STEP_REACH = 2e-2
+"""How far (nominal radii) the bolt may go in a step beside where the hand carries it."""
+
+LONGEST_TURN, LONGEST_PUSH = 1.0 * DEGREE, 1.0 / 16.0
+FIRST_PART, LEAST_PART = 0.25, 1.0 / 256.0
+"""The longest steps of phase (rad) and of push (parts of its whole); the first and the shortest over the longest."""
+
+EDGES = 48
+"""Edges of the pyramid inside a friction cone by which a bolt at rest is tested."""
+
+LAID = 3e-3
+"""How near (nominal radii) to the level pose on a strip a bolt is laid there: along the strip a step takes it half as
+far."""
+
+MAX_POINTS = 1500
+
+ENERGY_STEP = 2e-5
+"""Potential, over push times nominal radius, that a step may leave unexplained: more is a fall."""
+
+# How a path ends.
+REACHED, SNAP_REACHED, TORQUE_OVER, SLIPPED_OFF, TOO_DEEP, TOO_MANY, ON_PATCH, PATH_FULL, NO_MINIMUM = range(9)
+GOES_ON, SHORTER = -1, -2
+"""Of a step: the path goes on, or the step has to be shorter."""
+
+FREE_STEPS = 60
+"""Steps of the descent without friction that says which contacts a step may gain."""
+
+# A point: phase (rad), push, whether on a strip, potential, elastic energy, torque, contacts, coordinates, rotation and
+# translation, friction loss of the step, loss of a fall, number of solutions of the step.
+P_PHASE, P_PUSH, P_ON_STRIP, P_POTENTIAL, P_ENERGY, P_TORQUE, P_COUNT, P_COORDINATES, P_POSE = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    13,
+)
+P_FRICTION, P_FALL, P_SOLUTIONS = 25, 26, 27
+POINT_SIZE = 28
+
+Solutions = tuple[Array, Array, Indices]
+"""Of a step: coordinates, contacts, and number of contacts of each solution."""
+
+Setting = tuple[Array, Array, Array, Array, Array, Threads, Work, ModesWork]
+"""Command, device, strip, bolt, nut, and the work of searches, descents and modes."""
+
+Path = tuple[Array, Array]
+"""Points, and their contacts."""
+
+
+@kernel()
+def add_candidate(count: int, point: Array, normal: Array, pair: float, r: float, contacts: Array) -> int:
+    """Adds a contact to a step's, unless one is there already; their number then, one more than there is room for."""
+    for i in range(count):
+        apart = 0.0
+        for h in range(3):
+            apart += (contacts[i, K_POINT + h] - point[h]) ** 2
+        if math.sqrt(apart) < SAME_CONTACT * r:
+            return count
+    if count < MOST_CONTACTS:
+        for h in range(K_SIZE):
+            contacts[count, h] = 0.0
+        for h in range(3):
+            contacts[count, K_POINT + h] = point[h]
+            contacts[count, K_NORMAL + h] = normal[h]
+        contacts[count, K_PAIR] = pair
+    return count + 1
+
+
+@kernel()
+def torque_with(q: Array, count: int, contacts: Array, command: Array, device: Array) -> float:
+    """The hand's work a radian of phase, of contacts with their whole forces."""
+    by_q = np.empty(COORDINATES)
+    elastic_energy(q, device, by_q)
+    ax, ay, az = 0.0, 0.0, 1.0
+    torque = 0.0
+    if command[M_ABOUT_BOLT] > 0.0:
+        ax, ay, az = command[M_TILT + 2], command[M_TILT + 5], command[M_TILT + 8]
+    else:
+        x, y = device[D_CENTRE] * device[D_ROTATION + 2], device[D_CENTRE] * device[D_ROTATION + 5]
+        torque = by_q[3] * y - by_q[4] * x
+    for i in range(count):
+        fx, fy, fz = contacts[i, K_FORCE], contacts[i, K_FORCE + 1], contacts[i, K_FORCE + 2]
+        px, py, pz = contacts[i, K_POINT] - q[3], contacts[i, K_POINT + 1] - q[4], contacts[i, K_POINT + 2] - q[5]
+        torque -= ax * (py * fz - pz * fy) + ay * (pz * fx - px * fz) + az * (px * fy - py * fx)
+    return torque
+
+
+@kernel()
+def friction_of(contact: Array) -> float:
+    """The size of a contact's force across its normal."""
+    normal, square = 0.0, 0.0
+    for h in range(3):
+        normal += contact[K_FORCE + h] * contact[K_NORMAL + h]
+        square += contact[K_FORCE + h] ** 2
+    return math.sqrt(max(square - normal * normal, 0.0))
+
+
+@kernel()
+def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Array) -> float:
+    """The work that friction takes in a step: the mean of its sizes before and after, over the slip.
+
+    The first contacts of a step are those before it, in their order.
+    """
+    loss = 0.0
+    for i in range(count):
+        if contacts[i, K_MODE] != SLIPS:
+            continue
+        slip = math.sqrt(contacts[i, K_SLIP] ** 2 + contacts[i, K_SLIP + 1] ** 2 + contacts[i, K_SLIP + 2] ** 2)
+        now = friction_of(contacts[i])
+        was = friction_of(earlier[i]) if i < earlier_count and earlier[i, K_MODE] == SLIPS else now
+        loss += 0.5 * (now + was) * slip
+    return loss
+
+
+@kernel()
+def rests(q: Array, push: float, mu: float, count: int, contacts: Array, device: Array) -> bool:
+    """Whether forces within the contacts' cones balance device and push where the bolt is; sets them.
+
+    The cones are taken from inside, as pyramids.
+    """
+    n = free_coordinates(device)
+    place = np.empty(PLACE_SIZE)
+    metric = np.empty((COORDINATES, COORDINATES))
+    factor = np.empty((COORDINATES, COORDINATES))
+    gradient = np.empty(COORDINATES)
+    by_q = np.empty(COORDINATES)
+    velocity = np.empty((3, COORDINATES))
+    total = EDGES * count
+    rows = np.zeros((total, COORDINATES))
+    edges = np.empty((total, 3))
+    set_place(q, device, place)
+    set_metric(n, place, device, metric)
+    cholesky(metric, n, factor)
+    set_gradient(n, q, push, device, by_q, gradient)
+    for c in range(count):
+        nx, ny, nz = contacts[c, K_NORMAL], contacts[c, K_NORMAL + 1], contacts[c, K_NORMAL + 2]
+        ax, ay = (1.0, 0.0) if abs(nx) < 0.8 else (0.0, 1.0)
+        along = ax * nx + ay * ny
+        ux, uy, uz = ax - along * nx, ay - along * ny, -along * nz
+        size = math.sqrt(ux * ux + uy * uy + uz * uz)
+        ux, uy, uz = ux / size, uy / size, uz / size
+        vx, vy, vz = ny * uz - nz * uy, nz * ux - nx * uz, nx * uy - ny * ux
+        set_velocities(contacts[c, K_POINT : K_POINT + 3], place, device, velocity)
+        for e in range(EDGES):
+            a, b = mu * math.cos(2.0 * math.pi * e / EDGES), mu * math.sin(2.0 * math.pi * e / EDGES)
+            i = EDGES * c + e
+            edges[i, 0], edges[i, 1], edges[i, 2] = nx + a * ux + b * vx, ny + a * uy + b * vy, nz + a * uz + b * vz
+            for j in range(n):
+                for h in range(3):
+                    rows[i, j] -= velocity[h, j] * edges[i, h]
+    stiffness = push / (1e-3 * device[D_SCALE])
+    for j in range(n):
+        gradient[j] /= stiffness
+    step = np.empty(COORDINATES)
+    forces = np.empty(total)
+    status = solve_program(
+        n,
+        factor,
+        gradient,
+        total,
+        rows,
+        np.zeros(total),
+        1e-14 * device[D_SCALE],
+        np.empty(6 * total + 90),
+        np.empty(COORDINATES + 2, dtype=np.int64),
+        step,
+        forces,
+    )
+    if status != PROGRAM_SOLVED or stiffness * length_of(n, step, metric) > 1e-9 * push:
+        return False
+    for c in range(count):
+        for h in range(3):
+            contacts[c, K_SLIP + h] = 0.0
+            contacts[c, K_FORCE + h] = 0.0
+            for e in range(EDGES):
+                contacts[c, K_FORCE + h] += stiffness * forces[EDGES * c + e] * edges[EDGES * c + e, h]
+        contacts[c, K_MODE] = STICKS
+    return True
+
+
+@kernel()
+def add_solution(total: int, q: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
+    """Adds a solution of a step unless the bolt is there in one already; their number then."""
+    places, all_contacts, counts = solutions
+    for i in range(total):
+        if distance(places[i], q, device) < DISTINCT * device[D_SCALE]:
+            return total
+    if total == MAX_SOLUTIONS:
+        return total
+    copy_numbers(q, places[total])
+    for c in range(count):
+        copy_numbers(contacts[c], all_contacts[total, c])
+    counts[total] = count
+    return total + 1
+
+
+@kernel()
+def enumerate_modes(
+    q: Array,
+    carried: Array,
+    free: Array,
+    before: Array,
+    push: float,
+    unit: float,
+    mu: float,
+    turns: bool,
+    count: int,
+    candidates: Array,
+    setting: Setting,
+    solutions: Solutions,
+) -> int:
+    """Sets every solution of a step; returns their number.
+
+    ``q`` is the bolt before the step, ``carried`` where the hand carries it, ``free`` where it would be without
+    friction, ``before`` the pose before. A bolt that turns about a rigid axis has no two contacts that stick.
+    """
+    _, device, _, bolt, nut, threads, _, modes_work = setting
+    places, search = modes_work[0], modes_work[1]
+    r = device[D_SCALE]
+    modes = np.empty(MOST_CONTACTS, dtype=np.int64)
+    contacts = np.empty((MOST_CONTACTS, K_SIZE))
+    trial = np.empty(COORDINATES)
+    place = np.empty(PLACE_SIZE)
+    total = 0
+    if not turns:
+        for c in range(count):
+            copy_numbers(candidates[c], contacts[c])
+        if rests(q, push, mu, count, contacts, device):
+            total = add_solution(total, q, count, contacts, device, solutions)
+    for code in range(1, 3**count):
+        rest, sticking = code, 0
+        for c in range(count):
+            modes[c] = rest % 3
+            rest //= 3
+            sticking += 1 if modes[c] == STICKS else 0
+            copy_numbers(candidates[c], contacts[c])
+            contacts[c, K_MODE] = modes[c]
+        if sticking > 1:
+            continue
+        for j in range(COORDINATES):
+            trial[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
+        if (
+            solve_mode(modes, count, mu, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work)
+            != SOLVED
+            or distance(carried, trial, device) > STEP_REACH * r
+        ):
+            continue
+        set_place(trial, device, place)
+        found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+        if is_consistent(modes, count, mu, unit, r, found, contacts, modes_work):
+            total = add_solution(total, trial, count, contacts, device, solutions)
+    return total
+
+
+@kernel()
+def chosen(total: int, carried: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
+    """Which solution the path goes on with: that of the modes before, else the one nearest to ``carried``."""
+    places, all_contacts, counts = solutions
+    best, nearest = 0, math.inf
+    for i in range(total):
+        same = True
+        for c in range(int(counts[i])):
+            mode = contacts[c, K_MODE] if c < count else float(OPENS)
+            same = same and all_contacts[i, c, K_MODE] == mode
+        away = distance(carried, places[i], device)
+        if same:
+            return i
+        if away < nearest:
+            best, nearest = i, away
+    return best
+
+
+@kernel()
+def candidates_of(count: int, contacts: Array, found: int, setting: Setting, push: float, candidates: Array) -> int:
+    """Sets the contacts of a step: those before it, then those that a bolt without friction would have after it."""
+    device, work = setting[1], setting[6]
+    places, multipliers = work[0], work[15]
+    r = device[D_SCALE]
+    total = 0
+    for c in range(count):
+        copy_numbers(contacts[c], candidates[c])
+        total += 1
+    for j in range(found):
+        if multipliers[j] * places[j, G_NORM] > LOADED * push:
+            total = add_candidate(
+                total,
+                places[j, G_POINT : G_POINT + 3],
+                places[j, G_NORMAL : G_NORMAL + 3],
+                places[j, G_PAIR],
+                r,
+                candidates,
+            )
+            if total > MOST_CONTACTS:
+                return total
+    return total
+
+
+@kernel()
+def add_path_point(
+    i: int,
+    phase: float,
+    push: float,
+    on_strip: bool,
+    q: Array,
+    count: int,
+    contacts: Array,
+    losses: Array,
+    command: Array,
+    device: Array,
+    path: Path,
+) -> None:
+    """Sets a point of the path; ``losses`` are friction, fall and the number of solutions."""
+    points, all_contacts = path
+    by_q = np.empty(COORDINATES)
+    place = np.empty(PLACE_SIZE)
+    set_place(q, device, place)
+    energy = elastic_energy(q, device, by_q)
+    points[i, P_PHASE], points[i, P_PUSH], points[i, P_ON_STRIP] = phase, push, 1.0 if on_strip else 0.0
+    points[i, P_POTENTIAL], points[i, P_ENERGY] = energy + push * q[5], energy
+    points[i, P_TORQUE] = torque_with(q, count, contacts, command, device)
+    points[i, P_COUNT] = count
+    copy_numbers(q, points[i, P_COORDINATES : P_COORDINATES + COORDINATES])
+    copy_numbers(place[0:12], points[i, P_POSE : P_POSE + 12])
+    copy_numbers(losses, points[i, P_FRICTION : P_FRICTION + 3])
+    for c in range(count):
+        copy_numbers(contacts[c], all_contacts[i, c])
+
+
+@kernel()
+def strip_contacts(
+    q: Array, push: float, mu: float, sense: float, setting: Setting, trial: Array, contacts: Array
+) -> int:
+    """Lays a bolt beside a strip on it, in ``trial``, and sets contacts whose forces balance the push; 0 if none do.
+
+    Their slips are set to zero: those of the path are the helices' lengths.
+    """
+    _, device, strip, bolt, nut, _, _, _ = setting
+    place = np.empty(PLACE_SIZE)
+    rows = np.empty((STRIP_CONTACTS, STRIP_CONTACT_SIZE))
+    leave = np.empty(COORDINATES)
+    set_place(q, device, place)
+    if not is_near_strip(place, bolt) or not set_strip(place[N_OFFSET + 2], device, strip, bolt, trial):
+        return 0
+    if distance(q, trial, device) > LAID * device[D_SCALE]:
+        return 0
+    holds, count = strip_holds(trial, push, mu, sense, device, strip, bolt, nut, rows, leave)
+    if not holds:
+        return 0
+    for c in range(count):
+        for h in range(3):
+            contacts[c, K_POINT + h] = rows[c, C_POINT + h]
+            contacts[c, K_NORMAL + h] = rows[c, C_NORMAL + h]
+            contacts[c, K_FORCE + h] = rows[c, C_FORCE] * rows[c, C_NORMAL + h]
+            contacts[c, K_SLIP + h] = 0.0
+        contacts[c, K_PAIR], contacts[c, K_MODE] = FLUSH_PAIR, SLIPS
+    return count
+
+
+@kernel()
+def frictionless_contacts(found: int, push: float, work: Work, contacts: Array) -> int:
+    """Sets the contacts of a bolt that rests without friction; their number, one more than there is room for."""
+    places, multipliers = work[0], work[15]
+    count = 0
+    for j in range(found):
+        force = multipliers[j] * places[j, G_NORM]
+        if force > LOADED * push:
+            if count == MOST_CONTACTS:
+                return count + 1
+            for h in range(3):
+                contacts[count, K_POINT + h] = places[j, G_POINT + h]
+                contacts[count, K_NORMAL + h] = places[j, G_NORMAL + h]
+                contacts[count, K_FORCE + h] = force * places[j, G_NORMAL + h]
+                contacts[count, K_SLIP + h] = 0.0
+            contacts[count, K_MODE], contacts[count, K_PAIR] = STICKS, places[j, G_PAIR]
+            count += 1
+    return count
+
+
+@kernel()
+def kept(count: int, contacts: Array, push: float) -> int:
+    """Moves the contacts that carry a force to the front; their number."""
+    used = 0
+    for c in range(count):
+        normal = 0.0
+        for h in range(3):
+            normal += contacts[c, K_FORCE + h] * contacts[c, K_NORMAL + h]
+        if contacts[c, K_MODE] != OPENS and normal > LOADED * push:
+            copy_numbers(contacts[c], contacts[used])
+            used += 1
+    return used
+
+
+@kernel()
+def has_ended(i: int, stop_at_snap: bool, count: int, contacts: Array, setting: Setting, path: Path) -> int:
+    """Whether the path ends at its last point: by a snap, by the torque, or as the bolt slipped or went too deep."""
+    command, bolt = setting[0], setting[3]
+    points, _ = path
+    r = bolt[pk.R_MAJOR]
+    if abs(points[i, P_TORQUE]) > TORQUE_LIMIT * command[M_PUSH] * r:
+        return TORQUE_OVER
+    if math.hypot(points[i, P_POSE + 9], points[i, P_POSE + 10]) > r:
+        return SLIPPED_OFF
+    if points[i, P_POSE + 11] < -DEEPEST * bolt[pk.P]:
+        return TOO_DEEP
+    is_below = False
+    for c in range(count):
+        is_below = is_below or contacts[c, K_POINT + 2] < -BELOW_TOP * r
+    j = i - 1
+    while stop_at_snap and is_below and j >= 0:
+        if abs(points[j, P_PHASE] - points[i, P_PHASE]) > SNAP_SPAN * (1.0 + 1e-9):
+            break
+        if points[j, P_POSE + 11] - points[i, P_POSE + 11] > SNAP_FALL * bolt[pk.P]:
+            return SNAP_REACHED
+        j -= 1
+    return GOES_ON
+
+
+@kernel()
+def slide_on_strip(
+    q: Array, push: float, mu: float, turn: float, setting: Setting, contacts: Array, losses: Array
+) -> int:
+    """Moves a bolt that lies, or is beside lying, on a strip along it by ``turn`` (rad), in place; its contacts, or 0.
+
+    The loss is that of forces along the helices of their radii.
+    """
+    bolt = setting[3]
+    level = np.empty(COORDINATES)
+    sense = math.copysign(1.0, turn)
+    count = strip_contacts(q, push, mu, sense, setting, level, contacts)
+    if count == 0:
+        return 0
+    for c in range(count):
+        x, y, k = contacts[c, K_POINT], contacts[c, K_POINT + 1], bolt[pk.LEAD] / (2.0 * math.pi)
+        losses[0] -= turn * (-y * contacts[c, K_FORCE] + x * contacts[c, K_FORCE + 1] + k * contacts[c, K_FORCE + 2])
+    copy_numbers(level, q)
+    return count
+
+
+@kernel()
+def fall_without_friction(q: Array, push: float, setting: Setting, contacts: Array) -> tuple[int, int]:
+    """Lets the bolt fall from ``q``, in place: how the path ends there, if it does, and its number of contacts."""
+    _, device, _, bolt, nut, threads, work, _ = setting
+    status, found = fall_down(q, push, device, bolt, nut, threads, work)
+    if status == SLIPPED:
+        return SLIPPED_OFF, 0
+    if status != AT_REST:
+        return (ON_PATCH if status == FLUSH else NO_MINIMUM), 0
+    count = frictionless_contacts(found, push, work, contacts)
+    return (TOO_MANY if count > MOST_CONTACTS else GOES_ON), count
+
+
+@kernel()
+def step_with_friction(
+    q: Array,
+    push: float,
+    mu: float,
+    turns: bool,
+    is_least: bool,
+    before: Array,
+    count: int,
+    contacts: Array,
+    setting: Setting,
+    solutions: Solutions,
+    losses: Array,
+) -> tuple[int, int]:
+    """A step from ``q`` to a new command, in place: how the path ends there, if it does, and its number of contacts.
+
+    SHORTER where there is no solution or too many contacts, and the step is not the least; ``before`` is the pose
+    before it.
+    """
+    command, device, _, bolt, nut, threads, work, _ = setting
+    free = q.copy()
+    candidates = np.empty((MOST_CONTACTS, K_SIZE))
+    status, found = descend(
+        free,
+        push,
+        STEP_REACH * device[D_SCALE],
+        math.inf,
+        FREE_STEPS,
+        PATH_TOLERANCE,
+        PATH_OVERLAP,
+        device,
+        bolt,
+        nut,
+        threads,
+        work,
+    )
+    if status == FLUSH:
+        return ON_PATCH, 0
+    if status != AT_REST:
+        copy_numbers(q, free)
+        found = 0
+    total = candidates_of(count, contacts, found, setting, push, candidates)
+    if total > MOST_CONTACTS:
+        return (TOO_MANY if is_least else SHORTER), 0
+    unit = command[M_PUSH]
+    number = enumerate_modes(q, q, free, before, push, unit, mu, turns, total, candidates, setting, solutions)
+    losses[2] = number
+    if number == 0:
+        return fall_without_friction(q, push, setting, contacts) if is_least else (SHORTER, 0)
+    best = chosen(number, q, count, contacts, device, solutions)
+    copy_numbers(solutions[0][best], q)
+    losses[0] = friction_loss(count, contacts, int(solutions[2][best]), solutions[1][best])
+    count = int(solutions[2][best])
+    for c in range(count):
+        copy_numbers(solutions[1][best, c], contacts[c])
+    return GOES_ON, kept(count, contacts, unit)
+
+
+@kernel()
+def unexplained(i: int, path: Path) -> float:
+    """The potential lost in the step to a point that neither torque, push nor friction explains."""
+    points, _ = path
+    lost = points[i - 1, P_POTENTIAL] - points[i, P_POTENTIAL] - points[i, P_FRICTION]
+    lost += 0.5 * (points[i - 1, P_TORQUE] + points[i, P_TORQUE]) * (points[i, P_PHASE] - points[i - 1, P_PHASE])
+    height = 0.5 * (points[i - 1, P_COORDINATES + 5] + points[i, P_COORDINATES + 5])
+    return lost + height * (points[i, P_PUSH] - points[i - 1, P_PUSH])
+
+
+@kernel()
+def go_back(i: int, q: Array, contacts: Array, path: Path) -> int:
+    """Sets coordinates and contacts to those of a point; the number of contacts."""
+    points, all_contacts = path
+    copy_numbers(points[i, P_COORDINATES : P_COORDINATES + COORDINATES], q)
+    count = int(points[i, P_COUNT])
+    for c in range(count):
+        copy_numbers(all_contacts[i, c], contacts[c])
+    return count
+
+
+@kernel(nogil=True)
+def follow_friction(
+    q: Array,
+    phases: Array,
+    pushes: Array,
+    mu: float,
+    stop_at_snap: bool,
+    count: int,
+    contacts: Array,
+    command: Array,
+    device: Array,
+    strip: Array,
+    bolt: Array,
+    nut: Array,
+    path: Path,
+) -> tuple[int, int, int]:
+    """Follows a bolt from ``q``, in place, while phase and push go from the first to the second of theirs.
+
+    ``contacts`` are the ``count`` ones at the beginning, and are set to those of the end. Returns how it ended, the
+    number of points set, and that of contacts.
+    """
+    setting = (command, device, strip, bolt, nut, new_threads(bolt), new_work(), new_modes_work())
+    turn, growth = phases[1] - phases[0], pushes[1] - pushes[0]
+    turns = turn != 0.0
+    longest = LONGEST_TURN / abs(turn) if turns else LONGEST_PUSH
+    step, reached, i = FIRST_PART * longest, 0.0, 0
+    on_strip = False
+    solutions = (
+        np.empty((MAX_SOLUTIONS, COORDINATES)),
+        np.empty((MAX_SOLUTIONS, MOST_CONTACTS, K_SIZE)),
+        np.empty(MAX_SOLUTIONS, dtype=np.int64),
+    )
+    before, losses = np.empty(PLACE_SIZE), np.zeros(3)
+    set_phase(phases[0], command, device)
+    add_path_point(0, phases[0], pushes[0], False, q, count, contacts, losses, command, device, path)
+    while reached < 1.0:
+        if i + 1 == MAX_POINTS:
+            return PATH_FULL, i + 1, count
+        size = min(step, 1.0 - reached)
+        target = 1.0 if size == 1.0 - reached else reached + size
+        push = pushes[0] + target * growth
+        set_phase(phases[0] + reached * turn, command, device)
+        set_place(q, device, before)
+        set_phase(phases[0] + target * turn, command, device)
+        losses[0], losses[1], losses[2] = 0.0, 0.0, 1.0
+        is_least = size <= LEAST_PART * longest
+        slid = slide_on_strip(q, push, mu, (target - reached) * turn, setting, contacts, losses) if turns else 0
+        if slid > 0:
+            on_strip, count, ended = True, slid, GOES_ON
+        elif on_strip:
+            return ON_PATCH, i + 1, count
+        else:
+            ended, next_count = step_with_friction(
+                q, push, mu, turns, is_least, before, count, contacts, setting, solutions, losses
+            )
+            if ended == SHORTER:
+                step = max(0.5 * size, LEAST_PART * longest)
+                continue
+            if ended != GOES_ON:
+                return ended, i + 1, count
+            count = next_count
+        add_path_point(
+            i + 1, phases[0] + target * turn, push, on_strip, q, count, contacts, losses, command, device, path
+        )
+        lost = unexplained(i + 1, path)
+        if abs(lost) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and not on_strip:
+            if not is_least:
+                count = go_back(i, q, contacts, path)
+                step = max(0.5 * size, LEAST_PART * longest)
+                continue
+            path[0][i + 1, P_FALL] = max(lost, 0.0)
+        i += 1
+        reached = target
+        ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
+        if ended != GOES_ON:
+            return ended, i + 1, count
+        step = min(2.0 * size, longest)
+    return REACHED, i + 1, count
+
+
+@kernel(nogil=True)
+def certified_pose(q: Array, device: Array, bolt: Array, nut: Array) -> int:
+    """What the certificate says of overlaps at a pose, whose places of contact are searched for."""
+    r = bolt[pk.R_MAJOR]
+    place = np.empty(PLACE_SIZE)
+    places = np.empty((MAX_PLACES + 1, GAP_SIZE))
+    set_place(q, device, place)
+    found = find_places(REACH * r, place, device, bolt, nut, new_threads(bolt), np.empty(PLACES_WORK), places)
+    touching = 0
+    for j in range(found):
+        if places[j, G_VALUE] > -LEAST_GAP * r:
+            copy_numbers(places[j], places[touching])
+            touching += 1
+    return overlap(place[0:12], OVERLAP_LIMIT * r, touching, places, bolt, nut, new_stage())

@@ -1,0 +1,310 @@
+"""Paths of a bolt that a device settles on the nut and turns (forces, section 5)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.device import _chart_kernel as ck
+from threadstate.device import _friction_kernel as fk
+from threadstate.device import _rest_kernel as rest
+from threadstate.device import _settle_kernel as sk
+from threadstate.device import _strip_kernel as st
+from threadstate.device import _turn_kernel as tk
+from threadstate.device._certificate_kernel import FREE
+from threadstate.device.assembly_model import (
+    AssemblyEnergy,
+    AssemblyOutcome,
+    AssemblyPath,
+    AssemblyPoint,
+    AssemblyTravel,
+    EventKind,
+    Held,
+    PathEvent,
+)
+from threadstate.device.assembly_outcome import Ending, outcome_of
+from threadstate.device.command import command_numbers, strip_numbers
+from threadstate.device.flush import level_numbers
+from threadstate.device.friction import REASONS as FRICTION_REASONS
+from threadstate.device.friction import FrictionPath, friction_events, point_of
+from threadstate.device.model import Device, LoadedContact, Outcome, SettledFlag, SettledState, default_device
+from threadstate.device.settle import (
+    FEATURES,
+    REASONS,
+    check_friction,
+    check_pair,
+    device_numbers,
+    settled_rows,
+    settled_state,
+    state_with_friction,
+    vector_of,
+)
+from threadstate.device.strategy import Strategy
+from threadstate.state.model import FeaturePair, StagePose
+from threadstate.state.solve import checked_poses
+from threadstate.thread.pair import Pair
+
+__all__ = ["assemble_pose"]
+
+Floats = NDArray[np.float64]
+
+COUNTER_CLOCKWISE_DEG, CLOCKWISE_DEG = 360.0, 270.0
+
+EVENTS = {
+    tk.GAINED: EventKind.GAINED,
+    tk.LOST: EventKind.LOST,
+    tk.MOVED: EventKind.MOVED,
+    tk.FALL: EventKind.FALL,
+    tk.ON_FLUSH: EventKind.ON_SURFACE,
+    tk.OFF_FLUSH: EventKind.OFF_SURFACE,
+    tk.ON_FLANK: EventKind.ON_STRIP,
+    tk.OFF_STRIP: EventKind.OFF_STRIP,
+    tk.BRIDGED: EventKind.BRIDGED,
+}
+
+HELD = (Held.CONTACTS, Held.SURFACE, Held.STRIP)
+
+
+def assemble_pose(
+    pair: Pair,
+    roll_deg: float,
+    pitch_deg: float,
+    phase_deg: float,
+    device: Device | None = None,
+    strategy: Strategy = Strategy.CCW_THEN_CW,
+    *,
+    mu: float = 0.0,
+) -> AssemblyPath:
+    """The path of a bolt that settles at a commanded pose and is turned; angles in degrees.
+
+    Forces, section 5; a left-hand bolt is turned the other way round. The device is the default one of forces, section
+    4, unless another is given. The path is a sequence of equilibria, at most 2 deg of phase apart, and 0.05 deg where
+    contacts change; with friction, of steps of at most 1 deg. The same input gives the same bits.
+
+    Raises:
+        InvalidValueError: as :func:`threadstate.device.settle.settle_pose`.
+    """
+    wanted = checked_poses([(roll_deg, pitch_deg, phase_deg)])
+    check_friction(mu)
+    check_pair(pair)
+    held = (device or default_device()).in_unit(pair.unit)
+    numbers = device_numbers(pair, held)
+    rotations, rows = settled_rows(pair, held, numbers, wanted)
+    row = tuple(part[0] for part in rows)
+    command = command_numbers(held, float(wanted[0, 0]), float(wanted[0, 1]), float(row[0][sk.R_HEIGHT]))
+    path = None
+    if mu > 0.0:
+        start, path = state_with_friction(pair, held, numbers, wanted[0], row[0], mu)
+    else:
+        start = settled_state(pair, held, numbers, wanted[0], rotations[0], row)
+    if start.outcome is not Outcome.SETTLED:
+        outcome = AssemblyOutcome.SLIPPED if start.outcome is Outcome.SLIPPED else AssemblyOutcome.UNDECIDED
+        return AssemblyPath(start, strategy, mu, outcome, start.flags, (), (), None, None, None)
+    phase = math.radians(wanted[0, 2])
+    if path is not None:
+        course = _with_friction(path, phase, plan_of(pair, strategy), held.push)
+    else:
+        course = _without_friction(pair, numbers, command, row, phase, plan_of(pair, strategy))
+    return _path(pair, held, start, strategy, mu, course)
+
+
+@dataclass
+class Course:
+    """A path as it is followed: its points, leg by leg, events and losses, and how it ended.
+
+    ``work`` is the hand's, ``is_free`` whether overlaps are excluded at the end; ``reason`` why a step has no end.
+    """
+
+    legs: list[list[AssemblyPoint]] = field(default_factory=list)
+    events: list[PathEvent] = field(default_factory=list)
+    friction: float = 0.0
+    falls: float = 0.0
+    ending: Ending = Ending.TURNED
+    reason: SettledFlag | None = None
+    is_free: bool = True
+
+    def add_leg(self, points: list[AssemblyPoint], *, snapped: bool) -> None:
+        """Adds a leg's points, and the snap that ended it."""
+        self.legs.append(points)
+        if snapped:
+            self.events.append(_snap(points))
+
+    @property
+    def work(self) -> float:
+        """The torque summed over the phase, by trapezoids."""
+        return sum(
+            0.5 * (before.torque + after.torque) * math.radians(after.phase_deg - before.phase_deg)
+            for leg in self.legs
+            for before, after in pairwise(leg)
+        )
+
+
+def plan_of(pair: Pair, strategy: Strategy) -> list[tuple[float, bool]]:
+    """The turns of a strategy (rad), and whether a snap ends each. A left-hand bolt is turned the other way round."""
+    hand = math.copysign(1.0, pair.lead)
+    plan = [(-math.radians(CLOCKWISE_DEG) * hand, False)]
+    if strategy is Strategy.CCW_THEN_CW:
+        plan.insert(0, (math.radians(COUNTER_CLOCKWISE_DEG) * hand, True))
+    return plan
+
+
+def _without_friction(
+    pair: Pair, numbers: Floats, command: Floats, row: tuple[Floats, ...], phase: float, plan: list[tuple[float, bool]]
+) -> Course:
+    """The course of a plan, from the settled state's row on."""
+    course = Course()
+    numbers = numbers.copy()
+    is_flush = row[0][sk.R_STATUS] == rest.FLUSH
+    q = row[1].copy()
+    if is_flush:
+        tk.set_phase(phase, command, numbers)
+        q, _ = level_numbers(numbers)
+    kind = tk.ON_SURFACE if is_flush else tk.ON_CONTACTS
+    strip = strip_numbers(pair)
+    for turn, stops_at_snap in plan:
+        leg = new_leg()
+        ends = (phase, phase + turn)
+        bolt, nut = pair.bolt.packed, pair.nut.packed
+        status, kind = tk.turn_with(q, kind, *ends, stops_at_snap, command, numbers, strip, bolt, nut, leg)
+        result, rows, contacts, happened = leg
+        count = int(result[tk.L_POINTS])
+        found = happened[: int(result[tk.L_EVENTS])]
+        course.events += [_event(event) for event in found]
+        course.falls += float(found[found[:, tk.E_KIND] == tk.FALL, tk.E_LOSS].sum())
+        points = [_point(rows[i], contacts[i], numbers, command) for i in range(count)]
+        course.add_leg(points, snapped=status == tk.SNAPPED)
+        course.is_free = int(result[tk.L_OVERLAP]) == FREE
+        phase = float(rows[count - 1, tk.T_PHASE])
+        if status == tk.TORQUE_PASSED:
+            course.ending = Ending.TORQUE
+        elif status == tk.FAILED + rest.SLIPPED:
+            course.ending = Ending.SLIPPED
+        elif status not in (tk.TURNED, tk.SNAPPED):
+            course.ending = Ending.FAILED
+            course.reason = REASONS.get(status - tk.FAILED, SettledFlag.UNSETTLED)
+        if status != (tk.SNAPPED if stops_at_snap else tk.TURNED):
+            break
+    return course
+
+
+def _with_friction(path: FrictionPath, phase: float, plan: list[tuple[float, bool]], push: float) -> Course:
+    """The course of a plan with friction, on from a settled state's path."""
+    course = Course()
+    for turn, stops_at_snap in plan:
+        leg = path.follow((phase, phase + turn), (push, push), stops_at_snap=stops_at_snap)
+        points = [
+            point_of(row, contacts, path.numbers, path.command)
+            for row, contacts in zip(leg.points, leg.contacts, strict=True)
+        ]
+        course.events += friction_events(points, leg.points)
+        course.add_leg(points, snapped=leg.status == fk.SNAP_REACHED)
+        course.friction += float(leg.points[:, fk.P_FRICTION].sum())
+        course.falls += float(leg.points[:, fk.P_FALL].sum())
+        phase = float(leg.points[-1, fk.P_PHASE])
+        if leg.status == fk.TORQUE_OVER:
+            course.ending = Ending.TORQUE
+        elif leg.status == fk.SLIPPED_OFF:
+            course.ending = Ending.SLIPPED
+        elif leg.status not in (fk.REACHED, fk.SNAP_REACHED):
+            course.ending, course.reason = Ending.FAILED, FRICTION_REASONS[leg.status]
+        if leg.status != (fk.SNAP_REACHED if stops_at_snap else fk.REACHED):
+            break
+    if any(point.solutions > 1 for leg in course.legs for point in leg) and course.ending is not Ending.FAILED:
+        course.ending, course.reason = Ending.FAILED, SettledFlag.AMBIGUOUS
+    course.is_free = course.legs[-1][-1].held is Held.STRIP or path.is_free()
+    return course
+
+
+def new_leg() -> tk.Leg:
+    """The arrays of a leg for the kernels."""
+    return (
+        np.zeros(tk.LEG_SIZE),
+        np.zeros((tk.MAX_POINTS, tk.POINT_SIZE)),
+        np.zeros((tk.MAX_POINTS, st.MAX_CONTACTS, st.CONTACT_SIZE)),
+        np.zeros((tk.MAX_EVENTS, tk.EVENT_SIZE)),
+    )
+
+
+def _path(
+    pair: Pair, device: Device, start: SettledState, strategy: Strategy, mu: float, course: Course
+) -> AssemblyPath:
+    """The path of a course."""
+    # A leg begins where the one before ended.
+    points = [*course.legs[0], *(point for leg in course.legs[1:] for point in leg[1:])]
+    first, last = points[0], points[-1]
+    elastic = last.elastic_energy - first.elastic_energy
+    push = (first.potential - first.elastic_energy) - (last.potential - last.elastic_energy)
+    balance = course.work + push - elastic - course.friction - course.falls
+    energy = AssemblyEnergy(course.work, push, elastic, course.friction, course.falls, balance)
+    outcome, margins = outcome_of(pair, device, strategy, course.ending, course.legs)
+    flags = () if course.reason is None else (course.reason,)
+    if course.ending is Ending.TURNED and not course.is_free:
+        outcome, flags = AssemblyOutcome.UNDECIDED, (SettledFlag.OVERLAP,)
+    travel = AssemblyTravel(
+        max(abs(point.torque) for point in points),
+        max(math.hypot(*point.rotation_deg) for point in points),
+        max(math.hypot(*point.shift[:2]) for point in points),
+    )
+    return AssemblyPath(
+        start, strategy, mu, outcome, flags, tuple(course.events), tuple(points), energy, margins, travel
+    )
+
+
+def _point(row: Floats, contacts: Floats, numbers: Floats, command: Floats) -> AssemblyPoint:
+    numbers = numbers.copy()
+    tk.set_phase(row[tk.T_PHASE], command, numbers)
+    q = row[tk.T_COORDINATES : tk.T_COORDINATES + ck.COORDINATES]
+    pose = row[tk.T_POSE : tk.T_POSE + 12]
+    return AssemblyPoint(
+        math.degrees(row[tk.T_PHASE]),
+        HELD[int(row[tk.T_KIND])],
+        StagePose(tuple(vector_of(line) for line in pose[:9].reshape(3, 3)), vector_of(pose[9:])),  # type: ignore[arg-type]
+        vector_of(q[3:] - numbers[ck.D_PLACE : ck.D_PLACE + 3]),
+        vector_of(np.degrees(q[:3])),
+        tuple(_contact(contact) for contact in contacts[: int(row[tk.T_COUNT])]),
+        float(row[tk.T_TORQUE]),
+        float(row[tk.T_ENERGY]),
+        float(row[tk.T_POTENTIAL]),
+    )
+
+
+def _contact(contact: Floats) -> LoadedContact:
+    normal = contact[st.C_NORMAL : st.C_NORMAL + 3]
+    return LoadedContact(
+        vector_of(contact[st.C_POINT : st.C_POINT + 3]),
+        vector_of(normal),
+        FEATURES[int(contact[st.C_PAIR])],
+        vector_of(contact[st.C_FORCE] * normal),
+    )
+
+
+def _event(event: Floats) -> PathEvent:
+    kind = EVENTS[int(event[tk.E_KIND])]
+    phase_deg, from_deg = math.degrees(event[tk.E_PHASE]), math.degrees(event[tk.E_BEFORE])
+    point = vector_of(event[tk.E_POINT : tk.E_POINT + 3])
+    if kind is EventKind.FALL:
+        drop, way, loss = (float(number) for number in event[[tk.E_DROP, tk.E_WAY, tk.E_LOSS]])
+        return PathEvent(kind, phase_deg, from_deg, point=point, drop=drop, way=way, energy=loss)
+    if kind in (EventKind.GAINED, EventKind.LOST, EventKind.MOVED):
+        before, after = (_features(event[i]) for i in (tk.E_OLD_PAIR, tk.E_PAIR))
+        return PathEvent(kind, phase_deg, from_deg, before, after, point)
+    return PathEvent(kind, phase_deg, from_deg)
+
+
+def _features(index: float) -> FeaturePair | None:
+    return FEATURES[int(index)] if index >= 0.0 else None
+
+
+def _snap(points: list[AssemblyPoint]) -> PathEvent:
+    """The snap at the last point: the descent within its span of phase."""
+    span = math.degrees(tk.SNAP_SPAN) * (1.0 + 1e-9)
+    last = points[-1]
+    near = [point for point in points if abs(last.phase_deg - point.phase_deg) <= span]
+    highest = max(near, key=lambda point: point.pose.translation[2])
+    drop = highest.pose.translation[2] - last.pose.translation[2]
+    way = math.dist(highest.pose.translation, last.pose.translation)
+    return PathEvent(EventKind.SNAP, last.phase_deg, highest.phase_deg, drop=drop, way=way)

@@ -1,0 +1,51 @@
+"""A device's command as the kernels take it: its rotation at a pose, and over all phases; the flanks of a pair."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.contact._stage_kernel import rotation
+from threadstate.device import _strip_kernel as st
+from threadstate.device import _turn_kernel as tk
+from threadstate.device.model import About, Device
+from threadstate.thread.pair import Pair
+from threadstate.thread.play import axial_limits
+
+Floats = NDArray[np.float64]
+
+
+def commanded_rotation(roll_deg: float, pitch_deg: float, phase_deg: float, about: About) -> Floats:
+    """The commanded rotation by rows, shape (9,): bolt to nut (forces, section 4)."""
+    out = np.zeros(12)
+    roll, pitch, phase = math.radians(roll_deg), math.radians(pitch_deg), math.radians(phase_deg)
+    if about is About.NUT:
+        rotation(roll, pitch, phase, out)
+        return out[:9]
+    turn = np.zeros(12)
+    rotation(roll, pitch, 0.0, out)
+    rotation(0.0, 0.0, phase, turn)
+    return np.asarray(out[:9].reshape(3, 3) @ turn[:9].reshape(3, 3)).ravel()
+
+
+def command_numbers(device: Device, roll_deg: float, pitch_deg: float, height: float) -> Floats:
+    """A tilt, the height of the command and the push as the kernels take them for every phase."""
+    numbers = np.zeros(tk.COMMAND_SIZE)
+    numbers[tk.M_TILT : tk.M_TILT + 9] = commanded_rotation(roll_deg, pitch_deg, 0.0, device.about)
+    numbers[tk.M_ABOUT_BOLT] = device.about is About.BOLT
+    numbers[tk.M_HEIGHT] = height
+    numbers[tk.M_PUSH] = device.push
+    return numbers
+
+
+def strip_numbers(pair: Pair) -> Floats:
+    """What the kernels know of a pair's flanks."""
+    numbers = np.empty(st.STRIP_SIZE)
+    bolt, nut = pair.bolt, pair.nut
+    numbers[st.S_DOWN] = axial_limits(pair)[0]
+    numbers[st.S_LOW] = max(bolt.radius(bolt.boundaries[1]), nut.radius(nut.boundaries[1]))
+    numbers[st.S_HIGH] = min(bolt.radius(bolt.boundaries[2]), nut.radius(nut.boundaries[2]))
+    numbers[st.S_STARTS] = pair.starts
+    return numbers

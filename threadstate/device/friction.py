@@ -1,0 +1,237 @@
+"""Held bolts with friction: how the kernels' paths become settled states and points of paths (forces, section 5)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.device import _chart_kernel as ck
+from threadstate.device import _friction_kernel as fk
+from threadstate.device import _modes_kernel as mk
+from threadstate.device import _turn_kernel as tk
+from threadstate.device._certificate_kernel import FREE
+from threadstate.device.assembly_model import AssemblyPoint, EventKind, Held, Motion, PathEvent
+from threadstate.device.equilibrium import BALANCED, balance
+from threadstate.device.model import (
+    Device,
+    Fall,
+    LoadedContact,
+    Outcome,
+    PathPoint,
+    SettledFlag,
+    SettledMargins,
+    SettledState,
+)
+from threadstate.state.model import FeaturePair, StagePose, Vector
+from threadstate.thread.pair import Pair
+
+Floats = NDArray[np.float64]
+
+FEATURES = tuple(FeaturePair)
+
+ROOM = 8
+"""Contacts that a point has room for: those of a strip."""
+
+MOTIONS = {mk.SLIPS: Motion.SLIDES, mk.STICKS: Motion.STICKS}
+
+REASONS = {
+    fk.TOO_DEEP: SettledFlag.DEEP,
+    fk.TOO_MANY: SettledFlag.MANY_CONTACTS,
+    fk.ON_PATCH: SettledFlag.FLUSH,
+    fk.PATH_FULL: SettledFlag.UNSETTLED,
+    fk.NO_MINIMUM: SettledFlag.UNSETTLED,
+}
+"""Why a path with friction has no certain end. A bolt that lies flush on the surface, or that a strip of flank does not
+hold any more, is not followed with friction."""
+
+
+@dataclass(frozen=True)
+class FrictionLeg:
+    """A part of a path with friction: how it ended, its points, and their contacts, as the kernels' rows."""
+
+    status: int
+    points: Floats
+    contacts: Floats
+
+
+@dataclass
+class FrictionPath:
+    """A bolt that is followed leg by leg: its coordinates and contacts at the end of the last one."""
+
+    pair: Pair
+    numbers: Floats
+    command: Floats
+    strip: Floats
+    mu: float
+    q: Floats
+    count: int
+    contacts: Floats
+
+    def follow(
+        self, phases: tuple[float, float], pushes: tuple[float, float], *, stops_at_snap: bool = False
+    ) -> FrictionLeg:
+        """Follows it while phase (rad) and push (N) go from the first to the second."""
+        points = np.zeros((fk.MAX_POINTS, fk.POINT_SIZE))
+        contacts = np.zeros((fk.MAX_POINTS, ROOM, mk.CONTACT_SIZE))
+        status, length, self.count = fk.follow_friction(
+            self.q,
+            np.array(phases),
+            np.array(pushes),
+            self.mu,
+            stops_at_snap,
+            self.count,
+            self.contacts,
+            self.command,
+            self.numbers,
+            self.strip,
+            self.pair.bolt.packed,
+            self.pair.nut.packed,
+            (points, contacts),
+        )
+        return FrictionLeg(status, points[:length], contacts[:length])
+
+    def is_free(self) -> bool:
+        """Whether overlaps are excluded where the bolt is."""
+        certified = fk.certified_pose(self.q, self.numbers, self.pair.bolt.packed, self.pair.nut.packed)
+        return int(certified) == FREE
+
+
+def begin_friction(
+    pair: Pair, numbers: Floats, command: Floats, strip: Floats, phase: float, mu: float
+) -> FrictionPath:
+    """A bolt at its first contact, before the push grows; ``phase`` in rad."""
+    numbers = numbers.copy()
+    tk.set_phase(phase, command, numbers)
+    q = np.zeros(ck.COORDINATES)
+    q[3:] = numbers[ck.D_PLACE : ck.D_PLACE + 3]
+    return FrictionPath(pair, numbers, command, strip, mu, q, 0, np.zeros((ROOM, mk.CONTACT_SIZE)))
+
+
+def point_of(row: Floats, contacts: Floats, numbers: Floats, command: Floats) -> AssemblyPoint:
+    """A point of a path from its row."""
+    numbers = numbers.copy()
+    tk.set_phase(row[fk.P_PHASE], command, numbers)
+    q = row[fk.P_COORDINATES : fk.P_COORDINATES + ck.COORDINATES]
+    pose = row[fk.P_POSE : fk.P_POSE + 12]
+    found = contacts[: int(row[fk.P_COUNT])]
+    return AssemblyPoint(
+        math.degrees(row[fk.P_PHASE]),
+        Held.STRIP if row[fk.P_ON_STRIP] else Held.CONTACTS,
+        StagePose(tuple(_vector(line) for line in pose[:9].reshape(3, 3)), _vector(pose[9:])),  # type: ignore[arg-type]
+        _vector(q[3:] - numbers[ck.D_PLACE : ck.D_PLACE + 3]),
+        _vector(np.degrees(q[:3])),
+        tuple(contact_of(contact) for contact in found),
+        float(row[fk.P_TORQUE]),
+        float(row[fk.P_ENERGY]),
+        float(row[fk.P_POTENTIAL]),
+        tuple(MOTIONS[int(contact[mk.K_MODE])] for contact in found),
+        int(row[fk.P_SOLUTIONS]),
+    )
+
+
+def friction_events(points: Sequence[AssemblyPoint], rows: Floats) -> list[PathEvent]:
+    """What happens between the points of a leg: falls, contacts by their features, and steps of several solutions."""
+    events = []
+    for i in range(1, len(points)):
+        before, after = points[i - 1], points[i]
+        phases = (after.phase_deg, before.phase_deg)
+        if rows[i, fk.P_FALL] > 0.0:
+            drop = before.pose.translation[2] - after.pose.translation[2]
+            way = math.dist(before.pose.translation, after.pose.translation)
+            energy = float(rows[i, fk.P_FALL])
+            events.append(PathEvent(EventKind.FALL, *phases, drop=drop, way=way, energy=energy))
+        if after.solutions > 1:
+            events.append(PathEvent(EventKind.AMBIGUOUS, *phases))
+        if after.held is not before.held:
+            events.append(PathEvent(EventKind.ON_STRIP, *phases))
+            continue
+        left = [contact.features for contact in before.contacts]
+        for contact in after.contacts if after.held is Held.CONTACTS else ():
+            if contact.features in left:
+                left.remove(contact.features)
+            else:
+                events.append(PathEvent(EventKind.GAINED, *phases, None, contact.features, contact.point))
+        if after.held is Held.CONTACTS:
+            events += [PathEvent(EventKind.LOST, *phases, features) for features in left]
+    return events
+
+
+def contact_of(contact: Floats) -> LoadedContact:
+    """A contact with its whole force from its row."""
+    return LoadedContact(
+        _vector(contact[mk.K_POINT : mk.K_POINT + 3]),
+        _vector(contact[mk.K_NORMAL : mk.K_NORMAL + 3]),
+        FEATURES[int(contact[mk.K_PAIR])],
+        _vector(contact[mk.K_FORCE : mk.K_FORCE + 3]),
+    )
+
+
+def settled_with_friction(
+    pair: Pair, device: Device, numbers: Floats, command: Floats, strip: Floats, pose_deg: Floats, mu: float
+) -> tuple[SettledState, FrictionPath]:
+    """The state that a growing push reaches with friction from the first contact, and the path that goes on from it."""
+    roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
+    phase = math.radians(phase_deg)
+    path = begin_friction(pair, numbers, command, strip, phase, mu)
+    leg = path.follow((phase, phase), (0.0, device.push))
+    points = tuple(
+        PathPoint(
+            float(row[fk.P_PUSH]),
+            float(row[fk.P_ENERGY]),
+            float(row[fk.P_POTENTIAL]),
+            _vector(row[fk.P_COORDINATES : fk.P_COORDINATES + 3]),
+            _vector(row[fk.P_COORDINATES + 3 : fk.P_COORDINATES + 6]),
+        )
+        for row in leg.points
+    )
+    falls = tuple(_fall(leg.points, i) for i in range(1, len(leg.points)) if leg.points[i, fk.P_FALL] > 0.0)
+    last = point_of(leg.points[-1], leg.contacts[-1], path.numbers, command)
+    residual = None
+    flags: tuple[SettledFlag, ...] = ()
+    outcome = Outcome.UNDECIDED
+    if leg.status == fk.SLIPPED_OFF:
+        outcome = Outcome.SLIPPED
+    elif leg.status != fk.REACHED:
+        flags = (REASONS[leg.status],)
+    elif (leg.points[:, fk.P_SOLUTIONS] > 1.0).any():
+        flags = (SettledFlag.AMBIGUOUS,)
+    elif not path.is_free():
+        flags = (SettledFlag.OVERLAP,)
+    else:
+        pose = leg.points[-1, fk.P_POSE : fk.P_POSE + 12]
+        residual = balance(pair, device, path.q, pose, path.numbers, last.contacts)
+        outcome = Outcome.SETTLED if residual <= BALANCED else Outcome.UNDECIDED
+        flags = () if residual <= BALANCED else (SettledFlag.UNBALANCED,)
+    is_settled = outcome is Outcome.SETTLED
+    least = min((math.hypot(*contact.force) for contact in last.contacts), default=None)
+    force = least / device.push if is_settled and least is not None else None
+    state = SettledState(
+        roll_deg,
+        pitch_deg,
+        phase_deg,
+        outcome,
+        flags,
+        last.pose if is_settled else None,
+        last.shift if is_settled else None,
+        last.rotation_deg if is_settled else None,
+        last.contacts if is_settled else (),
+        last.elastic_energy if is_settled else None,
+        falls,
+        SettledMargins(force, None, None, residual, None),
+        points,
+    )
+    return state, path
+
+
+def _fall(rows: Floats, i: int) -> Fall:
+    way = rows[i - 1, fk.P_POSE + 9 : fk.P_POSE + 12] - rows[i, fk.P_POSE + 9 : fk.P_POSE + 12]
+    return Fall(float(rows[i, fk.P_PUSH]), float(way[2]), float(np.linalg.norm(way)), float(rows[i, fk.P_FALL]))
+
+
+def _vector(numbers: Floats) -> Vector:
+    x, y, z = (float(number) for number in numbers)
+    return x, y, z

@@ -1,0 +1,14 @@
+"""How a hand turns a bolt: a name that the command line needs before it computes."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class Strategy(StrEnum):
+    """How the hand turns the bolt (forces, section 5)."""
+
+    CCW_THEN_CW = "ccw_then_cw"
+    """Counter-clockwise until the snap or through 360 deg, then clockwise through 270 deg."""
+    CW = "cw"
+    """Clockwise through 270 deg at once."""
