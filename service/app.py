@@ -27,6 +27,7 @@ import service.meshes
 import service.metrics
 import service.network.endpoints
 import service.orientations
+import service.settle.endpoints
 import service.solve
 import service.states.endpoints
 import service.statics.endpoints
@@ -150,6 +151,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.network.endpoints,
         service.meshes,
         service.solve,
+        service.settle.endpoints,
         service.threads,
         service.jobs.endpoints,
         service.health,

@@ -15,7 +15,7 @@ from service.app import create_app
 from threadstate.device.document import (
     DeviationDocument,
     FallDocument,
-    LoadedContactDocument,
+    SettledContactDocument,
     SettledDocument,
     SettledMarginsDocument,
 )
@@ -96,7 +96,7 @@ def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]
 
 
 def test_every_field_of_a_settled_state_is_a_term(known: set[str]) -> None:
-    documents = (SettledDocument, DeviationDocument, LoadedContactDocument, FallDocument, SettledMarginsDocument)
+    documents = (SettledDocument, DeviationDocument, SettledContactDocument, FallDocument, SettledMarginsDocument)
     assert sorted({name for document in documents for name in document.__annotations__} - known) == []
 
 

@@ -97,7 +97,7 @@ class DeviationDocument(TypedDict):
     rotation: VectorDocument
 
 
-class LoadedContactDocument(TypedDict):
+class SettledContactDocument(TypedDict):
     """A contact with the force on the bolt, in N."""
 
     point: VectorDocument
@@ -135,7 +135,7 @@ class SettledDocument(TypedDict):
     outcome: Outcome
     pose: PoseDocument | None
     deviation: DeviationDocument | None
-    contacts: list[LoadedContactDocument]
+    contacts: list[SettledContactDocument]
     elastic_energy: float | None
     falls: list[FallDocument]
     flags: list[SettledFlag]
@@ -182,7 +182,7 @@ def settled_document(state: SettledState, unit: LengthUnit, factor: float = 1.0)
     }
 
 
-def _contact(contact: LoadedContact, factor: float) -> LoadedContactDocument:
+def _contact(contact: LoadedContact, factor: float) -> SettledContactDocument:
     return {
         "point": _vector(contact.point, factor),
         "normal": _vector(contact.normal),
