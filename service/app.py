@@ -28,6 +28,7 @@ import service.metrics
 import service.network.endpoints
 import service.orientations
 import service.settle.endpoints
+import service.settled.endpoints
 import service.solve
 import service.states.endpoints
 import service.statics.endpoints
@@ -152,6 +153,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.meshes,
         service.solve,
         service.settle.endpoints,
+        service.settled.endpoints,
         service.threads,
         service.jobs.endpoints,
         service.health,

@@ -33,6 +33,7 @@ from worker.commands.network import network
 from worker.commands.path import path
 from worker.commands.profiles import profiles
 from worker.commands.rebuild import rebuild
+from worker.commands.rebuild_settled import rebuild_settled
 from worker.commands.run import run
 from worker.commands.serve import serve
 from worker.commands.settings import settings
@@ -66,6 +67,7 @@ COMMANDS = (
     jamming,
     settle,
     rebuild,
+    rebuild_settled,
     sweep,
     libraries,
     summary,

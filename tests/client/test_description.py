@@ -37,7 +37,8 @@ RENAMED = {
     name: f"{name}Document"
     for name in (
         *("State", "Pose", "Contact", "Margins", "StoredStatics", "Load", "ContactForce", "Reaction", "NormalRange"),
-        *("Deviation", "SettledContact", "Fall", "SettledMargins", "Settled"),
+        *("Deviation", "SettledContact", "Fall", "SettledMargins", "Settled", "Device", "SettledCounts"),
+        "SettledLibrary",
         *("Twist", "LoadedContact", "Piece", "Jamming", "ComputedJamming", "ContactWrench", "Limits", "StandardThread"),
     )
 } | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
@@ -48,6 +49,8 @@ ARGUMENTS: dict[str, object] = {
     "pitch": -2.0,
     "phase": 3.0,
     "library": 7,
+    "settled_library": 7,
+    "falls": 1,
     "libraries": [7, "m6"],
     "part": "bolt",
     "key": "0123456789",
@@ -237,6 +240,9 @@ def test_models_are_what_the_service_describes(openapi: dict[str, Any], model: t
         for name, value in statics["properties"].items()
     }
     components["RequestedStaticsDocument"] = {**statics, "properties": properties}
+    # A document that is sent may have nothing beside; one that is read may.
+    device = components["DeviceDocument"]
+    components["DeviceDocument"] = {name: value for name, value in device.items() if name != "additionalProperties"}
     told = components[RENAMED.get(model.__name__, model.__name__)]
     read = model.model_json_schema(mode="serialization")
     expected = _expanded(told, components)

@@ -6,11 +6,9 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from threadstate.errors import InvalidValueError
 from worker.commands.solve import wanted_poses
-from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
+from worker.options import DeviceFile, Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
 from worker.output import print_json
 
 if TYPE_CHECKING:
@@ -25,15 +23,7 @@ def settle(
     pitch: Pitch = None,
     phase: Phase = None,
     poses: Poses = None,
-    device: Annotated[
-        Path | None,
-        typer.Option(
-            "--device",
-            metavar="FILE",
-            help="The device as a TOML or JSON file.",
-            show_default="the device of docs/device.md",
-        ),
-    ] = None,
+    device: DeviceFile = None,
     mu: Annotated[
         float, number_option("--mu", metavar="M", help="Coefficient of friction; only 0 is computed yet.")
     ] = 0.0,

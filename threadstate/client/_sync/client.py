@@ -155,6 +155,10 @@ class Client:
     computed_held = _answered(statics_calls.computed_held)
 
     settle = _answered(settled_calls.settle)
+    settled_libraries = _answered(settled_calls.settled_libraries)
+    settled_library = _answered(settled_calls.settled_library)
+    settled_states = _listed(settled_calls.settled_states)
+    settled_state = _answered(settled_calls.settled_state)
 
     intervals = _answered(network_calls.intervals)
     heights = _answered(network_calls.heights)

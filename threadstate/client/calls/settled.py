@@ -1,12 +1,19 @@
-"""Requests for where held bolts come to rest."""
+"""Requests for where held bolts come to rest, computed or stored."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from threadstate.client.call import Call, LibraryName, path_of, post
-from threadstate.client.models.settled import SettleAnswer
+from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, get, path_of, post
+from threadstate.client.calls.states import LARGEST_PAGE
+from threadstate.client.models.settled import (
+    SettleAnswer,
+    Settled,
+    SettledLibraryDetail,
+    SettledLibraryList,
+    SettledPage,
+)
 
 
 def settle(
@@ -30,3 +37,54 @@ def settle(
     }
     # Nothing is stored: repeatable.
     return post(path_of("v1", "settle"), SettleAnswer, body, repeatable=True, unit=unit)
+
+
+def settled_libraries() -> Call[SettledLibraryList]:
+    """All published libraries of settled states, the latest first."""
+    return get(path_of("v1", "settled"), SettledLibraryList)
+
+
+def settled_library(settled_library: int | str = LATEST) -> Call[SettledLibraryDetail]:
+    """One library of settled states: its device, and counts by outcome and flag; its number, or ``latest``."""
+    return get(path_of("v1", "settled", settled_library), SettledLibraryDetail)
+
+
+def settled_states(
+    *,
+    settled_library: int | str = LATEST,
+    roll: float | None = None,
+    pitch: float | None = None,
+    phase: float | None = None,
+    phase_min: float | None = None,
+    phase_max: float | None = None,
+    outcome: str | None = None,
+    flag: str | None = None,
+    contacts: int | None = None,
+    falls: int | None = None,
+    limit: int = LARGEST_PAGE,
+    unit: str | None = None,
+) -> PagedCall[Settled]:
+    """The settled states of a library for which all filters hold, in order; ``limit`` is the size of a page.
+
+    ``contacts`` and ``falls`` are how many of them a state has.
+    """
+    filters = {
+        "roll": roll,
+        "pitch": pitch,
+        "phase": phase,
+        "phase_min": phase_min,
+        "phase_max": phase_max,
+        "outcome": outcome,
+        "flag": flag,
+        "contacts": contacts,
+        "falls": falls,
+    }
+    path = path_of("v1", "settled", settled_library, "states")
+    return PagedCall(get(path, SettledPage, **filters, limit=limit, unit=unit), Settled)
+
+
+def settled_state(
+    roll: float, pitch: float, phase: float, *, settled_library: int | str = LATEST, unit: str | None = None
+) -> Call[Settled]:
+    """The settled state of a pose of the library's grid; lengths in ``unit``, else in the library's own."""
+    return get(path_of("v1", "settled", settled_library, "states", roll, pitch, phase), Settled, unit=unit)
