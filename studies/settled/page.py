@@ -59,8 +59,8 @@ def _kinds(device: Device, poses: Sequence[ComparedPose]) -> list[str]:
             " poses. The paper turns the bolt about a tangent and an axis until something touches, and admits"
             " embedment; a settled state is where a bolt comes to rest, without friction and without any overlap. The"
             f" device gives way by {_tilt(device)} against tilts and {number_text(device.stiffness[3][3])} N a"
-            f" {device.unit} sideways, and pushes with {number_text(device.push)} N. Another device gives other figures;"
-            " the paper's procedure knows none."
+            f" {device.unit} sideways, and pushes with {number_text(device.push)} N. Another device gives other"
+            " figures; the paper's procedure knows none."
         ),
         "",
         "## What the paper's classes come to rest on",
@@ -125,8 +125,8 @@ def _turns(poses: Sequence[ComparedPose]) -> list[str]:
         "",
         *_paragraph(
             "A turn leads away where the bolt's axis is farther, after it, from where it rests than before it. Most"
-            " second turns lead nearer. The third turn goes about the axis through two contacts, in the sense that lowers"
-            " the bolt's origin: what the device resists stops a held bolt long before."
+            " second turns lead nearer. The third turn goes about the axis through two contacts, in the sense that"
+            " lowers the bolt's origin: what the device resists stops a held bolt long before."
         ),
         "",
         _row("paper's class", "second turns", "lead away", "third turns", "lead away"),
