@@ -30,8 +30,8 @@ from worker.settled.rebuild import _settle
 
 pytestmark = [pytest.mark.slow, pytest.mark.sqlite_alone]
 
-GRID = Grid(2.0, 2.0, 120.0)
-COMMAND = ("rebuild-settled", "--tilt-max", "2", "--tilt-step", "2", "--phase-step", "120")
+GRID = Grid(2.0, 1.0, 120.0)
+COMMAND = ("rebuild-settled", "--tilt-max", "2", "--tilt-step", "1", "--phase-step", "120")
 
 
 @pytest.fixture(scope="module")
