@@ -123,4 +123,12 @@ EXAMPLES = (
             "states": [SETTLED_POSE],
         },
     ),
+    Example(
+        "/v1/settled/{id}/states/{roll}/{pitch}/{phase}",
+        "get",
+        _JSON,
+        "settled",
+        "Two contacts, and the springs",
+        SETTLED_POSE,
+    ),
 )
