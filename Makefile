@@ -11,6 +11,7 @@
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make certificate audit the bounds that close boxes in ball arithmetic, write the end of docs/certificate.md
 # make statics    what a push does to the states, docs/statics.md and its maps
+# make settled    where held bolts rest beside the paper's states, docs/settled-compared.md and its maps
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
@@ -36,7 +37,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -92,6 +93,10 @@ certificate: setup
 
 statics: setup
 	$(BIN)/python -m studies.statics
+
+settled: setup
+	$(BIN)/threadstate rebuild-settled
+	$(BIN)/python -m studies.settled
 
 witness: setup
 	$(BIN)/python -m studies.witness

@@ -1,6 +1,6 @@
 """Asks the service whatever its description allows and forbids, 10,000 times and more: ``make fuzz``.
 
-The service is the real one, in this process, over a small library that is computed first. What was asked of each
+The service is the real one, in this process, over small libraries that are computed first. What was asked of each
 operation is counted; what was answered otherwise than described is printed, and ends the script with 1.
 """
 
@@ -16,12 +16,15 @@ from scripts.described import GRID, Tally, fuzz
 from service.app import create_app
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
+from threadstate.device.model import default_device
 from threadstate.library.engine import writing
 from threadstate.library.identity import LibraryInputs
 from threadstate.settings import DATABASE, read_settings
+from threadstate.settled.inputs import SettledInputs
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.rebuild import rebuild
+from worker.settled.rebuild import rebuild_settled
 
 LEAST_CASES = 10_000
 EXAMPLES = 600
@@ -39,10 +42,11 @@ class _Unwatched:
 
 
 def run(folder: Path, examples: int, seed: int) -> Tally:
-    """Compute the small library in that folder and ask a service over it."""
+    """Compute the small libraries in that folder and ask a service over them."""
     database = SqliteDatabases(folder).migrated()
     with writing(database) as engine:
         rebuild(engine, LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions()), WORKERS, _Unwatched())
+        rebuild_settled(engine, SettledInputs(quarter_twenty_unc(), GRID, default_device()), WORKERS, _Unwatched())
         key = create_key(engine, "fuzz", Scope.WRITE)
     app = create_app(read_settings({DATABASE: database}))
     return fuzz(app, key, examples=examples, seed=seed, told=_tell)

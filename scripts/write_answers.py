@@ -1,7 +1,7 @@
 """Computes the example responses of the documentation and inserts them: ``make docs``.
 
-Those are the JSON after every ``curl`` of a state, or of its statics, in ``DOCUMENTS``, and the examples of the HTTP
-interface.
+Those are the JSON after every ``curl`` of a state, of its statics or of a settled state, in ``DOCUMENTS``, and the
+examples of the HTTP interface.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from threadstate.device.document import SettledDocument, settled_document
+from threadstate.device.settle import settle_pose
 from threadstate.numbers import three_numbers
 from threadstate.state.document import StateDocument, state_document
 from threadstate.state.solve import solve_pose
@@ -34,25 +36,35 @@ SHOWN_STATICS = re.compile(
     r"```.*?```json\n).*?(?P<end>\n```)",
     re.DOTALL,
 )
+SHOWN_SETTLED = re.compile(
+    r"(?P<query>curl 127\.0\.0\.1:8000/v1/settle --json '[^']*"
+    r'"roll": (?P<roll>[^,]+), "pitch": (?P<pitch>[^,]+), "phase": (?P<phase>[^}]+)}]}'
+    r"'\n```.*?```json\n).*?(?P<end>\n```)",
+    re.DOTALL,
+)
 PAIR = quarter_twenty_unc()
 EXAMPLES = Path("service/examples")
 LIBRARY_POSE_DEG, SOLVED_POSE_DEG = (4.0, -3.0, 185.0), (1.0, -2.0, 10.5)
 """The poses (roll, pitch, phase) of the examples of the HTTP interface."""
 LOADED_POSE_DEG, FORCE, FRICTION = (2.0, 0.0, 345.0), (0.1, 0.0, -10.0), 0.25
 """The pose, the force and the friction of its example of statics."""
+HELD_POSE_DEG = (0.0, 3.0, 250.0)
+"""The pose of its example of settled states, held by the default device."""
 
 
 def main() -> None:
     """Write all answers."""
     for name in DOCUMENTS:
         path = ROOT / name
-        path.write_text(SHOWN_STATICS.sub(_statics_shown_again, SHOWN.sub(_shown_again, path.read_text())))
+        text = SHOWN_STATICS.sub(_statics_shown_again, SHOWN.sub(_shown_again, path.read_text()))
+        path.write_text(SHOWN_SETTLED.sub(_settled_shown_again, text))
     stored = solve_pose(PAIR, *LIBRARY_POSE_DEG)
     (statics,) = stored_statics(PAIR, [stored])
     for name, document in (
         ("state.json", library_state_document(stored, statics)),
         ("solved_state.json", _document(*SOLVED_POSE_DEG)),
         ("statics.json", _statics(LOADED_POSE_DEG, FORCE, FRICTION)),
+        ("settled_pose.json", _settled(HELD_POSE_DEG)),
     ):
         (ROOT / EXAMPLES / name).write_text(_broken_into_lines(document) + "\n")
 
@@ -66,6 +78,15 @@ def _statics_shown_again(shown: re.Match[str]) -> str:
     roll, pitch, phase = (float(shown[name]) for name in ("roll", "pitch", "phase"))
     document = _statics((roll, pitch, phase), three_numbers("force", shown["force"]), float(shown["mu"]))
     return shown["query"] + _broken_into_lines(document) + shown["end"]
+
+
+def _settled_shown_again(shown: re.Match[str]) -> str:
+    document = _settled((float(shown["roll"]), float(shown["pitch"]), float(shown["phase"])))
+    return shown["query"] + _broken_into_lines(document) + shown["end"]
+
+
+def _settled(pose_deg: Vector) -> SettledDocument:
+    return settled_document(settle_pose(PAIR, *pose_deg), PAIR.unit)
 
 
 def _statics(pose_deg: Vector, force: Vector, mu: float) -> StaticsDocument:

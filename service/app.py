@@ -27,6 +27,8 @@ import service.meshes
 import service.metrics
 import service.network.endpoints
 import service.orientations
+import service.settle.endpoints
+import service.settled.endpoints
 import service.solve
 import service.states.endpoints
 import service.statics.endpoints
@@ -150,6 +152,8 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.network.endpoints,
         service.meshes,
         service.solve,
+        service.settle.endpoints,
+        service.settled.endpoints,
         service.threads,
         service.jobs.endpoints,
         service.health,

@@ -34,6 +34,7 @@ from worker.commands.network import network
 from worker.commands.path import path
 from worker.commands.profiles import profiles
 from worker.commands.rebuild import rebuild
+from worker.commands.rebuild_settled import rebuild_settled
 from worker.commands.run import run
 from worker.commands.serve import serve
 from worker.commands.settings import settings
@@ -68,6 +69,7 @@ COMMANDS = (
     settle,
     assemble,
     rebuild,
+    rebuild_settled,
     sweep,
     libraries,
     summary,

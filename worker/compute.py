@@ -21,26 +21,35 @@ def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
 
 
 def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
-    """Reply to each orientation number received with its chunk, until the other end of the pipe is closed.
+    """Reply to each orientation number received with its chunk, until the other end of the pipe is closed."""
+    serve(connection, partial(_prepare, inputs), partial(compute_chunk, inputs))
 
-    A parent that dies closes its end, and the process ends.
+
+def serve(connection: Connection, prepare: Callable[[], None], compute: Callable[[int], object]) -> None:
+    """Reply to each number received with what is computed of it, until the other end of the pipe is closed.
+
+    First ``prepare`` loads what is needed. A parent that dies closes its end, and the process ends.
     """
     # SIGINT reaches the whole process group; the parent alone handles it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with suppress(EOFError, ConnectionError):  # the parent has ended
-        message = _tried(partial(_prepared, inputs))
+        message = _tried(partial(_ready, prepare))
         connection.send(message)
         while not isinstance(message, Failure):
-            message = _tried(partial(compute_chunk, inputs, connection.recv()))
+            message = _tried(partial(compute, connection.recv()))
             connection.send(message)
 
 
-def _prepared(inputs: LibraryInputs) -> Ready:
+def _prepare(inputs: LibraryInputs) -> None:
     exact_answers(inputs.pair, inputs.options, inputs.grid.poses(0)[:1])
+
+
+def _ready(prepare: Callable[[], None]) -> Ready:
+    prepare()
     return Ready()
 
 
-def _tried(compute: Callable[[], Ready | Chunk]) -> Ready | Chunk | Failure:
+def _tried(compute: Callable[[], object]) -> object:
     try:
         return compute()
     except Exception as error:  # reported to the parent, whatever it is

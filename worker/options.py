@@ -109,6 +109,16 @@ Dimensions = Annotated[
     ),
 ]
 
+DeviceFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--device",
+        metavar="FILE",
+        help="The device as a TOML or JSON file.",
+        show_default="the device of docs/device.md",
+    ),
+]
+
 PhaseStep = Annotated[float, number_option("--phase-step", metavar="DEG", help="Step of phase; divides 360.")]
 TiltMax = Annotated[float, number_option("--tilt-max", metavar="DEG", help="Largest roll and pitch; at most 10.")]
 TiltStep = Annotated[

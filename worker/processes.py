@@ -1,4 +1,4 @@
-"""Computing processes: chunks from several of them, as they finish.
+"""Computing processes: chunks of a library from several of them, as they finish.
 
 Each process has a pipe of its own whose ends nobody else holds, so that the death of either side, by SIGKILL too, is
 seen by the other as the end of the pipe: no process is left behind. All processes are forked from a forkserver, a clean
@@ -11,10 +11,12 @@ import multiprocessing
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerContext
 from multiprocessing.process import BaseProcess
+from typing import Generic, TypeVar
 
 from threadstate.errors import ThreadstateError
 from threadstate.library.identity import LibraryInputs
@@ -24,6 +26,8 @@ QUEUED_PER_PROCESS = 2
 """Chunks queued per process, so that it computes while a chunk waits to be written."""
 
 _JOIN_TIMEOUT_S = 5.0
+
+Result = TypeVar("Result")
 
 
 class ComputeError(ThreadstateError):
@@ -52,15 +56,16 @@ class _Computer:
         return ComputeError(f"a computing process died (exit code {self.process.exitcode})")
 
 
-class ComputingProcesses:
-    """Processes that compute chunks of one library; made by :func:`computing_processes`."""
+class ComputingProcesses(Generic[Result]):
+    """Processes that compute chunks of one library; made by :func:`running_processes`."""
 
-    def __init__(self, inputs: LibraryInputs, count: int) -> None:
+    def __init__(self, serve: Callable[[Connection], None], result: type[Result], count: int) -> None:
         self._context = running_forkserver()
-        self._inputs = inputs
+        self._serve = serve
+        self._result = result
         self._computers = [self._start() for _ in range(count)]
 
-    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
+    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Result]:
         """The chunks of these orientations, in the order in which they are finished.
 
         Args:
@@ -91,7 +96,7 @@ class ComputingProcesses:
                 while queued[connection] < QUEUED_PER_PROCESS and (index := next(waiting, None)) is not None:
                     by_connection[connection].submit(index)
                     queued[connection] += 1
-                if isinstance(message, Chunk):
+                if isinstance(message, self._result):
                     yield message
 
     @property
@@ -109,13 +114,13 @@ class ComputingProcesses:
 
     def _start(self) -> _Computer:
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=_compute, args=(theirs, self._inputs), daemon=True)
+        process = self._context.Process(target=self._serve, args=(theirs,), daemon=True)
         process.start()
         theirs.close()
         return _Computer(process, ours)
 
 
-def _compute(connection: Connection, inputs: LibraryInputs) -> None:
+def _compute(inputs: LibraryInputs, connection: Connection) -> None:
     # Imported in the computing process alone: the writing one does not need numba, which is slow to load.
     from worker.compute import serve_chunks
 
@@ -123,13 +128,25 @@ def _compute(connection: Connection, inputs: LibraryInputs) -> None:
 
 
 @contextmanager
-def computing_processes(inputs: LibraryInputs, count: int) -> Iterator[ComputingProcesses]:
-    """``count`` computing processes, ended on leaving."""
-    processes = ComputingProcesses(inputs, count)
+def running_processes(
+    serve: Callable[[Connection], None], result: type[Result], count: int
+) -> Iterator[ComputingProcesses[Result]]:
+    """``count`` processes that reply with ``result`` to orientation numbers, ended on leaving.
+
+    Each calls ``serve`` with its end of a pipe: it sends ``Ready``, then for each number a result or a ``Failure``.
+    """
+    processes = ComputingProcesses(serve, result, count)
     try:
         yield processes
     finally:
         processes.close()
+
+
+@contextmanager
+def computing_processes(inputs: LibraryInputs, count: int) -> Iterator[ComputingProcesses[Chunk]]:
+    """``count`` processes that compute chunks of a library of contact states, ended on leaving."""
+    with running_processes(partial(_compute, inputs), Chunk, count) as processes:
+        yield processes
 
 
 PRELOADED = ["worker.preload", "worker.cli", "__main__"]

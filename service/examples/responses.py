@@ -1,5 +1,5 @@
-"""The examples of the OpenAPI document. Two real states and real statics; ``make docs`` computes them again, a test
-compares.
+"""The examples of the OpenAPI document. Two real states, real statics and a real settled state; ``make docs`` computes
+them again, a test compares.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from service.histories.endpoints import csv_table, history_columns
+from threadstate.device.document import SettledDocument
 from threadstate.state.document import StateDocument
 from threadstate.statics.document import StaticsDocument
 from threadstate.statics.stored import LibraryStateDocument
@@ -29,6 +30,8 @@ SOLVED_STATE: StateDocument = _document("solved_state.json")
 """The state of a pose between those of a grid, three contacts one after another; lengths in inches."""
 STATICS: StaticsDocument = _document("statics.json")
 """What a force does to the state of a pose of a library's grid, three contacts that hold it; lengths in inches."""
+SETTLED_POSE: SettledDocument = _document("settled_pose.json")
+"""Where a bolt comes to rest that the default device holds, on two contacts; lengths in inches."""
 
 _JSON = "application/json"
 
@@ -105,5 +108,27 @@ EXAMPLES = (
             "unit": "in",
             "states": [SOLVED_STATE],
         },
+    ),
+    Example(
+        "/v1/settle",
+        "post",
+        _JSON,
+        "settled",
+        "Two contacts, and the springs",
+        {
+            "designation": DEFAULT_DESIGNATION,
+            "source": UNIFIED_SOURCE,
+            "library": None,
+            "unit": "in",
+            "states": [SETTLED_POSE],
+        },
+    ),
+    Example(
+        "/v1/settled/{id}/states/{roll}/{pitch}/{phase}",
+        "get",
+        _JSON,
+        "settled",
+        "Two contacts, and the springs",
+        SETTLED_POSE,
     ),
 )

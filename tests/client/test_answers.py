@@ -112,6 +112,10 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "held": {"roll": 0, "pitch": -3, "mu": (0.1, 0.3), "force": (1, 0, -10)},
         "computed_held": {"roll": 1.5, "pitch": 0, "mu": 0.1},
         "solve_statics": {"poses": [(0.5, 0.5, 0.5)], "loads": [{"mu": 0.5}, {}]},
+        "settle": {"poses": [(0.5, 0.5, 0.5)], "device": {"unit": "mm", "push": 5}},
+        "settled_libraries": {},
+        "settled_library": {"settled_library": 1},
+        "settled_state": {"roll": 0, "pitch": 0, "phase": 90, "unit": "mm"},
         "intervals": {"roll": 0, "pitch": -3},
         "heights": {"roll": 0, "pitch": -3},
         "computed_intervals": {"roll": 1.5, "pitch": 0},
@@ -137,6 +141,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "undecided": {},
         "transitions": {"move": "roll+", "roll": 0, "limit": 40},
         "jobs": {},
+        "settled_states": {"limit": 3, "outcome": "settled"},
     }
     public = {name for name in vars(Client) if not name.startswith("_")}
     assert public - {*asked, *lists} == {"ask", "job", "export", "close"}

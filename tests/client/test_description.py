@@ -16,26 +16,29 @@ from service.jobs.schemas import EventDocument
 from tests.test_architecture import modules_loaded_by
 from threadstate.client import AsyncClient, Client
 from threadstate.client.call import Call, PagedCall
-from threadstate.client.calls import jobs, libraries, network, states, statics, threads
+from threadstate.client.calls import jobs, libraries, network, settled, states, statics, threads
 from threadstate.client.loads import LoadToBear
 from threadstate.client.models import jobs as job_models
 from threadstate.client.models import libraries as library_models
 from threadstate.client.models import network as network_models
 from threadstate.client.models import service as service_models
+from threadstate.client.models import settled as settled_models
 from threadstate.client.models import states as state_models
 from threadstate.client.models import statics as statics_models
 from threadstate.client.models import threads as thread_models
 from threadstate.client.models.answer import Answer
 
-CALLS = (jobs, libraries, network, states, statics, threads)
+CALLS = (jobs, libraries, network, settled, states, statics, threads)
 MODELS = (
     *(job_models, library_models, network_models, service_models),
-    *(state_models, statics_models, thread_models),
+    *(settled_models, state_models, statics_models, thread_models),
 )
 RENAMED = {
     name: f"{name}Document"
     for name in (
         *("State", "Pose", "Contact", "Margins", "StoredStatics", "Load", "ContactForce", "Reaction", "NormalRange"),
+        *("Deviation", "SettledContact", "Fall", "SettledMargins", "Settled", "Device", "SettledCounts"),
+        "SettledLibrary",
         *("Twist", "LoadedContact", "Piece", "Jamming", "ComputedJamming", "ContactWrench", "Limits", "StandardThread"),
     )
 } | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
@@ -46,6 +49,8 @@ ARGUMENTS: dict[str, object] = {
     "pitch": -2.0,
     "phase": 3.0,
     "library": 7,
+    "settled_library": 7,
+    "falls": 1,
     "libraries": [7, "m6"],
     "part": "bolt",
     "key": "0123456789",
@@ -55,6 +60,7 @@ ARGUMENTS: dict[str, object] = {
     "table": "states",
     "file_format": "csv",
     "poses": [(1.0, 2.0, 3.0)],
+    "device": {"unit": "mm", "push": 5.0},
     "grid": {"phase_step": 5.0},
     "tolerances": {"tie_tolerance": 1e-11},
     "mesh": {"checked": True},
@@ -133,6 +139,7 @@ def test_a_body_has_all_that_the_service_knows(openapi: dict[str, Any]) -> None:
         (jobs.ask, "JobRequest"),
         (states.solve, "SolveRequest"),
         (statics.solve_statics, "StaticsRequest"),
+        (settled.settle, "SettleRequest"),
     ):
         body = _described(function).body
         assert body is not None
@@ -149,6 +156,7 @@ def test_requests_that_write_are_those_that_may_be_repeated(openapi: dict[str, A
         ("/v1/jobs/{id}", "delete"),
         ("/v1/solve", "post"),
         ("/v1/statics", "post"),
+        ("/v1/settle", "post"),
     }
 
 
@@ -232,6 +240,9 @@ def test_models_are_what_the_service_describes(openapi: dict[str, Any], model: t
         for name, value in statics["properties"].items()
     }
     components["RequestedStaticsDocument"] = {**statics, "properties": properties}
+    # A document that is sent may have nothing beside; one that is read may.
+    device = components["DeviceDocument"]
+    components["DeviceDocument"] = {name: value for name, value in device.items() if name != "additionalProperties"}
     told = components[RENAMED.get(model.__name__, model.__name__)]
     read = model.model_json_schema(mode="serialization")
     expected = _expanded(told, components)

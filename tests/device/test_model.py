@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from threadstate.device.document import device_from_document
+from threadstate.device.document import device_document, device_from_document
 from threadstate.device.model import About, Device, default_device
 from threadstate.errors import InvalidValueError
 from threadstate.units import LengthUnit
@@ -102,3 +102,40 @@ def test_a_bad_document_names_the_key_and_the_valid_range(values: dict[str, Any]
 def test_a_zero_stiffness_is_allowed() -> None:
     rows = changed((2, 2, 0.0), (5, 5, 0.0))
     assert device_from_document({"unit": "mm", "stiffness": rows, "k_twist": "rigid"}).twist_is_rigid
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"unit": "mm"},
+        {"unit": "in", "k_twist": 3.5, "about": "bolt", "centre": -0.0},
+        {"unit": "mm", "stiffness": changed((0, 4, 0.5), (4, 0, 0.5)), "push": 1.0 / 3.0},
+        {"unit": "mm", "stiffness": changed((2, 2, 0.0), (0, 0, 2.0)), "k_twist": "rigid"},
+    ],
+)
+def test_the_document_of_a_device_gives_it_back(values: dict[str, Any]) -> None:
+    device = device_from_document(values)
+    document = device_document(device)
+    assert device_from_document(document) == device
+    assert device_document(device_from_document(document)) == document
+    assert ("stiffness" in document) == ("stiffness" in values)
+
+
+def test_equal_devices_have_one_document() -> None:
+    as_matrix = device_from_document({"unit": "mm", "stiffness": np.diag([5.0, 5.0, 0.0, 2.0, 2.0, 1.0]).tolist()})
+    named = device_from_document({"unit": "mm", "k_tilt": 5, "k_twist": 0, "k_lateral": 2, "k_axial": 1})
+    assert as_matrix == named
+    assert (
+        device_document(as_matrix)
+        == device_document(named)
+        == {
+            "unit": "mm",
+            "k_lateral": 2.0,
+            "k_axial": 1.0,
+            "k_tilt": 5.0,
+            "k_twist": 0.0,
+            "centre": 0.0,
+            "push": 10.0,
+            "about": "nut",
+        }
+    )

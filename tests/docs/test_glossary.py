@@ -24,7 +24,7 @@ from threadstate.device.assembly_model import AssemblyOutcome, EventKind, Held
 from threadstate.device.document import (
     DeviationDocument,
     FallDocument,
-    LoadedContactDocument,
+    SettledContactDocument,
     SettledDocument,
     SettledMarginsDocument,
 )
@@ -110,7 +110,7 @@ def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]
 
 
 def test_every_field_of_a_settled_state_is_a_term(known: set[str]) -> None:
-    documents = (SettledDocument, DeviationDocument, LoadedContactDocument, FallDocument, SettledMarginsDocument)
+    documents = (SettledDocument, DeviationDocument, SettledContactDocument, FallDocument, SettledMarginsDocument)
     assert sorted({name for document in documents for name in document.__annotations__} - known) == []
 
 

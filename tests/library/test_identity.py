@@ -45,7 +45,7 @@ def test_every_input_changes_the_hash(monkeypatch: pytest.MonkeyPatch) -> None:
     ]
     hashes = {inputs.sha256 for inputs in variants}
     assert len(hashes) == len(variants)
-    monkeypatch.setattr(identity, "_code_version", lambda patterns, _: f"another{len(patterns)}")
+    monkeypatch.setattr(identity, "version_of_code", lambda patterns, _: f"another{len(patterns)}")
     changed = {LibraryInputs(pair, Grid(), SolveOptions(), mesh).sha256 for mesh in (None, MeshOptions())}
     assert len(changed) == 2
     assert changed.isdisjoint(hashes)
@@ -136,7 +136,7 @@ def test_a_change_of_histories_changes_libraries_by_the_exact_method_alone(tmp_p
 def test_another_version_of_what_computes_makes_another_library(monkeypatch: pytest.MonkeyPatch, library: str) -> None:
     known = importlib.metadata.version
     before = INPUTS.code_version, BY_MESH.code_version
-    identity._code_version.cache_clear()
+    identity.version_of_code.cache_clear()
     try:
         monkeypatch.setattr(
             "threadstate.library.identity.version", lambda name: "0.0" if name == library else known(name)
@@ -144,7 +144,7 @@ def test_another_version_of_what_computes_makes_another_library(monkeypatch: pyt
         assert INPUTS.code_version != before[0]
         assert BY_MESH.code_version != before[1]
     finally:
-        identity._code_version.cache_clear()
+        identity.version_of_code.cache_clear()
 
 
 COMPUTING = ("threadstate/stored_histories/compute.py",)

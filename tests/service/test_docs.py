@@ -14,8 +14,9 @@ from fastapi.testclient import TestClient
 from jsonschema import Draft202012Validator
 from pydantic import TypeAdapter
 
+from service.app import create_app
 from service.docs.endpoints import ASSETS, PACKAGE
-from service.examples.responses import STATICS
+from service.examples.responses import SETTLED_POSE, STATICS
 from service.explorer.endpoints import THIRD_PARTY
 from service.histories.endpoints import HistoryColumns, HistoryRows
 from service.libraries.endpoints import LibraryDetail, LibraryList
@@ -190,7 +191,11 @@ def nearly(document: Any) -> Any:
 
 @pytest.mark.parametrize(
     ("path", "schema", "name"),
-    [("/v1/solve", "SolveRequest", "solved"), ("/v1/statics", "StaticsRequest", "held")],
+    [
+        ("/v1/solve", "SolveRequest", "solved"),
+        ("/v1/statics", "StaticsRequest", "held"),
+        ("/v1/settle", "SettleRequest", "settled"),
+    ],
 )
 def test_example_of_a_request_is_answered_by_the_example(
     client: TestClient, openapi: dict[str, Any], path: str, schema: str, name: str
@@ -262,3 +267,13 @@ def test_statics_shown_in_the_documentation_are_those_of_the_example(repository_
     assert json.loads(answer) == STATICS
     assert [float(angle) for angle in pose.split("/")] == [STATICS["roll"], STATICS["pitch"], STATICS["phase"]]
     assert (float(mu), json.loads(f"[{force}]")) == (STATICS["mu"], STATICS["load"]["force"])
+
+
+def test_the_settled_state_shown_in_the_documentation_is_that_of_the_example(repository_root: Path) -> None:
+    text = (repository_root / "docs" / "api.md").read_text()
+    ((body, answer),) = re.findall(
+        r"curl 127\.0\.0\.1:8000/v1/settle --json '(\S.*?)'\n```.*?```json\n(.*?)\n```", text, re.DOTALL
+    )
+    assert json.loads(answer) == SETTLED_POSE
+    ((_, request),) = with_examples(create_app().openapi()["components"]["schemas"]["SettleRequest"])
+    assert json.loads(body) == request

@@ -66,11 +66,19 @@ odd_poses = st.dictionaries(st.sampled_from(("roll", "pitch", "phase", "yaw")), 
 odd_loads = st.dictionaries(
     st.sampled_from(("force", "moment", "point", "mu")), st.one_of(odd_numbers, st.lists(odd_numbers, max_size=3))
 )
+odd_devices = st.dictionaries(
+    st.sampled_from(("unit", "k_lateral", "k_tilt", "k_twist", "stiffness", "centre", "push", "about")),
+    st.one_of(odd_numbers, st.sampled_from(("in", "mm", "rigid", "nut")), st.lists(st.lists(odd_numbers), max_size=6)),
+)
 bodies = st.one_of(
     json_values,
     st.fixed_dictionaries(
         {"poses": st.lists(odd_poses, max_size=3)},
-        optional={"designation": st.text(max_size=9), "loads": st.lists(odd_loads, max_size=2)},
+        optional={
+            "designation": st.text(max_size=9),
+            "loads": st.lists(odd_loads, max_size=2),
+            "device": odd_devices,
+        },
     ),
 )
 
@@ -105,7 +113,7 @@ def test_no_bytes_in_a_query_fail(client: TestClient, raw: bytes) -> None:
 
 
 @settings(max_examples=300)
-@given(path=st.sampled_from(("/v1/solve", "/v1/statics")), body=bodies)
+@given(path=st.sampled_from(("/v1/solve", "/v1/statics", "/v1/settle")), body=bodies)
 def test_no_json_body_fails(client: TestClient, path: str, body: object) -> None:
     headers = {"Content-Type": "application/json"}
     check(client.post(path, content=json.dumps(body), headers=headers))

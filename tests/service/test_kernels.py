@@ -76,7 +76,8 @@ def test_what_solves_is_refused_while_kernels_are_compiled(
 ) -> None:
     assert compiling.get("/readyz").json()["kernels"] == "compiling"
     loaded = compiling.post("/v1/statics", json={**SOLVE, "loads": [{}]})
-    for response in (compiling.post("/v1/solve", json=SOLVE), loaded, *(compiling.get(path) for path in SOLVING)):
+    held = compiling.post("/v1/settle", json=SOLVE)
+    for response in (compiling.post("/v1/solve", json=SOLVE), loaded, held, *(compiling.get(path) for path in SOLVING)):
         refused = problem(response, 503)
         assert refused.type.endswith(":kernels-compiling")
         assert "are being compiled" in refused.detail

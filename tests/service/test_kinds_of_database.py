@@ -14,6 +14,7 @@ from fastapi.testclient import TestClient
 from harness.databases import Databases
 from tests.service.conftest import client_of, store_library
 from tests.service.made_up_states import made_up_states
+from tests.service.settled_library import store_settled
 from tests.stored_histories.history_library import SMALL_GRID, histories_of_grid, store_histories
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -78,6 +79,15 @@ READ = {
     "/v1/libraries/{id}/network": [f"{WITH_HISTORIES}/network", f"{WITH_HISTORIES}/network?format=graphml"],
     "/v1/libraries/{id}/network/loaded": [f"{WITH_HISTORIES}/network/loaded?mu=0.15&avoid=held"],
     "/v1/libraries/{id}/network/formations": [f"{WITH_HISTORIES}/network/formations"],
+    "/v1/settled": ["/v1/settled"],
+    "/v1/settled/{id}": ["/v1/settled/1", "/v1/settled/latest", "/v1/settled/2"],
+    "/v1/settled/{id}/states": [
+        f"/v1/settled/1/states?{query}"
+        for query in ("", "unit=mm&limit=3", "flag=flush", "contacts=2&falls=0", "outcome=settled&phase_min=90&after=0")
+    ],
+    "/v1/settled/{id}/states/{roll}/{pitch}/{phase}": [
+        f"/v1/settled/latest/states/0/0/{phase}" for phase in ("0", "180?unit=mm", "7")
+    ],
     "/v1/libraries/{id}/network/locate": [f"{WITH_HISTORIES}/network/locate?class=stable_three_point&contacts=3"],
 }
 ELSEWHERE = {
@@ -94,11 +104,12 @@ on both kinds in ``tests/jobs``."""
 
 @pytest.fixture(scope="module")
 def clients(sqlite_databases: Databases, postgresql_databases: Databases) -> Iterator[Clients]:
-    """Clients of two services over the same two libraries: one of made-up states, one with real histories."""
+    """Clients of two services over the same libraries: of made-up states, with real histories, of settled states."""
     urls = [databases.migrated() for databases in (sqlite_databases, postgresql_databases)]
     for url in urls:
         store_library(url, quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)
         store_histories(url, SMALL_GRID, histories_of_grid(SMALL_GRID))
+        store_settled(url)
     with client_of(urls[0]) as one, client_of(urls[1]) as other:
         yield one, other
 

@@ -48,7 +48,7 @@ def _options(name: str) -> Iterator[str]:
 
 
 def _sections(text: str) -> dict[str, str]:
-    parts = re.split(r"^### `threadstate ([a-z]+)`$", text, flags=re.M)
+    parts = re.split(r"^### `threadstate ([a-z-]+)`$", text, flags=re.M)
     return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 

@@ -10,7 +10,9 @@ import pytest
 from harness.databases import Databases
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
+from tests.service.settled_library import LEVEL, store_settled
 from tests.worker.conftest import CommandLine
+from threadstate.device.document import device_from_document
 from threadstate.library.grid import Grid
 from threadstate.mesh.options import MeshOptions
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
@@ -89,3 +91,28 @@ def test_a_copy_has_the_libraries_named_and_no_pin(stored: CommandLine, database
         code, out, _ = stored.here("copy", "--to", target, "--library", name, "--json")
         assert (code, json.loads(out)["library"]) == (0, number)
     assert not any(pinned for _, _, pinned in _marks(stored, "--database", target))
+
+
+def test_libraries_of_settled_states_are_listed_with_their_devices(command_line: CommandLine) -> None:
+    command_line.here("migrate")
+    assert json.loads(command_line.out("libraries", "--settled", "--json")) == {"settled": []}
+    code, _, err = command_line.here("libraries", "--settled")
+    assert (code, "run `threadstate rebuild-settled`" in err) == (0, True)
+    device = {"unit": "mm", "k_lateral": 5.0, "k_axial": 0.0, "k_tilt": 250.0, "k_twist": "rigid"}
+    device |= {"centre": 0.0, "push": 4.0, "about": "nut"}
+    store_settled(command_line.database)
+    store_settled(command_line.database, device=device_from_document(device))
+    latest, first = json.loads(command_line.out("libraries", "--settled", "--json"))["settled"]
+    assert (latest["id"], first["id"]) == (2, 1)
+    assert latest["device"] == device
+    assert (latest["states"], latest["unit"], latest["tilt_max"]) == (LEVEL.pose_count, "in", 0.0)
+    assert len(latest["content_sha256"]) == 64
+    lines = command_line.out("libraries", "--settled").splitlines()
+    assert [line.split()[0] for line in lines] == ["id", "2", "1"]
+    assert "k_tilt 250.0" in lines[1]
+
+
+@pytest.mark.parametrize("option", [("--unpin",), ("--pin", "1")])
+def test_settled_states_are_not_pinned(command_line: CommandLine, option: tuple[str, ...]) -> None:
+    code, _, err = command_line.here("libraries", "--settled", *option)
+    assert (code, "without --pin and --unpin" in err) == (ExitCode.USAGE, True)

@@ -8,6 +8,7 @@ from typing import Any
 
 from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.libraries import OrientationDocument
+from threadstate.client.models.settled import Settled
 from threadstate.client.models.states import State, UndecidedDocument
 from threadstate.errors import InvalidValueError
 from threadstate.export.column import Cell, Column, degrees, integer, length, number, truth, words
@@ -51,6 +52,44 @@ _UNDECIDED: tuple[Column[UndecidedDocument], ...] = (
     degrees("pitch", "pitch of the pose", lambda pose: pose.pitch),
     degrees("phase", "phase of the pose", lambda pose: pose.phase),
     words("reason", "why the library's solver method could not decide the pose", lambda pose: pose.reason),
+)
+
+_AXES = ("x", "y", "z")
+
+
+def _margin(name: str) -> Callable[[Settled], Cell]:
+    return lambda one: getattr(one.margins, name)
+
+
+def _origin(axis: int) -> Callable[[Settled], Cell]:
+    return lambda one: None if one.pose is None else one.pose.translation[axis]
+
+
+def _shift(axis: int) -> Callable[[Settled], Cell]:
+    return lambda one: None if one.deviation is None else one.deviation.shift[axis]
+
+
+def _rotation(axis: int) -> Callable[[Settled], Cell]:
+    return lambda one: None if one.deviation is None else one.deviation.rotation[axis]
+
+
+_SETTLED: tuple[Column[Settled], ...] = (
+    degrees("roll", "roll that the device commands", lambda one: one.roll),
+    degrees("pitch", "pitch that it commands", lambda one: one.pitch),
+    degrees("phase", "phase that it commands", lambda one: one.phase),
+    words("outcome", "how the push ended", lambda one: one.outcome.value),
+    words("flags", "flags, separated by spaces", lambda one: " ".join(one.flags)),
+    integer("contacts", "how many contacts carry a force", lambda one: len(one.contacts)),
+    integer("falls", "how many falls there were on the way", lambda one: len(one.falls)),
+    *(length(f"origin_{axis}", "where the bolt's origin rests", _origin(i)) for i, axis in enumerate(_AXES)),
+    *(length(f"shift_{axis}", "shift of the compliance centre", _shift(i)) for i, axis in enumerate(_AXES)),
+    *(degrees(f"rotation_{axis}", "rotation vector of the deviation", _rotation(i)) for i, axis in enumerate(_AXES)),
+    number("elastic_energy", "elastic energy, N times the unit of lengths", lambda one: one.elastic_energy),
+    number("force_margin", "least contact force over the push", _margin("force")),
+    length("gap_margin", "least gap of a place that does not touch", _margin("gap")),
+    number("stability_margin", "least curvature of the potential, N over the unit of lengths", _margin("stability")),
+    number("residual_margin", "wrench that is not balanced, over the push", _margin("residual")),
+    length("pressure_margin", "how far the centre of pressure lies inside its hull", _margin("pressure")),
 )
 
 
@@ -156,6 +195,7 @@ _JOBS: tuple[Column[JobDocument], ...] = (
 
 COLUMNS: Mapping[type[object], Columns] = MappingProxyType(
     {
+        Settled: _SETTLED,
         UndecidedDocument: _UNDECIDED,
         OrientationDocument: _ORIENTATIONS,
         WindowDocument: _WINDOWS,

@@ -18,7 +18,7 @@ from threadstate.device.assembly_model import (
 )
 from threadstate.device.document import (
     DeviationDocument,
-    LoadedContactDocument,
+    SettledContactDocument,
     SettledDocument,
     contact_document,
     scaled,
@@ -53,7 +53,7 @@ class PathDocument(TypedDict):
     held: list[Held]
     pose: list[PoseDocument]
     deviation: list[DeviationDocument]
-    contacts: list[list[LoadedContactDocument]]
+    contacts: list[list[SettledContactDocument]]
     motions: list[list[Motion]]
     torque: list[float]
     elastic_energy: list[float]

@@ -8,7 +8,16 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from typing_extensions import TypedDict
 
-from threadstate.device.model import About, Device, LoadedContact, Outcome, SettledFlag, SettledState, diagonal_device
+from threadstate.device.model import (
+    TWIST,
+    About,
+    Device,
+    LoadedContact,
+    Outcome,
+    SettledFlag,
+    SettledState,
+    diagonal_device,
+)
 from threadstate.device.model import default_device as _default
 from threadstate.errors import InvalidValueError
 from threadstate.state.document import PoseDocument, VectorDocument
@@ -77,6 +86,33 @@ def device_from_document(values: Mapping[str, Any]) -> Device:
     )
 
 
+def device_document(device: Device) -> dict[str, Any]:
+    """The document of a device: four stiffnesses where it has no more, else all of them; every key with its value.
+
+    ``device_from_document`` gives the same device back; equal devices have equal documents.
+    """
+    stiffness = device.stiffness
+    diagonal = [stiffness[i][i] for i in range(6)]
+    is_diagonal = all(value == 0.0 for i, row in enumerate(stiffness) for j, value in enumerate(row) if i != j)
+    named: dict[str, Any]
+    if is_diagonal and diagonal[0] == diagonal[1] and diagonal[3] == diagonal[4]:
+        k_twist = RIGID if device.twist_is_rigid else diagonal[TWIST]
+        named = {"k_lateral": diagonal[3], "k_axial": diagonal[5], "k_tilt": diagonal[0], "k_twist": k_twist}
+    else:
+        rigid = {"k_twist": RIGID} if device.twist_is_rigid else {}
+        named = {**rigid, "stiffness": [list(row) for row in stiffness]}
+    values = {**named, "centre": device.centre, "push": device.push}
+    return {"unit": device.unit.value, **_positive_zeros(values), "about": device.about.value}
+
+
+def _positive_zeros(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _positive_zeros(one) for name, one in value.items()}
+    if isinstance(value, list):
+        return [_positive_zeros(one) for one in value]
+    return value if isinstance(value, str) else float(value) + 0.0
+
+
 def _refused(error: ValidationError) -> InvalidValueError:
     first = error.errors()[0]
     key, *inside = first["loc"]
@@ -97,7 +133,7 @@ class DeviationDocument(TypedDict):
     rotation: VectorDocument
 
 
-class LoadedContactDocument(TypedDict):
+class SettledContactDocument(TypedDict):
     """A contact with the force on the bolt, in N."""
 
     point: VectorDocument
@@ -135,7 +171,7 @@ class SettledDocument(TypedDict):
     outcome: Outcome
     pose: PoseDocument | None
     deviation: DeviationDocument | None
-    contacts: list[LoadedContactDocument]
+    contacts: list[SettledContactDocument]
     elastic_energy: float | None
     falls: list[FallDocument]
     flags: list[SettledFlag]
@@ -182,7 +218,7 @@ def settled_document(state: SettledState, unit: LengthUnit, factor: float = 1.0)
     }
 
 
-def contact_document(contact: LoadedContact, factor: float) -> LoadedContactDocument:
+def contact_document(contact: LoadedContact, factor: float) -> SettledContactDocument:
     """The document of a contact, its lengths multiplied by ``factor``."""
     return {
         "point": vector_document(contact.point, factor),

@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-import numpy as np
-
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
 from threadstate.state.model import FeaturePair, StagePose, Vector
@@ -145,6 +143,9 @@ def _checked_stiffness(stiffness: Sequence[Sequence[float]], *, rigid: bool) -> 
                     rows[i][j],
                     "0 beside a zero of the diagonal: the matrix is positive semidefinite",
                 )
+    # Imported late: clients, which have no numpy, know the names of this module.
+    import numpy as np
+
     scaled = np.array([[rows[i][j] / (roots[i] * roots[j] or 1.0) for j in range(6)] for i in range(6)])
     least = float(np.linalg.eigvalsh(scaled)[0])
     if least < LEAST_EIGENVALUE:

@@ -66,8 +66,13 @@ PHYSICS = (
 )
 """With those of histories, windows and falls: what is stored by the exact method."""
 MESH_PHYSICS = (*STATES, "mesh/*.py")
-NOT_PHYSICS = ("thread/catalogue.py", "thread/profiles_svg.py", "history/heights.py")
-"""Files of these folders that no stored row is computed by: pairs, which are inputs, and what is read out of them."""
+NOT_PHYSICS = (
+    *("thread/catalogue.py", "thread/profiles_svg.py", "history/heights.py"),
+    *("device/compile.py", "device/document.py"),
+)
+"""Files of these folders that no stored row is computed by: pairs and devices, which are inputs, and what is read out
+of them.
+"""
 COMPUTING = ("llvmlite", "numba", "numpy")
 """Libraries whose code ends in the bits, by either method."""
 MESH_COMPUTING = (*COMPUTING, "scipy")
@@ -114,7 +119,7 @@ class LibraryInputs:
     @property
     def code_version(self) -> str:
         """The project's version and the first 12 digits of the hash of the code that computes what is stored."""
-        return _code_version(*(EXACT_CODE if self.mesh is None else MESH_CODE))
+        return version_of_code(*(EXACT_CODE if self.mesh is None else MESH_CODE))
 
     @cached_property
     def sha256(self) -> str:
@@ -187,11 +192,12 @@ def _plain(value: object, name: str) -> object:
 
 def code_versions() -> frozenset[str]:
     """The code versions of the libraries that this code computes, one for each solver method."""
-    return frozenset(_code_version(*code) for code in (EXACT_CODE, MESH_CODE))
+    return frozenset(version_of_code(*code) for code in (EXACT_CODE, MESH_CODE))
 
 
 @cache
-def _code_version(patterns: tuple[str, ...], libraries: tuple[str, ...]) -> str:
+def version_of_code(patterns: tuple[str, ...], libraries: tuple[str, ...]) -> str:
+    """The project's version and the first 12 digits of the hash of these sources, and of these libraries' versions."""
     # Any change of the physics makes new libraries beside the old ones without anyone having to remember a number.
     sources = physics_sha256(Path(threadstate.__file__).parent, patterns)
     versions = "".join(f"\n{name} {version(name)}" for name in libraries)

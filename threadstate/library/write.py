@@ -133,12 +133,12 @@ def write_chunk(
         )
         if connection.execute(there).first() is not None:
             return False
-        _insert(connection, state, library_id, rows.states)
-        _insert(connection, stage_pose, library_id, rows.stage_poses)
-        _insert(connection, contact, library_id, rows.contacts)
-        _insert(connection, state_flag, library_id, rows.flags)
-        _insert(connection, undecided, library_id, rows.undecided)
-        _insert(
+        insert_rows(connection, state, library_id, rows.states)
+        insert_rows(connection, stage_pose, library_id, rows.stage_poses)
+        insert_rows(connection, contact, library_id, rows.contacts)
+        insert_rows(connection, state_flag, library_id, rows.flags)
+        insert_rows(connection, undecided, library_id, rows.undecided)
+        insert_rows(
             connection,
             chunk,
             library_id,
@@ -224,10 +224,10 @@ def remove_unpublished(engine: Engine, library_id: int) -> None:
 def _write_history(connection: Connection, library_id: int, orientation: int, rows: HistoryRows) -> None:
     there = set(connection.scalars(select(formation.c.formation).where(formation.c.library_id == library_id)))
     new = [one for one in rows.formations if one.key not in there]
-    _insert(connection, formation, library_id, [one.formation for one in new])
-    _insert(connection, formation_contact, library_id, [row for one in new for row in one.contacts])
+    insert_rows(connection, formation, library_id, [one.formation for one in new])
+    insert_rows(connection, formation_contact, library_id, [row for one in new for row in one.contacts])
     for table, of_table in rows.of_orientation():
-        _insert(connection, table, library_id, [(orientation, *row) for row in of_table])
+        insert_rows(connection, table, library_id, [(orientation, *row) for row in of_table])
 
 
 def _count(connection: Connection, table: Table, library_id: int) -> int:
@@ -235,8 +235,8 @@ def _count(connection: Connection, table: Table, library_id: int) -> int:
     return int(connection.execute(counted).scalar_one())
 
 
-def _insert(connection: Connection, table: Table, library_id: int, rows: Sequence[Row]) -> None:
-    """Insert positional rows directly with the driver."""
+def insert_rows(connection: Connection, table: Table, library_id: int, rows: Sequence[Row]) -> None:
+    """Insert positional rows, each without its leading ``library_id``, directly with the driver."""
     if rows:
         statement = _insert_statement(table, connection.dialect)
         connection.exec_driver_sql(statement, [(library_id, *row) for row in rows])

@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 
 from threadstate.device.strategy import Strategy
-from worker.commands.settle import DeviceFile, read_device
+from worker.commands.settle import read_device
 from worker.commands.solve import wanted_poses
-from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
+from worker.options import DeviceFile, Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
 from worker.output import print_json
 
 

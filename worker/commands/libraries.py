@@ -30,6 +30,9 @@ def libraries(
             "--unpin", help="First unpin, so that latest means the library published last.", show_default=False
         ),
     ] = False,
+    settled: Annotated[
+        bool, typer.Option("--settled", help="List the libraries of settled states instead.", show_default=False)
+    ] = False,
     database: Database = None,
     as_json: Json = False,
 ) -> None:
@@ -44,9 +47,17 @@ def libraries(
       threadstate libraries --json
       threadstate libraries --pin 1-4-20-unc
       threadstate libraries --unpin
+      threadstate libraries --settled
     """
     if pin is not None and unpin:
         raise InvalidValueError("--pin", pin, "without --unpin")
+    if settled and (pin is not None or unpin):
+        raise InvalidValueError("--settled", "given", "without --pin and --unpin")
+    if settled:
+        from worker.settled.listing import list_settled
+
+        list_settled(database or read_settings().database, as_json=as_json)
+        return
 
     from threadstate.library.engine import reading
     from threadstate.library.read import published_libraries

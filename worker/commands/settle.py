@@ -6,25 +6,13 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from threadstate.errors import InvalidValueError
 from worker.commands.solve import wanted_poses
-from worker.options import Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
+from worker.options import DeviceFile, Dimensions, Json, PairName, Phase, Pitch, Poses, Roll, UnitName, number_option
 from worker.output import print_json
 
 if TYPE_CHECKING:
     from threadstate.device.model import Device
-
-DeviceFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--device",
-        metavar="FILE",
-        help="The device as a TOML or JSON file.",
-        show_default="the device of docs/device.md",
-    ),
-]
 
 BATCH = 64
 """How many poses are settled before their answers are printed."""

@@ -14,6 +14,7 @@ from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, descri
 from threadstate.client.calls import jobs as job_calls
 from threadstate.client.calls import libraries as library_calls
 from threadstate.client.calls import network as network_calls
+from threadstate.client.calls import settled as settled_calls
 from threadstate.client.calls import states as state_calls
 from threadstate.client.calls import statics as statics_calls
 from threadstate.client.calls import threads as thread_calls
@@ -152,6 +153,12 @@ class Client:
     jamming_svg = _answered(statics_calls.jamming_svg)
     held = _answered(statics_calls.held)
     computed_held = _answered(statics_calls.computed_held)
+
+    settle = _answered(settled_calls.settle)
+    settled_libraries = _answered(settled_calls.settled_libraries)
+    settled_library = _answered(settled_calls.settled_library)
+    settled_states = _listed(settled_calls.settled_states)
+    settled_state = _answered(settled_calls.settled_state)
 
     intervals = _answered(network_calls.intervals)
     heights = _answered(network_calls.heights)

@@ -1,0 +1,1 @@
+"""Where a bolt comes to rest that a compliant device holds: computed on request."""

@@ -1,0 +1,90 @@
+"""Requests for where held bolts come to rest, computed or stored."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, get, path_of, post
+from threadstate.client.calls.states import LARGEST_PAGE
+from threadstate.client.models.settled import (
+    SettleAnswer,
+    Settled,
+    SettledLibraryDetail,
+    SettledLibraryList,
+    SettledPage,
+)
+
+
+def settle(
+    poses: Iterable[tuple[float, float, float]],
+    *,
+    device: Mapping[str, Any] | None = None,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    unit: str | None = None,
+) -> Call[SettleAnswer]:
+    """Where a bolt comes to rest that a ``device`` holds at 1 to 1000 poses (roll, pitch, phase) and pushes.
+
+    A device is a mapping with the keys of its document; None is the default one. Of a known thread, or with the pair of
+    ``library``. Lengths of the answer are in ``unit``, those of the device in its own.
+    """
+    body = {
+        "designation": designation,
+        "library": library,
+        "device": None if device is None else dict(device),
+        "poses": [{"roll": float(roll), "pitch": float(pitch), "phase": float(phase)} for roll, pitch, phase in poses],
+    }
+    # Nothing is stored: repeatable.
+    return post(path_of("v1", "settle"), SettleAnswer, body, repeatable=True, unit=unit)
+
+
+def settled_libraries() -> Call[SettledLibraryList]:
+    """All published libraries of settled states, the latest first."""
+    return get(path_of("v1", "settled"), SettledLibraryList)
+
+
+def settled_library(settled_library: int | str = LATEST) -> Call[SettledLibraryDetail]:
+    """One library of settled states: its device, and counts by outcome and flag; its number, or ``latest``."""
+    return get(path_of("v1", "settled", settled_library), SettledLibraryDetail)
+
+
+def settled_states(
+    *,
+    settled_library: int | str = LATEST,
+    roll: float | None = None,
+    pitch: float | None = None,
+    phase: float | None = None,
+    phase_min: float | None = None,
+    phase_max: float | None = None,
+    outcome: str | None = None,
+    flag: str | None = None,
+    contacts: int | None = None,
+    falls: int | None = None,
+    limit: int = LARGEST_PAGE,
+    unit: str | None = None,
+) -> PagedCall[Settled]:
+    """The settled states of a library for which all filters hold, in order; ``limit`` is the size of a page.
+
+    ``contacts`` and ``falls`` are how many of them a state has.
+    """
+    filters = {
+        "roll": roll,
+        "pitch": pitch,
+        "phase": phase,
+        "phase_min": phase_min,
+        "phase_max": phase_max,
+        "outcome": outcome,
+        "flag": flag,
+        "contacts": contacts,
+        "falls": falls,
+    }
+    path = path_of("v1", "settled", settled_library, "states")
+    return PagedCall(get(path, SettledPage, **filters, limit=limit, unit=unit), Settled)
+
+
+def settled_state(
+    roll: float, pitch: float, phase: float, *, settled_library: int | str = LATEST, unit: str | None = None
+) -> Call[Settled]:
+    """The settled state of a pose of the library's grid; lengths in ``unit``, else in the library's own."""
+    return get(path_of("v1", "settled", settled_library, "states", roll, pitch, phase), Settled, unit=unit)

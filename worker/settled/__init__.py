@@ -1,0 +1,1 @@
+"""Computing libraries of settled states."""
