@@ -122,8 +122,21 @@ def bracketed_peak(
         else:
             kind = 1
             step = -jet[E_PHI1] / jet[E_PHI2] if jet[E_PHI2] < 0.0 else math.inf
-        if abs(step) < 1e-14 or not low < 0.5 * (low + high) < high:
+        if not low < 0.5 * (low + high) < high:
             break
+        if abs(step) < 1e-14:
+            if kind != 2:
+                break
+            rises = (jet[E_G1] if low_on_plane else jet[E_PHI1]) > 0.0
+            falls = (jet[E_G1] if high_on_plane else jet[E_PHI1]) < 0.0
+            if rises and falls:
+                break
+            # The lesser of both goes on rising beyond the crossing, or falling before it: the maximum is there.
+            if rises:
+                low, low_on_plane = at, high_on_plane
+            else:
+                high, high_on_plane = at, low_on_plane
+            step = math.inf
         if i < NEWTON_STEPS and low < at + step < high:
             at += step
         else:
