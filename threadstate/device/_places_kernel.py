@@ -40,7 +40,7 @@ from threadstate.device._gap_kernel import (
     G_PAIR,
     G_POINT,
     GAP_WORK,
-    edge_depth,
+    moved_point,
     set_edge_jet,
     set_gap,
 )
@@ -70,22 +70,57 @@ W_JET = W_FINE + SAMPLES * FINEST
 W_GAP = W_JET + EDGE_JET_SIZE
 PLACES_WORK = W_GAP + GAP_WORK
 
-Threads = tuple[Array, Array, Array, Array, Array]
-"""Work of the search of thread on thread: grid, crossings, maxima, placement, jet."""
+Threads = tuple[Array, Array, Array, Array, Array, Array]
+"""What the search knows of a pair, and its work: of thread on thread grid, crossings, maxima, placement and jet; then
+samples of both edges, which the first search sets.
+"""
+
+# Samples of both edges: into how many parts an interval is divided, then x and y of the bolt's, then of the nut's.
+S_PARTS, S_POINTS = 0, 1
+SAMPLES_SIZE = S_POINTS + 4 * SAMPLES * FINEST
 
 
 @kernel()
 def new_threads(bolt: Array) -> Threads:
-    """The work of the search of thread on thread for a bolt."""
+    """The work of the search of places for a pair, of which this is the bolt."""
     grid = np.empty(GRID_SIZE)
     set_columns(RIDGE_AZIMUTHS, bolt, grid)
+    samples = np.empty(SAMPLES_SIZE)
+    samples[S_PARTS] = 0.0
     return (
         grid,
         np.empty(CROSSINGS_SIZE),
         np.empty((MAX_CROSSINGS, 2)),
         np.zeros(PLACEMENT_SIZE),
         np.empty(THREAD_JET_SIZE),
+        samples,
     )
+
+
+@kernel()
+def set_samples(parts: int, bolt: Array, nut: Array, samples: Array) -> None:
+    """Sets the samples of both edges, each interval divided into parts."""
+    samples[S_PARTS] = parts
+    count = SAMPLES * parts
+    step = TWO_PI / count
+    for i in range(2 * count):
+        curve = bolt if i < count else nut
+        theta = (i % count) * step
+        r = pk.radius(-curve[pk.LEAD] / TWO_PI * theta, curve)
+        samples[S_POINTS + 2 * i] = r * math.cos(theta)
+        samples[S_POINTS + 2 * i + 1] = r * math.sin(theta)
+
+
+@kernel()
+def sample_depth(of_bolt: bool, i: int, floor: float, place: Array, samples: Array, solid: Array) -> float:
+    """The lesser of g and phi of an edge's i-th sample; where g is below ``floor``, g."""
+    sigma = 1.0 if of_bolt else -1.0
+    x, y, z = moved_point(of_bolt, place, samples[2 * i], samples[2 * i + 1], 0.0)
+    g = -sigma * z
+    if g < floor:
+        return g
+    k = solid[pk.LEAD] / TWO_PI
+    return min(g, sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), solid)))
 
 
 @kernel()
@@ -187,23 +222,27 @@ def find_places(
     jet = work[W_JET : W_JET + EDGE_JET_SIZE]
     depth = work[W_DEPTH : W_DEPTH + SAMPLES]
     parts = int(device[D_FINE])
+    if threads[5][S_PARTS] != parts:
+        set_samples(parts, bolt, nut, threads[5])
     all_fine = SAMPLES * parts
     fine = work[W_FINE : W_FINE + all_fine]
     step = TWO_PI / all_fine
     floor = -reach - SCAN_REACH * bolt[pk.R_MAJOR]
+    lowest = -reach - step * bolt[pk.R_MAJOR]
     for part in range(2):
         of_bolt = part == 0
         curve = bolt if of_bolt else nut
         solid = nut if of_bolt else bolt
+        samples = threads[5][S_POINTS + 2 * part * all_fine :]
         for i in range(SAMPLES):
-            depth[i] = edge_depth(of_bolt, i * parts * step, place, curve, solid)
+            depth[i] = sample_depth(of_bolt, i * parts, min(floor, lowest), place, samples, solid)
         for i in range(SAMPLES):
             divided = max(depth[i], depth[i + 1 if i < SAMPLES - 1 else 0]) > floor
             fine[i * parts] = depth[i]
             for j in range(i * parts + 1, (i + 1) * parts):
-                fine[j] = edge_depth(of_bolt, j * step, place, curve, solid) if divided else -math.inf
+                fine[j] = sample_depth(of_bolt, j, lowest, place, samples, solid) if divided else -math.inf
         for i in range(all_fine):
-            if fine[i] < -reach - step * bolt[pk.R_MAJOR]:
+            if fine[i] < lowest:
                 continue
             if fine[i] < fine[i - 1 if i > 0 else all_fine - 1] or fine[i] < fine[i + 1 if i < all_fine - 1 else 0]:
                 continue
@@ -236,7 +275,7 @@ def add_threads(
     places: Array,
 ) -> int:
     """Adds the places at which thread overlaps thread away from both edges; returns the number of places then."""
-    grid, crossings, maxima, placement, jet = threads
+    grid, crossings, maxima, placement, jet, _ = threads
     for i in range(9):
         placement[i] = place[N_ROTATION + i]
     for i in range(3):
