@@ -135,6 +135,8 @@ class Found:
     milliseconds: list[float] = field(default_factory=list)
     gains: list[float] = field(default_factory=list)
     """Of minima by brute force: their potential above the state's, over push times nominal radius."""
+    undecided: list[str] = field(default_factory=list)
+    """Commands without an answer, with the reason."""
     faults: list[str] = field(default_factory=list)
 
     def add(self, other: Found) -> None:
@@ -149,14 +151,17 @@ class Found:
         self.residual = max(self.residual, other.residual)
         self.milliseconds += other.milliseconds
         self.gains += other.gains
+        self.undecided += other.undecided
         self.faults += other.faults
 
-    def add_state(self, state: SettledState, milliseconds: float) -> None:
+    def add_state(self, state: SettledState, milliseconds: float, name: str) -> None:
         """Count a state."""
         self.states += 1
         self.outcomes[", ".join([state.outcome.value, *(flag.value for flag in state.flags)])] += 1
         self.falls += len(state.falls) > 0
         self.milliseconds.append(milliseconds)
+        if state.outcome is Outcome.UNDECIDED:
+            self.undecided.append(f"{name}: {', '.join(flag.value for flag in state.flags)}")
         if state.outcome is Outcome.SETTLED:
             self.contacts[len(state.contacts)] += 1
 
@@ -182,7 +187,7 @@ class Item:
         """Its state, counted."""
         start = time.process_time()
         state = settle_pose(self.pair, *self.pose_deg, self.device)
-        found.add_state(state, 1e3 * (time.process_time() - start))
+        found.add_state(state, 1e3 * (time.process_time() - start), self.name)
         return state
 
 

@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._ridge_grid_kernel import CROSSINGS_SIZE, GRID_SIZE, MAX_CROSSINGS, set_columns
-from threadstate.contact._ridge_kernel import nearby_maximum, ridge_maxima
+from threadstate.contact._ridge_kernel import (
+    FIRST_RIDGE_STEP,
+    FIRST_WINDOW,
+    bracketed_maximum,
+    nearby_maximum,
+    ridge_maxima,
+)
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -39,6 +45,7 @@ from threadstate.device._gap_kernel import (
     EDGE_JET_SIZE,
     G_PAIR,
     G_POINT,
+    G_THETA,
     GAP_WORK,
     moved_point,
     set_edge_jet,
@@ -275,7 +282,7 @@ def add_threads(
     places: Array,
 ) -> int:
     """Adds the places at which thread overlaps thread away from both edges; returns the number of places then."""
-    grid, crossings, maxima, placement, jet, _ = threads
+    grid, crossings, maxima, placement, _, _ = threads
     for i in range(9):
         placement[i] = place[N_ROTATION + i]
     for i in range(3):
@@ -284,14 +291,61 @@ def add_threads(
     lowest = place[N_OFFSET + 2] - bolt[pk.R_MAJOR] * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
     if lowest > 0.0:
         return count
+    edges = count
     for j in range(ridge_maxima(RIDGE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
-        theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
-        if not converged or jet[J_PHI] < -reach or z <= 0.0 or jet[J_Z] >= 0.0:
-            continue
-        theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
-        if converged and jet[J_PHI] >= -reach and z > 0.0 and jet[J_Z] < 0.0:
-            count = add_place(THREAD_THREAD, theta, z, place, device, bolt, nut, work, count, places)
+        count = add_thread(maxima[j, 0], maxima[j, 1], reach, place, device, bolt, nut, threads, work, count, places)
+    # A ridge that goes from one edge to the other between two azimuths of the grid ends at a maximum along the edge.
+    for i in range(edges):
+        pair = int(places[i, G_PAIR])
+        theta, z = places[i, G_THETA], 0.0
+        if pair == THREAD_EDGE:
+            x, y, z = moved_point(False, place, places[i, G_POINT], places[i, G_POINT + 1], places[i, G_POINT + 2])
+            theta = math.atan2(y, x)
+        if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
+            count = add_thread(theta, z, reach, place, device, bolt, nut, threads, work, count, places)
     return count
+
+
+@kernel()
+def add_thread(
+    theta: float,
+    z: float,
+    reach: float,
+    place: Array,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Array,
+    count: int,
+    places: Array,
+) -> int:
+    """Adds the maximum of phi near a point of the bolt's thread, if it is inside both threads; the number of places."""
+    placement, jet = threads[3], threads[4]
+    theta, z, converged = thread_maximum(theta, z, placement, bolt, nut, jet)
+    if not converged or jet[J_PHI] < -reach or z <= 0.0 or jet[J_Z] >= 0.0:
+        return count
+    theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
+    if converged and jet[J_PHI] >= -reach and z > 0.0 and jet[J_Z] < 0.0:
+        return add_place(THREAD_THREAD, theta, z, place, device, bolt, nut, work, count, places)
+    return count
+
+
+@kernel()
+def thread_maximum(
+    theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, float, bool]:
+    """The maximum of phi over the bolt's thread that is near a point of a ridge; whether there is one.
+
+    By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge.
+    """
+    at, up, converged = nearby_maximum(theta, z, 0.0, placement, bolt, nut, jet)
+    if not converged:
+        at, up, converged = bracketed_maximum(
+            theta, z, FIRST_RIDGE_STEP, FIRST_WINDOW * bolt[pk.P], placement, bolt, nut, jet
+        )
+        set_thread_jet(at, up, placement, bolt, nut, jet)
+    return at, up, converged
 
 
 @kernel()

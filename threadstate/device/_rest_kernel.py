@@ -362,6 +362,10 @@ def descend(
         size = short_descent(n, count, push, r, work)
         if size <= tolerance * push:
             return AT_REST, count
+        # What it costs to leave the overlaps that are left: opposed contacts carry more than the push.
+        owed = noise * push * r
+        for i in range(count):
+            owed += max(multipliers[i] * places[i, G_VALUE], 0.0)
         set_model(n, count, device, STIFFENING * stiffness, work)
         for i in range(count):
             copy_numbers(places[i], saved[i])
@@ -390,7 +394,7 @@ def descend(
                 moved, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work
             )
             energy = elastic_energy(moved, device, by_q) + push * moved[5]
-            if is_out and energy <= potential + noise * push * r:
+            if is_out and energy <= potential + owed:
                 accepted = True
                 count = trial_count
                 copy_numbers(moved, q)
