@@ -33,6 +33,8 @@ FINEST = 1e-6
 """Stretch of the thread (rad) that is not narrowed any more: a depth is off by some 1e-12 radii then."""
 NEAR = 2e-3
 """Samples whose depth is within this part of the bolt's diameter of the greatest are zoomed on."""
+FAR = 0.05
+"""Of a point that is by so many radii or more outside the other part's flat face that distance is the answer."""
 THREAD_NEAR = 5e-3
 """The same of samples of the thread, which are farther apart."""
 TOUCHING = 1e-13
@@ -55,6 +57,8 @@ def _depth(part: int, u: float, v: float, rot: Floats, t: Floats, bolt: Floats, 
         bx = rot[0, 0] * x + rot[1, 0] * y + rot[2, 0] * z
         by = rot[0, 1] * x + rot[1, 1] * y + rot[2, 1] * z
         bz = rot[0, 2] * x + rot[1, 2] * y + rot[2, 2] * z
+        if bz < -FAR * bolt[R_LARGE]:
+            return bz
         inside = radius(bz - bolt[LEAD] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
         return min(inside, bz)
     r = radius(v - bolt[LEAD] * u / _TWO_PI, bolt)
@@ -62,6 +66,8 @@ def _depth(part: int, u: float, v: float, rot: Floats, t: Floats, bolt: Floats, 
     x = rot[0, 0] * bx + rot[0, 1] * by + rot[0, 2] * v + t[0]
     y = rot[1, 0] * bx + rot[1, 1] * by + rot[1, 2] * v + t[1]
     z = rot[2, 0] * bx + rot[2, 1] * by + rot[2, 2] * v + t[2]
+    if z > FAR * bolt[R_LARGE]:
+        return -z
     inside = math.sqrt(x * x + y * y) - radius(z - nut[LEAD] * math.atan2(y, x) / _TWO_PI, nut)
     return min(inside, -z)
 

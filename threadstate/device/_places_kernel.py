@@ -14,10 +14,17 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._ridge_grid_kernel import CROSSINGS_SIZE, GRID_SIZE, MAX_CROSSINGS, set_columns
+from threadstate.contact._ridge_grid_kernel import (
+    CROSSINGS_SIZE,
+    GRID_SIZE,
+    MAX_AZIMUTHS,
+    MAX_CROSSINGS,
+    set_columns,
+)
 from threadstate.contact._ridge_kernel import (
     FIRST_RIDGE_STEP,
     FIRST_WINDOW,
+    LATER_RIDGE_STEP,
     bracketed_maximum,
     nearby_maximum,
     ridge_maxima,
@@ -82,8 +89,9 @@ Threads = tuple[Array, Array, Array, Array, Array, Array]
 samples of both edges, which the first search sets.
 """
 
-# Samples of both edges: into how many parts an interval is divided, then x and y of the bolt's, then of the nut's.
-S_PARTS, S_POINTS = 0, 1
+# Azimuths of the grid; of the edges' samples into how many parts an interval is divided, then x and y of the bolt's,
+# then of the nut's.
+S_AZIMUTHS, S_PARTS, S_POINTS = 0, 1, 2
 SAMPLES_SIZE = S_POINTS + 4 * SAMPLES * FINEST
 
 
@@ -91,8 +99,9 @@ SAMPLES_SIZE = S_POINTS + 4 * SAMPLES * FINEST
 def new_threads(bolt: Array) -> Threads:
     """The work of the search of places for a pair, of which this is the bolt."""
     grid = np.empty(GRID_SIZE)
-    set_columns(RIDGE_AZIMUTHS, bolt, grid)
     samples = np.empty(SAMPLES_SIZE)
+    set_columns(RIDGE_AZIMUTHS, bolt, grid)
+    samples[S_AZIMUTHS] = RIDGE_AZIMUTHS
     samples[S_PARTS] = 0.0
     return (
         grid,
@@ -102,6 +111,12 @@ def new_threads(bolt: Array) -> Threads:
         np.empty(THREAD_JET_SIZE),
         samples,
     )
+
+
+@kernel()
+def thread_azimuths(device: Array) -> int:
+    """On how many azimuths of the bolt's thread ridges are searched: twice as many where edges are sampled finest."""
+    return RIDGE_AZIMUTHS if device[D_FINE] == FINE else MAX_AZIMUTHS
 
 
 @kernel()
@@ -282,7 +297,7 @@ def add_threads(
     places: Array,
 ) -> int:
     """Adds the places at which thread overlaps thread away from both edges; returns the number of places then."""
-    grid, crossings, maxima, placement, _, _ = threads
+    grid, crossings, maxima, placement, _, samples = threads
     for i in range(9):
         placement[i] = place[N_ROTATION + i]
     for i in range(3):
@@ -292,7 +307,11 @@ def add_threads(
     if lowest > 0.0:
         return count
     edges = count
-    for j in range(ridge_maxima(RIDGE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
+    azimuths = thread_azimuths(device)
+    if samples[S_AZIMUTHS] != azimuths:
+        set_columns(azimuths, bolt, grid)
+        samples[S_AZIMUTHS] = azimuths
+    for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
         count = add_thread(maxima[j, 0], maxima[j, 1], reach, place, device, bolt, nut, threads, work, count, places)
     # A ridge that goes from one edge to the other between two azimuths of the grid ends at a maximum along the edge.
     for i in range(edges):
@@ -337,14 +356,15 @@ def thread_maximum(
 ) -> tuple[float, float, bool]:
     """The maximum of phi over the bolt's thread that is near a point of a ridge; whether there is one.
 
-    By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge.
+    By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge: long
+    ones, and short ones where the ridge is short.
     """
     at, up, converged = nearby_maximum(theta, z, 0.0, placement, bolt, nut, jet)
-    if not converged:
-        at, up, converged = bracketed_maximum(
-            theta, z, FIRST_RIDGE_STEP, FIRST_WINDOW * bolt[pk.P], placement, bolt, nut, jet
-        )
-        set_thread_jet(at, up, placement, bolt, nut, jet)
+    for step in (FIRST_RIDGE_STEP, LATER_RIDGE_STEP):
+        if not converged:
+            window = FIRST_WINDOW * bolt[pk.P]
+            at, up, converged = bracketed_maximum(theta, z, step, window, placement, bolt, nut, jet)
+            set_thread_jet(at, up, placement, bolt, nut, jet)
     return at, up, converged
 
 
