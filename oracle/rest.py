@@ -1,10 +1,9 @@
-"""Where a held bolt rests, by brute force: the potential over densely sampled boundaries, minimised without
-derivatives.
+"""Where a held bolt rests, by brute force: the potential over densely sampled boundaries, minimised with differences.
 
 The device and its potential are written once more from docs/device.md, and the overlap of a pose is the greatest depth
 of sampled points of both edges and of the bolt's thread in the other part, zoomed on where it is near zero. The height
-is the one at which that vanishes; the other coordinates are found by a simplex search (Nelder and Mead), restarted
-until it gains nothing. Beside a pose the samples that are far from contact there are left out.
+is the one at which that vanishes. A minimum is found by programs on the depths at the peaks among the samples, whose
+slopes are differences. Beside a pose the samples that are far from contact there are left out.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize
 
 from oracle.compiled import compiled
 from oracle.profile import LEAD, R_LARGE, P, bolt_profile, nut_profile, radius
@@ -39,8 +39,10 @@ THREAD_NEAR = 5e-3
 """The same of samples of the thread, which are farther apart."""
 TOUCHING = 1e-13
 """Overlap, in diameters, that is a touch: the depth where both edges cross is no better."""
-SHRUNK = 1e-2
-"""Of a simplex, the part of its size at which it has found its minimum."""
+DIFFERENCE = 1e-6
+"""Of coordinates over the radius, for slopes of depths."""
+LEAST_BOX = 1e-6
+"""The smallest box of a program, in diameters."""
 REACH = 0.2
 """How far from where it is looked for a height may be, in thread pitches."""
 COORDINATES = 5
@@ -178,6 +180,46 @@ def overlap_depth(rot: Floats, t: Floats, chosen: Indices, enough: float, bolt: 
 
 
 @compiled
+def peak_near(i: int, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> float:
+    """The greatest depth near the i-th sample."""
+    if i < THREAD_FROM:
+        step = _TWO_PI / EDGE_SAMPLES
+        return _zoom(i // EDGE_SAMPLES, (i % EDGE_SAMPLES) * step, 2.0 * step, 0.0, 0.0, rot, t, bolt, nut)
+    around, along = divmod(i - THREAD_FROM, ALONG + 1)
+    u, v = _TWO_PI * around / AROUND, bolt[P] * along / ALONG
+    return _zoom(2, u, _TWO_PI / AROUND, v, bolt[P] / ALONG, rot, t, bolt, nut)
+
+
+@compiled
+def peak_samples(window: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> Indices:
+    """The samples that are no less deep than those beside them, and deeper than ``-window`` (a length)."""
+    depth = np.empty(ALL_SAMPLES)
+    for i in range(ALL_SAMPLES):
+        depth[i] = sample_depth(i, rot, t, bolt, nut)
+    found = np.empty(ALL_SAMPLES, dtype=np.int64)
+    count = 0
+    for i in range(ALL_SAMPLES):
+        if depth[i] <= -window:
+            continue
+        if i < THREAD_FROM:
+            first = i - i % EDGE_SAMPLES
+            before, after = first + (i - 1) % EDGE_SAMPLES, first + (i + 1) % EDGE_SAMPLES
+            if depth[i] < depth[before] or depth[i] < depth[after]:
+                continue
+        else:
+            around, along = divmod(i - THREAD_FROM, ALONG + 1)
+            if along == ALONG or depth[i] < depth[i + 1] or (along > 0 and depth[i] < depth[i - 1]):
+                continue
+            before = THREAD_FROM + (around - 1) % AROUND * (ALONG + 1) + along
+            after = THREAD_FROM + (around + 1) % AROUND * (ALONG + 1) + along
+            if depth[i] < depth[before] or depth[i] < depth[after]:
+                continue
+        found[count] = i
+        count += 1
+    return found[:count].copy()
+
+
+@compiled
 def touching_height(
     rot: Floats, x: float, y: float, start: float, reach: float, chosen: Indices, bolt: Floats, nut: Floats
 ) -> float:
@@ -306,60 +348,31 @@ def _free_beside(
 
 
 @compiled
-def _simplex(
-    place: Floats,
-    sizes: Floats,
-    start: float,
-    command: Floats,
-    stiffness: Floats,
-    numbers: tuple[float, float, float],
-    chosen: Indices,
-    bolt: Floats,
-    nut: Floats,
-) -> Floats:
-    """The place that a downhill simplex leads to until it has shrunk to ``SHRUNK``; a size of zero stays as it is."""
-    axes = np.flatnonzero(sizes)
-    count = len(axes)
-    points = np.empty((count + 1, COORDINATES))
-    values = np.empty(count + 1)
-    for i in range(count + 1):
-        points[i] = place
-        if i > 0:
-            points[i, axes[i - 1]] += sizes[axes[i - 1]]
-        values[i], _ = _potential(points[i], start, command, stiffness, numbers, chosen, bolt, nut)
-    for _ in range(200 * count):
-        order = np.argsort(values)
-        points, values = points[order], values[order]
-        spread = 0.0
-        for i in range(1, count + 1):
-            for j in axes:
-                spread = max(spread, abs(points[i, j] - points[0, j]) / sizes[j])
-        if spread < SHRUNK:
-            break
-        middle = np.zeros(COORDINATES)
-        for i in range(count):
-            middle += points[i] / count
-        last = points[count].copy()
-        reflected = 2.0 * middle - last
-        at_reflected, _ = _potential(reflected, start, command, stiffness, numbers, chosen, bolt, nut)
-        if at_reflected < values[0]:
-            trial = 3.0 * middle - 2.0 * last
-            value, _ = _potential(trial, start, command, stiffness, numbers, chosen, bolt, nut)
-            if value >= at_reflected:
-                trial, value = reflected, at_reflected
-        elif at_reflected < values[count - 1]:
-            trial, value = reflected, at_reflected
-        else:
-            part = 0.5 if at_reflected < values[count] else -0.5
-            trial = middle + part * (middle - last)
-            value, _ = _potential(trial, start, command, stiffness, numbers, chosen, bolt, nut)
-            if value >= min(at_reflected, values[count]):
-                for i in range(1, count + 1):
-                    points[i] = points[0] + 0.5 * (points[i] - points[0])
-                    values[i], _ = _potential(points[i], start, command, stiffness, numbers, chosen, bolt, nut)
-                continue
-        points[count], values[count] = trial, value
-    return points[np.argmin(values)].copy()
+def _peaks_and_slopes(
+    x: Floats, axes: Indices, command: Floats, centre: float, peaks: Indices, bolt: Floats, nut: Floats
+) -> tuple[Floats, Floats]:
+    """The depths at peaks, and their central differences by the coordinates on the axes.
+
+    Coordinates are a rotation vector and the compliance centre over the largest radius; so are the depths.
+    """
+    r = bolt[R_LARGE]
+    values = np.empty(len(peaks))
+    slopes = np.empty((len(peaks), len(axes)))
+    for k in range(2 * len(axes) + 1):
+        y = x.copy()
+        if k > 0:
+            y[axes[(k - 1) // 2]] += DIFFERENCE if k % 2 == 1 else -DIFFERENCE
+        rot = turned(command, y[0], y[1], y[2])
+        t = r * y[3:6] - centre * rot[:, 2]
+        for m in range(len(peaks)):
+            depth = peak_near(peaks[m], rot, t, bolt, nut) / r
+            if k == 0:
+                values[m] = depth
+            elif k % 2 == 1:
+                slopes[m, (k - 1) // 2] = depth / (2.0 * DIFFERENCE)
+            else:
+                slopes[m, (k - 1) // 2] -= depth / (2.0 * DIFFERENCE)
+    return values, slopes
 
 
 @dataclass(frozen=True)
@@ -427,24 +440,73 @@ class HeldBolt:
         found = _free_beside(place, steps, value - lower, height, *self._numbers(None), chosen, *self._profiles())
         return int(found)
 
-    def lowest_near(
-        self, place: Floats, start: float, size: float, least: float, push: float | None = None
+    def lowest_by_programs(
+        self, place: Floats, height: float, size: float, push: float | None = None
     ) -> tuple[Floats, float, float]:
-        """The minimum of the potential that a simplex of a size (a length) leads to: place, height and potential.
+        """The minimum of the potential near a place, by programs on the depths at peaks: place, height and potential.
 
-        The search is restarted from where it ended, with ever smaller simplices, down to the size ``least``.
+        A program has the peaks of where it begins, differences for slopes, and a box of a size (a length), and is
+        solved by SLSQP; after it the bolt is raised or lowered until it touches. A box that gains nothing is halved.
         """
+        value, height = self.potential(place, height, push=push)
         best = place
-        value, height = self.potential(best, start, push=push)
-        while True:
-            chosen = self.near(best, height, 4.0 * size)
-            found = _simplex(best, size * self.scale, height, *self._numbers(push), chosen, *self._profiles())
+        while size > LEAST_BOX * self.pair.nominal_diameter:
+            found = self._program(best, height, size, push)
             lowest, there = self.potential(found, height, push=push)
-            if lowest < value:
+            if lowest < value - 1e-13 * self.push * self.pair.nominal_diameter:
                 best, value, height = found, lowest, there
-            if size <= least:
-                return best, height, value
-            size *= 0.1
+            else:
+                size *= 0.25
+        return best, height, value
+
+    def _program(self, place: Floats, height: float, size: float, push: float | None) -> Floats:
+        bolt, nut = self._profiles()
+        r = float(bolt[R_LARGE])
+        rot, origin = self.rotation(place), self.origin(place, height)
+        peaks = peak_samples(2.0 * size + NEAR * self.pair.nominal_diameter, rot, origin, bolt, nut)
+        start = np.concatenate([place[:3], (origin + self.centre * rot[:, 2]) / r])
+        axes = np.array([0, 1, 3, 4, 5] if self.twist_is_rigid else [0, 1, 2, 3, 4, 5])
+        at_rest = np.array([0.0, 0.0, 0.0, *(self.centre * self.command[:, 2] + np.array([0.0, 0.0, self.first]))])
+        lengths = np.array([1.0, 1.0, 1.0, r, r, r])
+        weight = (self.push if push is None else push) * r
+
+        def whole(x: Floats) -> Floats:
+            y = start.copy()
+            y[axes] = x
+            return y
+
+        def potential(x: Floats) -> tuple[float, Floats]:
+            y = whole(x)
+            deviation = lengths * y - at_rest
+            force = self.stiffness @ deviation
+            slope = lengths * force
+            slope[5] += weight
+            return (0.5 * deviation @ force + weight * y[5]) / weight, slope[axes] / weight
+
+        last: list[tuple[Floats, Floats, Floats]] = []
+
+        def depths(x: Floats) -> tuple[Floats, Floats]:
+            if not last or not np.array_equal(last[0][0], x):
+                values, slopes = _peaks_and_slopes(whole(x), axes, self.command, self.centre, peaks, bolt, nut)
+                last[:] = [(x.copy(), -values, -slopes)]
+            return last[0][1:]
+
+        end = minimize(
+            potential,
+            start[axes],
+            jac=True,
+            method="SLSQP",
+            bounds=[(x - size / r, x + size / r) for x in start[axes]],
+            constraints={
+                "type": "ineq",
+                "fun": lambda x: depths(x)[0],
+                "jac": lambda x: depths(x)[1],
+            },
+            options={"maxiter": 15, "ftol": 1e-15},
+        )
+        found = whole(np.asarray(end.x))
+        shift = r * found[3:5] - self.centre * self.command[:2, 2]
+        return np.concatenate([found[:3], shift])
 
     def _numbers(self, push: float | None) -> tuple[Floats, Floats, tuple[float, float, float]]:
         return self.command, self.stiffness, (self.centre, self.push if push is None else push, self.first)

@@ -35,11 +35,12 @@ NEAR_PHASE_DEG = 20.0
 DIRECTIONS = 100
 BESIDE = 2e-3
 """How far beside a state (nominal radii) the brute force begins."""
-LEAST_SIMPLEX = 2e-5
-CAME_BACK = 1e-5
-"""Potential above the state's (push times nominal radius) up to which a simplex has come back to it."""
-FOLLOW_PARTS, FOLLOW_SIMPLEX = 8, 8e-3
-"""Parts of the push in which the brute force follows it, and its simplex on the way."""
+BOX = 2e-3
+"""Its steps, in nominal radii."""
+CAME_BACK = 1e-8
+"""Potential above the state's (push times nominal radius) up to which the brute force has found it again."""
+FOLLOW_PARTS = 16
+"""Parts of the push in which the brute force follows it."""
 
 PAIRS = (
     "1/4-20 UNC",
@@ -94,13 +95,12 @@ class Task:
 
 @dataclass(frozen=True)
 class Amount:
-    """How many items of each part; of changed ones, how many centres and changes of each."""
+    """How many items of each part; of changed ones, how many centres."""
 
     random: int
     beside: int
     followed: int
     centres: int
-    changes: int
 
 
 ITEMS_A_TASK = {Part.RANDOM: 100, Part.BESIDE: 5, Part.FOLLOWED: 1, Part.CHANGED: 25}
@@ -233,13 +233,12 @@ def _look_for_minimum(one: Item, state: SettledState, part: Part, choose: np.ran
     if part is Part.BESIDE:
         way = choose.standard_normal(5) * (held.scale > 0.0)
         beside = place + BESIDE * r / np.linalg.norm(way) * way * held.scale
-        _, _, lowest = held.lowest_near(beside, height, BESIDE * r, LEAST_SIMPLEX * r)
+        _, _, lowest = held.lowest_by_programs(beside, height, BOX * r)
     else:
         at, up = np.zeros(5), held.first
         for share in range(1, FOLLOW_PARTS + 1):
             push = held.push * share / FOLLOW_PARTS
-            at, up, _ = held.lowest_near(at, up, FOLLOW_SIMPLEX * r, FOLLOW_SIMPLEX * r, push)
-        _, _, lowest = held.lowest_near(at, up, BESIDE * r, LEAST_SIMPLEX * r)
+            at, up, lowest = held.lowest_by_programs(at, up, BOX * r, push)
     gain = (lowest - value) / (held.push * r)
     found.gains.append(gain)
     if gain < -1e-10 and part is Part.BESIDE:
