@@ -297,7 +297,7 @@ def add_threads(
     places: Array,
 ) -> int:
     """Adds the places at which thread overlaps thread away from both edges; returns the number of places then."""
-    grid, crossings, maxima, placement, _, samples = threads
+    grid, crossings, maxima, placement, jet, samples = threads
     for i in range(9):
         placement[i] = place[N_ROTATION + i]
     for i in range(3):
@@ -313,15 +313,18 @@ def add_threads(
         samples[S_AZIMUTHS] = azimuths
     for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
         count = add_thread(maxima[j, 0], maxima[j, 1], reach, place, device, bolt, nut, threads, work, count, places)
-    # A ridge that goes from one edge to the other between two azimuths of the grid ends at a maximum along the edge.
+    # A ridge that goes from one edge to the other between two azimuths of the grid ends at a maximum along the edge,
+    # from which phi rises into both threads: up the bolt's from its base, down it from the nut's surface.
     for i in range(edges):
         pair = int(places[i, G_PAIR])
-        theta, z = places[i, G_THETA], 0.0
+        theta, z, inward = places[i, G_THETA], 0.0, 1.0
         if pair == THREAD_EDGE:
             x, y, z = moved_point(False, place, places[i, G_POINT], places[i, G_POINT + 1], places[i, G_POINT + 2])
-            theta = math.atan2(y, x)
+            theta, inward = math.atan2(y, x), -1.0
         if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
-            count = add_thread(theta, z, reach, place, device, bolt, nut, threads, work, count, places)
+            set_thread_jet(theta, z, placement, bolt, nut, jet)
+            if inward * jet[J_B] > 0.0:
+                count = add_thread(theta, z, reach, place, device, bolt, nut, threads, work, count, places)
     return count
 
 
