@@ -51,7 +51,7 @@ it begins {number_text(BESIDE)} r beside the state. *Followed*: it begins at the
 state's. Where it is higher it has found another minimum, or has stopped before one; lower from beside would contradict
 the state. A push that is followed may end elsewhere where the bolt falls, as the search does not descend steepest.
 
-{table(("search", "states", "found again", "higher", "lower", "lowest by (F r)"), minima)}
+{table(("search", "states", "found again", "higher", "lower", "least (F r)"), minima)}
 
 ## Changed commands, dimensions and devices
 
@@ -91,8 +91,8 @@ def _minima(found: Mapping[Part, Found], part: Part) -> list[str]:
     gains = np.array(found[part].gains)
     again = np.abs(gains) <= CAME_BACK
     higher, lower = int((gains > CAME_BACK).sum()), int((gains < -CAME_BACK).sum())
-    lowest = f"{-gains.min():.1e}" if len(gains) else ""
-    return [part.value, f"{len(gains):,}", f"{int(again.sum()):,}", f"{higher:,}", f"{lower:,}", lowest]
+    least = f"{gains.min():.1e}" if len(gains) else ""
+    return [part.value, f"{len(gains):,}", f"{int(again.sum()):,}", f"{higher:,}", f"{lower:,}", least]
 
 
 def _listed(title: str, lines: list[str]) -> str:

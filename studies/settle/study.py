@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from studies.methods import with_dimensions
 from studies.settle.check import Checked, check, held_bolt, place_of
+from threadstate.device.compile import load_device
 from threadstate.device.document import device_from_document
 from threadstate.device.model import Device, Outcome, SettledState
 from threadstate.device.settle import settle_pose
@@ -206,8 +207,15 @@ def item(part: Part, number: int) -> tuple[Item, np.random.Generator]:
     return Item(pair_of(pair), device_of(device), pose, name), choose
 
 
+@cache
+def _load_kernels() -> None:
+    """Load the kernels once a process, so that no state's time has it."""
+    load_device()
+
+
 def done(task: Task) -> Found:
     """What a task finds."""
+    _load_kernels()
     found = Found()
     for number in range(task.first, task.first + task.count):
         one, choose = item(task.part, number)
