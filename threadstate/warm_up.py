@@ -25,6 +25,8 @@ in phase (a strip of flank), level and out of phase (a patch), tilted (all that 
 
 COMPILE_SEARCH = "from threadstate.contact._search_kernel import search_address; search_address()"
 COMPILE_DEVICE = "from threadstate.device.compile import compile_without_search; compile_without_search()"
+COMPILE_TURNING = "from threadstate.device.compile import compile_turning; compile_turning()"
+COMPILE_FRICTION = "from threadstate.device.compile import compile_friction; compile_friction()"
 COMPILE_STATICS = "from threadstate.statics.compile import compile_without_states; compile_without_states()"
 
 _LAST_COMPILED = ("_solve_kernel.solve_with-*.nbc", "_stage_kernel.earliest-*.nbc")
@@ -56,7 +58,7 @@ def load_kernels_exclusively() -> None:
 
 
 def main() -> None:
-    """Load the kernels and report the progress; where the cache has none, four processes compile them."""
+    """Load the kernels and report the progress; where the cache has none, six processes compile them."""
     start = time.perf_counter()
     if kernels_are_compiled():
         print(f"Loading the kernels from {_cache()} ...", flush=True)
@@ -64,7 +66,7 @@ def main() -> None:
         print(f"Compiling the kernels into {_cache()}: once, about a minute ...", flush=True)
         # Each finds in the cache what the other has compiled by then; what fails there is compiled here.
         with ExitStack() as stack:
-            for code in (COMPILE_SEARCH, COMPILE_DEVICE, COMPILE_STATICS):
+            for code in (COMPILE_SEARCH, COMPILE_DEVICE, COMPILE_TURNING, COMPILE_FRICTION, COMPILE_STATICS):
                 stack.enter_context(subprocess.Popen([sys.executable, "-c", code]))  # nosec B603 - fixed code
             compile_all_but_search()
     load_kernels()

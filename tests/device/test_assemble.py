@@ -167,9 +167,10 @@ def test_deep_in_the_nut_samples_of_all_boundaries_touch_and_do_not_overlap(pape
     """A brute force that samples both threads finds the height of a bolt deeper than half a pitch."""
     point = paper.points[-1]
     command = pose_rotation(0.0, -4.0, point.phase_deg)
-    held = HeldBolt(UNC, command, k_lateral=508.0, k_tilt=500.0 / 25.4, centre=0.0, push=PUSH)
-    place = np.array([*np.radians(point.rotation_deg[:2]), *point.shift[:2]])
-    assert held.height(place, height(point), with_thread=True) == pytest.approx(height(point), abs=1e-8)
+    held = HeldBolt(UNC, command, np.zeros((6, 6)), centre=0.0, push=PUSH, first=0.0)
+    place = np.array([*np.radians(point.rotation_deg[:2]), 0.0, *point.shift[:2]])
+    assert held.overlap(place, height(point)) == pytest.approx(0.0, abs=1e-8)
+    assert held.overlap(place, height(point) - 1e-6) > 1e-8
 
 
 def test_a_left_hand_pair_is_the_mirror_image(paper: AssemblyPath) -> None:

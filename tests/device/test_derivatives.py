@@ -52,7 +52,7 @@ class Search:
 
     def __init__(self, pair: Pair, command: Floats) -> None:
         self._pair = pair
-        self._device = device(command)
+        self.device = device(command)
         self._threads = pl.new_threads(pair.bolt.packed)
         self._work = np.zeros(pl.PLACES_WORK)
 
@@ -60,9 +60,9 @@ class Search:
         """The places above ``-reach``."""
         place = np.zeros(ck.PLACE_SIZE)
         places = np.zeros((pl.MAX_PLACES + 1, gk.GAP_SIZE))
-        ck.set_place(q, self._device, place)
+        ck.set_place(q, self.device, place)
         bolt, nut = self._pair.bolt.packed, self._pair.nut.packed
-        count = pl.find_places(reach, place, self._device, bolt, nut, self._threads, self._work, places)
+        count = pl.find_places(reach, place, self.device, bolt, nut, self._threads, self._work, places)
         return places[:count]
 
     def same(self, q: Floats, wanted: Floats) -> Floats:
@@ -147,3 +147,30 @@ def test_gradients_and_curvatures_of_all_features_are_those_of_differences() -> 
             assert np.abs(hessian - hessian.T).max() < 1e-9
     features = (EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD)
     assert {kind: seen.get(kind, 0) for kind in features} == dict.fromkeys(features, 3)
+
+
+def test_the_crossing_of_both_edges_is_no_place_where_the_overlap_goes_on_rising() -> None:
+    """Beside the crossing the surface takes over from the thread while its depth still rises: one place, the peak's."""
+    pair = quarter_twenty_unc()
+    search = Search(pair, commanded_rotation(4.0, -3.0, 70.0, About.NUT))
+    rng = np.random.default_rng(7)
+    seen = 0
+    for _ in range(200):
+        turn = np.array([-0.0322761, 0.0212464, 0.0]) + rng.uniform(-1e-3, 1e-3, 3) * [1.0, 1.0, 0.0]
+        q = np.concatenate([turn, [0.0, 0.0, 0.0]])
+        q[3:] += (
+            CENTRE * np.asarray(commanded_rotation(4.0, -3.0, 70.0, About.NUT).reshape(3, 3) @ expm(cross(turn)))[:, 2]
+        )
+        q[5] += 0.0059
+        place = np.zeros(ck.PLACE_SIZE)
+        ck.set_place(q, search.device, place)
+        for found in search.places(q, 0.002):
+            if int(found[gk.G_PAIR]) not in (EDGE_EDGE, EDGE_SURFACE):
+                continue
+            seen += 1
+            beside = [
+                gk.edge_depth(True, found[gk.G_THETA] + step, place, pair.bolt.packed, pair.nut.packed)
+                for step in (-1e-5, -1e-6, 1e-6, 1e-5)
+            ]
+            assert max(beside) < found[gk.G_VALUE] + 1e-15
+    assert seen >= 200

@@ -1,15 +1,18 @@
-"""Settled states beside a brute force: dense samples of the boundaries, and a search without derivatives."""
+"""Settled states beside a brute force: dense samples of the boundaries, and programs with differences for slopes."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from oracle.pose import pose_rotation
-from oracle.rest import HeldBolt, lowest_near
-from threadstate.device.model import Outcome, SettledState, default_device
-from threadstate.device.settle import settle_poses
+from studies.settle.check import LOWER, OVERLAP, RESIDUAL, check, held_bolt, place_of
+from studies.settle.study import CAME_BACK
+from threadstate.device.document import device_from_document
+from threadstate.device.model import Device, Outcome, SettledFlag, SettledState, default_device
+from threadstate.device.settle import settle_pose, settle_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
@@ -18,26 +21,8 @@ Floats = NDArray[np.float64]
 
 UNC = quarter_twenty_unc()
 R = UNC.nominal_diameter / 2.0
-PUSH = default_device().push
-AS_ANGLE = np.array([1.0 / R, 1.0 / R, 1.0, 1.0])
-"""Lengths become angles over the radius, and stay shifts."""
-
-
-def held_bolt(state: SettledState) -> HeldBolt:
-    """The default device at a state's command, its numbers as declared, over 25.4."""
-    command = pose_rotation(state.roll_deg, state.pitch_deg, state.phase_deg)
-    return HeldBolt(UNC, command, k_lateral=20.0 * 25.4, k_tilt=500.0 / 25.4, centre=0.0, push=PUSH)
-
-
-def place_of(state: SettledState) -> tuple[Floats, float, float]:
-    """The two angles and the shift across, the height of the origin, and the potential."""
-    assert state.pose is not None
-    assert state.shift is not None
-    assert state.rotation_deg is not None
-    assert state.elastic_energy is not None
-    height = state.pose.translation[2]
-    place = np.array([*np.radians(state.rotation_deg[:2]), *state.shift[:2]])
-    return place, height, state.elastic_energy + PUSH * height
+DEVICE = default_device()
+PUSH = DEVICE.push
 
 
 @pytest.fixture(scope="module")
@@ -51,31 +36,70 @@ def states() -> list[SettledState]:
     return found
 
 
-def test_samples_touch_where_the_solver_says_and_do_not_overlap(states: list[SettledState]) -> None:
-    for state in states:
-        place, height, _ = place_of(state)
-        assert held_bolt(state).height(place, height, with_thread=True) == pytest.approx(height, abs=1e-10)
-
-
-def test_no_feasible_direction_lowers_the_potential(states: list[SettledState]) -> None:
-    """40 random directions each, of steps of 1e-5 to 1e-3 nominal radii, at the height at which samples touch."""
+def test_samples_touch_forces_balance_and_no_place_beside_is_lower(states: list[SettledState]) -> None:
     rng = np.random.default_rng(22)
     for state in states:
-        place, height, lowest = place_of(state)
-        held = held_bolt(state)
-        for _ in range(40):
-            direction = rng.standard_normal(4)
-            step = 10.0 ** rng.uniform(-5.0, -3.0) * R * direction / np.linalg.norm(direction) * AS_ANGLE
-            value, _ = held.potential(place + step, height, PUSH, with_thread=False)
-            assert value > lowest - 1e-10 * PUSH * R
+        checked = check(UNC, DEVICE, state, 40, rng)
+        assert checked.faults == ()
+        assert abs(checked.overlap) < OVERLAP
+        assert checked.least_force > 0.0
+        assert checked.residual < RESIDUAL
 
 
-def test_a_search_from_beside_comes_back_and_finds_nothing_lower(states: list[SettledState]) -> None:
+def test_the_check_sees_a_state_that_is_none(states: list[SettledState]) -> None:
+    """Lowered by 2e-8 r it overlaps; shifted by 1e-3 r nothing balances, and places beside it are lower."""
     rng = np.random.default_rng(23)
-    for state in states[:1]:
-        place, height, lowest = place_of(state)
-        direction = rng.standard_normal(4)
-        beside = place + 5e-4 * R * direction / np.linalg.norm(direction) * AS_ANGLE
-        _, _, value = lowest_near(held_bolt(state), beside, height, PUSH, 1e-3 * R, 1e-4 * R, with_thread=False)
-        assert value > lowest - 1e-10 * PUSH * R
-        assert value < lowest + 1e-5 * PUSH * R
+    state = next(state for state in states if SettledFlag.FLUSH not in state.flags)
+    assert state.pose is not None
+    assert state.shift is not None
+    x, y, z = state.pose.translation
+    sx, sy, sz = state.shift
+    down = 2e-8 * R
+    low = replace(state, pose=replace(state.pose, translation=(x, y, z - down)), shift=(sx, sy, sz - down))
+    assert any("overlap" in fault for fault in check(UNC, DEVICE, low, 0, rng).faults)
+    aside = 1e-3 * R
+    shifted = replace(state, pose=replace(state.pose, translation=(x + aside, y, z)), shift=(sx + aside, sy, sz))
+    held = held_bolt(UNC, DEVICE, shifted)
+    _, height = held.potential(*place_of(shifted))
+    up = height - z
+    shifted = replace(
+        shifted, pose=replace(state.pose, translation=(x + aside, y, height)), shift=(sx + aside, sy, sz + up)
+    )
+    faults = check(UNC, DEVICE, shifted, 100, rng).faults
+    assert any("unbalanced" in fault for fault in faults)
+    assert any("lower" in fault for fault in faults)
+
+
+def test_the_brute_force_from_beside_comes_back(states: list[SettledState]) -> None:
+    rng = np.random.default_rng(24)
+    for state in states[:3]:
+        held = held_bolt(UNC, DEVICE, state)
+        place, height = place_of(state)
+        value, _ = held.potential(place, height)
+        way = rng.standard_normal(5) * (held.scale > 0.0)
+        beside = place + 1e-3 * R / np.linalg.norm(way) * way * held.scale
+        found, up, lowest = held.lowest_by_programs(beside, height, 2e-3 * R)
+        assert value - LOWER * PUSH * R < lowest < value + CAME_BACK * PUSH * R
+        assert np.abs(found - place).max() < 1e-4
+        assert up == pytest.approx(height, abs=1e-5 * R)
+
+
+@pytest.mark.parametrize(
+    ("changes", "pose"),
+    [
+        # A thread overlaps far from both edges, where phi is not curved downwards between azimuths of the grid.
+        ({"centre": 10.0}, (-2.666439695241727, 3.462352994878289, -3.8871175981265838)),
+        # A ridge goes from one edge to the other between two azimuths.
+        ({"k_tilt": 5000.0}, (0.6743914549129135, -3.857426925949495, 23.472914328040616)),
+        ({"centre": 10.0}, (1.5609308178094052, -2.776247934846022, 0.8886324966830593)),
+        # Opposed contacts carry a thousand times the first part of the push.
+        ({}, (-2.9750855355988373, -3.8456127419519097, -2.1992482445151387)),
+        # A fall begins so slowly that the bolt hardly moves.
+        ({"centre": -10.0}, (1.2898333143465273, -0.852635347461975, -9.421857849259325)),
+    ],
+)
+def test_poses_that_were_wrong_or_undecided(changes: dict[str, object], pose: tuple[float, float, float]) -> None:
+    device: Device = device_from_document({"unit": "mm", **changes})
+    state = settle_pose(UNC, *pose, device)
+    assert state.outcome is Outcome.SETTLED
+    assert check(UNC, device, state, 20, np.random.default_rng(25)).faults == ()

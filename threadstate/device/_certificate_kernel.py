@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._beside_kernel import keep, new_kept
 from threadstate.contact._edge_search_kernel import OUTSIDE, find_inside
-from threadstate.contact._ridge_kernel import deepest_thread_point
+from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._ridge_grid_kernel import (
+    CROSSINGS_SIZE,
+    GRID_SIZE,
+    MAX_AZIMUTHS,
+    MAX_CROSSINGS,
+    set_columns,
+)
+from threadstate.contact._ridge_kernel import deepest_thread_point, ridge_maxima
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -22,8 +30,9 @@ from threadstate.contact._stage_kernel import (
     Work,
     set_motions,
 )
+from threadstate.contact._tangency_kernel import J_PHI, J_Z, JET_SIZE, PLACEMENT_SIZE
 from threadstate.device._gap_kernel import G_PAIR, G_POINT, G_THETA
-from threadstate.device._places_kernel import MAX_PITCHES, MAX_PLACES
+from threadstate.device._places_kernel import MAX_PITCHES, MAX_PLACES, thread_maximum
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -31,6 +40,9 @@ Array = NDArray[np.float64]
 NARROW = 2e-8
 """Half-width (rad) of an overlap along an edge that is not distinguished from a contact: at most as deep as this times
 the nominal radius times the lesser slope of g and phi, some 1e-10 in on 1/4-20."""
+
+FINE_AZIMUTHS = MAX_AZIMUTHS
+"""Azimuths of the bolt's thread on which its ridges are searched."""
 
 FREE, EDGE_INSIDE, THREAD_INSIDE = range(3)
 
@@ -82,7 +94,24 @@ def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: A
                 moved[9 + i] = pose[9 + i] + turn * p * pose[3 * i + 2] + (nut_turn * p if i == 2 else 0.0)
             set_motions(moved, False, False, down, down, bolt_motion, nut_motion)
             inside, _, _, _ = deepest_thread_point(bolt_motion, limit, RIDGE_AZIMUTHS, bolt, nut)
-            if inside:
+            if inside or ridge_is_inside(moved, limit, bolt, nut):
                 return True
         turn += 1
+    return False
+
+
+@kernel()
+def ridge_is_inside(pose: Array, limit: float, bolt: Array, nut: Array) -> bool:
+    """Whether a maximum of phi along its ridges, sampled more finely than on the way, is above ``limit``."""
+    grid = np.empty(GRID_SIZE)
+    crossings = np.empty(CROSSINGS_SIZE)
+    maxima = np.empty((MAX_CROSSINGS, 2))
+    placement = np.zeros(PLACEMENT_SIZE)
+    jet = np.empty(JET_SIZE)
+    copy_numbers(pose, placement[0:12])
+    set_columns(FINE_AZIMUTHS, bolt, grid)
+    for j in range(ridge_maxima(FINE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
+        _, z, _ = thread_maximum(maxima[j, 0], maxima[j, 1], placement, bolt, nut, jet)
+        if min(jet[J_PHI], -jet[J_Z], z) > limit:
+            return True
     return False

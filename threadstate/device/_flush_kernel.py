@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
@@ -29,6 +28,16 @@ from threadstate.device._chart_kernel import (
     elastic_energy,
     set_place,
 )
+from threadstate.device._patch_kernel import (
+    H_X,
+    H_Y,
+    POINT_SIZE,
+    POINTS,
+    convex_hull,
+    hull_margin,
+    patch_points,
+    refine_side,
+)
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -38,9 +47,6 @@ NEARLY_LEVEL = 5e-3
 
 NEAR_SURFACE = 2e-2
 """How far from the nut's surface its origin may be then, in nominal radii."""
-
-OUTLINE_SAMPLES = 360
-"""Samples of each outline, of whose points in the patch the convex hull is taken: from inside."""
 
 
 @kernel()
@@ -127,102 +133,53 @@ def centre_of_pressure(q: Array, push: float, place: Array, device: Array) -> tu
 
 
 @kernel()
-def outline(i: int, place: Array, bolt: Array, nut: Array) -> tuple[bool, float, float]:
-    """A sample of both outlines: whether it lies in the patch, and where. The first are the bolt's, then the nut's."""
-    k = bolt[pk.LEAD] / TWO_PI
-    theta = TWO_PI * (i % OUTLINE_SAMPLES) / OUTLINE_SAMPLES
-    m = place[N_ROTATION : N_ROTATION + 9]
-    if i < OUTLINE_SAMPLES:
-        r = pk.radius(-k * theta, bolt)
-        bx, by = r * math.cos(theta), r * math.sin(theta)
-        x = m[0] * bx + m[1] * by + place[N_OFFSET]
-        y = m[3] * bx + m[4] * by + place[N_OFFSET + 1]
-        return math.hypot(x, y) >= pk.radius(-k * math.atan2(y, x), nut), x, y
-    r = pk.radius(-k * theta, nut)
-    x, y = r * math.cos(theta), r * math.sin(theta)
-    dx, dy = x - place[N_OFFSET], y - place[N_OFFSET + 1]
-    bx, by = m[0] * dx + m[3] * dy, m[1] * dx + m[4] * dy
-    return math.hypot(bx, by) <= pk.radius(-k * math.atan2(by, bx), bolt), x, y
+def exit_side(hull: Array, size: int, x: float, y: float, force: float, place: Array) -> tuple[float, int]:
+    """The force at which the centre of pressure, at (x, y) under ``force``, leaves a convex polygon, and by which side.
 
-
-@kernel()
-def patch_points(place: Array, bolt: Array, nut: Array, points: Array) -> int:
-    """Sets the samples of both outlines that lie in the patch; returns their number."""
-    count = 0
-    for i in range(2 * OUTLINE_SAMPLES):
-        is_inside, x, y = outline(i, place, bolt, nut)
-        if is_inside:
-            points[count, 0] = x
-            points[count, 1] = y
-            count += 1
-    return count
-
-
-@kernel()
-def convex_hull(points: Array, count: int, hull: Array) -> int:
-    """Sets the corners of the convex hull of points of the plane, counter-clockwise (monotone chains); their number."""
-    # Sorted by x, then y: by y first, and stably by x after that.
-    order = np.argsort(points[:count, 1])
-    order = order[np.argsort(points[:count, 0][order], kind="mergesort")]
-    size = 0
-    for chain in range(2):
-        first = size
-        for m in range(count):
-            i = order[m] if chain == 0 else order[count - 1 - m]
-            x, y = points[i, 0], points[i, 1]
-            while size - first > 1:
-                ax, ay = hull[size - 1, 0] - hull[size - 2, 0], hull[size - 1, 1] - hull[size - 2, 1]
-                if ax * (y - hull[size - 2, 1]) - ay * (x - hull[size - 2, 0]) > 0.0:
-                    break
-                size -= 1
-            hull[size, 0] = x
-            hull[size, 1] = y
-            size += 1
-        # Its last point is the first of the other chain.
-        size -= 1
-    return size
-
-
-@kernel()
-def hull_margin(hull: Array, size: int, x: float, y: float) -> float:
-    """How far a point is inside a convex polygon; negative: outside."""
-    least = math.inf
+    Infinite where it never does. As the force grows it goes straight to where the force alone would have it, the
+    compliance centre: it leaves at most once.
+    """
+    least, side = math.inf, 0
     for i in range(size):
         j = i + 1 if i + 1 < size else 0
-        ax, ay = hull[j, 0] - hull[i, 0], hull[j, 1] - hull[i, 1]
-        least = min(least, (ax * (y - hull[i, 1]) - ay * (x - hull[i, 0])) / math.hypot(ax, ay))
-    return least if size > 2 else -math.inf
+        nx, ny = hull[j, H_Y] - hull[i, H_Y], hull[i, H_X] - hull[j, H_X]
+        # Inside while room > moment / force, across this side.
+        room = nx * (hull[i, H_X] - place[N_CENTRE]) + ny * (hull[i, H_Y] - place[N_CENTRE + 1])
+        moment = (nx * (x - place[N_CENTRE]) + ny * (y - place[N_CENTRE + 1])) * force
+        if room < 0.0 and moment / room < least:
+            least, side = moment / room, i
+    return least, side
 
 
 @kernel()
 def flush_until(push: float, device: Array, bolt: Array, nut: Array, level: Array) -> tuple[float, float]:
     """The push up to which the level pose is stable, from ``push`` on, and the direction (rad) in which the bolt tips.
 
-    Infinite where it stays stable, 0 where it is not at ``push``. Sets the level coordinates. As the push grows the
-    centre of pressure goes straight to where the push alone would have it: it leaves the hull at most once.
+    Infinite where it stays stable, 0 where it is not at ``push``. Sets the level coordinates.
     """
     if not set_flush(device, level):
         return 0.0, 0.0
     place = np.empty(PLACE_SIZE)
-    points = np.empty((2 * OUTLINE_SAMPLES, 2))
-    hull = np.empty((2 * OUTLINE_SAMPLES + 2, 2))
+    points = np.empty((POINTS, POINT_SIZE))
+    hull = np.empty((POINTS + 2, POINT_SIZE))
     set_place(level, device, place)
     x, y, force, rest = centre_of_pressure(level, push, place, device)
     if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
         return 0.0, 0.0
     size = convex_hull(points, patch_points(place, bolt, nut, points), hull)
-    if not hull_margin(hull, size, x, y) > 0.0:
+    margin, _, size = hull_margin(hull, size, x, y, place, bolt, nut, points)
+    if not margin > 0.0:
         return 0.0, 0.0
-    until, direction = math.inf, 0.0
-    for i in range(size):
+    while True:
+        until, i = exit_side(hull, size, x, y, force, place)
         j = i + 1 if i + 1 < size else 0
-        nx, ny = hull[j, 1] - hull[i, 1], hull[i, 0] - hull[j, 0]
-        # Inside while room > moment / force, across this side.
-        room = nx * (hull[i, 0] - place[N_CENTRE]) + ny * (hull[i, 1] - place[N_CENTRE + 1])
-        moment = (nx * (x - place[N_CENTRE]) + ny * (y - place[N_CENTRE + 1])) * force
-        if room < 0.0 and moment / room - force + push < until:
-            until, direction = moment / room - force + push, math.atan2(ny, nx)
-    return until, direction
+        direction = math.atan2(hull[i, H_X] - hull[j, H_X], hull[j, H_Y] - hull[i, H_Y])
+        if until == math.inf:
+            return until, 0.0
+        refined = refine_side(hull, size, i, place, bolt, nut, points)
+        if refined <= size:
+            return until - force + push, direction
+        size = refined
 
 
 @kernel()

@@ -70,7 +70,7 @@ REACH = 1.5
 """Gap, in longest steps, up to which places are constraints of a step; what comes nearer is met on the way out."""
 
 STALL_STEPS, STALLED = 12, 1e-8
-"""A descent that has gone less far than this (nominal radii) in so many steps goes round in circles."""
+"""A descent that has gone less far than this (nominal radii) in so many steps, up at times, goes round in circles."""
 
 Work = tuple[
     Array, Array, Array, Array, Array, Indices, Array, Array, Array, Array, Array, Array, Array, Array, Array, Array
@@ -355,15 +355,17 @@ def descend(
         stiffness = max(stiffness, device[D_STIFFNESS + 7 * j] / scale(j, device) ** 2)
     noise = max(ENERGY_NOISE, 4.0 * overlap_left)
     damping = 0.0
+    has_risen = False
     earlier = q.copy()
     for taken in range(most_steps):
         if taken > 0 and taken % STALL_STEPS == 0:
             for i in range(n):
                 j = coordinate(i, device)
                 step[i] = (q[j] - earlier[j]) * scale(j, device)
-            if length_of(n, step, metric) < STALLED * r:
+            if has_risen and length_of(n, step, metric) < STALLED * r:
                 return UNSETTLED, count
             copy_numbers(q, earlier)
+            has_risen = False
         set_metric(n, place, device, metric)
         if not cholesky(metric, n, metric_factor):
             return UNSETTLED, count
@@ -372,6 +374,10 @@ def descend(
         size = short_descent(n, count, push, r, work)
         if size <= tolerance * push:
             return AT_REST, count
+        # What it costs to leave the overlaps that are left: opposed contacts carry more than the push.
+        owed = noise * push * r
+        for i in range(count):
+            owed += max(multipliers[i] * places[i, G_VALUE], 0.0)
         set_model(n, count, device, STIFFENING * stiffness, work)
         for i in range(count):
             copy_numbers(places[i], saved[i])
@@ -400,8 +406,9 @@ def descend(
                 moved, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work
             )
             energy = elastic_energy(moved, device, by_q) + push * moved[5]
-            if is_out and energy <= potential + noise * push * r:
+            if is_out and energy <= potential + owed:
                 accepted = True
+                has_risen = has_risen or energy > potential
                 count = trial_count
                 copy_numbers(moved, q)
                 break

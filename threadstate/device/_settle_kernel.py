@@ -12,7 +12,7 @@ from threadstate.contact import _stage_kernel as sk
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._search_kernel import Search, search_address, search_at
 from threadstate.contact._surface_kernel import start_height
-from threadstate.device._certificate_kernel import EDGE_INSIDE, overlap
+from threadstate.device._certificate_kernel import FREE, overlap
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
@@ -351,5 +351,5 @@ def settle_with(
             results[i, R_OVERLAP] = overlap(
                 placements[i], OVERLAP_LIMIT * bolt[pk.R_MAJOR], touching, work[0], bolt, nut, stage
             )
-            if results[i, R_OVERLAP] != EDGE_INSIDE:
+            if results[i, R_OVERLAP] == FREE:
                 break

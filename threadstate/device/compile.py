@@ -5,19 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numba import typeof
+from numpy.typing import NDArray
 
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _settle_kernel as sk
 from threadstate.device import _turn_kernel as tk
-from threadstate.device.assemble import assemble_pose
+from threadstate.device.assemble import assemble_pose, new_leg
 from threadstate.device.model import default_device
 from threadstate.device.settle import device_numbers, new_rows, settle_poses
 from threadstate.device.strategy import Strategy
 from threadstate.thread.catalogue import quarter_twenty_unc
 
+Floats = NDArray[np.float64]
+
 POSES_DEG = ((0.0, 3.0, 250.0), (1.0, 0.5, 120.0), (0.0, 0.0, 0.0))
 """Poses that end on contacts, flush, and on threads from a level start: each kernel that Python calls is called."""
-
 
 ENGAGING_DEG, LITTLE_FRICTION = (1.0, -2.0, 10.0), 0.01
 """A pose that is turned clockwise at once, and a friction with which another settles."""
@@ -37,6 +40,24 @@ def compile_without_search() -> None:
     numbers = device_numbers(pair, default_device().in_unit(pair.unit))
     none = np.empty((0, 9)), np.empty(0), np.empty((0, 3))
     sk.settle_with(*none, 1.0, numbers, pair.bolt.packed, pair.nut.packed, 0, new_rows(0))
+
+
+def compile_turning() -> None:
+    """Compile what turns a bolt without friction."""
+    ends = (0, 0.0, 0.0, False)
+    tk.turn_with.compile(tuple(typeof(one) for one in (np.empty(0), *ends, *_setting(), new_leg())))
+
+
+def compile_friction() -> None:
+    """Compile what follows a bolt with friction."""
+    row, rows, path = np.empty(0), np.empty((0, 0)), (np.empty((0, 0)), np.empty((0, 0, 0)))
+    fk.follow_friction.compile(tuple(typeof(one) for one in (row, row, row, 0.0, False, 0, rows, *_setting(), path)))
+
+
+def _setting() -> tuple[Floats, ...]:
+    """Arrays of the kinds that kernels take: command, device, strip, bolt and nut."""
+    pair = quarter_twenty_unc()
+    return np.empty(0), np.empty(0), np.empty(0), pair.bolt.packed, pair.nut.packed
 
 
 def device_is_compiled() -> bool:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from threadstate.contact.level import level_contact, strip_extremes
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _flush_kernel as fk
+from threadstate.device import _patch_kernel as pk
 from threadstate.device.equilibrium import balance
 from threadstate.device.model import Device, LoadedContact
 from threadstate.state.model import FeaturePair
@@ -35,17 +36,17 @@ def level_start(pair: Pair, phase_deg: float, command: Floats) -> tuple[float, F
     hull = np.empty((0, 2))
     if contact.on_thread:
         points = np.array(strip_extremes(pair, contact.height))[:, :2]
+        margin, side = -math.inf, 0
     else:
         place = np.zeros(ck.PLACE_SIZE)
         place[:9] = command
-        points, hull = patch_hull(pair, place)
+        points, hull, margin, side = patch_hull(pair, place, 0.0, 0.0)
     away = -points.mean(axis=0) if len(points) else np.array([1.0, 0.0])
     if len(hull) > 2:
-        if fk.hull_margin(hull, len(hull), 0.0, 0.0) >= 0.0:
+        if margin >= 0.0:
             return contact.height, np.zeros(3)
-        edges = np.roll(hull, -1, axis=0) - hull
-        outward = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
-        away = outward[int(np.argmax(-(outward * hull).sum(axis=1)))]
+        edge = hull[(side + 1) % len(hull)] - hull[side]
+        away = np.array([edge[1], -edge[0]])
     x, y = away / np.linalg.norm(away)
     return contact.height, np.asarray(command.reshape(3, 3).T @ np.array([-y, x, 0.0]) * TIP)
 
@@ -73,10 +74,9 @@ def flush_contacts(
     place = np.empty(ck.PLACE_SIZE)
     ck.set_place(q, numbers, place)
     x, y, force, _ = fk.centre_of_pressure(q, device.push, place, numbers)
-    _, hull = patch_hull(pair, place)
+    _, hull, margin, _ = patch_hull(pair, place, x, y)
     if len(hull) < 3:
         return (), None, math.inf
-    margin = fk.hull_margin(hull, len(hull), x, y)
     if not margin > 0.0 or not force > 0.0:
         return (), margin, math.inf
     corners, shares = triangle_about(hull, x, y)
@@ -88,13 +88,18 @@ def flush_contacts(
     return contacts, margin, balance(pair, device, q, pose, numbers, contacts)
 
 
-def patch_hull(pair: Pair, place: Floats) -> tuple[Floats, Floats]:
-    """Samples of both outlines that lie in the patch, shape (n, 2), and the corners of their convex hull."""
-    points = np.empty((2 * fk.OUTLINE_SAMPLES, 2))
-    hull = np.empty((2 * fk.OUTLINE_SAMPLES + 2, 2))
-    count = fk.patch_points(place, pair.bolt.packed, pair.nut.packed, points)
-    size = fk.convex_hull(points, count, hull) if count > 2 else 0
-    return points[:count], hull[:size]
+def patch_hull(pair: Pair, place: Floats, x: float, y: float) -> tuple[Floats, Floats, float, int]:
+    """Points of the patch, shape (n, 2), and the corners of their convex hull; how far inside the patch's hull a point
+    is, negative: outside, and the side of the hull of which that is said.
+    """
+    bolt, nut = pair.bolt.packed, pair.nut.packed
+    points = np.empty((pk.POINTS, pk.POINT_SIZE))
+    hull = np.empty((pk.POINTS + 2, pk.POINT_SIZE))
+    count = pk.patch_points(place, bolt, nut, points)
+    chosen = points[:count, :2].copy()
+    size = pk.convex_hull(points, count, hull) if count > 2 else 0
+    margin, side, size = pk.hull_margin(hull, size, x, y, place, bolt, nut, points)
+    return chosen, hull[:size, :2].copy(), margin, side
 
 
 def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:

@@ -1,0 +1,179 @@
+"""``make peer``: settled states beside those of MuJoCo, by signed distances of meshes; writes docs/settle-peer.md."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from oracle.pose import pose_rotation
+from oracle.profile import bolt_profile, nut_profile
+from oracle.rest import ALL_SAMPLES, overlap_depth
+from studies.stability.table import table
+from threadstate.device.document import device_from_document
+from threadstate.device.model import Device, Outcome, SettledState
+from threadstate.device.settle import settle_poses
+from threadstate.mesh.part import part_solid
+from threadstate.mesh.presets import Preset
+from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.pair import Pair, Part
+
+Floats = NDArray[np.float64]
+
+DOCS = Path(__file__).parents[1] / "docs"
+CHILD = Path(__file__).with_name("mujoco_settle.py")
+SEED = 5
+DAMPING = 2.0
+"""Of each joint of the peer, in units of push, radius and its time: all but critical."""
+DEVICE = {"unit": "mm", "k_twist": 500.0}
+"""The default device, its twist as stiff as its tilt: the spring of a ball joint has the same energy."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A command settled by both: processor milliseconds of each, and how far the peer's pose is from the exact one.
+
+    ``apart`` is the distance of the bolt's origins and ``overlap`` how deep the exact solids overlap in the peer's
+    pose, both over the nominal radius; ``angle_deg`` is between the rotations and ``speed`` the peer's at its end.
+    """
+
+    pose_deg: tuple[float, float, float]
+    exact_ms: float
+    peer_ms: float
+    apart: float
+    angle_deg: float
+    overlap: float
+    speed: float
+
+
+def meshes(pair: Pair, preset: Preset) -> dict[str, Any]:
+    """Bolt and nut as meshes, their lengths over the nominal radius."""
+    r = pair.nominal_diameter / 2.0
+    solids = {part.value: part_solid(pair, part, preset.tessellation) for part in (Part.BOLT, Part.NUT)}
+    return {
+        name: {"vertices": (solid.vertices / r).tolist(), "faces": solid.triangles.tolist()}
+        for name, solid in solids.items()
+    }
+
+
+def exact(pair: Pair, device: Device, poses: Floats) -> list[tuple[SettledState, float]]:
+    """The settled states of commands, with the processor milliseconds of each."""
+    settle_poses(pair, poses[:1], device)
+    found = []
+    for pose in poses:
+        start = time.process_time()
+        (state,) = settle_poses(pair, [pose], device)
+        found.append((state, 1e3 * (time.process_time() - start)))
+    return found
+
+
+def compared(python: Path, count: int, preset: Preset) -> list[Compared]:
+    """Random commands that settle, by both."""
+    pair, device = quarter_twenty_unc(), device_from_document(DEVICE)
+    r = pair.nominal_diameter / 2.0
+    poses = np.random.default_rng(SEED).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], (count, 3))
+    states = [(state, ms) for state, ms in exact(pair, device, poses) if state.outcome is Outcome.SETTLED]
+    held = device.in_unit(pair.unit)
+    asked = {
+        "meshes": meshes(pair, preset),
+        "device": {
+            "k_lateral": held.stiffness[3][3] * r / held.push,
+            "k_tilt": held.stiffness[0][0] / (held.push * r),
+            "damping": DAMPING,
+        },
+        "cases": [_case(state, r) for state, _ in states],
+    }
+    answer = subprocess.run(
+        [str(python), str(CHILD)], input=json.dumps(asked), capture_output=True, text=True, check=True
+    )
+    lines = [json.loads(line) for line in answer.stdout.splitlines()]
+    return [_compared(pair, state, ms, theirs, r) for (state, ms), theirs in zip(states, lines, strict=True)]
+
+
+def _case(state: SettledState, r: float) -> dict[str, Any]:
+    assert state.pose is not None
+    assert state.shift is not None
+    command = pose_rotation(state.roll_deg, state.pitch_deg, state.phase_deg)
+    return {"command": command.tolist(), "height": (state.pose.translation[2] - state.shift[2]) / r}
+
+
+def _compared(pair: Pair, state: SettledState, ms: float, theirs: dict[str, Any], r: float) -> Compared:
+    assert state.pose is not None
+    rotation, origin = np.array(theirs["rotation"]), r * np.array(theirs["translation"])
+    turn = np.array(state.pose.rotation).T @ rotation
+    depth = overlap_depth(
+        np.ascontiguousarray(rotation), origin, np.arange(ALL_SAMPLES), math.inf, bolt_profile(pair), nut_profile(pair)
+    )
+    return Compared(
+        (state.roll_deg, state.pitch_deg, state.phase_deg),
+        ms,
+        1e3 * float(theirs["seconds"]),
+        float(np.linalg.norm(origin - np.array(state.pose.translation)) / r),
+        math.degrees(math.acos(min(1.0, (float(np.trace(turn)) - 1.0) / 2.0))),
+        float(depth) / r,
+        float(theirs["speed"]),
+    )
+
+
+def page(found: list[Compared], preset: Preset) -> str:
+    """The page as Markdown."""
+    columns = ("roll, pitch, phase (deg)", "ms", "MuJoCo ms", "apart (r)", "angle (deg)", "overlap (r)", "speed")
+    rows = [
+        [
+            ", ".join(f"{angle:.2f}" for angle in one.pose_deg),
+            f"{one.exact_ms:.1f}",
+            f"{one.peer_ms:,.0f}",
+            f"{one.apart:.1e}",
+            f"{one.angle_deg:.2f}",
+            f"{one.overlap:.1e}",
+            f"{one.speed:.0e}",
+        ]
+        for one in found
+    ]
+    ours, theirs = (
+        float(np.median(times)) for times in zip(*((one.exact_ms, one.peer_ms) for one in found), strict=True)
+    )
+    apart, overlap = [one.apart for one in found], [one.overlap for one in found]
+    return f"""# Settled states beside MuJoCo
+
+`make peer` writes this page: random commands of 1/4-20 UNC without friction, settled by `threadstate` and, in the same
+run, by MuJoCo 3, in an environment of its own (`requirements-mujoco.lock`). There bolt and nut are signed distances of
+the [{preset.value}](speed-accuracy.md) meshes, lengths over the nominal radius r and forces over the push; the device
+is the default one with a twist as stiff as its tilt, three slides and a ball joint with springs. The push grows within
+a quarter of the simulated time. Times are processor time of a core, without building its model.
+
+At the median {ours:.1f} ms and {theirs:,.0f} ms: {theirs / ours:,.0f} times as long. Origins are
+{np.median(apart):.1e} r apart at the median and {max(apart):.1e} r at most.
+
+{table(columns, rows)}
+
+*Overlap*: how deep the exact solids overlap in MuJoCo's pose, negative where they are apart. Its contacts give way by
+some 1e-4 r, but its distances are interpolated between samples of a mesh, which rounds edges and threads: that is its
+softness, up to {max(overlap):.0e} r here, and poses differ by as much and by what tilt and shift make of it.
+*Speed*: the fastest joint at the end, radii or radians a unit of its time; where it is not small MuJoCo has not come to
+rest.
+"""
+
+
+def main() -> None:
+    """Compare and write the page."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.settle_peer", description=__doc__)
+    parser.add_argument("--mujoco", type=Path, required=True, help="the Python that has mujoco")
+    parser.add_argument("--count", type=int, default=20, help="random commands [%(default)s]")
+    parser.add_argument("--preset", type=Preset, default=Preset.COARSE, help="meshes [%(default)s]")
+    parser.add_argument("--into", type=Path, default=DOCS, help="folder of the page [docs]")
+    chosen = parser.parse_args()
+    found = compared(chosen.mujoco, chosen.count, chosen.preset)
+    (chosen.into / "settle-peer.md").write_text(page(found, chosen.preset))
+
+
+if __name__ == "__main__":
+    main()
