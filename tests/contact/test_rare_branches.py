@@ -98,11 +98,11 @@ def solved(pose: PoseDeg, pair: Pair = PAIR) -> Floats:
         (PAIR, (3.576567074329921e-06, 1.941986622585566e-06, -1.7142272342935438), 0),
         (PAIR, (1.8398712734907334e-05, 0.00012444704985027888, 2.243004327857509), 1),
         (PAIR, (1.735635670838846e-09, 9.606987204942213e-10, 1.9080351168902752), 2),
-        (SHARP, (-1.848321590093091e-09, 2.75804603556617e-06, -0.2093575674421757), 3),
+        (SHARP, (-1.848321590093091e-09, 2.75804603556617e-06, -0.2093575674421757), 2),
     ],
 )
 def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pair: Pair, pose: PoseDeg, poses: int) -> None:
-    """One for each stage, and one for the embedment: ``poses`` of the three were found."""
+    """One for each stage: ``poses`` of the three were found. No pose is known whose embedment is undecided."""
     row = solved(pose, pair)
     assert (row[record.O_STATUS], row[record.O_POSES]) == (stage.UNRESOLVED, poses)
     with pytest.raises(UnresolvedPoseError, match="before every box was excluded"):

@@ -77,7 +77,7 @@ FAULTS = {
 
 @cache
 def some_boxes() -> list[Box]:
-    return [*random_boxes(11, 1000), *search_boxes(11, 500)]
+    return [*random_boxes(11, 1000), *search_boxes(11, 1500)]
 
 
 @cache
@@ -164,7 +164,7 @@ def test_ranges_and_classes_hold() -> None:
 
 @pytest.mark.slow
 def test_ranges_and_classes_of_many_boxes_hold() -> None:
-    found = audit_boxes([*random_boxes(22, 800), *search_boxes(22, 1000)])
+    found = audit_boxes([*random_boxes(22, 800), *search_boxes(24, 1200)])
     assert failures(found) == 0, found.faults
     # Beside the border of a fillet displaced profiles are on either side of it: no cutting decides which is meant.
     assert sum(found.outcomes.values()) <= 30
@@ -200,7 +200,7 @@ def dropped(one: Box, *, kind: int) -> Outcome | None:
 def onset_boxes() -> Iterator[Box]:
     """Narrow boxes of searches that may have an onset, with the one that Newton's method finds inside."""
     path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
-    for one in search_boxes(31, 1500):
+    for one in search_boxes(31, 15000):
         claimed = claims(one)
         if 2 <= claimed.box_class <= 4:
             search = one.search
