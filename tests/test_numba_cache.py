@@ -14,7 +14,7 @@ from threadstate._numba_cache import UNUSED_DAYS, kernel_sources_hash, remove_un
 pytestmark = pytest.mark.slow
 
 EVALUATE = (
-    "import os; from threadstate.contact._branchless_kernel import clamp; clamp(0.5, 0.0, 1.0); "
+    "import os; from threadstate.contact._branchless_kernel import larger; larger(0.5, 1.0); "
     "print(os.environ['NUMBA_CACHE_DIR'])"
 )
 NOT_A_DIRECTORY = "/dev/null"

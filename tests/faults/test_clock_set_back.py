@@ -30,6 +30,7 @@ from worker.jobs.heartbeat import SilenceDetector
 TELL_TIME = {
     "threadstate/jobs/queue.py",
     "threadstate/library/write.py",
+    "threadstate/settled/write.py",
     "threadstate/access/keys.py",
     "threadstate/client/retrying.py",
     "service/logs.py",

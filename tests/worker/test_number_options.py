@@ -24,9 +24,10 @@ def _options() -> Iterator[tuple[str, str]]:
     group = command_group()
     for command in COMMANDS:
         types = get_type_hints(command)
-        for parameter in group.commands[command.__name__].params:
+        name = command.__name__.replace("_", "-")
+        for parameter in group.commands[name].params:
             if _is_number(types[parameter.name or ""]):
-                yield command.__name__, parameter.opts[0]
+                yield name, parameter.opts[0]
 
 
 OPTIONS = list(_options())
