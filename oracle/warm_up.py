@@ -29,7 +29,8 @@ def main() -> None:
     chamfered_height(replace(pair, chamfer=Chamfer(pair.fit.bolt_minor_diameter)), *POSE_DEG)
     least_lift(pair, rotation, inside)
     overlap_components(pair, rotation, inside)
-    held = HeldBolt(pair, rotation, np.eye(6), centre=0.0, push=1.0, first=first.height)
+    # So stiff that it rests where it begins.
+    held = HeldBolt(pair, rotation, 1e6 * np.eye(6), centre=0.0, push=1e-6, first=first.height)
     held.overlap(np.zeros(5), first.height)
     held.free_beside(np.zeros(5), first.height, np.full((1, 5), 1e-6), 1e-9)
     held.lowest_by_programs(np.zeros(5), first.height, 1e-5)
