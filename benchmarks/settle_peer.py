@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.markdown import table
 from oracle.pose import pose_rotation
 from oracle.profile import bolt_profile, nut_profile
 from oracle.rest import ALL_SAMPLES, overlap_depth
-from studies.stability.table import table
 from threadstate.device.document import device_from_document
 from threadstate.device.model import Device, Outcome, SettledState
 from threadstate.device.settle import settle_poses

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from harness.markdown import table
 from studies.forms.study import HEIGHT_PITCHES, NEAR_PHASE_DEG, TILT_DEG, Found
-from studies.stability.table import table
 from threadstate.numbers import number_text
 
 CORNERS = ("bolt crest_fillet", "bolt root_fillet", "nut crest_fillet", "nut root_fillet")

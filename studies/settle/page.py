@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from harness.markdown import table
 from studies.settle.check import APART, LOWER, OVERLAP, RESIDUAL
 from studies.settle.study import BESIDE, CAME_BACK, CHANGES, DEVICES, DIRECTIONS, FOLLOW_PARTS, PAIRS, Found, Part
-from studies.stability.table import table
 from threadstate.numbers import number_text
 
 MOST_LISTED = 40

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
+from harness.markdown import table
 from studies.stability.brute_force import Event
 from studies.stability.findings import Findings
-from studies.stability.table import table
 from studies.stability.tally import Failure, Steepest, Tally
 from studies.stability.tangent_study import WRONG_DEG, is_wrong
 from studies.stability.trials import DECADES

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from harness.markdown import table
 from studies.stability.agreement import Outcome
 from studies.stability.demonstrations import in_words
 from studies.stability.descent_study import FINER, OutcomeRow
 from studies.stability.findings import Findings
 from studies.stability.rival_study import RivalTally
-from studies.stability.table import table
 from studies.stability.trials import DECADES
 from threadstate.mesh.options import Descent
 from threadstate.mesh.segments import Intersection
