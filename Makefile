@@ -47,7 +47,7 @@ unexport PYTHONDONTWRITEBYTECODE
 setup: $(VENV)/.kernels $(VENV)/.dependencies node_modules/.installed
 
 run:
-	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target $(VENV)/.kernels node_modules/.served
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target $(VENV)/.serving node_modules/.served
 	$(BIN)/threadstate run
 
 unit: setup $(VENV)/.oracle
@@ -198,6 +198,10 @@ node_modules/.installed: node_modules/.served
 
 $(VENV)/.project: pyproject.toml hatch_build.py $(VENV)/.running
 	$(BIN)/python -m pip --disable-pip-version-check install --quiet --no-deps --no-build-isolation --no-index --editable .
+	@touch $@
+
+$(VENV)/.serving: $(SOURCES) $(VENV)/.project
+	$(BIN)/python -m threadstate.warm_up --serving
 	@touch $@
 
 $(VENV)/.kernels: $(SOURCES) $(VENV)/.project

@@ -13,7 +13,7 @@ from fastapi.concurrency import run_in_threadpool
 from threadstate.errors import ThreadstateError
 from threadstate.warm_up import kernels_are_compiled, load_kernels
 
-COMPILE = (sys.executable, "-m", "threadstate.warm_up")
+COMPILE = (sys.executable, "-m", "threadstate.warm_up", "--serving")
 """Compiles the kernels into the cache of this machine."""
 
 _log = logging.getLogger(__name__)

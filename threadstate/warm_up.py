@@ -1,4 +1,7 @@
-"""Compiles the numba kernels into the cache: ``python -m threadstate.warm_up``."""
+"""Compiles the numba kernels into the cache: ``python -m threadstate.warm_up``.
+
+With ``--serving`` only those that a service and its workers call: not those of bolts that are turned, or with friction.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ import numpy as np
 
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.contact._solve_kernel import OPTIONS_SIZE, solve_with
-from threadstate.device.compile import device_is_compiled, load_device
+from threadstate.device.compile import device_is_compiled, load_device, load_turning, turning_is_compiled
 from threadstate.history.estimates import estimates_are_compiled, load_estimates
 from threadstate.state.solve import solve_poses
 from threadstate.statics.compile import load_statics, statics_are_compiled
@@ -33,13 +36,13 @@ _LAST_COMPILED = ("_solve_kernel.solve_with-*.nbc", "_stage_kernel.earliest-*.nb
 
 
 def kernels_are_compiled() -> bool:
-    """Whether the cache contains the kernels, so that loading them is fast."""
+    """Whether the cache contains the kernels that :func:`load_kernels` loads, so that this is fast."""
     solver_is_compiled = all(any(_cache().glob(name)) for name in _LAST_COMPILED)
     return solver_is_compiled and estimates_are_compiled() and statics_are_compiled() and device_is_compiled()
 
 
 def load_kernels() -> None:
-    """Load every kernel into this process, compiling those that the cache lacks."""
+    """Load what serving needs into this process, compiling what the cache lacks: all but turning and friction."""
     pair = quarter_twenty_unc()
     states = solve_poses(pair, POSES_DEG)
     load_estimates(pair)
@@ -57,19 +60,24 @@ def load_kernels_exclusively() -> None:
         load_kernels()
 
 
-def main() -> None:
-    """Load the kernels and report the progress; where the cache has none, six processes compile them."""
+def main(*, serving: bool = False) -> None:
+    """Load the kernels and report the progress; where the cache has none, processes beside this one compile them."""
     start = time.perf_counter()
-    if kernels_are_compiled():
+    others: tuple[str, ...] = (COMPILE_SEARCH, COMPILE_DEVICE, COMPILE_STATICS)
+    if not serving:
+        others += (COMPILE_TURNING, COMPILE_FRICTION)
+    if kernels_are_compiled() and (serving or turning_is_compiled()):
         print(f"Loading the kernels from {_cache()} ...", flush=True)
     else:
         print(f"Compiling the kernels into {_cache()}: once, about a minute ...", flush=True)
         # Each finds in the cache what the other has compiled by then; what fails there is compiled here.
         with ExitStack() as stack:
-            for code in (COMPILE_SEARCH, COMPILE_DEVICE, COMPILE_TURNING, COMPILE_FRICTION, COMPILE_STATICS):
+            for code in others:
                 stack.enter_context(subprocess.Popen([sys.executable, "-c", code]))  # nosec B603 - fixed code
             compile_all_but_search()
     load_kernels()
+    if not serving:
+        load_turning()
     print(f"Kernels ready after {time.perf_counter() - start:.1f} s.", flush=True)
 
 
@@ -90,4 +98,4 @@ def _cache() -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    main(serving="--serving" in sys.argv[1:])

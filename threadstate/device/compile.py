@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numba import typeof
@@ -27,9 +28,13 @@ ENGAGING_DEG, LITTLE_FRICTION = (1.0, -2.0, 10.0), 0.01
 
 
 def load_device() -> None:
-    """Call each kernel that is called from Python."""
+    """Call each kernel of settled states without friction that is called from Python."""
+    settle_poses(quarter_twenty_unc(), POSES_DEG)
+
+
+def load_turning() -> None:
+    """The same for bolts that are turned, and those with friction."""
     pair = quarter_twenty_unc()
-    settle_poses(pair, POSES_DEG)
     assemble_pose(pair, *ENGAGING_DEG, strategy=Strategy.CW)
     settle_poses(pair, POSES_DEG[:1], mu=LITTLE_FRICTION)
 
@@ -61,10 +66,16 @@ def _setting() -> tuple[Floats, ...]:
 
 
 def device_is_compiled() -> bool:
-    """Whether the cache contains the kernels."""
-    kernels = (
-        (sk.settle_with, "_settle_kernel.settle_with"),
-        (tk.turn_with, "_turn_kernel.turn_with"),
-        (fk.follow_friction, "_friction_kernel.follow_friction"),
+    """Whether the cache contains the kernels of settled states without friction."""
+    return _is_compiled(sk.settle_with, "_settle_kernel.settle_with")
+
+
+def turning_is_compiled() -> bool:
+    """Whether the cache contains the kernels of turning and friction."""
+    return _is_compiled(tk.turn_with, "_turn_kernel.turn_with") and _is_compiled(
+        fk.follow_friction, "_friction_kernel.follow_friction"
     )
-    return all(any(Path(str(one.stats.cache_path)).glob(f"{name}-*.nbc")) for one, name in kernels)
+
+
+def _is_compiled(kernel: Any, name: str) -> bool:
+    return any(Path(str(kernel.stats.cache_path)).glob(f"{name}-*.nbc"))
