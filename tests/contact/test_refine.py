@@ -12,9 +12,12 @@ from tests.contact.samples import Floats
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _stage_kernel as stage
+from threadstate.errors import UnresolvedPoseError
+from threadstate.state.model import FeaturePair
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.state.solve import solve_pose
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()
 POSE_DEG = (1.0, -2.0, 10.0)
@@ -23,9 +26,10 @@ TIME = 0.01
 
 
 class Found(NamedTuple):
-    """The time that was returned, the contact, the pose in sums of two doubles, and what is known of the contact."""
+    """What was returned, the contact, the pose in sums of two doubles, and what is known of the contact."""
 
     time: float
+    settles: bool
     contact: Floats
     pose: Floats
     refined: Floats
@@ -47,7 +51,7 @@ def refined_first(contact: Floats, record: Floats, *, alone: bool = True) -> Fou
     refine.set_first_pose(*(math.radians(angle) for angle in POSE_DEG), record[rk.O_POSE + 11] + TIME, start)
     down = np.array([[0.0, 0.0], [0.0, 0.0], [-1.0, 0.0]])
     found = contact.copy()
-    time = refine.refine_contact(
+    time, settles = refine.refine_contact(
         False,
         start,
         np.zeros((3, 2)),
@@ -60,7 +64,7 @@ def refined_first(contact: Floats, record: Floats, *, alone: bool = True) -> Fou
         moved,
         known,
     )
-    return Found(time, found, moved, known)
+    return Found(time, settles, found, moved, known)
 
 
 def test_a_displaced_contact_is_found_again() -> None:
@@ -69,6 +73,7 @@ def test_a_displaced_contact_is_found_again() -> None:
     displaced[stage.K_TIME] += 1e-7
     displaced[stage.K_BOLT_AZIMUTH] -= 1e-6
     found = refined_first(displaced, record)
+    assert found.settles
     assert found.time == pytest.approx(TIME, abs=1e-17)
     np.testing.assert_allclose(found.contact, contact, rtol=0.0, atol=1e-15)
     assert found.pose[11, 0] == record[rk.O_POSE + 11]
@@ -76,21 +81,32 @@ def test_a_displaced_contact_is_found_again() -> None:
 
 
 @pytest.mark.parametrize("column", [stage.K_TIME, stage.K_BOLT_AZIMUTH])
-def test_a_contact_that_leads_elsewhere_stays_as_it_was_found(column: int) -> None:
+def test_a_contact_that_leads_elsewhere_does_not_settle(column: int) -> None:
     contact, record = first_contact()
     contact[column] += 0.5
-    found = refined_first(contact, record)
-    np.testing.assert_array_equal(found.contact, contact)
-    assert found.time == contact[stage.K_TIME]
-    np.testing.assert_array_equal(found.refined[refine.F_POINT :, 0], contact[stage.K_X :])
+    assert not refined_first(contact, record).settles
+
+
+def test_a_tangency_that_round_off_makes_of_flanks_that_nearly_touch_as_a_whole_is_refused() -> None:
+    """Thread on thread beside the first contact, at phases beside which the second one is ten times as far."""
+    m6 = pair_by_designation("M6")
+    tilt = 7.251056780298752e-07, 4.5571130323874975e-07
+    with pytest.raises(UnresolvedPoseError):
+        solve_pose(m6, *tilt, -2.3833869396069804)
+    beside = solve_pose(m6, *tilt, -2.3843869396069804)
+    assert beside.contacts[1].features is FeaturePair.THREAD_EDGE
 
 
 def test_simultaneous_contacts_and_those_of_thread_on_surface_stay_as_they_were_found() -> None:
     contact, record = first_contact()
     contact[stage.K_BOLT_AZIMUTH] += 1e-9
-    np.testing.assert_array_equal(refined_first(contact, record, alone=False).contact, contact)
+    tied = refined_first(contact, record, alone=False)
+    np.testing.assert_array_equal(tied.contact, contact)
+    np.testing.assert_array_equal(tied.refined[refine.F_POINT :, 0], contact[stage.K_X :])
     contact[stage.K_PAIR] = stage.THREAD_SURFACE
-    np.testing.assert_array_equal(refined_first(contact, record).contact, contact)
+    on_surface = refined_first(contact, record)
+    np.testing.assert_array_equal(on_surface.contact, contact)
+    assert tied.settles and on_surface.settles
 
 
 def test_a_turn_about_an_axis_and_back_is_none() -> None:

@@ -447,8 +447,6 @@ def refine_found(
 ) -> bool:
     """Refines a contact that a motion has come to, in ``refined``, and the pose then; False where nothing settles."""
     pair = int(contact[K_PAIR])
-    if pair == THREAD_SURFACE:
-        return False
     start, centre, direction = np.empty(POSE_SIZE), np.empty(3), np.empty(3)
     round_numbers(pose, start)
     round_numbers(point, centre)
@@ -474,25 +472,23 @@ def refine_contact(
     alone: bool,
     moved: Array,
     refined: Array,
-) -> float:
+) -> tuple[float, bool]:
     """Refines the contact that a motion comes to at ``time``; sets what is known of it and the pose then, ``moved``.
 
-    A contact that is not ``alone`` stays as it is, and so does one that Newton's method does not lead to nearby: one
-    whose place is not determined, and the bolt's thread on the nut's surface. Returns the time.
+    A contact that is not ``alone`` stays as it is, and so does one of the bolt's thread on the nut's surface. Returns
+    the time, and whether the equations of any other have a solution nearby: without one there may be no contact.
     """
     set_moved(pose, is_turn, point, axis, (time, 0.0), moved)
     set_unrefined(contact, moved, refined)
-    if not alone:
-        return time
+    if not alone or int(contact[K_PAIR]) == THREAD_SURFACE:
+        return time, True
     if refine_found(is_turn, pose, point, axis, bolt, nut, contact, moved, refined):
         pair = int(contact[K_PAIR])
         if pair == EDGE_EDGE or pair == EDGE_SURFACE:
             set_entry(refined, F_POINT + 2, ZERO)
         set_contact(moved, refined, contact)
-        return contact[K_TIME]
-    set_moved(pose, is_turn, point, axis, (time, 0.0), moved)
-    set_unrefined(contact, moved, refined)
-    return time
+        return contact[K_TIME], True
+    return time, False
 
 
 @kernel()

@@ -231,7 +231,7 @@ def solve_pose(
         simultaneous, time = sort_simultaneous(found, count, tie_tolerance)
         refine.set_first_pose(roll, pitch, phase, high, fine_start)
         fine_axis[2, 0] = -1.0
-        refine.refine_contact(
+        _, settles = refine.refine_contact(
             False,
             fine_start,
             fine_point,
@@ -244,6 +244,9 @@ def solve_pose(
             fine_pose,
             first,
         )
+        if not settles:
+            record[rk.O_STATUS] = UNRESOLVED
+            return
         refine.round_numbers(fine_pose, pose)
     copy_numbers(found[0], known[0])
     rk.append_pose(pose, record)
@@ -296,7 +299,7 @@ def solve_pose(
         simultaneous, time = sort_simultaneous(found, count, turn_tolerance)
         if simultaneous > 1:
             add_flag(record, rk.FLAG_TIE)
-        record[rk.O_LAMBDA] = refine.refine_contact(
+        record[rk.O_LAMBDA], settles = refine.refine_contact(
             True,
             fine_pose,
             fine_point,
@@ -309,6 +312,9 @@ def solve_pose(
             fine_second,
             latest,
         )
+        if not settles:
+            record[rk.O_STATUS] = UNRESOLVED
+            return
         refine.round_numbers(fine_second, second)
         copy_numbers(found[0], known[1])
         for i in range(1, simultaneous):
@@ -416,7 +422,7 @@ def third_stage(
     if simultaneous > 1:
         add_flag(record, rk.FLAG_TIE)
     fine_third, latest = np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
-    record[rk.O_MU] = refine.refine_contact(
+    record[rk.O_MU], settles = refine.refine_contact(
         True,
         fine_second,
         fine_point,
@@ -429,6 +435,9 @@ def third_stage(
         fine_third,
         latest,
     )
+    if not settles:
+        record[rk.O_STATUS] = UNRESOLVED
+        return
     refine.round_numbers(fine_third, third)
     append_third_pose(
         third, second[11] - third[11], known, simultaneous, tie_tolerance, bolt, nut, search, work, found, record
