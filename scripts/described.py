@@ -23,11 +23,11 @@ EVENTS_READ = 3
 LONGEST_STREAM_S = 1
 """A job that nobody works on never ends its stream: after so many events, or so long, it has been heard enough."""
 MADE_UP_PER_SLOW = 20
-"""An operation that solves a history or settles each time, or streams, gets one case for so many of the others."""
-SLOW = rf"^/v1/histories/|^/v1/settle$|{STREAM}"
+"""An operation that solves, settles or turns each time, or streams, gets one case for so many of the others."""
+SLOW = rf"^/v1/histories/|^/v1/settle$|^/v1/assemblies$|{STREAM}"
 MADE_UP_PER_SEQUENCE = 3
 """A sequence is of several requests: there is one for so many cases of an operation."""
-RULES_BETWEEN_VALUES = r"/(states|transitions|paths|locate|intervals|heights|solve|settle|jobs|threads)$"
+RULES_BETWEEN_VALUES = r"/(states|transitions|paths|locate|intervals|heights|solve|settle|assemblies|jobs|threads)$"
 """Where a value may be refused for what no schema says: another value beside it, a cursor's content, a name."""
 
 

@@ -13,6 +13,7 @@ from fastapi.telemetry import TelemetryConfig
 from prometheus_client import CollectorRegistry
 from starlette.middleware.cors import CORSMiddleware
 
+import service.assemblies.endpoints
 import service.builds
 import service.compare
 import service.docs.endpoints
@@ -133,6 +134,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
     app.state.engine = engine
     app.state.kernels = kernels
     app.state.control = control
+    app.state.time_limit_s = settings.time_limit_s
     app.state.read_keys_required = settings.read_keys_required
     app.state.networks = NetworkCache()
     app.state.metrics = registry
@@ -153,6 +155,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.meshes,
         service.solve,
         service.settle.endpoints,
+        service.assemblies.endpoints,
         service.settled.endpoints,
         service.threads,
         service.jobs.endpoints,

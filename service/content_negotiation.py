@@ -35,6 +35,15 @@ def prefers_csv(accept: str) -> bool:
     return csv[0] > 0.0 and csv > _first(weights, "application/json", "application/*", "*/*")
 
 
+def prefers_events(accept: str) -> bool:
+    """Whether the header names text/event-stream with more weight than JSON, or the same and earlier."""
+    if not accept:
+        return False
+    weights = _weights(accept)
+    events = _first(weights, "text/event-stream")
+    return events[0] > 0.0 and events > _first(weights, "application/json", "application/*", "*/*")
+
+
 def names_etag(if_none_match: str, etag: str) -> bool:
     """Whether the header's list names ``etag``; for this header RFC 9110 has weak tags match as well."""
     tags = (tag.strip().removeprefix("W/") for tag in if_none_match.split(","))

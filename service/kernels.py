@@ -5,16 +5,20 @@ from __future__ import annotations
 import asyncio
 import logging
 import sys
+from collections.abc import Sequence
 from enum import StrEnum
 
 from fastapi import Request
 from fastapi.concurrency import run_in_threadpool
 
+from threadstate.device.compile import turning_is_compiled
 from threadstate.errors import ThreadstateError
 from threadstate.warm_up import kernels_are_compiled, load_kernels
 
 COMPILE = (sys.executable, "-m", "threadstate.warm_up", "--serving")
 """Compiles the kernels into the cache of this machine."""
+COMPILE_ALL = (sys.executable, "-m", "threadstate.warm_up")
+"""Compiles those of bolts that are turned as well, which takes minutes: when they are asked for."""
 
 _log = logging.getLogger(__name__)
 
@@ -38,15 +42,35 @@ class Kernels:
 
     def __init__(self) -> None:
         self.state = KernelState.READY
+        self.turning = KernelState.READY
         self._settled = asyncio.Event()
+        self._turning_wanted = asyncio.Event()
 
     async def run(self) -> None:
-        """Load the kernels into this process, once; a separate process compiles them if the cache lacks them."""
+        """Load the kernels into this process, once; a separate process compiles them if the cache lacks them.
+
+        Those of bolts that are turned are compiled after the first request for them.
+        """
+        if not turning_is_compiled():
+            self.turning = KernelState.COMPILING
+        await self._load()
+        if self.turning is KernelState.COMPILING:
+            await self._turning_wanted.wait()
+            try:
+                await _compile(COMPILE_ALL)
+            finally:
+                self.turning = KernelState.READY
+
+    def want_turning(self) -> None:
+        """Have the kernels of bolts that are turned compiled, if they are not."""
+        self._turning_wanted.set()
+
+    async def _load(self) -> None:
         try:
             if not kernels_are_compiled():
                 self.state = KernelState.COMPILING
                 _log.info("the kernels are being compiled; what is to be solved meanwhile is refused")
-                await _compile()
+                await _compile(COMPILE)
             await run_in_threadpool(load_kernels)
         except Exception:
             _log.exception("the kernels could not be loaded; the first request that solves tries again")
@@ -55,7 +79,7 @@ class Kernels:
             self._settled.set()
 
     async def settled(self) -> None:
-        """Wait until :meth:`run` has ended."""
+        """Wait until :meth:`run` has loaded what serving needs."""
         await self._settled.wait()
 
 
@@ -77,8 +101,22 @@ async def require_kernels(request: Request) -> None:
         )
 
 
-async def _compile() -> None:
-    process = await asyncio.create_subprocess_exec(*COMPILE, stdout=asyncio.subprocess.DEVNULL)
+async def require_turning(request: Request) -> None:
+    """Reject a request that turns a bolt while the kernels for that are being compiled, and have them compiled.
+
+    Raises:
+        KernelsCompilingError: the kernels are being compiled.
+    """
+    kernels = kernels_of(request)
+    if kernels.turning is KernelState.COMPILING:
+        kernels.want_turning()
+        raise KernelsCompilingError(
+            "the kernels of bolts that are turned are being compiled, once on this machine, for some minutes"
+        )
+
+
+async def _compile(command: Sequence[str]) -> None:
+    process = await asyncio.create_subprocess_exec(*command, stdout=asyncio.subprocess.DEVNULL)
     try:
         code = await process.wait()
     finally:

@@ -154,22 +154,29 @@ def problem_response(
     kind: Kind, detail: str, errors: Sequence[ProblemItem] = (), headers: Mapping[str, str] = NO_HEADERS
 ) -> Response:
     """The response for a problem of one of the service's kinds."""
-    problem = Problem(
+    return _response(_problem(kind, detail, errors), headers)
+
+
+def problem_text(kind: Kind, detail: str) -> str:
+    """The problem document of one of the service's kinds, as JSON in one line: for a response that has begun."""
+    return _text(_problem(kind, detail))
+
+
+def _problem(kind: Kind, detail: str, errors: Sequence[ProblemItem] = ()) -> Problem:
+    return Problem(
         type=TYPE_PREFIX + kind.name, title=kind.title, status=kind.status, detail=detail, errors=list(errors)
     )
-    return _response(problem, headers)
 
 
 def _response(problem: Problem, headers: Mapping[str, str]) -> Response:
+    return Response(_text(problem), problem.status, {**headers, "Cache-Control": "no-store"}, MEDIA_TYPE)
+
+
+def _text(problem: Problem) -> str:
     if (number := current_request_id.get()) is not None:
         problem = problem.model_copy(update={"instance": INSTANCE_PREFIX + number})
     # Escaped to ASCII, as text of a client may have lone surrogates.
-    return Response(
-        json.dumps(problem.model_dump(exclude_defaults=True)),
-        problem.status,
-        {**headers, "Cache-Control": "no-store"},
-        MEDIA_TYPE,
-    )
+    return json.dumps(problem.model_dump(exclude_defaults=True))
 
 
 def _refused_parameter(_request: Request, error: Any) -> Response:

@@ -10,7 +10,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.logs import AccessLine, log_access
 from service.metrics import RequestMetrics
-from service.request_scope import HEAD_REQUEST, HEADER, current_request_id, method_of, new_notes, request_id
+from service.request_scope import ABORTED, HEAD_REQUEST, HEADER, current_request_id, method_of, new_notes, request_id
 from service.shutdown import Shutdown
 
 CONTENT_SECURITY_POLICY = (
@@ -23,8 +23,6 @@ SECURITY_HEADERS = (
 )
 _POLICY = SECURITY_HEADERS[0][0]
 _REQUEST_ID = HEADER.lower().encode()
-_ABORTED = 499
-"""Logged status where no response was started, for example because the client disconnected."""
 
 
 class RequestMiddleware:
@@ -45,7 +43,7 @@ class RequestMiddleware:
         current_request_id.set(number)
         notes = new_notes(scope)
         began = time.perf_counter()
-        status, sent = _ABORTED, 0
+        status, sent = ABORTED, 0
 
         async def send_last(message: Message) -> None:
             nonlocal status, sent

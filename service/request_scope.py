@@ -58,6 +58,9 @@ def method_of(scope: Scope) -> str:
 HEAD_REQUEST = "threadstate.head_request"
 """Key in the scope of a HEAD request that is handled as GET; endpoints that stream check it."""
 
+ABORTED = 499
+"""Logged status where no response was started, or one that nobody receives: the client has disconnected."""
+
 HEADER = "X-Request-ID"
 INSTANCE_PREFIX = "urn:threadstate:request:"
 

@@ -41,16 +41,10 @@ class PoseToSolve(BaseModel):
     phase: Annotated[float, Field(ge=-LARGEST_PHASE_DEG, le=LARGEST_PHASE_DEG, allow_inf_nan=False)]
 
 
-class SolveRequest(BaseModel):
-    """Poses to be solved."""
+class RequestOfPair(BaseModel):
+    """The pair of a request: of a known thread, or of a library."""
 
-    model_config = ConfigDict(
-        **_FORBID,
-        json_schema_extra={
-            "examples": [{"poses": [{"roll": 1, "pitch": -2, "phase": 10.5}]}],
-            **NOT_BOTH,
-        },
-    )
+    model_config = _FORBID
 
     designation: Annotated[str, Field(min_length=1, max_length=100)] | None = Field(
         default=None, description=f"the thread; {DEFAULT_DESIGNATION} where neither it nor a library is given"
@@ -58,6 +52,18 @@ class SolveRequest(BaseModel):
     library: Annotated[int, Field(ge=1)] | Annotated[str, Field(min_length=1, max_length=100)] | None = Field(
         default=None, description=LIBRARY_DESCRIPTION
     )
+
+
+class SolveRequest(RequestOfPair):
+    """Poses to be solved."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"poses": [{"roll": 1, "pitch": -2, "phase": 10.5}]}],
+            **NOT_BOTH,
+        },
+    )
+
     poses: Annotated[list[PoseToSolve], Field(min_length=1, max_length=LARGEST_POSE_COUNT)]
 
 

@@ -1,5 +1,5 @@
-"""The examples of the OpenAPI document. Two real states, real statics and a real settled state; ``make docs`` computes
-them again, a test compares.
+"""The examples of the OpenAPI document. Two real states, real statics, a real settled state and a real path; ``make
+docs`` computes them again, a test compares.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from service.histories.endpoints import csv_table, history_columns
+from threadstate.device.assembly_document import AssemblyDocument
 from threadstate.device.document import SettledDocument
 from threadstate.state.document import StateDocument
 from threadstate.statics.document import StaticsDocument
@@ -32,6 +33,8 @@ STATICS: StaticsDocument = _document("statics.json")
 """What a force does to the state of a pose of a library's grid, three contacts that hold it; lengths in inches."""
 SETTLED_POSE: SettledDocument = _document("settled_pose.json")
 """Where a bolt comes to rest that the default device holds, on two contacts; lengths in inches."""
+ASSEMBLY: AssemblyDocument = _document("assembly.json")
+"""How a bolt engages that the default device turns clockwise, the first and the last point; lengths in inches."""
 
 _JSON = "application/json"
 
@@ -122,6 +125,14 @@ EXAMPLES = (
             "unit": "in",
             "states": [SETTLED_POSE],
         },
+    ),
+    Example(
+        "/v1/assemblies",
+        "post",
+        _JSON,
+        "engaged",
+        "The bolt engages; of the points the first and the last",
+        ASSEMBLY,
     ),
     Example(
         "/v1/settled/{id}/states/{roll}/{pitch}/{phase}",

@@ -10,10 +10,10 @@ import anyio
 from annotated_types import Ge, Le
 from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import StreamingResponse
 from sqlalchemy import Engine
 
 from service.database import ReadConnection, RequestedControl, engine_of
+from service.event_stream import HEADERS, EventStream, comment_text, event_text
 from service.jobs.schemas import JobDocument, JobPage, JobRequest, event_document, job_document
 from service.keys import require_write_key
 from service.quantities import INTEGER_TEXT
@@ -33,16 +33,6 @@ alive.
 """
 
 
-HEADERS = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
-"""Proxies neither cache nor buffer the stream."""
-
-
-class EventStream(StreamingResponse):
-    """Server-sent events."""
-
-    media_type = "text/event-stream"
-
-
 async def event_stream(engine: Engine, job_id: int, after: int, shutdown: Shutdown) -> AsyncIterator[str]:
     """The events of a job after event ``after``, until the job ends or the process shuts down, after which clients
     reconnect.
@@ -52,14 +42,14 @@ async def event_stream(engine: Engine, job_id: int, after: int, shutdown: Shutdo
         job, events = await run_in_threadpool(_poll, engine, job_id, after)
         for event in events:
             data = event_document(job, event).model_dump_json()
-            yield f"id: {event.number}\nevent: {event.kind}\ndata: {data}\n\n"
+            yield f"id: {event.number}\n" + event_text(event.kind, data)
             after = event.number
         if job.state.ended or shutdown.started:
             return
         idle_polls = 0 if events else idle_polls + 1
         if idle_polls == POLLS_PER_COMMENT:
             idle_polls = 0
-            yield ": nothing new\n\n"
+            yield comment_text("nothing new")
         await anyio.sleep(POLL_S)
 
 

@@ -60,7 +60,7 @@ async def settle(request: Request, body: SettleRequest, unit: UnitQuery = None) 
     A pose without a certain answer is `undecided`, with a flag that says why. Lengths of the answer are in `unit`,
     those of the device in its own.
     """
-    device = _device(body.device)
+    device = device_of(body.device)
     asked = await run_in_threadpool(solved_pair, request, body.designation, body.library)
     shown = unit or asked.pair.unit
     factor = conversion_factor(asked.pair.unit, shown)
@@ -87,7 +87,12 @@ def _documents(
     return [settled_document(state, unit, factor) for state in settle_poses(pair, poses, device)]
 
 
-def _device(given: DeviceDocument | None) -> Device | None:
+def device_of(given: DeviceDocument | None) -> Device | None:
+    """The device of a body; None is the default one.
+
+    Raises:
+        InvalidValueError: it is not valid.
+    """
     if given is None:
         return None
     try:

@@ -113,6 +113,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "computed_held": {"roll": 1.5, "pitch": 0, "mu": 0.1},
         "solve_statics": {"poses": [(0.5, 0.5, 0.5)], "loads": [{"mu": 0.5}, {}]},
         "settle": {"poses": [(0.5, 0.5, 0.5)], "device": {"unit": "mm", "push": 5}},
+        "assemble": {"roll": 1, "pitch": -2, "phase": 10, "strategy": "cw", "progress": lambda _progress: None},
         "settled_libraries": {},
         "settled_library": {"settled_library": 1},
         "settled_state": {"roll": 0, "pitch": 0, "phase": 90, "unit": "mm"},

@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any, cast
 
 import pytest
-from pydantic import BaseModel
+from pydantic import BaseModel, TypeAdapter
 
 from service.jobs.schemas import EventDocument
 from tests.test_architecture import modules_loaded_by
@@ -18,6 +18,7 @@ from threadstate.client import AsyncClient, Client
 from threadstate.client.call import Call, PagedCall
 from threadstate.client.calls import jobs, libraries, network, settled, states, statics, threads
 from threadstate.client.loads import LoadToBear
+from threadstate.client.models import assemblies as assembly_models
 from threadstate.client.models import jobs as job_models
 from threadstate.client.models import libraries as library_models
 from threadstate.client.models import network as network_models
@@ -27,11 +28,12 @@ from threadstate.client.models import states as state_models
 from threadstate.client.models import statics as statics_models
 from threadstate.client.models import threads as thread_models
 from threadstate.client.models.answer import Answer
+from threadstate.device.assembly_document import AssemblyProgressDocument
 
 CALLS = (jobs, libraries, network, settled, states, statics, threads)
 MODELS = (
     *(job_models, library_models, network_models, service_models),
-    *(settled_models, state_models, statics_models, thread_models),
+    *(assembly_models, settled_models, state_models, statics_models, thread_models),
 )
 RENAMED = {
     name: f"{name}Document"
@@ -39,6 +41,8 @@ RENAMED = {
         *("State", "Pose", "Contact", "Margins", "StoredStatics", "Load", "ContactForce", "Reaction", "NormalRange"),
         *("Deviation", "SettledContact", "Fall", "SettledMargins", "Settled", "Device", "SettledCounts"),
         "SettledLibrary",
+        *("Assembly", "AssemblyEvent", "AssemblyPath", "AssemblyEnergy", "AssemblyMargins", "AssemblyTravel"),
+        "AssemblyProgress",
         *("Twist", "LoadedContact", "Piece", "Jamming", "ComputedJamming", "ContactWrench", "Limits", "StandardThread"),
     )
 } | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
@@ -140,6 +144,7 @@ def test_a_body_has_all_that_the_service_knows(openapi: dict[str, Any]) -> None:
         (states.solve, "SolveRequest"),
         (statics.solve_statics, "StaticsRequest"),
         (settled.settle, "SettleRequest"),
+        (settled.assemble, "AssemblyRequest"),
     ):
         body = _described(function).body
         assert body is not None
@@ -157,6 +162,7 @@ def test_requests_that_write_are_those_that_may_be_repeated(openapi: dict[str, A
         ("/v1/solve", "post"),
         ("/v1/statics", "post"),
         ("/v1/settle", "post"),
+        ("/v1/assemblies", "post"),
     }
 
 
@@ -229,7 +235,9 @@ def _models() -> Iterator[type[BaseModel]]:
 def test_models_are_what_the_service_describes(openapi: dict[str, Any], model: type[BaseModel]) -> None:
     # The data of an event stream is nothing that OpenAPI describes.
     event = EventDocument.model_json_schema()
+    progress = TypeAdapter(AssemblyProgressDocument).json_schema(ref_template="#/components/schemas/{model}")
     components = {**openapi["components"]["schemas"], **event["$defs"], "EventDocument": event}
+    components["AssemblyProgressDocument"] = progress
     # The client never asks for some of a state's fields, so that none is missing.
     chosen = components["ChosenFields"]
     components["ChosenFields"] = {**chosen, "required": list(chosen["properties"])}

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from oracle.pose import pose_rotation
 from oracle.rest import HeldBolt
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, AssemblyPoint, EventKind, Held
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, AssemblyPoint, Held, PathEventKind
 from threadstate.device.model import About, Device, default_device
 from threadstate.device.strategy import Strategy
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
@@ -62,7 +62,7 @@ def test_the_papers_case_engages(paper: AssemblyPath) -> None:
     """The snap is where the study of rigid turns has it, near 357 to 358 deg; 0.17 to 0.30 mm deep."""
     assert paper.outcome is AssemblyOutcome.ENGAGED
     assert paper.flags == ()
-    (snap,) = [event for event in paper.events if event.kind is EventKind.SNAP]
+    (snap,) = [event for event in paper.events if event.kind is PathEventKind.SNAP]
     assert 357.0 < snap.phase_deg < 358.0
     assert snap.drop is not None
     assert 0.15 < 25.4 * snap.drop < 0.30
@@ -115,7 +115,7 @@ def test_the_torque_is_that_of_the_contacts_about_the_axis(paths: list[AssemblyP
 def test_steps_and_drops_are_bounded(paths: list[AssemblyPath]) -> None:
     """Steps are at most 2 deg; where the origin goes farther than 0.01 r beside the turn, a fall is listed."""
     for path in paths:
-        fallen = {event.phase_deg for event in path.events if event.kind in (EventKind.FALL, EventKind.BRIDGED)}
+        fallen = {event.phase_deg for event in path.events if event.kind in (PathEventKind.FALL, PathEventKind.BRIDGED)}
         for before, after in pairwise(path.points):
             assert 0.0 < abs(after.phase_deg - before.phase_deg) <= 2.0 + 1e-9
             way = math.dist(before.pose.translation, after.pose.translation)
@@ -145,7 +145,7 @@ def test_energy_is_balanced(device: Device, turned: tuple[float, float, float, S
     assert abs(energy.balance) < 2e-5 * PUSH * R
     assert abs(energy.work) > 1e-2 * PUSH * R
     for event in path.events:
-        if event.kind is EventKind.FALL:
+        if event.kind is PathEventKind.FALL:
             assert event.energy is not None
             assert event.energy > 0.0
 

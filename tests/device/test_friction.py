@@ -14,7 +14,7 @@ from threadstate.device import _friction_kernel as fk
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _strip_kernel as st
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, Held, Motion
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, ContactMotion, Held
 from threadstate.device.command import command_numbers, strip_numbers
 from threadstate.device.friction import FrictionLeg, FrictionPath, begin_friction, point_of
 from threadstate.device.model import Outcome, SettledFlag, default_device
@@ -87,10 +87,10 @@ def test_forces_lie_in_their_cones_and_on_them_where_contacts_slide(course: Cour
             normal, tangential = parts(contact.force, contact.normal)
             size = float(np.linalg.norm(tangential))
             assert size <= MU * normal + 1e-7 * PUSH
-            if motion is Motion.SLIDES:
+            if motion is ContactMotion.SLIDES:
                 assert size == pytest.approx(MU * normal, abs=1e-7 * PUSH)
             seen.add(motion)
-    assert seen == {Motion.SLIDES, Motion.STICKS}
+    assert seen == {ContactMotion.SLIDES, ContactMotion.STICKS}
 
 
 def test_energy_is_balanced_and_friction_loses(course: Course) -> None:

@@ -14,13 +14,14 @@ import pytest
 from service.app import create_app
 from threadstate.device.assembly_document import (
     AssemblyDocument,
+    AssemblyEnergyDocument,
+    AssemblyEventDocument,
     AssemblyMarginsDocument,
-    EnergyDocument,
-    EventDocument,
-    PathDocument,
-    TravelDocument,
+    AssemblyPathDocument,
+    AssemblyProgressDocument,
+    AssemblyTravelDocument,
 )
-from threadstate.device.assembly_model import AssemblyOutcome, EventKind, Held
+from threadstate.device.assembly_model import AssemblyOutcome, Held, PathEventKind
 from threadstate.device.document import (
     DeviationDocument,
     FallDocument,
@@ -102,7 +103,7 @@ def test_every_field_of_an_answer_is_a_term(known: set[str]) -> None:
     "names",
     [
         *(StateClass, Flag, FeaturePair, Region, Move, ChangeKind, Verdict, Outcome, SettledFlag),
-        *(AssemblyOutcome, EventKind, Held, Strategy),
+        *(AssemblyOutcome, PathEventKind, Held, Strategy),
     ],
 )
 def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]) -> None:
@@ -115,7 +116,10 @@ def test_every_field_of_a_settled_state_is_a_term(known: set[str]) -> None:
 
 
 def test_every_field_of_a_path_is_a_term(known: set[str]) -> None:
-    documents = (AssemblyDocument, EventDocument, PathDocument, EnergyDocument, AssemblyMarginsDocument, TravelDocument)
+    documents = (
+        *(AssemblyDocument, AssemblyEventDocument, AssemblyPathDocument, AssemblyEnergyDocument),
+        *(AssemblyMarginsDocument, AssemblyTravelDocument, AssemblyProgressDocument),
+    )
     assert sorted({name for document in documents for name in document.__annotations__} - known) == []
 
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from service.content_negotiation import prefers_csv, takes_gzip
+from service.content_negotiation import prefers_csv, prefers_events, takes_gzip
 
 
 @pytest.mark.parametrize(
@@ -70,3 +70,22 @@ def test_a_weight_that_is_none_makes_its_member_worth_nothing(weight: str) -> No
     assert not takes_gzip(f"gzip;q={weight}")
     assert not prefers_csv(f"text/csv;q={weight}")
     assert takes_gzip(f"br;q={weight}, gzip")
+
+
+@pytest.mark.parametrize(
+    ("header", "preferred"),
+    [
+        ("", False),
+        ("*/*", False),
+        ("text/*", False),
+        ("text/event-stream", True),
+        ("Text/Event-Stream;q=0.5", True),
+        ("text/event-stream, application/json", True),
+        ("application/json, text/event-stream", False),
+        ("text/event-stream;q=0.5, */*", False),
+        ("application/json;q=0.5, text/event-stream", True),
+        ("text/event-stream;q=0", False),
+    ],
+)
+def test_events_are_preferred_where_they_are_named_and_weigh_more_or_come_first(header: str, preferred: bool) -> None:
+    assert prefers_events(header) is preferred

@@ -14,9 +14,10 @@ from fastapi.testclient import TestClient
 from jsonschema import Draft202012Validator
 from pydantic import TypeAdapter
 
+from scripts.write_answers import turned_path
 from service.app import create_app
 from service.docs.endpoints import ASSETS, PACKAGE
-from service.examples.responses import SETTLED_POSE, STATICS
+from service.examples.responses import ASSEMBLY, SETTLED_POSE, STATICS
 from service.explorer.endpoints import THIRD_PARTY
 from service.histories.endpoints import HistoryColumns, HistoryRows
 from service.libraries.endpoints import LibraryDetail, LibraryList
@@ -277,3 +278,24 @@ def test_the_settled_state_shown_in_the_documentation_is_that_of_the_example(rep
     assert json.loads(answer) == SETTLED_POSE
     ((_, request),) = with_examples(create_app().openapi()["components"]["schemas"]["SettleRequest"])
     assert json.loads(body) == request
+
+
+def test_the_path_shown_in_the_documentation_is_that_of_the_example(
+    openapi: dict[str, Any], repository_root: Path
+) -> None:
+    text = (repository_root / "docs" / "api.md").read_text()
+    ((body, answer),) = re.findall(
+        r"curl 127\.0\.0\.1:8000/v1/assemblies --json '(\S.*?)'\n```.*?```json\n(.*?)\n```", text, re.DOTALL
+    )
+    assert json.loads(answer) == ASSEMBLY
+    ((_, request),) = with_examples(openapi["components"]["schemas"]["AssemblyRequest"])
+    assert json.loads(body) == request
+
+
+@pytest.mark.slow
+def test_the_example_of_a_path_answers_the_example_of_a_request(client: TestClient, openapi: dict[str, Any]) -> None:
+    assert nearly(ASSEMBLY) == json.loads(json.dumps(turned_path()))
+    ((_, request),) = with_examples(openapi["components"]["schemas"]["AssemblyRequest"])
+    answer = client.post("/v1/assemblies", json=request).json()
+    ends = {name: [column[0], column[-1]] for name, column in answer["path"].items()}
+    assert nearly(ASSEMBLY) == {**answer, "path": ends}

@@ -113,7 +113,7 @@ def test_no_bytes_in_a_query_fail(client: TestClient, raw: bytes) -> None:
 
 
 @settings(max_examples=300)
-@given(path=st.sampled_from(("/v1/solve", "/v1/statics", "/v1/settle")), body=bodies)
+@given(path=st.sampled_from(("/v1/solve", "/v1/statics", "/v1/settle", "/v1/assemblies")), body=bodies)
 def test_no_json_body_fails(client: TestClient, path: str, body: object) -> None:
     headers = {"Content-Type": "application/json"}
     check(client.post(path, content=json.dumps(body), headers=headers))

@@ -92,6 +92,35 @@ def test_what_solves_is_refused_while_kernels_are_compiled(
     assert ("ended with code 1" in caplog.text) is failed
 
 
+@pytest.mark.parametrize("code", [0, 1], ids=["compiled", "failed"])
+def test_kernels_of_turning_are_compiled_when_they_are_asked_for(
+    made_up: StoredLibrary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int
+) -> None:
+    begun, compiled = tmp_path / "begun", tmp_path / "compiled"
+    script = f"import pathlib; pathlib.Path({str(begun)!r}).touch()\n{COMPILING}"
+    monkeypatch.setattr("service.kernels.COMPILE_ALL", (sys.executable, "-c", script, str(compiled), str(code)))
+    monkeypatch.setattr("service.kernels.turning_is_compiled", lambda: False)
+    # A level start with friction: refused, but not for want of kernels.
+    body = {"pose": {"roll": 0, "pitch": 0, "phase": 10}, "mu": 0.1}
+    settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
+    with TestClient(service_app(settings, serving=True)) as client:
+        _wait_until_ready(client)
+        assert client.post("/v1/solve", json=SOLVE).status_code == 200
+        assert not begun.exists()
+        refused = problem(client.post("/v1/assemblies", json=body), 503)
+        assert refused.type.endswith(":kernels-compiling")
+        until = time.monotonic() + LONGEST_S
+        while not begun.exists():
+            assert time.monotonic() < until
+            time.sleep(0.01)
+        problem(client.post("/v1/assemblies", json=body), 503)
+        compiled.touch()
+        while (response := client.post("/v1/assemblies", json=body)).status_code != 200:
+            assert time.monotonic() < until
+            time.sleep(0.05)
+    assert response.json()["outcome"] == "undecided"
+
+
 def test_a_client_tries_again_for_as_long_as_it_takes(compiling: TestClient) -> None:
     response = compiling.post("/v1/solve", json=SOLVE)
     error = _error(response)

@@ -21,6 +21,7 @@ Model = TypeVar("Model", bound=BaseModel)
 QueryValue = str | float | bool | None
 JSON = "application/json"
 SVG = "image/svg+xml"
+EVENT_STREAM = "text/event-stream"
 LATEST = "latest"
 LibraryName = int | str
 """A library's number, ``latest``, ``latest-mesh``, or the designation of a thread or its slug."""
@@ -92,6 +93,11 @@ def post(
     """A POST request with ``body``, without its values that are None."""
     content = json.dumps({name: value for name, value in body.items() if value is not None}, allow_nan=False)
     return Call("POST", path, answer.model_validate_json, query, content.encode(), repeatable=repeatable)
+
+
+def name_of(call: Call[object]) -> str:
+    """Method and path of a request, as errors name it."""
+    return f"{call.method} {call.path.partition('?')[0]}"
 
 
 def path_of(*segments: str | float) -> str:

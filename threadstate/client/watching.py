@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import httpx2
 from pydantic import ValidationError
 
-from threadstate.client.call import Call
+from threadstate.client.call import EVENT_STREAM, Call, name_of
 from threadstate.client.errors import (
     ClientError,
     JobCancelledError,
@@ -18,8 +18,11 @@ from threadstate.client.errors import (
     TimedOutError,
     UnexpectedAnswerError,
     WaitTimedOutError,
+    problem_error,
 )
+from threadstate.client.models.assemblies import Assembly, AssemblyProgress
 from threadstate.client.models.jobs import EventDocument, JobDocument
+from threadstate.client.models.service import Problem
 from threadstate.client.retrying import Retrying, backoff_s
 from threadstate.jobs.names import JobState
 from threadstate.numbers import integer, number_text
@@ -90,6 +93,49 @@ class Progress:
 
 
 Watcher = Callable[[Progress], object]
+AssemblyWatcher = Callable[[AssemblyProgress], object]
+
+
+class AssemblyEvents:
+    """The events of a path that is computed: ``watcher`` is called with how far it is; the last one is the answer.
+
+    Attributes:
+        call: the request for the events.
+    """
+
+    def __init__(self, call: Call[Assembly], watcher: AssemblyWatcher) -> None:
+        self.call = replace(call, accept=EVENT_STREAM)
+        self._watcher = watcher
+        self._answer: Assembly | None = None
+
+    def received(self, event: httpx2.ServerSentEvent) -> None:
+        """Parse an event.
+
+        Raises:
+            ProblemError: it says why there is no answer.
+            UnexpectedAnswerError: it is not an event of a path.
+        """
+        name = name_of(self.call)
+        try:
+            match event.event:
+                case "progress":
+                    self._watcher(AssemblyProgress.model_validate_json(event.data))
+                case "answer":
+                    self._answer = Assembly.model_validate_json(event.data)
+                case "problem":
+                    raise problem_error(name, Problem.model_validate_json(event.data), None)
+        except ValidationError:
+            raise UnexpectedAnswerError(f"{name}: {event.data[:100]!r} is not an event of a path") from None
+
+    def answer(self) -> Assembly:
+        """The answer.
+
+        Raises:
+            UnexpectedAnswerError: the stream ended without it.
+        """
+        if self._answer is None:
+            raise UnexpectedAnswerError(f"{name_of(self.call)}: the stream ended without an answer")
+        return self._answer
 
 
 class JobWait:

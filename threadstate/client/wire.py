@@ -9,7 +9,7 @@ from typing import TypeVar
 import httpx2
 from pydantic import ValidationError
 
-from threadstate.client.call import Call
+from threadstate.client.call import Call, name_of
 from threadstate.client.errors import (
     ClientError,
     ConnectionFailedError,
@@ -61,7 +61,7 @@ def parse_response(call: Call[Result], response: httpx2.Response) -> Result:
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
         place = ".".join(str(part) for part in first["loc"])
-        raise UnexpectedAnswerError(f"{_name(call)}: {error.title} {place}: {first['msg']}") from None
+        raise UnexpectedAnswerError(f"{name_of(call)}: {error.title} {place}: {first['msg']}") from None
 
 
 def check_success(call: Call[object], response: httpx2.Response) -> None:
@@ -74,8 +74,8 @@ def check_success(call: Call[object], response: httpx2.Response) -> None:
     if response.is_success:
         return
     if response.status_code < 400:
-        raise UnexpectedAnswerError(f"{_name(call)}: {response.status_code}, not followed")
-    raise problem_error(_name(call), _problem(response), retry_after_s(response.headers.get("Retry-After")))
+        raise UnexpectedAnswerError(f"{name_of(call)}: {response.status_code}, not followed")
+    raise problem_error(name_of(call), _problem(response), retry_after_s(response.headers.get("Retry-After")))
 
 
 @contextmanager
@@ -100,7 +100,7 @@ def _failure(call: Call[object], error: httpx2.RequestError) -> ClientError:
         url = error.request.url
         where = f"{url.scheme}://{url.netloc.decode('ascii')}"
         return kind(f"no service answers at {where} ({said}); `threadstate serve` starts one on this machine", reached)
-    return kind(f"{_name(call)}: {type(error).__name__}: {said}", reached)
+    return kind(f"{name_of(call)}: {type(error).__name__}: {said}", reached)
 
 
 def _problem(response: httpx2.Response) -> Problem:

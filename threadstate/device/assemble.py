@@ -22,9 +22,9 @@ from threadstate.device.assembly_model import (
     AssemblyPath,
     AssemblyPoint,
     AssemblyTravel,
-    EventKind,
     Held,
     PathEvent,
+    PathEventKind,
 )
 from threadstate.device.assembly_outcome import Ending, outcome_of
 from threadstate.device.command import command_numbers, strip_numbers
@@ -44,6 +44,7 @@ from threadstate.device.settle import (
     vector_of,
 )
 from threadstate.device.strategy import Strategy
+from threadstate.device.watch import PathWatch
 from threadstate.state.model import FeaturePair, StagePose
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
@@ -55,15 +56,15 @@ Floats = NDArray[np.float64]
 COUNTER_CLOCKWISE_DEG, CLOCKWISE_DEG = 360.0, 270.0
 
 EVENTS = {
-    tk.GAINED: EventKind.GAINED,
-    tk.LOST: EventKind.LOST,
-    tk.MOVED: EventKind.MOVED,
-    tk.FALL: EventKind.FALL,
-    tk.ON_FLUSH: EventKind.ON_SURFACE,
-    tk.OFF_FLUSH: EventKind.OFF_SURFACE,
-    tk.ON_FLANK: EventKind.ON_STRIP,
-    tk.OFF_STRIP: EventKind.OFF_STRIP,
-    tk.BRIDGED: EventKind.BRIDGED,
+    tk.GAINED: PathEventKind.GAINED,
+    tk.LOST: PathEventKind.LOST,
+    tk.MOVED: PathEventKind.MOVED,
+    tk.FALL: PathEventKind.FALL,
+    tk.ON_FLUSH: PathEventKind.ON_SURFACE,
+    tk.OFF_FLUSH: PathEventKind.OFF_SURFACE,
+    tk.ON_FLANK: PathEventKind.ON_STRIP,
+    tk.OFF_STRIP: PathEventKind.OFF_STRIP,
+    tk.BRIDGED: PathEventKind.BRIDGED,
 }
 
 HELD = (Held.CONTACTS, Held.SURFACE, Held.STRIP)
@@ -78,16 +79,20 @@ def assemble_pose(
     strategy: Strategy = Strategy.CCW_THEN_CW,
     *,
     mu: float = 0.0,
+    watch: PathWatch | None = None,
 ) -> AssemblyPath:
     """The path of a bolt that settles at a commanded pose and is turned; angles in degrees.
 
     Forces, section 5; a left-hand bolt is turned the other way round. The device is the default one of forces, section
     4, unless another is given. The path is a sequence of equilibria, at most 2 deg of phase apart, and 0.05 deg where
-    contacts change; with friction, of steps of at most 1 deg. The same input gives the same bits.
+    contacts change; with friction, of steps of at most 1 deg. The same input gives the same bits. By ``watch`` another
+    thread sees how far it is, and stops it.
 
     Raises:
         InvalidValueError: as :func:`threadstate.device.settle.settle_pose`.
+        PathStoppedError: the path was stopped.
     """
+    watch = watch or PathWatch()
     wanted = checked_poses([(roll_deg, pitch_deg, phase_deg)])
     check_friction(mu)
     check_pair(pair)
@@ -98,7 +103,7 @@ def assemble_pose(
     command = command_numbers(held, float(wanted[0, 0]), float(wanted[0, 1]), float(row[0][sk.R_HEIGHT]))
     path = None
     if mu > 0.0:
-        start, path = state_with_friction(pair, held, numbers, wanted[0], row[0], mu)
+        start, path = state_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch)
     else:
         start = settled_state(pair, held, numbers, wanted[0], rotations[0], row)
     if start.outcome is not Outcome.SETTLED:
@@ -106,9 +111,9 @@ def assemble_pose(
         return AssemblyPath(start, strategy, mu, outcome, start.flags, (), (), None, None, None)
     phase = math.radians(wanted[0, 2])
     if path is not None:
-        course = _with_friction(path, phase, plan_of(pair, strategy), held.push)
+        course = _with_friction(path, phase, plan_of(pair, strategy), held.push, watch)
     else:
-        course = _without_friction(pair, numbers, command, row, phase, plan_of(pair, strategy))
+        course = _without_friction(pair, numbers, command, row, phase, plan_of(pair, strategy), watch)
     return _path(pair, held, start, strategy, mu, course)
 
 
@@ -153,7 +158,13 @@ def plan_of(pair: Pair, strategy: Strategy) -> list[tuple[float, bool]]:
 
 
 def _without_friction(
-    pair: Pair, numbers: Floats, command: Floats, row: tuple[Floats, ...], phase: float, plan: list[tuple[float, bool]]
+    pair: Pair,
+    numbers: Floats,
+    command: Floats,
+    row: tuple[Floats, ...],
+    phase: float,
+    plan: list[tuple[float, bool]],
+    watch: PathWatch,
 ) -> Course:
     """The course of a plan, from the settled state's row on."""
     course = Course()
@@ -169,7 +180,10 @@ def _without_friction(
         leg = new_leg()
         ends = (phase, phase + turn)
         bolt, nut = pair.bolt.packed, pair.nut.packed
+        watch.begin_turn()
+        watch.begin_leg(RunningTurn(leg))
         status, kind = tk.turn_with(q, kind, *ends, stops_at_snap, command, numbers, strip, bolt, nut, leg)
+        watch.end_leg()
         result, rows, contacts, happened = leg
         count = int(result[tk.L_POINTS])
         found = happened[: int(result[tk.L_EVENTS])]
@@ -177,6 +191,7 @@ def _without_friction(
         course.falls += float(found[found[:, tk.E_KIND] == tk.FALL, tk.E_LOSS].sum())
         points = [_point(rows[i], contacts[i], numbers, command) for i in range(count)]
         course.add_leg(points, snapped=status == tk.SNAPPED)
+        watch.end_turn(course.events)
         course.is_free = int(result[tk.L_OVERLAP]) == FREE
         phase = float(rows[count - 1, tk.T_PHASE])
         if status == tk.TORQUE_PASSED:
@@ -191,10 +206,13 @@ def _without_friction(
     return course
 
 
-def _with_friction(path: FrictionPath, phase: float, plan: list[tuple[float, bool]], push: float) -> Course:
+def _with_friction(
+    path: FrictionPath, phase: float, plan: list[tuple[float, bool]], push: float, watch: PathWatch
+) -> Course:
     """The course of a plan with friction, on from a settled state's path."""
     course = Course()
     for turn, stops_at_snap in plan:
+        watch.begin_turn()
         leg = path.follow((phase, phase + turn), (push, push), stops_at_snap=stops_at_snap)
         points = [
             point_of(row, contacts, path.numbers, path.command)
@@ -202,6 +220,7 @@ def _with_friction(path: FrictionPath, phase: float, plan: list[tuple[float, boo
         ]
         course.events += friction_events(points, leg.points)
         course.add_leg(points, snapped=leg.status == fk.SNAP_REACHED)
+        watch.end_turn(course.events)
         course.friction += float(leg.points[:, fk.P_FRICTION].sum())
         course.falls += float(leg.points[:, fk.P_FALL].sum())
         phase = float(leg.points[-1, fk.P_PHASE])
@@ -227,6 +246,33 @@ def new_leg() -> tk.Leg:
         np.zeros((tk.MAX_POINTS, st.MAX_CONTACTS, st.CONTACT_SIZE)),
         np.zeros((tk.MAX_EVENTS, tk.EVENT_SIZE)),
     )
+
+
+@dataclass(frozen=True)
+class RunningTurn:
+    """A leg without friction, as :func:`threadstate.device._turn_kernel.turn_with` sets it."""
+
+    leg: tk.Leg
+
+    def reached(self) -> tuple[int, float | None]:
+        """How many points it has, and the phase of the last one in degrees."""
+        result, rows, _, _ = self.leg
+        count = int(result[tk.L_POINTS])
+        return count, math.degrees(rows[count - 1, tk.T_PHASE]) if count else None
+
+    def events(self, phase_deg: float | None) -> list[PathEvent]:
+        """The events up to a phase that it has reached: those of a step are all there once its point is."""
+        result, rows, _, happened = self.leg
+        if phase_deg is None:
+            return []
+        # The last row of a full list is overwritten.
+        found = [_event(event) for event in happened[: min(int(result[tk.L_EVENTS]), tk.MAX_EVENTS - 1)]]
+        start = math.degrees(rows[0, tk.T_PHASE])
+        return [event for event in found if abs(event.phase_deg - start) <= abs(phase_deg - start)]
+
+    def stop(self) -> None:
+        """Have the kernel end it, as after its last descent."""
+        self.leg[0][tk.L_DESCENTS] = math.inf
 
 
 def _path(
@@ -286,10 +332,10 @@ def _event(event: Floats) -> PathEvent:
     kind = EVENTS[int(event[tk.E_KIND])]
     phase_deg, from_deg = math.degrees(event[tk.E_PHASE]), math.degrees(event[tk.E_BEFORE])
     point = vector_of(event[tk.E_POINT : tk.E_POINT + 3])
-    if kind is EventKind.FALL:
+    if kind is PathEventKind.FALL:
         drop, way, loss = (float(number) for number in event[[tk.E_DROP, tk.E_WAY, tk.E_LOSS]])
         return PathEvent(kind, phase_deg, from_deg, point=point, drop=drop, way=way, energy=loss)
-    if kind in (EventKind.GAINED, EventKind.LOST, EventKind.MOVED):
+    if kind in (PathEventKind.GAINED, PathEventKind.LOST, PathEventKind.MOVED):
         before, after = (_features(event[i]) for i in (tk.E_OLD_PAIR, tk.E_PAIR))
         return PathEvent(kind, phase_deg, from_deg, before, after, point)
     return PathEvent(kind, phase_deg, from_deg)
@@ -307,4 +353,4 @@ def _snap(points: list[AssemblyPoint]) -> PathEvent:
     highest = max(near, key=lambda point: point.pose.translation[2])
     drop = highest.pose.translation[2] - last.pose.translation[2]
     way = math.dist(highest.pose.translation, last.pose.translation)
-    return PathEvent(EventKind.SNAP, last.phase_deg, highest.phase_deg, drop=drop, way=way)
+    return PathEvent(PathEventKind.SNAP, last.phase_deg, highest.phase_deg, drop=drop, way=way)

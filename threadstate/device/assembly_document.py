@@ -11,10 +11,10 @@ from threadstate.device.assembly_model import (
     AssemblyPath,
     AssemblyPoint,
     AssemblyTravel,
-    EventKind,
+    ContactMotion,
     Held,
-    Motion,
     PathEvent,
+    PathEventKind,
 )
 from threadstate.device.document import (
     DeviationDocument,
@@ -27,15 +27,16 @@ from threadstate.device.document import (
 )
 from threadstate.device.model import SettledFlag
 from threadstate.device.strategy import Strategy
+from threadstate.device.watch import PathProgress
 from threadstate.state.document import PoseDocument, VectorDocument
 from threadstate.state.model import FeaturePair
 from threadstate.units import LengthUnit
 
 
-class EventDocument(TypedDict):
+class AssemblyEventDocument(TypedDict):
     """An event of a path, between two phases in degrees; null where it has none of a kind."""
 
-    kind: EventKind
+    kind: PathEventKind
     phase: float
     from_phase: float
     features_before: FeaturePair | None
@@ -46,7 +47,7 @@ class EventDocument(TypedDict):
     energy: float | None
 
 
-class PathDocument(TypedDict):
+class AssemblyPathDocument(TypedDict):
     """The points of a path, a list of each kind of number, all equally long."""
 
     phase: list[float]
@@ -54,13 +55,13 @@ class PathDocument(TypedDict):
     pose: list[PoseDocument]
     deviation: list[DeviationDocument]
     contacts: list[list[SettledContactDocument]]
-    motions: list[list[Motion]]
+    motions: list[list[ContactMotion]]
     torque: list[float]
     elastic_energy: list[float]
     potential: list[float]
 
 
-class EnergyDocument(TypedDict):
+class AssemblyEnergyDocument(TypedDict):
     """Where the energy of a path went, in N times the unit."""
 
     work: float
@@ -82,7 +83,7 @@ class AssemblyMarginsDocument(TypedDict):
     snap: float | None
 
 
-class TravelDocument(TypedDict):
+class AssemblyTravelDocument(TypedDict):
     """What a path asks of the device: torque in N times the unit, tilt in degrees, shift."""
 
     torque: float
@@ -102,11 +103,32 @@ class AssemblyDocument(TypedDict):
     outcome: AssemblyOutcome
     flags: list[SettledFlag]
     start: SettledDocument
-    events: list[EventDocument]
-    path: PathDocument
-    energy: EnergyDocument | None
+    events: list[AssemblyEventDocument]
+    path: AssemblyPathDocument
+    energy: AssemblyEnergyDocument | None
     margins: AssemblyMarginsDocument | None
-    travel: TravelDocument | None
+    travel: AssemblyTravelDocument | None
+
+
+class AssemblyProgressDocument(TypedDict):
+    """How far a path is: the number of its turn (0 while the bolt settles), the points of that one and the phase of the
+    last in degrees, and events that are new.
+    """
+
+    leg: int
+    points: int
+    phase: float | None
+    events: list[AssemblyEventDocument]
+
+
+def progress_document(progress: PathProgress, sent: int, factor: float = 1.0) -> AssemblyProgressDocument:
+    """The document of how far a path is, with the events after the first ``sent`` ones."""
+    return {
+        "leg": progress.leg,
+        "points": progress.points,
+        "phase": progress.phase_deg,
+        "events": [path_event_document(event, factor) for event in progress.events[sent:]],
+    }
 
 
 def assembly_document(path: AssemblyPath, unit: LengthUnit, factor: float = 1.0) -> AssemblyDocument:
@@ -122,7 +144,7 @@ def assembly_document(path: AssemblyPath, unit: LengthUnit, factor: float = 1.0)
         "outcome": path.outcome,
         "flags": list(path.flags),
         "start": start,
-        "events": [_event(event, factor) for event in path.events],
+        "events": [path_event_document(event, factor) for event in path.events],
         "path": _points(path.points, factor),
         "energy": None if path.energy is None else _energy(path.energy, factor),
         "margins": None if path.margins is None else _margins(path.margins, factor),
@@ -130,7 +152,8 @@ def assembly_document(path: AssemblyPath, unit: LengthUnit, factor: float = 1.0)
     }
 
 
-def _event(event: PathEvent, factor: float) -> EventDocument:
+def path_event_document(event: PathEvent, factor: float = 1.0) -> AssemblyEventDocument:
+    """The document of an event, its lengths multiplied by ``factor``."""
     return {
         "kind": event.kind,
         "phase": event.phase_deg + 0.0,
@@ -144,7 +167,7 @@ def _event(event: PathEvent, factor: float) -> EventDocument:
     }
 
 
-def _points(points: tuple[AssemblyPoint, ...], factor: float) -> PathDocument:
+def _points(points: tuple[AssemblyPoint, ...], factor: float) -> AssemblyPathDocument:
     return {
         "phase": [point.phase_deg + 0.0 for point in points],
         "held": [point.held for point in points],
@@ -167,7 +190,7 @@ def _points(points: tuple[AssemblyPoint, ...], factor: float) -> PathDocument:
     }
 
 
-def _energy(energy: AssemblyEnergy, factor: float) -> EnergyDocument:
+def _energy(energy: AssemblyEnergy, factor: float) -> AssemblyEnergyDocument:
     return {
         "work": energy.work * factor + 0.0,
         "push": energy.push * factor + 0.0,
@@ -189,5 +212,5 @@ def _margins(margins: AssemblyMargins, factor: float) -> AssemblyMarginsDocument
     }
 
 
-def _travel(travel: AssemblyTravel, factor: float) -> TravelDocument:
+def _travel(travel: AssemblyTravel, factor: float) -> AssemblyTravelDocument:
     return {"torque": travel.torque * factor, "tilt": travel.tilt_deg, "shift": travel.shift * factor}

@@ -40,7 +40,7 @@ class Held(StrEnum):
     """A strip of flank, level and in phase; the contacts are points of it whose forces balance the push."""
 
 
-class EventKind(StrEnum):
+class PathEventKind(StrEnum):
     """What happens on a path between two of its points."""
 
     GAINED = "gained"
@@ -67,7 +67,7 @@ class EventKind(StrEnum):
     """No shorter step had a certain end: within this one the path is not resolved."""
 
 
-class Motion(StrEnum):
+class ContactMotion(StrEnum):
     """What a contact with friction does in the step before a point."""
 
     STICKS = "sticks"
@@ -84,7 +84,7 @@ class PathEvent:
     after it). A fall has a drop of the origin, the way it went (lengths) and the potential lost (N times the unit).
     """
 
-    kind: EventKind
+    kind: PathEventKind
     phase_deg: float
     from_deg: float
     features_before: FeaturePair | None = None
@@ -113,7 +113,7 @@ class AssemblyPoint:
     torque: float
     elastic_energy: float
     potential: float
-    motions: tuple[Motion, ...] = ()
+    motions: tuple[ContactMotion, ...] = ()
     solutions: int = 1
 
 

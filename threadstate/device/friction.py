@@ -14,7 +14,7 @@ from threadstate.device import _friction_kernel as fk
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _turn_kernel as tk
 from threadstate.device._certificate_kernel import FREE
-from threadstate.device.assembly_model import AssemblyPoint, EventKind, Held, Motion, PathEvent
+from threadstate.device.assembly_model import AssemblyPoint, ContactMotion, Held, PathEvent, PathEventKind
 from threadstate.device.equilibrium import BALANCED, balance
 from threadstate.device.model import (
     Device,
@@ -26,6 +26,7 @@ from threadstate.device.model import (
     SettledMargins,
     SettledState,
 )
+from threadstate.device.watch import PathWatch
 from threadstate.state.model import FeaturePair, StagePose, Vector
 from threadstate.thread.pair import Pair
 
@@ -36,7 +37,7 @@ FEATURES = tuple(FeaturePair)
 ROOM = 8
 """Contacts that a point has room for: those of a strip."""
 
-MOTIONS = {mk.SLIPS: Motion.SLIDES, mk.STICKS: Motion.STICKS}
+MOTIONS = {mk.SLIPS: ContactMotion.SLIDES, mk.STICKS: ContactMotion.STICKS}
 
 REASONS = {
     fk.TOO_DEEP: SettledFlag.DEEP,
@@ -58,6 +59,31 @@ class FrictionLeg:
     contacts: Floats
 
 
+@dataclass(frozen=True)
+class RunningFrictionLeg:
+    """A leg with friction, as :func:`threadstate.device._friction_kernel.follow_friction` sets its points."""
+
+    points: Floats
+    command: Floats
+
+    def reached(self) -> tuple[int, float | None]:
+        """How many points it has, and the phase of the last one in degrees.
+
+        The last row set is a step that may yet be taken back. A leg in which the push grows begins without any.
+        """
+        count = max(int(np.count_nonzero(self.points[:, fk.P_PUSH])) - 1, 0)
+        return count, math.degrees(self.points[count - 1, fk.P_PHASE]) if count else None
+
+    def events(self, phase_deg: float | None) -> list[PathEvent]:
+        """None: what happens between points is seen when all are there."""
+        _ = phase_deg
+        return []
+
+    def stop(self) -> None:
+        """Have the kernel end it, as beyond the torque at which the bolt jams: no torque is below a negative limit."""
+        self.command[tk.M_PUSH] = -1.0
+
+
 @dataclass
 class FrictionPath:
     """A bolt that is followed leg by leg: its coordinates and contacts at the end of the last one."""
@@ -70,13 +96,19 @@ class FrictionPath:
     q: Floats
     count: int
     contacts: Floats
+    watch: PathWatch
 
     def follow(
         self, phases: tuple[float, float], pushes: tuple[float, float], *, stops_at_snap: bool = False
     ) -> FrictionLeg:
-        """Follows it while phase (rad) and push (N) go from the first to the second."""
+        """Follows it while phase (rad) and push (N) go from the first to the second.
+
+        Raises:
+            PathStoppedError: the path was stopped.
+        """
         points = np.zeros((fk.MAX_POINTS, fk.POINT_SIZE))
         contacts = np.zeros((fk.MAX_POINTS, ROOM, mk.CONTACT_SIZE))
+        self.watch.begin_leg(RunningFrictionLeg(points, self.command))
         status, length, self.count = fk.follow_friction(
             self.q,
             np.array(phases),
@@ -92,6 +124,7 @@ class FrictionPath:
             self.pair.nut.packed,
             (points, contacts),
         )
+        self.watch.end_leg()
         return FrictionLeg(status, points[:length], contacts[:length])
 
     def is_free(self) -> bool:
@@ -101,14 +134,21 @@ class FrictionPath:
 
 
 def begin_friction(
-    pair: Pair, numbers: Floats, command: Floats, strip: Floats, phase: float, mu: float
+    pair: Pair,
+    numbers: Floats,
+    command: Floats,
+    strip: Floats,
+    phase: float,
+    mu: float,
+    watch: PathWatch | None = None,
 ) -> FrictionPath:
     """A bolt at its first contact, before the push grows; ``phase`` in rad."""
     numbers = numbers.copy()
     tk.set_phase(phase, command, numbers)
     q = np.zeros(ck.COORDINATES)
     q[3:] = numbers[ck.D_PLACE : ck.D_PLACE + 3]
-    return FrictionPath(pair, numbers, command, strip, mu, q, 0, np.zeros((ROOM, mk.CONTACT_SIZE)))
+    contacts = np.zeros((ROOM, mk.CONTACT_SIZE))
+    return FrictionPath(pair, numbers, command, strip, mu, q, 0, contacts, watch or PathWatch())
 
 
 def point_of(row: Floats, contacts: Floats, numbers: Floats, command: Floats) -> AssemblyPoint:
@@ -143,20 +183,20 @@ def friction_events(points: Sequence[AssemblyPoint], rows: Floats) -> list[PathE
             drop = before.pose.translation[2] - after.pose.translation[2]
             way = math.dist(before.pose.translation, after.pose.translation)
             energy = float(rows[i, fk.P_FALL])
-            events.append(PathEvent(EventKind.FALL, *phases, drop=drop, way=way, energy=energy))
+            events.append(PathEvent(PathEventKind.FALL, *phases, drop=drop, way=way, energy=energy))
         if after.solutions > 1:
-            events.append(PathEvent(EventKind.AMBIGUOUS, *phases))
+            events.append(PathEvent(PathEventKind.AMBIGUOUS, *phases))
         if after.held is not before.held:
-            events.append(PathEvent(EventKind.ON_STRIP, *phases))
+            events.append(PathEvent(PathEventKind.ON_STRIP, *phases))
             continue
         left = [contact.features for contact in before.contacts]
         for contact in after.contacts if after.held is Held.CONTACTS else ():
             if contact.features in left:
                 left.remove(contact.features)
             else:
-                events.append(PathEvent(EventKind.GAINED, *phases, None, contact.features, contact.point))
+                events.append(PathEvent(PathEventKind.GAINED, *phases, None, contact.features, contact.point))
         if after.held is Held.CONTACTS:
-            events += [PathEvent(EventKind.LOST, *phases, features) for features in left]
+            events += [PathEvent(PathEventKind.LOST, *phases, features) for features in left]
     return events
 
 
@@ -170,13 +210,10 @@ def contact_of(contact: Floats) -> LoadedContact:
     )
 
 
-def settled_with_friction(
-    pair: Pair, device: Device, numbers: Floats, command: Floats, strip: Floats, pose_deg: Floats, mu: float
-) -> tuple[SettledState, FrictionPath]:
-    """The state that a growing push reaches with friction from the first contact, and the path that goes on from it."""
+def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) -> SettledState:
+    """The state that a growing push reaches with friction from the first contact, where ``path`` is; it goes on."""
     roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
     phase = math.radians(phase_deg)
-    path = begin_friction(pair, numbers, command, strip, phase, mu)
     leg = path.follow((phase, phase), (0.0, device.push))
     points = tuple(
         PathPoint(
@@ -189,7 +226,7 @@ def settled_with_friction(
         for row in leg.points
     )
     falls = tuple(_fall(leg.points, i) for i in range(1, len(leg.points)) if leg.points[i, fk.P_FALL] > 0.0)
-    last = point_of(leg.points[-1], leg.contacts[-1], path.numbers, command)
+    last = point_of(leg.points[-1], leg.contacts[-1], path.numbers, path.command)
     residual = None
     flags: tuple[SettledFlag, ...] = ()
     outcome = Outcome.UNDECIDED
@@ -203,13 +240,13 @@ def settled_with_friction(
         flags = (SettledFlag.OVERLAP,)
     else:
         pose = leg.points[-1, fk.P_POSE : fk.P_POSE + 12]
-        residual = balance(pair, device, path.q, pose, path.numbers, last.contacts)
+        residual = balance(path.pair, device, path.q, pose, path.numbers, last.contacts)
         outcome = Outcome.SETTLED if residual <= BALANCED else Outcome.UNDECIDED
         flags = () if residual <= BALANCED else (SettledFlag.UNBALANCED,)
     is_settled = outcome is Outcome.SETTLED
     least = min((math.hypot(*contact.force) for contact in last.contacts), default=None)
     force = least / device.push if is_settled and least is not None else None
-    state = SettledState(
+    return SettledState(
         roll_deg,
         pitch_deg,
         phase_deg,
@@ -224,7 +261,6 @@ def settled_with_friction(
         SettledMargins(force, None, None, residual, None),
         points,
     )
-    return state, path
 
 
 def _fall(rows: Floats, i: int) -> Fall:

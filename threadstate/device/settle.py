@@ -16,7 +16,7 @@ from threadstate.device._places_kernel import FINE, MAX_PLACES
 from threadstate.device.command import command_numbers, commanded_rotation, strip_numbers
 from threadstate.device.equilibrium import BALANCED, balance, stability
 from threadstate.device.flush import flush_contacts, level_numbers, level_start
-from threadstate.device.friction import FrictionPath, settled_with_friction
+from threadstate.device.friction import FrictionPath, begin_friction, settled_with_friction
 from threadstate.device.model import (
     Device,
     Fall,
@@ -28,6 +28,7 @@ from threadstate.device.model import (
     SettledState,
     default_device,
 )
+from threadstate.device.watch import PathWatch
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
 from threadstate.state.flat_base import require_flat_base
@@ -139,7 +140,13 @@ def settled_rows(pair: Pair, device: Device, numbers: Floats, poses_deg: Floats)
 
 
 def state_with_friction(
-    pair: Pair, device: Device, numbers: Floats, pose_deg: Floats, result: Floats, mu: float
+    pair: Pair,
+    device: Device,
+    numbers: Floats,
+    pose_deg: Floats,
+    result: Floats,
+    mu: float,
+    watch: PathWatch | None = None,
 ) -> tuple[SettledState, FrictionPath | None]:
     """The state of a pose that settles with friction, and the path that goes on from it; None where it has no start.
 
@@ -153,7 +160,8 @@ def state_with_friction(
         nothing = (None, None, None, (), None, (), NO_MARGINS, ())
         return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing), None
     command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]))
-    return settled_with_friction(pair, device, numbers, command, strip_numbers(pair), pose_deg, mu)
+    path = begin_friction(pair, numbers, command, strip_numbers(pair), math.radians(phase_deg), mu, watch)
+    return settled_with_friction(device, pose_deg, path), path
 
 
 def check_friction(mu: float) -> None:

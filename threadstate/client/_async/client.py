@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncIterator, Callable, Coroutine, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Concatenate, Generic, ParamSpec, Self, TypeVar
@@ -19,8 +19,10 @@ from threadstate.client.calls import statics as statics_calls
 from threadstate.client.calls import threads as thread_calls
 from threadstate.client.frames import to_pandas, to_polars
 from threadstate.client.models.answer import Page
+from threadstate.client.models.assemblies import Assembly
 from threadstate.client.models.jobs import JobDocument
 from threadstate.client.options import DEFAULT_RETRIES, DEFAULT_TIMEOUT_S, make_options
+from threadstate.client.watching import AssemblyEvents, AssemblyWatcher
 
 if TYPE_CHECKING:
     import pandas
@@ -185,6 +187,43 @@ class AsyncClient:
 
     health = _answered(library_calls.health)
     readiness = _answered(library_calls.readiness)
+
+    async def assemble(
+        self,
+        roll: float,
+        pitch: float,
+        phase: float,
+        *,
+        strategy: str | None = None,
+        mu: float | None = None,
+        device: Mapping[str, Any] | None = None,
+        designation: str | None = None,
+        library: LibraryName | None = None,
+        unit: str | None = None,
+        progress: AssemblyWatcher | None = None,
+    ) -> Assembly:
+        """The path of a bolt that a ``device`` settles at a pose and turns, and whether it engages.
+
+        ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0); the others are
+        as for :meth:`settle`. ``progress`` is called with how far the path is whenever that changes; what it raises
+        ends the request, and the service stops.
+        """
+        call = settled_calls.assemble(
+            roll,
+            pitch,
+            phase,
+            strategy=strategy,
+            mu=mu,
+            device=device,
+            designation=designation,
+            library=library,
+            unit=unit,
+        )
+        if progress is None:
+            return await self._transport.send(call)
+        events = AssemblyEvents(call, progress)
+        await self._transport.events(events.call, events.received)
+        return events.answer()
 
     async def export(
         self,

@@ -43,6 +43,14 @@ class AsyncTransport:
         """
         await self._with_retries(call, lambda: self._written(call, out))
 
+    async def events(self, call: Call[object], received: Callable[[httpx2.ServerSentEvent], None]) -> None:
+        """Call ``received`` with every event of a call's response.
+
+        Raises:
+            ClientError: the request failed, also when it was retried from the beginning.
+        """
+        await self._with_retries(call, lambda: self._listened(call, received))
+
     @asynccontextmanager
     async def stream(
         self, call: Call[object], headers: dict[str, str] | None = None, read_timeout_s: float | None = None
@@ -77,6 +85,11 @@ class AsyncTransport:
             with replaced_file(out) as file:
                 async for part in response.aiter_bytes():
                     await async_write(file, part)
+
+    async def _listened(self, call: Call[object], received: Callable[[httpx2.ServerSentEvent], None]) -> None:
+        async with self.stream(call) as response:
+            async for event in httpx2.EventSource(response):
+                received(event)
 
     async def _with_retries(self, call: Call[object], attempt: Callable[[], Awaitable[Result]]) -> Result:
         failures = 0

@@ -44,6 +44,14 @@ class Transport:
         """
         self._with_retries(call, lambda: self._written(call, out))
 
+    def events(self, call: Call[object], received: Callable[[httpx2.ServerSentEvent], None]) -> None:
+        """Call ``received`` with every event of a call's response.
+
+        Raises:
+            ClientError: the request failed, also when it was retried from the beginning.
+        """
+        self._with_retries(call, lambda: self._listened(call, received))
+
     @contextmanager
     def stream(
         self, call: Call[object], headers: dict[str, str] | None = None, read_timeout_s: float | None = None
@@ -78,6 +86,11 @@ class Transport:
             with replaced_file(out) as file:
                 for part in response.iter_bytes():
                     write(file, part)
+
+    def _listened(self, call: Call[object], received: Callable[[httpx2.ServerSentEvent], None]) -> None:
+        with self.stream(call) as response:
+            for event in httpx2.EventSource(response):
+                received(event)
 
     def _with_retries(self, call: Call[object], attempt: Callable[[], Result]) -> Result:
         failures = 0

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from threadstate.client.call import Call, PagedCall, get, path_of, post
+from threadstate.client.call import EVENT_STREAM, Call, PagedCall, get, path_of, post
 from threadstate.client.models.jobs import JobDocument, JobPage
 
 LARGEST_PAGE = 100
-EVENT_STREAM = "text/event-stream"
 
 
 def ask(

@@ -7,6 +7,7 @@ from typing import Any
 
 from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, get, path_of, post
 from threadstate.client.calls.states import LARGEST_PAGE
+from threadstate.client.models.assemblies import Assembly
 from threadstate.client.models.settled import (
     SettleAnswer,
     Settled,
@@ -37,6 +38,35 @@ def settle(
     }
     # Nothing is stored: repeatable.
     return post(path_of("v1", "settle"), SettleAnswer, body, repeatable=True, unit=unit)
+
+
+def assemble(
+    roll: float,
+    pitch: float,
+    phase: float,
+    *,
+    strategy: str | None = None,
+    mu: float | None = None,
+    device: Mapping[str, Any] | None = None,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    unit: str | None = None,
+) -> Call[Assembly]:
+    """The path of a bolt that a ``device`` settles at a pose and turns, and whether it engages.
+
+    ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0); the others are as
+    for :func:`settle`.
+    """
+    body = {
+        "designation": designation,
+        "library": library,
+        "pose": {"roll": float(roll), "pitch": float(pitch), "phase": float(phase)},
+        "strategy": strategy,
+        "mu": None if mu is None else float(mu),
+        "device": None if device is None else dict(device),
+    }
+    # Nothing is stored: repeatable.
+    return post(path_of("v1", "assemblies"), Assembly, body, repeatable=True, unit=unit)
 
 
 def settled_libraries() -> Call[SettledLibraryList]:

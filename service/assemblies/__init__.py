@@ -1,0 +1,1 @@
+"""Paths of bolts that a device settles and turns."""
