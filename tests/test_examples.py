@@ -68,6 +68,14 @@ RUNS: dict[str, tuple[list[list[str]], list[str]]] = {
         [[]],
         [r"^library 1: 1/4-20 UNC, 18 states, lengths in in$", r"^crest +surface +\d+ +\d+\.\d%"],
     ),
+    "does_it_engage": (
+        [["0", "-4", "300"]],
+        [
+            r"^phase +357\.668 deg: snap, down by 0\.1696 mm$",
+            r"^engaged: \d+ equilibria$",
+            r"^the hand gives way by up to 3\.86 deg",
+        ],
+    ),
     "solve_own_poses": ([["1", "50"]], [r"^ *\d+\.\d\d%  stable_three_point$", r"^the largest turn .* pitch -?\d"]),
 }
 """Of each script the arguments that it is run with, and what its output says every time."""
@@ -204,6 +212,8 @@ def test_without_a_service_a_line_says_what_to_do(run_here: RunHere, name: str) 
         ("feel_before_the_window", ["1", "1", "--library", "7"], 1, "library 7 is not published"),
         ("windows_table", ["cm"], 2, "argument unit: invalid choice: 'cm'"),
         ("where_am_i", ["crest"], 1, "contact is 'crest'"),
+        ("does_it_engage", ["12"], 1, "body pose roll is '12.0'"),
+        ("does_it_engage", ["--k-tilt", "-1"], 1, "body device k_tilt is '-1.0'"),
         ("solve_own_poses", ["nan"], 2, "the spread is 0 to 10 deg"),
         ("solve_own_poses", ["1", "1001"], 2, "the number of poses 1 to 1000"),
     ],
