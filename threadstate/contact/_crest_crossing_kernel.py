@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._branchless_kernel import azimuth
 from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._tangency_kernel import PLACEMENT_OFF, PLACEMENT_ROT
+from threadstate.contact._slope_kernel import placement_numbers
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -27,7 +28,20 @@ BEYOND = 0.1
 
 
 RISING_CORNER, FALLING_CORNER, ROOT = range(3)
+HELICES = 3
 """Helices: in the middle of the fillets at the crest, and in the middle of the root."""
+
+# Blocks of points of the bolt's helices, one helix after the other: place in its frame; then height in the nut's frame,
+# and axial position on its profile; then, of each helix of the nut, where on the way from the point before it crosses.
+HELIX_SIZE = 104
+CRESTS_SIZE = HELICES * HELIX_SIZE
+W_X = 0
+W_Y = CRESTS_SIZE
+W_Z = 2 * CRESTS_SIZE
+W_HEIGHT = 3 * CRESTS_SIZE
+W_POSITION = 4 * CRESTS_SIZE
+W_SHARE = 5 * CRESTS_SIZE
+CRESTS_ARRAY_SIZE = (5 + HELICES) * CRESTS_SIZE
 
 
 @kernel()
@@ -42,39 +56,73 @@ def helix(which: int, of_bolt: bool, profile: Array) -> float:
 
 
 @kernel()
-def crest_crossings(placement: Array, bolt: Array, nut: Array, seeds: Array) -> int:
-    """Sets the ``seeds``, as (theta, z) on the bolt's thread, where helices cross, but roots roots; their number."""
-    p = bolt[pk.P]
-    k, k_nut = bolt[pk.LEAD] / TWO_PI, nut[pk.LEAD] / TWO_PI
-    m = placement[PLACEMENT_ROT : PLACEMENT_ROT + 9]
-    off = placement[PLACEMENT_OFF : PLACEMENT_OFF + 3]
-    count = 0
-    for of_bolt in range(3):
-        s = helix(of_bolt, True, bolt)
+def set_crests(bolt: Array, crests: Array) -> None:
+    """Sets the points of the bolt's helices, all round and in its frame, in ``crests`` of ``CRESTS_ARRAY_SIZE``."""
+    p, k = bolt[pk.P], bolt[pk.LEAD] / TWO_PI
+    for which in range(HELICES):
+        s = helix(which, True, bolt)
         r = pk.radius(s, bolt)
-        z_before, at_before, is_before = 0.0, 0.0, False
         for i in range(SAMPLES + 1):
+            j = which * HELIX_SIZE + i
             theta = TWO_PI * i / SAMPLES
             z = s + k * theta
-            z -= p * math.floor(z / p)
-            bx, by = r * math.cos(theta), r * math.sin(theta)
-            x, y = m[0] * bx + m[1] * by + m[2] * z + off[0], m[3] * bx + m[4] * by + m[5] * z + off[1]
-            height = m[6] * bx + m[7] * by + m[8] * z + off[2]
-            at = height - k_nut * math.atan2(y, x)
-            is_here = -(1.0 + BEYOND) * p < height < BEYOND * p
-            # Across the ends of the bolt's thread, and of the range of azimuths, nothing crosses.
-            joined = is_before and is_here and abs(z - z_before) < 0.5 * p
-            for of_nut in range((2 if of_bolt == ROOT else 3) if joined else 0):
-                target = helix(of_nut, False, nut)
-                before = at_before - target
-                turns = math.floor(before / p + 0.5)
-                before -= turns * p
-                here = at - target - turns * p
-                here -= nut[pk.LEAD] * math.floor((here - before) / nut[pk.LEAD] + 0.5)
-                if before * here <= 0.0 and before != here and abs(here - before) < 0.5 * p and count < MAX_SEEDS:
-                    share = before / (before - here)
-                    seeds[count, 0] = theta - TWO_PI / SAMPLES * (1.0 - share)
-                    seeds[count, 1] = z_before + share * (z - z_before)
+            crests[W_X + j], crests[W_Y + j] = r * math.cos(theta), r * math.sin(theta)
+            crests[W_Z + j] = z - p * math.floor(z / p)
+
+
+@kernel(contract=True)
+def place_crests(placement: Array, nut: Array, crests: Array) -> None:
+    """Sets the points' heights in the nut's frame, and their axial positions on its profile, for a placement."""
+    k = nut[pk.LEAD] / TWO_PI
+    mxx, mxy, mxz, myx, myy, myz, mzx, mzy, mzz, ox, oy, oz = placement_numbers(placement)
+    for i in range(CRESTS_SIZE):
+        bx, by, bz = crests[W_X + i], crests[W_Y + i], crests[W_Z + i]
+        x, y = mxx * bx + mxy * by + mxz * bz + ox, myx * bx + myy * by + myz * bz + oy
+        height = mzx * bx + mzy * by + mzz * bz + oz
+        crests[W_HEIGHT + i] = height
+        crests[W_POSITION + i] = height - k * azimuth(x, y, math.sqrt(x * x + y * y))
+
+
+@kernel(contract=True)
+def set_shares(of_nut: int, bolt: Array, nut: Array, crests: Array) -> None:
+    """Sets at which part of the way from the point before a helix of the nut's is crossed: negative where none is.
+
+    Beyond the nut, across the ends of the bolt's thread and of the range of azimuths nothing crosses.
+    """
+    p, lead = bolt[pk.P], nut[pk.LEAD]
+    target = helix(of_nut, False, nut)
+    low, high = -(1.0 + BEYOND) * p, BEYOND * p
+    shares = W_SHARE + of_nut * CRESTS_SIZE
+    for i in range(1, CRESTS_SIZE):
+        height_before, height = crests[W_HEIGHT + i - 1], crests[W_HEIGHT + i]
+        joined = low < height_before and height_before < high and low < height and height < high
+        joined = joined and abs(crests[W_Z + i] - crests[W_Z + i - 1]) < 0.5 * p
+        before, here = crests[W_POSITION + i - 1] - target, crests[W_POSITION + i] - target
+        turned = p * math.floor(before / p + 0.5)
+        before, here = before - turned, here - turned
+        here -= lead * math.floor((here - before) / lead + 0.5)
+        crosses = joined and before * here <= 0.0 and before != here and abs(here - before) < 0.5 * p
+        share = before / (before - here)
+        crests[shares + i] = share if crosses else -1.0
+
+
+@kernel()
+def crest_crossings(placement: Array, bolt: Array, nut: Array, crests: Array, seeds: Array) -> int:
+    """Sets the ``seeds``, as (theta, z) on the bolt's thread, where helices cross, but roots roots; their number.
+
+    ``crests`` is as :func:`set_crests` leaves it.
+    """
+    place_crests(placement, nut, crests)
+    for of_nut in range(HELICES):
+        set_shares(of_nut, bolt, nut, crests)
+    count = 0
+    for of_bolt in range(HELICES):
+        first = of_bolt * HELIX_SIZE
+        for i in range(first + 1, first + SAMPLES + 1):
+            for of_nut in range(2 if of_bolt == ROOT else HELICES):
+                share = crests[W_SHARE + of_nut * CRESTS_SIZE + i]
+                if share >= 0.0 and count < MAX_SEEDS:
+                    seeds[count, 0] = TWO_PI / SAMPLES * (i - first - 1 + share)
+                    seeds[count, 1] = crests[W_Z + i - 1] + share * (crests[W_Z + i] - crests[W_Z + i - 1])
                     count += 1
-            z_before, at_before, is_before = z, at, is_here
     return count

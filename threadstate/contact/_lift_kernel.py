@@ -18,6 +18,7 @@ from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE, set_bounds
 from threadstate.contact._branchless_kernel import larger, smaller
+from threadstate.contact._corner_kernel import deepest_corner_point
 from threadstate.contact._edge_search_kernel import INSIDE, OUTSIDE, UNDECIDED, find_inside
 from threadstate.contact._geometry_kernel import (
     M_SIGMA,
@@ -207,7 +208,7 @@ def crests_overlap(pose: Array, lift: float, bolt: Array, nut: Array, work: Work
     up = np.array([0.0, 0.0, 1.0])
     set_motions(pose, False, False, up, up, bolt_motion, nut_motion)
     set_placement(bolt_motion, lift, placement)
-    depth, _, _ = ridge.deepest_corner_point(placement, bolt, nut)
+    depth, _, _ = deepest_corner_point(placement, bolt, nut)
     lowest_depth, _, _ = deepest_lowest_point(placement, bolt, nut)
     return max(depth, lowest_depth) > WITNESS_DEPTH * bolt[pk.P]
 

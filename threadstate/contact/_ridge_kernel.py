@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._crest_crossing_kernel import MAX_SEEDS, crest_crossings
+from threadstate.contact._corner_kernel import deepest_corner_point
+from threadstate.contact._crest_crossing_kernel import CRESTS_ARRAY_SIZE, MAX_SEEDS, crest_crossings, set_crests
 from threadstate.contact._edge_search_kernel import E_THETA, E_TIME, E_Z
 from threadstate.contact._geometry_kernel import M_KIND, TWO_PI, motion_scale
 from threadstate.contact._ridge_grid_kernel import (
@@ -69,12 +70,6 @@ BEGINNING = 2.0 * INSTANT_STEP
 BEGINNING_INSTANTS, BEGINNING_AZIMUTHS = 12, 64
 """Where nothing is found in the first ``LONG_TURN`` (rad) of a turn its beginning is searched at more instants: a
 maximum that rises fast there is followed back from few of the later ones, and all of these can miss it."""
-CORNER_SAMPLES = 64
-"""Points of a crest's corner, all round, between which its deepest points are bracketed."""
-CORNER_REACH = 1e-3
-"""Depth below zero, in thread pitches, down to which the greatest depth between samples of a corner is looked for."""
-GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
-CORNER_BISECTIONS = 60
 MAX_FOLLOW_STEP = math.radians(0.5)
 """Largest step in time of following a maximum of phi; in the same unit."""
 CROSSING_NEAR, CROSSING_RANGE = 0.05, math.radians(2.0)
@@ -335,75 +330,6 @@ def ridge_maxima(
 
 
 @kernel()
-def depth_at_corner(
-    angle: float, s: float, of_nut: bool, placement: Array, bolt: Array, nut: Array
-) -> tuple[float, float, float]:
-    """How deep a crest's helix is in the other part: the depth, and the place (theta, z) on the bolt's thread.
-
-    The helix is the bolt's or the nut's, at the axial position ``s`` of its profile; ``angle`` is the azimuth there.
-    """
-    p = bolt[pk.P]
-    k = bolt[pk.LEAD] / TWO_PI
-    z = s + k * angle
-    z -= p * math.floor(z / p)
-    m = placement[PLACEMENT_ROT : PLACEMENT_ROT + 9]
-    off = placement[PLACEMENT_OFF : PLACEMENT_OFF + 3]
-    if of_nut:
-        r = pk.radius(s, nut)
-        x, y, up = r * math.cos(angle) - off[0], r * math.sin(angle) - off[1], z - p - off[2]
-        bx, by = m[0] * x + m[3] * y + m[6] * up, m[1] * x + m[4] * y + m[7] * up
-        bz = m[2] * x + m[5] * y + m[8] * up
-        theta = math.atan2(by, bx)
-        return min(pk.radius(bz - k * theta, bolt) - math.hypot(bx, by), bz, p - bz), theta, bz
-    r = pk.radius(s, bolt)
-    bx, by = r * math.cos(angle), r * math.sin(angle)
-    x, y = m[0] * bx + m[1] * by + m[2] * z + off[0], m[3] * bx + m[4] * by + m[5] * z + off[1]
-    up = m[6] * bx + m[7] * by + m[8] * z + off[2]
-    return min(math.hypot(x, y) - pk.radius(up - k * math.atan2(y, x), nut), -up, p + up), angle, z
-
-
-@kernel()
-def deepest_corner_point(placement: Array, bolt: Array, nut: Array) -> tuple[float, float, float]:
-    """The greatest depth found along the corners of both crests, and its place (theta, z) on the bolt's thread.
-
-    It is the depth of the bolt's crest in the nut or that of the nut's crest in the bolt. Along a corner it is as
-    smooth as the other part's flank, however sharp the corner is; across it phi has a ridge that samples step over.
-    """
-    p = bolt[pk.P]
-    deepest, at_theta, at_z = -math.inf, 0.0, 0.0
-    step = TWO_PI / CORNER_SAMPLES
-    for part in range(2):
-        of_nut = part == 1
-        for side in range(2):
-            half = side * pk.FALLING
-            u = 0.5 * (nut[pk.U_FLAT + half] + nut[pk.U_FLANK + half])
-            if not of_nut:
-                u = 0.5 * (bolt[pk.U_CREST + half] + bolt[pk.U_TOP + half])
-            s = u if side == 0 else 0.5 * p - u
-            before, _, _ = depth_at_corner(-step, s, of_nut, placement, bolt, nut)
-            here, theta, z = depth_at_corner(0.0, s, of_nut, placement, bolt, nut)
-            for i in range(CORNER_SAMPLES):
-                after, next_theta, next_z = depth_at_corner((i + 1) * step, s, of_nut, placement, bolt, nut)
-                if here > deepest:
-                    deepest, at_theta, at_z = here, theta, z
-                if here >= before and here >= after and here > -CORNER_REACH * p:
-                    low, high = (i - 1) * step, (i + 1) * step
-                    for _ in range(CORNER_BISECTIONS):
-                        left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-                        at_left, _, _ = depth_at_corner(left, s, of_nut, placement, bolt, nut)
-                        at_right, _, _ = depth_at_corner(right, s, of_nut, placement, bolt, nut)
-                        if at_left > at_right:
-                            high = right
-                        else:
-                            low = left
-                    peak, peak_theta, peak_z = depth_at_corner(0.5 * (low + high), s, of_nut, placement, bolt, nut)
-                    if peak > deepest:
-                        deepest, at_theta, at_z = peak, peak_theta, peak_z
-                before, here, theta, z = here, after, next_theta, next_z
-    return deepest, at_theta, at_z
-
-
-@kernel()
 def deepest_thread_point(
     motion: Array, shallow: float, azimuths: int, bolt: Array, nut: Array
 ) -> tuple[bool, float, float, float]:
@@ -500,11 +426,13 @@ def contacts_at_crossings(
     jet = np.empty(JET_SIZE)
     later_placement = np.empty(PLACEMENT_SIZE)
     seeds = np.empty((MAX_SEEDS, 2))
+    crests = np.zeros(CRESTS_ARRAY_SIZE)
+    set_crests(bolt, crests)
     near, soon = CROSSING_NEAR * bolt[pk.P], CROSSING_RANGE * motion_scale(motion, bolt)
     for i in range(instants):
         tau = start + (end - start) * (i + 1) / instants
         set_placement(motion, tau, placement)
-        for j in range(crest_crossings(placement, bolt, nut, seeds)):
+        for j in range(crest_crossings(placement, bolt, nut, crests, seeds)):
             theta, z = seeds[j, 0], seeds[j, 1]
             set_jet(theta, z, placement, bolt, nut, jet)
             if abs(jet[J_PHI]) < near + soon * abs(jet[J_RATE]):
