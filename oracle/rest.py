@@ -43,6 +43,8 @@ DIFFERENCE = 1e-6
 """Of coordinates over the radius, for slopes of depths."""
 LEAST_BOX = 1e-6
 """The smallest box of a program, in diameters."""
+BETWEEN = 8
+"""Into so many parts the straight way to a place beside is divided, to see whether the potential is higher between."""
 REACH = 0.2
 """How far from where it is looked for a height may be, in thread pitches."""
 COORDINATES = 5
@@ -311,9 +313,8 @@ def _potential(
 
 
 @compiled
-def _free_beside(
+def _is_free(
     place: Floats,
-    steps: Floats,
     value: float,
     start: float,
     command: Floats,
@@ -322,29 +323,58 @@ def _free_beside(
     chosen: Indices,
     bolt: Floats,
     nut: Floats,
-) -> int:
-    """At how many places that are so many steps beside one the parts are apart where the potential is ``value``."""
+) -> bool:
+    """Whether the parts do not overlap at a place, as high up as the potential is ``value``; ``start`` is any height.
+
+    Nowhere on the axis is the potential that low where the device is stiff along it: then they are not.
+    """
     centre, push, first = numbers
-    count = 0
+    rot = turned(command, place[0], place[1], place[2])
+    t = np.array(
+        [centre * (command[0, 2] - rot[0, 2]) + place[3], centre * (command[1, 2] - rot[1, 2]) + place[4], start]
+    )
+    up = start + centre * rot[2, 2]
+    deviation = np.array([place[0], place[1], place[2], place[3], place[4], up - first - centre * command[2, 2]])
+    force = stiffness @ deviation
+    missing = value - (0.5 * deviation @ force + push * up)
+    # The upper root of missing = slope z + stiffness z^2 / 2.
+    slope = force[5] + push
+    root = slope * slope + 2.0 * stiffness[5, 5] * missing
+    if root < 0.0:
+        return False
+    root = math.sqrt(root)
+    t[2] += 2.0 * missing / (slope + root) if slope > 0.0 else (root - slope) / stiffness[5, 5]
+    return overlap_depth(rot, t, chosen, 0.0, bolt, nut) <= 0.0
+
+
+@compiled
+def _free_beside(
+    place: Floats,
+    steps: Floats,
+    value: float,
+    lower: float,
+    start: float,
+    command: Floats,
+    stiffness: Floats,
+    numbers: tuple[float, float, float],
+    chosen: Indices,
+    bolt: Floats,
+    nut: Floats,
+) -> tuple[int, int]:
+    """At how many places that are so many steps beside one the parts are apart where the potential is lower; of how
+    many of them it is higher on the straight way.
+    """
+    free, beyond = 0, 0
+    held = command, stiffness, numbers, chosen, bolt, nut
     for i in range(len(steps)):
-        beside = place + steps[i]
-        rot = turned(command, beside[0], beside[1], beside[2])
-        t = np.array(
-            [
-                centre * (command[0, 2] - rot[0, 2]) + beside[3],
-                centre * (command[1, 2] - rot[1, 2]) + beside[4],
-                start,
-            ]
-        )
-        # The height at which the potential has the value, by Newton's method on a quadratic function.
-        for _ in range(4):
-            up = t[2] + centre * rot[2, 2]
-            deviation = np.array([*beside, up - first - centre * command[2, 2]])
-            force = stiffness @ deviation
-            t[2] -= (0.5 * deviation @ force + push * up - value) / (force[5] + push)
-        if overlap_depth(rot, t, chosen, 0.0, bolt, nut) <= 0.0:
-            count += 1
-    return count
+        if not _is_free(place + steps[i], value - lower, start, *held):
+            continue
+        free += 1
+        for j in range(1, BETWEEN):
+            if not _is_free(place + j / BETWEEN * steps[i], value + lower, start, *held):
+                beyond += 1
+                break
+    return free, beyond
 
 
 @compiled
@@ -430,15 +460,25 @@ class HeldBolt:
         value, height = _potential(place, start, *self._numbers(push), samples, *self._profiles())
         return float(value), float(height)
 
-    def free_beside(self, place: Floats, height: float, steps: Floats, lower: float) -> int:
+    def free_beside(self, place: Floats, height: float, steps: Floats, lower: float) -> tuple[int, int]:
         """At how many places that are so many steps, shape (n, 5), beside one the parts do not overlap where the
-        potential is by ``lower`` lower than there.
+        potential is by ``lower`` lower than there; and how many of them lie beyond a barrier.
+
+        That is one by which the potential is higher, by more than ``lower``, on the straight way to the place: they
+        are of another minimum.
         """
         free = self.scale > 0.0
         chosen = self.near(place, height, float(np.abs(steps[:, free] / self.scale[free]).max()))
         value, _ = self.potential(place, height, chosen)
-        found = _free_beside(place, steps, value - lower, height, *self._numbers(None), chosen, *self._profiles())
-        return int(found)
+        found = _free_beside(place, steps, value, lower, height, *self._numbers(None), chosen, *self._profiles())
+        return int(found[0]), int(found[1])
+
+    def is_beyond_barrier(self, place: Floats, height: float, step: Floats, lower: float) -> bool:
+        """Whether the potential is higher, by more than ``lower``, on the straight way of a step from a place."""
+        samples = np.arange(ALL_SAMPLES)
+        value, _ = self.potential(place, height)
+        held = (*self._numbers(None), samples, *self._profiles())
+        return any(not _is_free(place + j / BETWEEN * step, value + lower, height, *held) for j in range(1, BETWEEN))
 
     def lowest_by_programs(
         self, place: Floats, height: float, size: float, push: float | None = None

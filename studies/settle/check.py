@@ -33,12 +33,14 @@ MOVED = 1e-12
 class Checked:
     """What the checks of a settled state measured: lengths over the nominal radius, forces over the push.
 
-    ``overlap`` is negative where the parts are apart; ``faults`` say what contradicts the state.
+    ``overlap`` is negative where the parts are apart; ``beyond`` is the number of places beside that are lower, beyond
+    a barrier of the potential; ``faults`` say what contradicts the state.
     """
 
     overlap: float
     least_force: float
     residual: float
+    beyond: int
     faults: tuple[str, ...]
 
 
@@ -95,14 +97,15 @@ def check(pair: Pair, device: Device, state: SettledState, directions: int, choo
     residual = unbalanced(held, state, place)
     if not residual < RESIDUAL:
         faults.append(f"{residual:.2e} F unbalanced")
+    beyond = 0
     if directions > 0:
         ways = choose.standard_normal((directions, 5)) * (held.scale > 0.0)
         sizes = 10.0 ** choose.uniform(math.log10(LEAST_STEP), math.log10(LONGEST_STEP), directions) * r
         steps = (sizes / np.linalg.norm(ways, axis=1))[:, None] * ways * held.scale
-        lower = held.free_beside(place, height, steps, LOWER * held.push * r)
-        if lower:
-            faults.append(f"{lower} of {directions} places beside are lower by {LOWER:.0e} F r and free")
-    return Checked(overlap, min(forces), residual, tuple(faults))
+        lower, beyond = held.free_beside(place, height, steps, LOWER * held.push * r)
+        if lower > beyond:
+            faults.append(f"{lower - beyond} of {directions} places beside are lower by {LOWER:.0e} F r and free")
+    return Checked(overlap, min(forces), residual, beyond, tuple(faults))
 
 
 def moved(held: HeldBolt, state: SettledState, place: Floats, height: float, r: float) -> float:

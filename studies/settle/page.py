@@ -20,6 +20,11 @@ def page(found: Mapping[Part, Found]) -> str:
     for one in found.values():
         whole.add(one)
     minima = [_minima(found, part) for part in (Part.BESIDE, Part.FOLLOWED)]
+    lists = {
+        "Without an answer": whole.undecided,
+        "Lower beyond a barrier": whole.beyond,
+        "Contradicted": whole.faults,
+    }
     return f"""# Settled states checked
 
 `make settle` writes this page: [settled states](device.md) without friction, checked by a brute force
@@ -39,7 +44,8 @@ contradicted by a check (silent failures). Times are those of a core without AVX
 Of each settled state: the samples overlap by less than {number_text(OVERLAP)} r and are no farther apart than
 {number_text(APART)} r, at the end and at the first contact; forces are >= 0; the wrench of contacts, device and push is
 below {number_text(RESIDUAL)} F (moments over r); and of {DIRECTIONS} random places beside it, 1e-5 to 1e-3 r away, none
-is free of overlap where the potential is by {number_text(LOWER)} F r lower.
+is free of overlap where the potential is by {number_text(LOWER)} F r lower. Places beyond a barrier, with the potential
+by more than that higher on the straight way there, are another minimum's, and are listed apart.
 
 {_figures(found[Part.RANDOM])}
 
@@ -48,8 +54,8 @@ is free of overlap where the potential is by {number_text(LOWER)} F r lower.
 The brute force minimises the potential over peaks of densely sampled boundaries, with differences for slopes. *Beside*:
 it begins {number_text(BESIDE)} r beside the state. *Followed*: it begins at the first contact and follows the push in
 {FOLLOW_PARTS} parts. It has found the state again where its potential is within {number_text(CAME_BACK)} F r of the
-state's. Where it is higher it has found another minimum, or has stopped before one; lower from beside would contradict
-the state. A push that is followed may end elsewhere where the bolt falls, as the search does not descend steepest.
+state's. Where it is higher it has found another minimum, or has stopped before one; lower from beside contradicts the
+state unless there is a barrier between, as above. A push that is followed may end elsewhere where the bolt falls, as the search does not descend steepest.
 
 {table(("search", "states", "found again", "higher", "lower", "least (F r)"), minima)}
 
@@ -60,7 +66,7 @@ of the grid: by 1e-12 to 0.1 deg, every fourth with dimensions changed too, ever
 Checked as above, with 5 places beside.
 
 {_figures(found[Part.CHANGED])}
-{_listed("Without an answer", whole.undecided)}{_listed("Contradicted", whole.faults)}"""
+{"".join(_listed(title, lines) for title, lines in lists.items())}"""
 
 
 def _undecided(found: Found) -> int:
@@ -82,6 +88,7 @@ def _figures(found: Found) -> str:
         ["least contact force", f"{found.least_force:.1e} F"],
         ["largest unbalanced wrench", f"{found.residual:.1e} F"],
         ["processor time: median, 90 %, 99 %, most", ", ".join(f"{ms:.3g}" for ms in times) + " ms"],
+        ["lower within 1e-3 r, beyond a barrier", f"{len(found.beyond):,}"],
         ["contradicted", f"{len(found.faults):,}"],
     ]
     return table(("", "states"), rows)

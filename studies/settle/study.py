@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.methods import with_dimensions
-from studies.settle.check import Checked, check, held_bolt, place_of
+from studies.settle.check import LOWER, Checked, check, held_bolt, place_of
 from threadstate.device.compile import load_device
 from threadstate.device.document import device_from_document
 from threadstate.device.model import Device, Outcome, SettledState
@@ -136,6 +136,8 @@ class Found:
     milliseconds: list[float] = field(default_factory=list)
     gains: list[float] = field(default_factory=list)
     """Of minima by brute force: their potential above the state's, over push times nominal radius."""
+    beyond: list[str] = field(default_factory=list)
+    """Commands beside whose state, beyond a barrier, the potential is lower."""
     undecided: list[str] = field(default_factory=list)
     """Commands without an answer, with the reason."""
     faults: list[str] = field(default_factory=list)
@@ -152,6 +154,7 @@ class Found:
         self.residual = max(self.residual, other.residual)
         self.milliseconds += other.milliseconds
         self.gains += other.gains
+        self.beyond += other.beyond
         self.undecided += other.undecided
         self.faults += other.faults
 
@@ -172,6 +175,8 @@ class Found:
         self.apart = max(self.apart, -checked.overlap)
         self.least_force = min(self.least_force, checked.least_force)
         self.residual = max(self.residual, checked.residual)
+        if checked.beyond > 0:
+            self.beyond.append(f"{name}: {checked.beyond} places")
         self.faults += [f"{name}: {fault}" for fault in checked.faults]
 
 
@@ -241,7 +246,7 @@ def _look_for_minimum(one: Item, state: SettledState, part: Part, choose: np.ran
     if part is Part.BESIDE:
         way = choose.standard_normal(5) * (held.scale > 0.0)
         beside = place + BESIDE * r / np.linalg.norm(way) * way * held.scale
-        _, _, lowest = held.lowest_by_programs(beside, height, BOX * r)
+        end, _, lowest = held.lowest_by_programs(beside, height, BOX * r)
     else:
         at, up = np.zeros(5), held.first
         for share in range(1, FOLLOW_PARTS + 1):
@@ -249,8 +254,10 @@ def _look_for_minimum(one: Item, state: SettledState, part: Part, choose: np.ran
             at, up, lowest = held.lowest_by_programs(at, up, BOX * r, push)
     gain = (lowest - value) / (held.push * r)
     found.gains.append(gain)
-    if gain < -1e-10 and part is Part.BESIDE:
-        found.faults.append(f"{one.name}: the brute force finds a potential lower by {-gain:.2e} F r beside it")
+    if gain < -LOWER and part is Part.BESIDE:
+        text = f"{one.name}: the brute force from beside it finds a potential lower by {-gain:.2e} F r"
+        is_beyond = held.is_beyond_barrier(place, height, end - place, LOWER * held.push * r)
+        (found.beyond if is_beyond else found.faults).append(text)
 
 
 CHANGES = 20

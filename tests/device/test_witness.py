@@ -13,7 +13,7 @@ from studies.settle.study import CAME_BACK
 from threadstate.device.document import device_from_document
 from threadstate.device.model import Device, Outcome, SettledFlag, SettledState, default_device
 from threadstate.device.settle import settle_pose, settle_poses
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
 
@@ -68,6 +68,28 @@ def test_the_check_sees_a_state_that_is_none(states: list[SettledState]) -> None
     faults = check(UNC, DEVICE, shifted, 100, rng).faults
     assert any("unbalanced" in fault for fault in faults)
     assert any("lower" in fault for fault in faults)
+
+
+AXIAL = replace(DEVICE, stiffness=(*DEVICE.stiffness[:5], (0.0, 0.0, 0.0, 0.0, 0.0, 50.0)))
+"""With 50 N/mm along the nut's axis."""
+
+
+def test_lower_places_beyond_a_barrier_are_those_of_another_minimum() -> None:
+    """This bolt is free from 4e-4 r on where its potential is lower; between it is by 3e-7 F r higher."""
+    pair = pair_by_designation("1/4-20 BSW-medium/normal")
+    state = settle_pose(pair, -2.155576010799126, -0.8588533707490544, -13.437054550662593, AXIAL)
+    rng = np.random.default_rng(27)
+    checked = check(pair, AXIAL, state, 1000, rng)
+    assert checked.beyond > 0
+    assert checked.faults == ()
+
+
+def test_a_device_that_is_stiff_along_the_axis_has_places_of_no_lower_potential() -> None:
+    """Pulled back by nearly the push, the bolt is near the height at which its potential is least of all."""
+    pair = pair_by_designation("M20x2.5-6g/6H")
+    state = settle_pose(pair, -2.34289584492275, -1.1790626220823812, -2.550111940999405, AXIAL)
+    assert state.contacts[0].force[2] < 1e-3 * PUSH
+    assert check(pair, AXIAL, state, 200, np.random.default_rng(28)).faults == ()
 
 
 def test_the_brute_force_from_beside_comes_back(states: list[SettledState]) -> None:
