@@ -55,7 +55,8 @@ The brute force minimises the potential over peaks of densely sampled boundaries
 it begins {number_text(BESIDE)} r beside the state. *Followed*: it begins at the first contact and follows the push in
 {FOLLOW_PARTS} parts. It has found the state again where its potential is within {number_text(CAME_BACK)} F r of the
 state's. Where it is higher it has found another minimum, or has stopped before one; lower from beside contradicts the
-state unless there is a barrier between, as above. A push that is followed may end elsewhere where the bolt falls, as the search does not descend steepest.
+state unless there is a barrier between, as above. A push that is followed may end elsewhere where the bolt falls: the
+search does not descend steepest.
 
 {table(("search", "states", "found again", "higher", "lower", "least (F r)"), minima)}
 

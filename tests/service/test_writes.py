@@ -23,8 +23,8 @@ from threadstate.tables import metadata
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 SAFE = {"GET", "HEAD", "OPTIONS"}
-COMPUTES = {("POST", "/v1/solve"), ("POST", "/v1/statics"), ("POST", "/v1/settle")}
-"""Not safe by its method, but it stores nothing: a question too long for an address."""
+COMPUTES = {("POST", "/v1/solve"), ("POST", "/v1/statics"), ("POST", "/v1/settle"), ("POST", "/v1/assemblies")}
+"""Not safe by their method, but they store nothing: questions too long for an address."""
 INPUTS = LibraryInputs(quarter_twenty_unc(), Grid(0.0, 1.0, 180.0), SolveOptions())
 
 

@@ -18,6 +18,7 @@ from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
+    D_FINE,
     D_RIGID,
     D_SCALE,
     D_STIFFNESS,
@@ -31,6 +32,7 @@ from threadstate.device._chart_kernel import (
 from threadstate.device._flush_kernel import flush_is_reached
 from threadstate.device._gap_kernel import G_GRADIENT, G_HESSIAN, G_VALUE, GAP_SIZE
 from threadstate.device._places_kernel import (
+    FINEST,
     MAX_PITCHES,
     MAX_PLACES,
     PLACES_WORK,
@@ -60,8 +62,10 @@ LOADED = 1e-6
 
 MAX_CORRECTIONS = 6
 MAX_SHORTENINGS = 25
-STIFFENING = 1e2
-"""How much stiffer than the device the model is made across contacts that stay, where that changes no step."""
+STIFFENING = (1e2, 1e4, 1e6)
+"""How much stiffer than the device the model is made across contacts that stay, where that changes no step: the first
+that makes it convex. With the last it is about as convex as along the contacts.
+"""
 
 ENERGY_NOISE = 1e-13
 """Round-off of the potential, in push times nominal radius; beside it the overlap that a step may leave counts."""
@@ -301,6 +305,15 @@ def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) 
 
 
 @kernel()
+def set_convex_model(n: int, count: int, stiffness: float, device: Array, work: Work) -> None:
+    """Sets the model, as stiff across contacts as it takes to be convex; as stiff as ever where it never is."""
+    for stiffening in STIFFENING:
+        set_model(n, count, device, stiffening * stiffness, work)
+        if cholesky(work[6], n, work[7]):
+            return
+
+
+@kernel()
 def descend(
     q: Array,
     push: float,
@@ -315,7 +328,39 @@ def descend(
     threads: Threads,
     work: Work,
 ) -> tuple[int, int]:
-    """Descends from ``q``, in place, to a minimum of the potential; how it ended, and the number of places there.
+    """As :func:`descend_with`, first with the samples of the device's numbers, and from where no step leads on with the
+    finest: two places beside each other may be missed between samples, in turns.
+    """
+    parts = device[D_FINE]
+    status, count, is_stuck = descend_with(
+        q, push, longest_step, farthest, most_steps, tolerance, overlap_left, device, bolt, nut, threads, work
+    )
+    if is_stuck and parts < FINEST:
+        device[D_FINE] = FINEST
+        status, count, _ = descend_with(
+            q, push, longest_step, farthest, most_steps, tolerance, overlap_left, device, bolt, nut, threads, work
+        )
+        device[D_FINE] = parts
+    return status, count
+
+
+@kernel()
+def descend_with(
+    q: Array,
+    push: float,
+    longest_step: float,
+    farthest: float,
+    most_steps: int,
+    tolerance: float,
+    overlap_left: float,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: Work,
+) -> tuple[int, int, bool]:
+    """Descends from ``q``, in place, to a minimum of the potential; how it ended, the number of places there, and
+    whether it ended because no step led on.
 
     Steps are at most ``longest_step`` long, and the bolt stays within ``farthest`` of its start (lengths in the
     metric). It rests where the descent's size is below ``tolerance`` times the push. A step leaves an overlap of at
@@ -348,7 +393,7 @@ def descend(
     saved_multipliers = np.empty(MAX_PLACES)
     count, is_out = back_to_contact(q, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
     if not is_out:
-        return UNSETTLED, count
+        return UNSETTLED, count, True
     stiffness = 0.0
     for i in range(n):
         j = coordinate(i, device)
@@ -363,22 +408,22 @@ def descend(
                 j = coordinate(i, device)
                 step[i] = (q[j] - earlier[j]) * scale(j, device)
             if has_risen and length_of(n, step, metric) < STALLED * r:
-                return UNSETTLED, count
+                return UNSETTLED, count, True
             copy_numbers(q, earlier)
             has_risen = False
         set_metric(n, place, device, metric)
         if not cholesky(metric, n, metric_factor):
-            return UNSETTLED, count
+            return UNSETTLED, count, True
         potential = set_gradient(n, q, push, device, by_q, gradient)
         set_constraints(n, count, places, device, normals, limits)
         size = short_descent(n, count, push, r, work)
         if size <= tolerance * push:
-            return AT_REST, count
+            return AT_REST, count, False
         # What it costs to leave the overlaps that are left: opposed contacts carry more than the push.
         owed = noise * push * r
         for i in range(count):
             owed += max(multipliers[i] * places[i, G_VALUE], 0.0)
-        set_model(n, count, device, STIFFENING * stiffness, work)
+        set_convex_model(n, count, stiffness, device, work)
         for i in range(count):
             copy_numbers(places[i], saved[i])
         copy_numbers(multipliers, saved_multipliers)
@@ -423,19 +468,19 @@ def descend(
             set_gradient(n, q, push, device, by_q, gradient)
             set_constraints(n, count, places, device, normals, limits)
         if not accepted:
-            return UNSETTLED, count
+            return UNSETTLED, count, True
         damping = 0.0 if length < 0.5 * longest_step else 0.25 * damping
         if math.hypot(place[N_OFFSET], place[N_OFFSET + 1]) > r:
-            return SLIPPED, count
+            return SLIPPED, count, False
         if lowest_height(place, bolt) < -DEEPEST * bolt[pk.P]:
-            return DEEP, count
+            return DEEP, count, False
         if bolt[pk.STEEPEST] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
-            return TILTED, count
+            return TILTED, count, False
         if flush_is_reached(q, push, place, device, bolt, nut):
-            return FLUSH, count
+            return FLUSH, count, False
         for i in range(n):
             j = coordinate(i, device)
             step[i] = (q[j] - start[j]) * scale(j, device)
         if length_of(n, step, metric) > farthest:
-            return TOO_FAR, count
-    return UNSETTLED, count
+            return TOO_FAR, count, False
+    return UNSETTLED, count, False
