@@ -35,7 +35,7 @@ test("what is left empty is left out of the request, what is no number is sent a
 
 test("lengths are converted, and back again to the same text", () => {
   assert.equal(defaultText("k_lateral", "in"), "508");
-  assert.equal(defaultText("k_tilt", "in"), "19.6850393701");
+  assert.equal(defaultText("k_tilt", "in"), "19.685");
   assert.equal(defaultText("k_twist", "in"), "rigid");
   assert.equal(defaultText("roll", "in"), null);
   for (const [name, text] of [["k_tilt", "250"], ["centre", "-2.5"], ["k_axial", "7"], ["mu", "0.3"], ["centre", "two"], ["k_twist", "rigid"]]) {
@@ -50,8 +50,14 @@ test("a refused value is reported at its field, anything else in a line of its o
   const errors = [
     { location: "body device k_tilt", value: "-1", valid: "a stiffness >= 0" },
     { location: "body pose roll", value: "", valid: "Input should be a valid number" },
+    { location: "body device k_twist float", value: "soft", valid: "Input should be a valid number" },
+    { location: "body device k_twist literal['rigid']", value: "soft", valid: "Input should be 'rigid'" },
   ];
-  assert.deepEqual(refusedFields("both", errors), { k_tilt: "-1 is not valid: a stiffness >= 0", roll: "empty is not valid: Input should be a valid number" });
+  assert.deepEqual(refusedFields("all", errors), {
+    k_tilt: "-1 is not valid: a stiffness >= 0",
+    roll: "empty is not valid: Input should be a valid number",
+    k_twist: "soft is not valid: Input should be a valid number; Input should be 'rigid'",
+  });
   assert.deepEqual(refusedFields("the kernels are being compiled", []), { "": "the kernels are being compiled" });
 });
 

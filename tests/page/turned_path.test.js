@@ -24,7 +24,7 @@ const ANSWER = {
     held: PHASES.map(() => "contacts"),
     pose: PHASES.map((_, k) => ({ rotation: UPRIGHT, translation: [0, 0, 0 - k] })),
     deviation: PHASES.map((_, k) => ({ shift: [3 * k, 4 * k, 9], rotation: [0, k, 0] })),
-    contacts: PHASES.map(() => [{}]),
+    contacts: PHASES.map((_, k) => (k === 0 ? [] : [{ force: [0, 3, 4] }, { force: [0, 0, k] }])),
     torque: PHASES.map(() => 2),
     elastic_energy: [1, 1, 2, 2, 2, 2],
     potential: [1, 1, 0, 0, 0, 0],
@@ -46,6 +46,8 @@ test("curves are in the unit that is shown, and the losses add up", () => {
   assert.deepEqual(curves.height, [0, -1, -2, -3, -4, -5]);
   assert.deepEqual(curves.shift, [0, 5, 10, 15, 20, 25]);
   assert.deepEqual(curves.device_tilt, [0, 1, 2, 3, 4, 5]);
+  assert.deepEqual(curves.largest_force, [0, 5, 5, 5, 5, 5]);
+  assert.deepEqual(curves.all_forces, [0, 6, 7, 8, 9, 10]);
   assert.deepEqual(curves.falls, [0, 0, 5, 5, 5, 5]);
   assert.deepEqual(curves.elastic, [0, 0, 1, 1, 1, 1]);
   assert.ok(Math.abs(curves.work[3] - 2 * 40 * DEGREE) < 1e-12);
@@ -84,12 +86,12 @@ test("a path is played by its phase, and a fall is looked at", () => {
 
 test("events, points and ends are said in words", () => {
   assert.deepEqual(ANSWER.events.map((event) => eventText(event, "mm", 1)), [
-    "contact gained, edge-edge", "fall: down 1.00000 mm, way 2.00000 mm", "contact lost, edge-edge",
+    "contact gained, edge-edge", "fall: down 1.000, way 2.000 mm", "contact lost, edge-edge",
   ]);
   assert.equal(eventText({ ...NOTHING, kind: "moved", features_before: "edge-thread", features: "thread-thread" }, "in", 1), "contact moves, edge-thread to thread-thread");
-  assert.equal(pointText(ANSWER.path, 3), "point 4 of 6, phase 50 deg, 1 contact");
-  assert.equal(outcomeText(ANSWER, "mm"), "The bolt engages; margin height on the lead: 4.8 %.");
-  assert.equal(outcomeText({ ...ANSWER, outcome: "cross_threaded" }, "mm"), "Cross-threaded: the bolt follows the lead, but not in phase; margin inside the play: −0.50000 mm.");
+  assert.equal(pointText(ANSWER.path, 3), "point 4 of 6, phase 50 deg, 2 contacts");
+  assert.equal(outcomeText(ANSWER, "mm"), "The bolt engages. Margin of the height on the lead: 4.8 %.");
+  assert.equal(outcomeText({ ...ANSWER, outcome: "cross_threaded" }, "mm"), "Cross-threaded: the bolt follows the lead, but not in phase. Margin of the play in phase: −0.50000 mm.");
   assert.equal(outcomeText({ ...ANSWER, outcome: "undecided", flags: ["many_contacts"], margins: null }, "mm"), "Undecided (many contacts).");
 });
 

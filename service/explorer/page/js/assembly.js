@@ -5,6 +5,7 @@ import { angle, parseDecimal, unitFactor } from "./units.js";
 const UNITS = ["in", "mm"];
 /** Digits of a number that was converted to another unit. */
 const DIGITS = 12;
+const SHOWN_DIGITS = 6;
 const LONGEST = 40;
 
 /** Numbers of the request, by name: its label, the power of length in it, the default (lengths in mm; null: none), help. */
@@ -24,12 +25,12 @@ export const NUMBERS = {
 export const CHOICES = {
   strategy: {
     label: "strategy",
-    values: { ccw_then_cw: "ccw to the snap, then cw", cw: "cw at once" },
+    values: { ccw_then_cw: "ccw, then cw", cw: "cw at once" },
     help: "Counter-clockwise until the snap or through 360 deg, and from there clockwise through 270 deg; or clockwise through 270 deg at once. A left-hand bolt is turned the other way round.",
   },
   about: {
-    label: "tilt",
-    values: { nut: "goes round with the phase", bolt: "stays in space" },
+    label: "tilt of the hand",
+    values: { nut: "goes round", bolt: "stays in space" },
     help: "Which axis the hand turns about: the nut's, and the tilt goes round with the phase; or the bolt's own, and it stays in space.",
   },
 };
@@ -42,18 +43,18 @@ export function labelOf(name, unit) {
   return own ? `${label} (${own.replace("L", unit)})` : label;
 }
 
-/** The default of a number in a unit, as a text; null where it has none. */
+/** The default of a number in a unit, in a few digits; null where it has none. */
 export function defaultText(name, unit) {
   const { default: value } = NUMBERS[name];
-  return value === null ? null : convertedText(name, String(value), "mm", unit);
+  return value === null ? null : convertedText(name, String(value), "mm", unit, SHOWN_DIGITS);
 }
 
 /** The text of a number converted from one unit of lengths to another; what is no number stays. */
-export function convertedText(name, text, from, to) {
+export function convertedText(name, text, from, to, digits = DIGITS) {
   const { power } = NUMBERS[name];
   const value = parseDecimal(text.trim());
   if (power === 0 || from === to || Number.isNaN(value)) return text;
-  return String(Number((value * unitFactor(from, to) ** power).toPrecision(DIGITS)));
+  return String(Number((value * unitFactor(from, to) ** power).toPrecision(digits)));
 }
 
 /** A request, texts by name, as one text: what differs from the defaults, the pose and the unit always. */
@@ -103,7 +104,7 @@ export function refusedFields(message, errors) {
   const fields = {};
   for (const { location, value, valid } of errors) {
     const name = Object.keys({ ...NUMBERS, ...CHOICES }).find((one) => location.split(" ").includes(one));
-    if (name) fields[name] = `${value === "" ? "empty" : value} is not valid: ${valid}`;
+    if (name) fields[name] = fields[name] ? `${fields[name]}; ${valid}` : `${value === "" ? "empty" : value} is not valid: ${valid}`;
   }
   return Object.keys(fields).length > 0 ? fields : { "": message };
 }

@@ -2,8 +2,8 @@
 
 import { CHOICES, NUMBERS, assemblyText, convertedText, defaultText, labelOf, progressText, refusedFields, requestOf } from "./assembly.js";
 import { byId, html } from "./html.js";
-import { MARGINS, eventText, marginText, outcomeText, pointsOfEvents } from "./turned_path.js";
-import { angle, unitFactor } from "./units.js";
+import { MARGINS, eventText, forceSize, marginText, outcomeText, pointsOfEvents } from "./turned_path.js";
+import { angleNumber, fixed, unitFactor } from "./units.js";
 
 const POSE = ["roll", "pitch", "phase"];
 const LONGEST = 40;
@@ -16,6 +16,8 @@ export class DeviceView {
   #shown = null;
   #goTo;
   #points = [];
+  /** Whether the answer was asked for here, and is brought into view when it is there. */
+  #isAwaited = false;
 
   constructor({ compute, cancel, goTo }) {
     this.#goTo = goTo;
@@ -26,6 +28,7 @@ export class DeviceView {
     );
     byId("device-form").addEventListener("submit", (event) => {
       event.preventDefault();
+      this.#isAwaited = true;
       compute(assemblyText(this.#read()));
     });
     byId("device-cancel").addEventListener("click", cancel);
@@ -59,12 +62,17 @@ export class DeviceView {
     byId("turned-outcome").hidden = path === null;
     byId("turned-outcome").textContent = path === null ? "" : outcomeText(path, unit);
     byId("turned-outcome").dataset.outcome = path?.outcome ?? "";
+    if (path === null) byId("turned-contacts").replaceChildren();
     byId("turned-numbers").replaceChildren(...(path?.margins ? [margins(path, unit)] : []));
     this.#listEvents(path, unit);
+    if (isRunning || !this.#isAwaited) return;
+    this.#isAwaited = false;
+    if (path !== null) byId("turned-outcome").scrollIntoView({ block: "nearest" });
   }
 
-  /** Marks the last event that has happened at a point. */
-  mark(at) {
+  /** Marks the last event that has happened at a point, and lists the contacts there. */
+  mark(at, { contacts, motions }) {
+    byId("turned-contacts").replaceChildren(contactTable(contacts[at], motions[at]));
     const buttons = [...byId("turned-events").querySelectorAll("button")];
     const last = this.#points.findLastIndex((point) => point <= at);
     buttons.forEach((button, k) => button.setAttribute("aria-current", k === last));
@@ -77,8 +85,8 @@ export class DeviceView {
     const factor = path === null ? 1 : unitFactor(path.unit, unit);
     byId("turned-events").replaceChildren(...events.map((event, k) => {
       const button = html("button", { type: "button", tabindex: k === 0 ? 0 : -1, "data-kind": event.kind }, [
-        html("span", {}, angle(event.phase, 2)),
-        ` ${eventText(event, unit, factor)}`,
+        html("span", {}, angleNumber(event.phase, 2)),
+        html("span", {}, eventText(event, unit, factor)),
       ]);
       button.addEventListener("click", () => {
         this.#focusable(button);
@@ -151,6 +159,17 @@ function row(name, help, control, label = "") {
 
 function field(name) {
   return byId(`device-${name}`);
+}
+
+/** The contacts of a point with their forces and, with friction, what they did in the step before it. */
+function contactTable(contacts, motions) {
+  const head = ["contact", "force (N)", ...(motions.length > 0 ? ["in this step"] : [])];
+  const rows = contacts.map((contact, k) => [contact.features, fixed(forceSize(contact), 2), ...(motions.length > 0 ? [motions[k]] : [])]);
+  return html("table", {}, [
+    html("caption", {}, "forces on the bolt at this point"),
+    html("thead", {}, html("tr", {}, head.map((text) => html("th", { scope: "col" }, text)))),
+    html("tbody", {}, rows.map((cells) => html("tr", {}, cells.map((text) => html("td", {}, text))))),
+  ]);
 }
 
 function margins(path, unit) {

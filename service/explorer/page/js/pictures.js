@@ -15,7 +15,7 @@ import { showToast } from "./messages.js";
 import { followed } from "./neighbours.js";
 import { remaining } from "./observation.js";
 import { firstCamera } from "./orbit.js";
-import { Player } from "./player.js";
+import { Player, prefersReducedMotion } from "./player.js";
 import { QUANTITIES, needsSummaries } from "./quantities.js";
 import { lastStage, rests } from "./resting.js";
 import { followSize } from "./size.js";
@@ -253,10 +253,10 @@ export class Pictures {
     if (this.#tabs === null) return;
     const { value } = this.#view;
     const { library } = this.#model;
-    this.#tabs.device.showAnswer(this.#model, value);
     const turned = this.#turned();
     document.querySelector(".panel.turned").hidden = turned === null;
     document.querySelector(".panel.phase").hidden = turned !== null;
+    this.#tabs.device.showAnswer(this.#model, value);
     if (library.unit === value.unit) this.#tabs.turned.show(turned, library.pair, value.unit);
     for (const id of ["play-stages", "play-phase", "stage"]) byId(id).disabled = turned !== null;
     this.#showPoint();
@@ -268,7 +268,7 @@ export class Pictures {
     if (turned !== null && this.#tabs !== null) {
       const at = pointOf(turned, this.#view.value);
       this.#tabs.turned.moveTo(at);
-      this.#tabs.device.mark(at);
+      this.#tabs.device.mark(at, turned.path);
     }
     this.#drawScene();
   }
@@ -520,7 +520,7 @@ export class Pictures {
   }
 
   #showPlaying(name) {
-    for (const [id, own] of [["play-stages", "stages"], ["play-phase", "phase"]]) {
+    for (const [id, own] of [["play-stages", "stages"], ["play-phase", "phase"], ["turned-play", "path"]]) {
       byId(id).setAttribute("aria-pressed", name === own);
     }
   }
@@ -548,10 +548,6 @@ function pointOf({ path }, { point }) {
 /** The nominal diameter in the unit that the library is stored in, as its meshes are. */
 function nominalOf({ pair, unit, stored_unit: stored }) {
   return pair.nominal_diameter * unitFactor(unit, stored);
-}
-
-function prefersReducedMotion() {
-  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
 function sceneReadout(state, stage) {

@@ -80,7 +80,7 @@ export function stateTable({ state: { state, pose, unit } }) {
 export function turnedTable({ assembly: { path: answer } }, { unit }) {
   const curves = curvesOf(answer, unit);
   const columns = {
-    phase: "phase_deg", height: `z_${unit}`, torque: `torque_N_${unit}`, tilt: "tilt_deg", device_tilt: "device_tilt_deg", shift: `shift_${unit}`,
+    phase: "phase_deg", height: `z_${unit}`, torque: `torque_N_${unit}`, largest_force: "largest_force_N", all_forces: "sum_of_forces_N", tilt: "tilt_deg", device_tilt: "device_tilt_deg", shift: `shift_${unit}`,
     ...Object.fromEntries(["elastic", "work", "push", "falls", "friction"].map((name) => [name, `${name}_N_${unit}`])),
   };
   const rows = answer.path.phase.map((_, k) => [...Object.keys(columns).map((name) => curves[name][k]), answer.path.held[k], answer.path.contacts[k].length]);

@@ -1,6 +1,6 @@
 // The path of a held bolt that is turned, as the service answers it: its curves, events and outcome.
 
-import { angle, angleNumber, fixed, length, unitFactor } from "./units.js";
+import { angle, angleNumber, fixed, length, shortLength, unitFactor } from "./units.js";
 
 const DEGREE = Math.PI / 180;
 /** Degrees of phase a second when a path is played, and how long a fall is looked at. */
@@ -40,8 +40,8 @@ export function pointsOfEvents({ phase }, events) {
 }
 
 /**
- * The curves over the points of an answer, lengths in a unit: phase, height of the origin, torque, tilt of the bolt's axis,
- * tilt and shift of the device, and since the start the change of elastic energy, work of hand and push, losses by falls and,
+ * The curves over the points of an answer, lengths in a unit: phase, height of the origin, torque, the largest contact force and
+ * the sum of their sizes, tilt of the bolt's axis, tilt and shift of the device, and since the start the change of elastic energy, work of hand and push, losses by falls and,
  * as what remains of these, by friction.
  */
 export function curvesOf(answer, unit) {
@@ -59,11 +59,14 @@ export function curvesOf(answer, unit) {
   });
   const elastic = path.elastic_energy.map((energy) => energy - path.elastic_energy[0]);
   const push = height.map((value) => height[0] - value);
+  const forces = path.contacts.map((contacts) => contacts.map(forceSize));
   const friction = work.map((value, k) => value + push[k] - elastic[k] - falls[k]);
   return {
     phase: path.phase,
     height: scaled(path.pose.map(({ translation }) => translation[2])),
     torque: scaled(path.torque),
+    largest_force: forces.map((sizes) => Math.max(0, ...sizes)),
+    all_forces: forces.map((sizes) => sizes.reduce((sum, size) => sum + size, 0)),
     tilt: path.pose.map(({ rotation }) => Math.acos(Math.min(rotation[2][2], 1)) / DEGREE),
     device_tilt: path.deviation.map(({ rotation }) => Math.hypot(...rotation)),
     shift: scaled(path.deviation.map(({ shift: [x, y] }) => Math.hypot(x, y))),
@@ -73,6 +76,11 @@ export function curvesOf(answer, unit) {
     falls: scaled(falls),
     friction: scaled(friction),
   };
+}
+
+/** The size of a contact's force, N. */
+export function forceSize({ force }) {
+  return Math.hypot(...force);
 }
 
 /** The line of the lead through the end of a path: [phase, height] at both ends of its last turn. */
@@ -116,8 +124,8 @@ const KINDS = {
   gained: ({ features }) => `contact gained, ${features}`,
   lost: ({ features_before: before }) => `contact lost, ${before}`,
   moved: ({ features_before: before, features }) => `contact moves, ${before} to ${features}`,
-  fall: ({ drop, way }, unit, factor) => `fall: down ${length(drop * factor, unit)}, way ${length(way * factor, unit)}`,
-  snap: ({ drop }, unit, factor) => (drop === null ? "snap" : `snap: down ${length(drop * factor, unit)}`),
+  fall: ({ drop, way }, unit, factor) => `fall: down ${shortLength(drop * factor, unit)}, way ${shortLength(way * factor, unit)} ${unit}`,
+  snap: ({ drop }, unit, factor) => (drop === null ? "snap" : `snap: down ${shortLength(drop * factor, unit)} ${unit}`),
   on_surface: () => "base comes to lie on the surface",
   off_surface: () => "base leaves the surface",
   on_strip: () => "comes to lie on a strip of flank",
@@ -146,7 +154,7 @@ const DECISIVE = { engaged: "lead", cross_threaded: "play", jammed: "torque", no
 /** Margins: name in words, text of a value, help. Positive where the rule holds. */
 export const MARGINS = {
   lead: { name: "height on the lead", text: (value) => `${fixed(100 * value, 1)} %`, help: "By how much the height follows the lead better than within 5 %, over the last 90 deg of the clockwise turn." },
-  play: { name: "inside the play", text: (value, unit) => length(value, unit), isLength: true, help: "How far inside the axial play in phase the last height is." },
+  play: { name: "play in phase", text: (value, unit) => length(value, unit), isLength: true, help: "How far inside the axial play in phase the last height is." },
   tilt: { name: "last tilt", text: (value) => angle(value, 3), help: "By how much the last tilt is below what the play allows." },
   torque: { name: "torque", text: (value) => `${fixed(value, 2)} × push × radius`, help: "By how much the largest torque is below its limit of 20 times push times nominal radius." },
   offset: { name: "offset", text: (value, unit) => length(value, unit), isLength: true, help: "How far the origin stayed from slipping: half the bolt's major diameter." },
@@ -163,9 +171,9 @@ export function marginText(name, answer, unit) {
 export function outcomeText(answer, unit) {
   const { outcome, flags, margins } = answer;
   const decisive = DECISIVE[outcome];
-  const margin = decisive && (margins?.[decisive] ?? null) !== null ? `; margin ${MARGINS[decisive].name}: ${marginText(decisive, answer, unit)}` : "";
+  const margin = decisive && (margins?.[decisive] ?? null) !== null ? ` Margin of the ${MARGINS[decisive].name}: ${marginText(decisive, answer, unit)}.` : "";
   const reasons = flags.length > 0 ? ` (${flags.join(", ").replaceAll("_", " ")})` : "";
-  return `${OUTCOMES[outcome]}${reasons}${margin}.`;
+  return `${OUTCOMES[outcome]}${reasons}.${margin}`;
 }
 
 /** A point of a path in one line. */

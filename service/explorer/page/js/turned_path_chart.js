@@ -1,4 +1,4 @@
-// Curves over the phase of a held bolt that is turned: height, torque, tilt, shift and energies, with the point that is shown.
+// Curves over the phase of a held bolt that is turned: height, torque, contact forces, tilt, shift and energies, with the point that is shown.
 
 import { picture, pointIn, replaceContent, svg } from "./svg.js";
 import { angleTicks, decimalsOf, ticks } from "./ticks.js";
@@ -9,15 +9,18 @@ import { angle, angleNumber, fixed } from "./units.js";
 const LEAST = { width: 300, height: 200 };
 const LEFT = 52;
 const RIGHT = 8;
-const TITLE = 17;
-const BELOW = 17;
+const LINE = 15;
+const ABOVE = 2;
+const BELOW = 20;
 const GAP = 6;
 /** The least width of a plot beside others, and the least height of one below others. */
 const LEAST_PLOT = 250;
 const PHASE_TICK = 48;
-const VALUE_TICK = 26;
+const VALUE_TICK = 20;
+/** Of so many steps at most there are at least two. */
+const FEWEST_TICKS = 4;
 /** About how wide a letter is, and the mark before a name. */
-const LETTER = 6.2;
+const LETTER = 6;
 const MARK = 16;
 const ROOM = 0.06;
 /** A range below this part of the largest value is one of round-off. */
@@ -29,6 +32,7 @@ function plotsOf(unit, hasFriction) {
   return [
     { title: `height z (${unit})`, curves: { height: "" }, hasLead: true },
     { title: `torque (N ${unit})`, curves: { torque: "" } },
+    { title: "contact forces (N)", curves: { largest_force: "largest", all_forces: "sum" } },
     { title: "tilt (deg)", curves: { tilt: "bolt", device_tilt: "device" } },
     { title: `shift (${unit})`, curves: { shift: "" } },
     { title: `energy (N ${unit})`, curves: energies },
@@ -59,8 +63,11 @@ export class TurnedPathChart {
     const lead = leadLine(curves, this.#legs, pair);
     const wanted = plotsOf(unit, answer.mu > 0);
     const cells = cellsOf(wanted.length, width, height);
-    this.#plots = wanted.map((plot, k) => ({ ...plot, ...scaleOf(cells[k], range, valuesOf(plot, curves)) }));
-    const root = picture(width, height, "Height, torque, tilt, shift and energies over the phase of the turned bolt", { class: "turned-curves" });
+    this.#plots = wanted.map((plot, k) => {
+      const names = namesOf(plot, cells[k].width - LEFT - RIGHT);
+      return { ...plot, names, ...scaleOf(cells[k], range, valuesOf(plot, curves), 1 + (names.at(-1)?.row ?? 0)) };
+    });
+    const root = picture(width, height, "Height, torque, contact forces, tilt, shift and energies over the phase of the turned bolt", { class: "turned-curves" });
     const marks = marksOf(answer);
     for (const plot of this.#plots) {
       root.append(...axes(plot), ...eventLines(plot, marks));
@@ -103,7 +110,7 @@ export class TurnedPathChart {
   #listen(root) {
     const choose = (event) => {
       const { x, y } = pointIn(root, event);
-      const plot = this.#plots.find((one) => x >= one.left - LEFT && x <= one.right + RIGHT && y >= one.top - TITLE && y <= one.base + BELOW);
+      const plot = this.#plots.find((one) => x >= one.left - LEFT && x <= one.right + RIGHT && y >= one.cellTop && y <= one.base + BELOW);
       if (plot) this.#choose(nearestPoint(this.#curves, this.#legs, plot.phase(x), this.#at));
     };
     root.addEventListener("pointerdown", (event) => {
@@ -132,16 +139,16 @@ function valuesOf(plot, curves) {
   return Object.keys(plot.curves).flatMap((name) => curves[name]);
 }
 
-function scaleOf(cell, [from, to], values) {
+function scaleOf(cell, [from, to], values, headingLines) {
   const [least, most] = [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
   const size = Math.max(Math.abs(least), Math.abs(most)) || 1;
   const room = most - least > FLAT * size ? (most - least) * ROOM : size;
   const [bottom, top] = [least - room, most + room];
   const [left, right] = [cell.x + LEFT, cell.x + cell.width - RIGHT - GAP];
-  const [plotTop, base] = [cell.y + TITLE, cell.y + cell.height - BELOW];
+  const [plotTop, base] = [cell.y + LINE * headingLines + ABOVE, cell.y + cell.height - BELOW];
   const span = to - from || 1;
   return {
-    left, right, top: plotTop, base, from, to: from + span, bottom, most: top,
+    left, right, top: plotTop, base, cellTop: cell.y, titleY: cell.y + LINE - 3, from, to: from + span, bottom, most: top,
     x: (phase) => rounded(left + ((phase - from) / span) * (right - left)),
     y: (value) => rounded(base + ((value - bottom) / (top - bottom)) * (plotTop - base)),
     phase: (x) => from + (Math.min(Math.max(x, left), right) - left) / (right - left) * span,
@@ -154,7 +161,7 @@ function rounded(value) {
 
 function axes(plot) {
   const { left, right, top, base } = plot;
-  const values = ticks(plot.bottom, plot.most, Math.max(2, Math.floor((base - top) / VALUE_TICK)));
+  const values = ticks(plot.bottom, plot.most, Math.max(FEWEST_TICKS, Math.floor((base - top) / VALUE_TICK)));
   const phases = angleTicks(plot.from, plot.to, Math.max(2, Math.floor((right - left) / PHASE_TICK)));
   const [decimals, places] = [decimalsOf(values), decimalsOf(phases)];
   return [
@@ -170,17 +177,27 @@ function axes(plot) {
   ];
 }
 
-/** The title of a plot, and beside it the names of its curves with their marks. */
-function heading({ title, curves, hasLead, left, top }) {
-  const y = top - 5;
-  const marks = [svg("text", { x: left, y, class: "title" }, title)];
-  let x = left + title.length * LETTER + 10;
+/** The names of a plot's curves {text, kind, x, line} from the left, in as many lines as they need beside and below the title. */
+function namesOf({ title, curves, hasLead }, width) {
   const names = [...Object.values(curves).map((text, k) => [text, `curve c${k + 1}`]), ...(hasLead ? [["the lead", "lead"]] : [])];
-  for (const [text, kind] of names.filter(([one]) => one !== "")) {
-    marks.push(svg("line", { x1: x, x2: x + MARK - 4, y1: y - 4, y2: y - 4, class: kind }), svg("text", { x: x + MARK, y }, text));
-    x += MARK + text.length * LETTER + 8;
-  }
-  return marks;
+  let [x, row] = [title.length * LETTER + 10, 0];
+  return names.filter(([text]) => text !== "").map(([text, kind]) => {
+    const taken = MARK + text.length * LETTER;
+    if (x + taken > width) [x, row] = [0, row + 1];
+    const found = { text, kind, x, row };
+    x += taken + 8;
+    return found;
+  });
+}
+
+function heading({ title, names, left, titleY }) {
+  return [
+    svg("text", { x: left, y: titleY, class: "title" }, title),
+    ...names.flatMap(({ text, kind, x, row }) => {
+      const [from, y] = [left + x, titleY + row * LINE];
+      return [svg("line", { x1: from, x2: from + MARK - 4, y1: y - 4, y2: y - 4, class: kind }), svg("text", { x: from + MARK, y }, text)];
+    }),
+  ];
 }
 
 function marksOf({ path, events }) {

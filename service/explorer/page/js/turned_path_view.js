@@ -1,6 +1,7 @@
 // The path of a held bolt below the solids: what plays it, the slider over its points, and its curves.
 
 import { byId } from "./html.js";
+import { prefersReducedMotion } from "./player.js";
 import { followSize } from "./size.js";
 import { curvesOf, playTimes, pointAtTime, pointText, pointsOfEvents } from "./turned_path.js";
 import { TurnedPathChart } from "./turned_path_chart.js";
@@ -66,7 +67,7 @@ export class TurnedPathView {
     const last = times.length - 1;
     const begun = times[this.#at === last ? 0 : this.#at];
     this.#player.play(PLAYS, (seconds) => {
-      const at = pointAtTime(times, begun + seconds);
+      const at = pointAtTime(times, begun + (prefersReducedMotion() ? Math.floor(seconds) : seconds));
       this.#choose(at);
       return at < last;
     });
