@@ -36,7 +36,8 @@ _LATER = {"js/main.js"} | {
     for name in (
         *("scene_view", "glb", "force_marks"),
         *("tab_views", "disks_view", "disks", "follows_view", "network_view", "overview", "path_view"),
-        *("locate_view", "poses_view", "load_view", "jamming_view"),
+        *("locate_view", "poses_view", "load_view", "jamming_view", "device_view"),
+        *("turned_path_view", "turned_path_chart"),
     )
 }
 """Modules that are not preloaded: the entry point, and those that are needed after the first view."""

@@ -41,6 +41,7 @@ def test_axe_finds_nothing_serious(explorer: Explorer, repository_root: Path, th
 @pytest.mark.parametrize(
     ("tab", "shown"),
     [
+        ("device", "#device-fields input"),
         ("regions", "#disks .disk"),
         ("follows", "#path .step"),
         ("network", "#network .way .ring-in"),

@@ -40,7 +40,7 @@ def test_keyboard_reaches_everything_and_its_focus_is_seen(explorer: Explorer) -
     check_all_are_reached(explorer, "body")
 
 
-@pytest.mark.parametrize("tab", ["regions", "follows", "network", "locate", "poses", "threads"])
+@pytest.mark.parametrize("tab", ["device", "regions", "follows", "network", "locate", "poses", "threads"])
 def test_keyboard_reaches_everything_in_a_tab(explorer: Explorer, tab: str) -> None:
     explorer.click(f"#tab-{tab}")
     explorer.one(f"#panel-{tab} :is(svg, table, select, textarea)")

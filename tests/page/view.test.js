@@ -38,6 +38,8 @@ const CHOSEN = {
   plane: "mx,my",
   poses: "2.5,-1.2,357;0,-4,10.25",
   observed: "class=stable_three_point&contact=1:crest:*:edge-edge,*:*:flank_pos:*&ordered=true",
+  assembly: "roll=2.5&pitch=-1.2&phase=357&k_tilt=250&k_twist=rigid&centre=-2&strategy=cw&unit=mm",
+  point: 120,
   thread: "1/4-16 ACME-2G with sharp corners at 0.25/0.75",
 };
 
@@ -61,6 +63,7 @@ test("what is not valid in a fragment is left out and reported, the rest stays",
     roll: "11", pitch: "", phase: "x", unit: "ft", theme: "red", span: "0", library: "-1", stage: "NaN", nut: "", tab: "numbers",
     distance: "1e999", quantity: "colour", tolerance: "-0.1", beside_roll: "12", poses: "1,2", observed: "class=x", from: "400",
     mu: "-0.1", push: "0", fx: "101", mz: "left", plane: "fx,fx", thread: "M".repeat(101),
+    assembly: "roll=1", point: "-1",
   };
   for (const [key, text] of Object.entries(bad)) {
     const { view, remarks } = readFragment(`${key}=${text}&azimuth=3&x=1&constructor=1`);

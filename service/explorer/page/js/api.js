@@ -1,5 +1,6 @@
 // Requests to the service; each response is cached.
 
+import { eventsOf, textOf } from "./events.js";
 import { takePrefetched } from "./prefetch.js";
 
 const CACHE_SIZE = 200;
@@ -10,6 +11,8 @@ export class ProblemError extends Error {
     super(problem.detail ?? problem.title);
     this.status = status;
     this.type = problem.type ?? "";
+    /** The values that were refused: {location, value, valid}. */
+    this.errors = problem.errors ?? [];
   }
 }
 
@@ -77,6 +80,28 @@ export class Api {
   /** The jamming diagram of a pose, with the pair and the tolerances of a library; not cached, as loads are many. */
   jamming({ roll, pitch, phase }, parameters) {
     return this.#fetchJson(addressOf(`/v1/states/${roll}/${pitch}/${phase}/jamming`, parameters));
+  }
+
+  /** The path of a held bolt; `progressed` is called with how far it is, and nothing is computed any further once `signal` is aborted. */
+  async assemble(body, unit, { signal, progressed }) {
+    const response = await this.#fetch(addressOf("/v1/assemblies", { unit }), {
+      method: "POST",
+      headers: { "Content-Type": "application/json", Accept: "text/event-stream" },
+      body: JSON.stringify(body),
+      signal,
+    });
+    try {
+      for await (const { event, data } of eventsOf(textOf(response.body))) {
+        const content = JSON.parse(data);
+        if (event === "answer") return content;
+        if (event === "problem") throw new ProblemError(content.status, content);
+        progressed(content);
+      }
+    } catch (error) {
+      if (error instanceof ProblemError) throw error;
+      throw new UnreachableError(`the answer of the service broke off: ${error.message}`);
+    }
+    throw new UnreachableError("the answer of the service broke off");
   }
 
   /** The text at a path with these parameters. */

@@ -30,11 +30,27 @@ export function forceMarks({ load, mu, wrenches, forces }, nominal) {
   ];
 }
 
+/** The marks of a point of a path: its contacts with their forces, and the push (N) at the compliance centre, which is so high over the base. */
+export function pointMarks({ contacts, pose }, { push, centre }, nominal) {
+  const { rotation, translation } = pose;
+  const held = new THREE.Vector3(...rotation.map((row, k) => translation[k] + row[2] * centre)).divideScalar(nominal);
+  const down = new THREE.Vector3(0, 0, -1);
+  return [
+    ...contacts.map(({ point }) => ball(vector(point, nominal))),
+    ...contacts.flatMap(({ point, force }) => scaledArrow(vector(point, nominal), new THREE.Vector3(...force), push)),
+    ...(push > 0 ? [arrow(held.clone().addScaledVector(down, -LOAD_LENGTH), down, LOAD_LENGTH, LOAD_COLOUR)] : []),
+  ];
+}
+
 function forceArrow({ normal, tangential }, { point, normal: along }, size, nominal) {
   const force = new THREE.Vector3(...along).multiplyScalar(normal).add(new THREE.Vector3(...tangential));
+  return scaledArrow(vector(point, nominal), force, size);
+}
+
+/** A force as long as the load's arrow where it is as large as the load; none where it is much smaller. */
+function scaledArrow(from, force, size) {
   if (size === 0 || force.length() < SHORTEST * size) return [];
-  const length = Math.min((LOAD_LENGTH * force.length()) / size, LONGEST);
-  return [arrow(vector(point, nominal), force, length, FORCE_COLOUR)];
+  return [arrow(from, force, Math.min((LOAD_LENGTH * force.length()) / size, LONGEST), FORCE_COLOUR)];
 }
 
 /** The arrow ends on the load's line of action. */

@@ -1,6 +1,7 @@
 // The data of the present view, fetched from the service; a callback reports each part as it arrives.
 
 import { ProblemError } from "./api.js";
+import { bodyOf } from "./assembly.js";
 import { heightsOf } from "./curve.js";
 import { Debounce } from "./debounce.js";
 import { isOnGrid, nearestPhase } from "./grid.js";
@@ -24,10 +25,11 @@ const NOT_FOUND = 404;
 /** The parts that belong to one library. */
 const OF_LIBRARY = [
   "orientations", "windows", "map", "history", "depth", "state", "node", "path", "formations", "falls",
-  "measured", "located", "statics", "jamming", "comparison", "profiles",
+  "measured", "located", "statics", "jamming", "assembly", "comparison", "profiles",
 ];
 const MOST_COMPARED = 20;
 const INVALID = 400;
+const UNAUTHORIZED = 401;
 
 /** The parts of the model, each null until it has arrived. */
 export class Model {
@@ -51,6 +53,9 @@ export class Model {
   /** What the view's load does to its pose, and the jamming diagram there: with `problem`, in words, where it is not known. */
   statics = null;
   jamming = null;
+  /** The path of a held bolt that the view asks for, or its `problem` with the values that were refused; how far it is until then. */
+  assembly = null;
+  progress = null;
   /** Figures of libraries side by side, and the sections of the library's thread and of the view's: with `problem` where that has none. */
   comparison = null;
   profiles = null;
@@ -66,6 +71,8 @@ export class Model {
   #solveThrottle = new Throttle(0);
   #staticsThrottle = new Throttle(0);
   #jammingThrottle = new Throttle(0);
+  /** Ends the path that is computed. */
+  #assembling = new AbortController();
   #formationDebounce = new Debounce(DEBOUNCE_MS);
 
   /** `onPart` is called with the name of a part that has arrived, `onError` with an error and the part that is missing for it. */
@@ -183,6 +190,39 @@ export class Model {
     this.#jammingThrottle.run(() => this.#request("jamming", ofDiagram, () => this.#orProblem(async () => ({ diagram: await this.#api.jamming(pose, parameters) }))));
   }
 
+  /** Requests the path of a held bolt that the view asks for; one that was requested before and is not asked for is ended. */
+  followAssembly({ library, unit, assembly }) {
+    if (this.library.id !== library) return;
+    const key = `${library} ${assembly}`;
+    if (this.#requested.get("assembly") === key) return;
+    this.dropAssembly();
+    this.#request("assembly", key, () => (assembly === "" ? null : this.#assembled(bodyOf(assembly, library), unit)));
+  }
+
+  /** Ends the path that is computed; the same one is computed again when it is requested. */
+  dropAssembly() {
+    this.#assembling.abort();
+    this.#requested.delete("assembly");
+    this.assembly = null;
+    this.progress = null;
+  }
+
+  async #assembled(body, unit) {
+    const running = new AbortController();
+    this.#assembling = running;
+    const progressed = (progress) => {
+      if (running.signal.aborted) return;
+      this.progress = progress;
+      this.#onPart("progress");
+    };
+    try {
+      return { path: await this.#api.assemble(body, unit, { signal: running.signal, progressed }) };
+    } catch (error) {
+      if (!(error instanceof ProblemError) || error.status === UNAUTHORIZED) throw error;
+      return { problem: error.message, errors: error.errors };
+    }
+  }
+
   /** A part of the answer, or {problem} where there is none for this pose. */
   async #orProblem(answer) {
     try {
@@ -270,6 +310,7 @@ export class Model {
 
   /** Clears what belongs to the library that was shown. */
   #clear() {
+    this.dropAssembly();
     for (const part of OF_LIBRARY) {
       this[part] = null;
       this.#requested.delete(part);

@@ -1,5 +1,6 @@
 // All pictures of the page: which of them are redrawn when data has arrived or the view has changed.
 
+import { deviceOf } from "./assembly.js";
 import { CLASS_COLOURS } from "./colours.js";
 import { besideText, placeText, showComparison, showSnaps, wireComparison } from "./compare_view.js";
 import { intervalAt, nextFormations } from "./curve.js";
@@ -14,12 +15,14 @@ import { showToast } from "./messages.js";
 import { followed } from "./neighbours.js";
 import { remaining } from "./observation.js";
 import { firstCamera } from "./orbit.js";
-import { Player } from "./player.js";
+import { Player, prefersReducedMotion } from "./player.js";
 import { QUANTITIES, needsSummaries } from "./quantities.js";
 import { lastStage, rests } from "./resting.js";
 import { followSize } from "./size.js";
 import { showState } from "./state_panel.js";
 import { stateLine } from "./terms.js";
+import { pointText } from "./turned_path.js";
+import { unitFactor } from "./units.js";
 import { DEFAULTS } from "./view.js";
 import { WHOLE_TURN, aroundEvent, middleOf, rangeOf, zoomed } from "./zoom.js";
 
@@ -31,7 +34,7 @@ const TILT_FIELDS = ["roll", "pitch"];
 const NO_NETWORK = "No network: the library was computed by meshes, or the phase is undecided.";
 const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not have it. The way below is by turning alone.";
 /** Parts of the model that are seen in the tabs behind the first one alone. */
-const TAB_PARTS = ["statics", "jamming", "node", "path", "formations", "located", "measured", "comparison", "profiles"];
+const TAB_PARTS = ["statics", "jamming", "assembly", "progress", "node", "path", "formations", "located", "measured", "comparison", "profiles"];
 const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
 
 /** The pictures, and what is played in them. */
@@ -97,9 +100,16 @@ export class Pictures {
       observe: (observed) => view.set({ observed }),
       measure: (poses) => view.set({ poses }),
       load: (parts) => view.set(parts),
+      device: {
+        compute: (assembly) => this.#compute(assembly),
+        cancel: () => view.set({ assembly: "", point: 0 }),
+        goTo: (point) => view.set({ point }),
+      },
+      player: this.#player,
       chooseLibrary: (library) => view.set({ library }),
       chooseThread: (thread) => view.set({ thread }),
     });
+    this.#tabs.device.takePose(view.value);
     this.#showTab();
     for (const part of this.#missed) this.redraw(part);
   }
@@ -138,6 +148,7 @@ export class Pictures {
     if (part === "libraries") this.#followThreads();
     if (["comparison", "profiles"].includes(part)) this.#drawThreads();
     if (part === "statics") this.#drawLoad();
+    if (["assembly", "progress", "library"].includes(part)) this.#showAssembly();
     if (part === "jamming") this.#tabs.load.showJamming(this.#model.jamming);
     if (part === "node") this.#drawFollowing();
     if (part === "path") this.#drawPath();
@@ -157,7 +168,11 @@ export class Pictures {
     if (has("phase")) this.#moveCursors();
     if (has(...TILT_FIELDS)) this.#showSnap();
     if (has("stage", "nut", "azimuth", "elevation", "distance")) this.#drawScene();
+    if (has(...TILT_FIELDS, "phase")) this.#tabs?.device.takePose(this.#view.value);
     if (has("tab")) this.#showTab();
+    if (has("assembly", "library", "unit")) this.#followAssembly();
+    if (has("assembly", "unit")) this.#showAssembly();
+    if (has("point")) this.#showPoint();
     if (has("thread", "library", "unit")) this.#followThreads();
     if (has(...LOAD_FIELDS, "plane", ...TILT_FIELDS, "phase", "unit")) this.#followLoad();
     if (has(...TILT_FIELDS, "stage") && !["stages", "phase"].includes(this.#player.playing)) this.#player.stop();
@@ -214,6 +229,50 @@ export class Pictures {
     if (this.#isSeen("load")) this.#model.followLoad(this.#view.value);
   }
 
+  /** Requests the path of the held bolt where that is seen, or none is asked for. */
+  #followAssembly() {
+    const { value } = this.#view;
+    this.#tabs?.device.show(value);
+    if (this.#isSeen("device") || value.assembly === "") this.#model.followAssembly(value);
+  }
+
+  #compute(assembly) {
+    this.#model.dropAssembly();
+    this.#view.set({ assembly, point: 0 }, "entry");
+    this.#followAssembly();
+    this.#showAssembly();
+  }
+
+  /** The path that is shown below the solids while the tab of the device is. */
+  #turned() {
+    const path = this.#model.assembly?.path ?? null;
+    return this.#isSeen("device") && path?.path.phase.length > 0 ? path : null;
+  }
+
+  #showAssembly() {
+    if (this.#tabs === null) return;
+    const { value } = this.#view;
+    const { library } = this.#model;
+    const turned = this.#turned();
+    document.querySelector(".panel.turned").hidden = turned === null;
+    document.querySelector(".panel.phase").hidden = turned !== null;
+    this.#tabs.device.showAnswer(this.#model, value);
+    if (library.unit === value.unit) this.#tabs.turned.show(turned, library.pair, value.unit);
+    for (const id of ["play-stages", "play-phase", "stage"]) byId(id).disabled = turned !== null;
+    this.#showPoint();
+  }
+
+  /** Shows the point of the view, or the last one of a path that has fewer. */
+  #showPoint() {
+    const turned = this.#turned();
+    if (turned !== null && this.#tabs !== null) {
+      const at = pointOf(turned, this.#view.value);
+      this.#tabs.turned.moveTo(at);
+      this.#tabs.device.mark(at, turned.path);
+    }
+    this.#drawScene();
+  }
+
   /** Requests the libraries' figures and the sections where these are seen. */
   #followThreads() {
     this.#tabs?.threads.show(this.#view.value);
@@ -242,6 +301,8 @@ export class Pictures {
   /** Draws what a tab holds that has become visible. */
   #showTab() {
     this.#followLoad();
+    this.#followAssembly();
+    this.#showAssembly();
     this.#followThreads();
     if (this.#isSeen("network")) this.#model.followNetwork();
     this.#drawCurves();
@@ -333,10 +394,28 @@ export class Pictures {
     const { thread_pitch: threadPitch, nominal_diameter: nominal } = library.pair;
     const readout = state.state ? sceneReadout(state.state, this.#view.value.stage) : "no state at this pose";
     const { roll, pitch, phase } = state.pose;
+    const turned = this.#turned();
     const loaded = this.#loaded();
     byId("force-legend").hidden = loaded === null;
-    byId("stage-legend").hidden = loaded !== null;
+    byId("turned-legend").hidden = turned === null;
+    byId("stage-legend").hidden = loaded !== null || turned !== null;
+    if (turned !== null) {
+      this.#drawPoint(turned);
+      return;
+    }
     this.scene.show(state.state, loaded, this.#view.value, threadPitch, nominal, `roll ${roll}, pitch ${pitch}, phase ${phase} deg, ${readout}`);
+    byId("scene-readout").textContent = readout;
+  }
+
+  /** Draws the bolt at the point of a path that the view has; its lengths are in the answer's unit. */
+  #drawPoint(turned) {
+    const { value } = this.#view;
+    const { unit, pair } = this.#model.library;
+    const at = pointOf(turned, value);
+    const readout = pointText(turned.path, at);
+    const point = { pose: turned.path.pose[at], contacts: turned.path.contacts[at] };
+    const nominal = pair.nominal_diameter * unitFactor(unit, turned.unit);
+    this.scene.showPoint(point, deviceOf(value.assembly, turned.unit), value, nominal, `the path of the held bolt, ${readout}`);
     byId("scene-readout").textContent = readout;
   }
 
@@ -441,7 +520,7 @@ export class Pictures {
   }
 
   #showPlaying(name) {
-    for (const [id, own] of [["play-stages", "stages"], ["play-phase", "phase"]]) {
+    for (const [id, own] of [["play-stages", "stages"], ["play-phase", "phase"], ["turned-play", "path"]]) {
       byId(id).setAttribute("aria-pressed", name === own);
     }
   }
@@ -462,14 +541,13 @@ export class Pictures {
   }
 }
 
-/** The nominal diameter in the unit that the library is stored in, as its meshes are. */
-function nominalOf({ pair, unit, stored_unit: stored }) {
-  const millimetres = { in: 25.4, mm: 1 };
-  return (pair.nominal_diameter * millimetres[unit]) / millimetres[stored];
+function pointOf({ path }, { point }) {
+  return Math.min(point, path.phase.length - 1);
 }
 
-function prefersReducedMotion() {
-  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+/** The nominal diameter in the unit that the library is stored in, as its meshes are. */
+function nominalOf({ pair, unit, stored_unit: stored }) {
+  return pair.nominal_diameter * unitFactor(unit, stored);
 }
 
 function sceneReadout(state, stage) {

@@ -34,3 +34,8 @@ export class Player {
     this.#onChange(null);
   }
 }
+
+/** Whether the reader prefers less motion. */
+export function prefersReducedMotion() {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}

@@ -1,12 +1,13 @@
 // The buttons that save each panel's picture and table.
 
+import { requestOf } from "./assembly.js";
 import { html } from "./html.js";
 import { showToast } from "./messages.js";
 import { lastStage } from "./resting.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
-import { comparisonTable, depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable } from "./tables.js";
+import { comparisonTable, depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable, turnedTable } from "./tables.js";
 
-const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg", jamming: "#jamming svg" };
+const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg", jamming: "#jamming svg", turned: "#turned-chart svg" };
 const TABLES = {
   map: mapTable,
   phase: depthTable,
@@ -15,6 +16,7 @@ const TABLES = {
   path: pathTable,
   network: formationTable,
   jamming: jammingTable,
+  turned: turnedTable,
   state: stateTable,
   poses: poseTable,
   compared: comparisonTable,
@@ -27,6 +29,7 @@ const NAMES = {
   path: "way-to-the-window",
   network: "formations",
   jamming: "jamming-diagram",
+  turned: "path-of-the-held-bolt",
   scene: "bolt-and-nut",
   state: "state",
   poses: "measured-poses",
@@ -53,8 +56,10 @@ export function wireSaving(model, view, sceneOf) {
   }
 }
 
-/** A file name with library, orientation and phase. */
-function fileName(what, { library, state }, { roll, pitch, phase, stage }) {
+/** A file name with library, orientation and phase: those of the view, or of the pose at which a held bolt settles. */
+function fileName(what, { library, state }, view) {
+  const { stage } = view;
+  const { roll, pitch, phase } = what === NAMES.turned ? requestOf(view.assembly) : view;
   const staged = what === NAMES.scene && state?.state ? `_stage${Math.min(stage, lastStage(state.state)).toFixed(1)}` : "";
   return `${library.slug}_${what}_roll${roll}_pitch${pitch}_phase${phase}${staged}`;
 }

@@ -3,7 +3,7 @@
 import * as THREE from "../third-party/three.module.js";
 
 import { STAGE_COLOURS } from "./colours.js";
-import { forceMarks } from "./force_marks.js";
+import { forceMarks, pointMarks } from "./force_marks.js";
 import { meshesOf } from "./glb.js";
 import { poseAt } from "./motion.js";
 import { dragged, cameraAfterKey, cameraPosition, zoomed } from "./orbit.js";
@@ -83,18 +83,29 @@ export class SceneView {
    * load); `description` is the picture in words.
    */
   show(state, loaded, view, threadPitch, nominal, description) {
+    if (state === null) {
+      this.#present(null, [], view, nominal, description);
+      return;
+    }
+    const stage = Math.min(view.stage, lastStage(state));
+    const marks = loaded === null ? stageMarks(state, stage, nominal) : forceMarks(loaded, nominal);
+    this.#present(poseAt(state, stage, threadPitch), marks, view, nominal, description);
+  }
+
+  /** Shows a point {pose, contacts} of the path of a bolt, with the push and the compliance centre of its device. */
+  showPoint(point, device, view, nominal, description) {
+    this.#present(point.pose, pointMarks(point, device, nominal), view, nominal, description);
+  }
+
+  /** Shows the bolt at a pose (null: none) with marks. */
+  #present(pose, marks, view, nominal, description) {
     this.#view = view;
     this.#description = description;
     this.#dressNut(view.nut);
-    this.#bolt.visible = state !== null;
+    this.#bolt.visible = pose !== null;
     this.#clearMarks();
-    if (state !== null) {
-      const stage = Math.min(view.stage, lastStage(state));
-      const pose = poseAt(state, stage, threadPitch);
-      this.#bolt.matrix.copy(matrixOf(pose, nominal));
-      if (loaded !== null) this.#marks.add(...forceMarks(loaded, nominal));
-      else this.#mark(state, stage, nominal);
-    }
+    if (pose !== null) this.#bolt.matrix.copy(matrixOf(pose, nominal));
+    if (marks.length > 0) this.#marks.add(...marks);
     this.#draw();
   }
 
@@ -129,21 +140,6 @@ export class SceneView {
       mark.material?.dispose();
     });
     this.#marks.clear();
-  }
-
-  #mark(state, stage, nominal) {
-    const reached = state.contacts.filter((contact) => contact.stage <= Math.floor(stage + 1e-9));
-    for (const { point, normal, stage: made } of reached) {
-      const place = new THREE.Vector3(...point).divideScalar(nominal);
-      const colour = STAGE_COLOURS[made - 1];
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(MARK_RADIUS, 20, 14), new THREE.MeshBasicMaterial({ color: colour, depthTest: false }));
-      ball.position.copy(place);
-      ball.renderOrder = 2;
-      const arrow = new THREE.ArrowHelper(new THREE.Vector3(...normal), place, NORMAL_LENGTH, colour, 0.05, 0.028);
-      this.#marks.add(ball, arrow);
-    }
-    const second = reached.find((contact) => contact.stage === 2);
-    if (second) this.#marks.add(pivotAxis(state.contacts[0].point, second.point, nominal));
   }
 
   /** Draws once, with the next frame of the page, however often it is requested until then. */
@@ -225,6 +221,21 @@ function fill(group, glb, scale, material) {
     mesh.material.flatShading = name === "wall";
     group.add(mesh);
   }
+}
+
+/** The contacts that are made at a stage with their normals, and the pivot axis. */
+function stageMarks(state, stage, nominal) {
+  const reached = state.contacts.filter((contact) => contact.stage <= Math.floor(stage + 1e-9));
+  const marks = reached.flatMap(({ point, normal, stage: made }) => {
+    const place = new THREE.Vector3(...point).divideScalar(nominal);
+    const colour = STAGE_COLOURS[made - 1];
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(MARK_RADIUS, 20, 14), new THREE.MeshBasicMaterial({ color: colour, depthTest: false }));
+    ball.position.copy(place);
+    ball.renderOrder = 2;
+    return [ball, new THREE.ArrowHelper(new THREE.Vector3(...normal), place, NORMAL_LENGTH, colour, 0.05, 0.028)];
+  });
+  const second = reached.find((contact) => contact.stage === 2);
+  return second ? [...marks, pivotAxis(state.contacts[0].point, second.point, nominal)] : marks;
 }
 
 function matrixOf({ rotation: [a, b, c], translation: [x, y, z] }, nominal) {

@@ -1,5 +1,6 @@
 // What the tabs behind the first one show: fetched once the first numbers are seen, or as soon as one is opened.
 
+import { DeviceView } from "./device_view.js";
 import { DisksView } from "./disks_view.js";
 import { FollowsView } from "./follows_view.js";
 import { byId } from "./html.js";
@@ -9,11 +10,14 @@ import { NetworkView } from "./network_view.js";
 import { drawPath, pathText } from "./path_view.js";
 import { PosesView } from "./poses_view.js";
 import { ThreadsView } from "./threads_view.js";
+import { TurnedPathView } from "./turned_path_view.js";
 
-/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, poses, a load, a library or a thread. */
-export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure, load, chooseLibrary, chooseThread }) {
+/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, poses, a load, a device and a point of its path, a library or a thread. */
+export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure, load, device, player, chooseLibrary, chooseThread }) {
   return {
     load: new LoadView(load),
+    device: new DeviceView(device),
+    turned: new TurnedPathView(device.goTo, player),
     disks: new DisksView(byId("disks"), choosePhase),
     follows: new FollowsView(byId("follows"), chooseFormation),
     network: new NetworkView(

@@ -4,6 +4,7 @@ import { firstHeight } from "./curve.js";
 import { mapValues } from "./map_view.js";
 import { QUANTITIES } from "./quantities.js";
 import { restHeight } from "./resting.js";
+import { curvesOf } from "./turned_path.js";
 
 /** The map's cells. */
 export function mapTable(model, view) {
@@ -73,6 +74,17 @@ export function stateTable({ state: { state, pose, unit } }) {
     ...state.poses.flatMap((one, k) => poseRows(`pose at stage ${k + 1}`, one, unit)),
   ];
   return [["of", "name", "value", "unit"], ...rows];
+}
+
+/** The points of the path of a held bolt: what is drawn of them, and how it is held. */
+export function turnedTable({ assembly: { path: answer } }, { unit }) {
+  const curves = curvesOf(answer, unit);
+  const columns = {
+    phase: "phase_deg", height: `z_${unit}`, torque: `torque_N_${unit}`, largest_force: "largest_force_N", all_forces: "sum_of_forces_N", tilt: "tilt_deg", device_tilt: "device_tilt_deg", shift: `shift_${unit}`,
+    ...Object.fromEntries(["elastic", "work", "push", "falls", "friction"].map((name) => [name, `${name}_N_${unit}`])),
+  };
+  const rows = answer.path.phase.map((_, k) => [...Object.keys(columns).map((name) => curves[name][k]), answer.path.held[k], answer.path.contacts[k].length]);
+  return [[...Object.values(columns), "held", "contacts"], ...rows];
 }
 
 /** The outline of the jamming diagram, counter-clockwise. */

@@ -9,6 +9,13 @@ const SHORT_DECIMALS = { in: 4, mm: 3 };
 /** Round-off of a thread's lengths is some 1e-17: what is less than this is shown as zero. */
 const ROUND_OFF = 1e-13;
 
+const MILLIMETRES = { in: 25.4, mm: 1 };
+
+/** By what a length in one unit is multiplied to be in another. */
+export function unitFactor(from, to) {
+  return MILLIMETRES[from] / MILLIMETRES[to];
+}
+
 /** A number with so many decimals, with a true minus sign; "none" for null. */
 export function fixed(value, decimals) {
   if (value === null || value === undefined) return "none";

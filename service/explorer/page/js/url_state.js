@@ -1,5 +1,6 @@
 // The view as the fragment of an address, so that a link restores it exactly.
 
+import { checkedAssembly } from "./assembly.js";
 import { PLANES } from "./load.js";
 import { checkedObservation } from "./observation.js";
 import { checkedPoses } from "./poses.js";
@@ -45,6 +46,8 @@ const READERS = {
   poses: { read: checkedPoses, valid: "poses as the page writes them" },
   ...Object.fromEntries(Object.entries(LOAD_LIMITS).map(([name, limits]) => [name, between(...limits)])),
   plane: among(...Object.keys(PLANES)),
+  assembly: { read: checkedAssembly, valid: "a pose and a device as the page writes them" },
+  point: { read: (text) => (/^[0-9]{1,6}$/.test(text) ? Number(text) : undefined), valid: "the number of a point" },
   thread: {
     read: (text) => (text.trim() !== "" && text.length <= THREAD_LENGTH ? text.trim() : undefined),
     valid: `the designation of a thread, of up to ${THREAD_LENGTH} characters`,

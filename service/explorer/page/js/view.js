@@ -36,6 +36,9 @@ export const DEFAULTS = Object.freeze({
   my: 0,
   mz: 0,
   plane: "fx,my",
+  /** The path of a held bolt that is asked for, as `assembly.js` writes it, and which of its points is shown. */
+  assembly: "",
+  point: 0,
   /** Designation of a thread whose section is shown beside the library's. */
   thread: "",
 });
