@@ -49,6 +49,13 @@ SHOTS = (
         "roll=2&pitch=0&phase=345&theme=light&nut=glass&tab=load&mu=0.3&fx=0.1&quantity=mu_hold",
         "#jamming .edge",
     ),
+    Shot(
+        "laptop-device",
+        LAPTOP,
+        "roll=0&pitch=-4&phase=300&theme=light&nut=glass&tab=device&point=100"
+        "&assembly=roll%3D0%26pitch%3D-4%26phase%3D300%26unit%3Dmm",
+        "#turned-chart svg",
+    ),
     Shot("laptop-threads", LAPTOP, "theme=light&tab=threads&thread=M6+at+minimum+material", "#profiles img + img"),
     Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light&tab=network", "#network .way .stop"),
     Shot(
