@@ -100,7 +100,6 @@ def test_tables_are_saved_with_the_numbers_of_the_interface(save: Save, explorer
 
 def test_table_of_the_state_has_every_number_of_it(save: Save, explorer: Explorer) -> None:
     state = explorer.fetched("/v1/libraries/latest/states/-4/0/130")
-    explorer.wait_for_text("#state", "pitch 0 deg, phase 130 deg")
     table = list(csv.reader(io.StringIO(save("state", "CSV").decode())))[1:]
     numbers = sorted(float(value) for _, name, value, _ in table if name != "class" and is_number(value))
     assert numbers == sorted(numbers_of(state))
