@@ -143,9 +143,6 @@ def test_fields_say_what_they_do_not_take(page: Explorer) -> None:
 
 
 def test_back_and_forward_take_what_one_went_to_and_not_what_moved(page: Explorer) -> None:
-    # A step of another kind, so that the next roll is not one with that of the test before.
-    page.click("#tab-network")
-    page.click("#tab-state")
     page.choose("#phase", "20")
     wait_for_address(page, "phase=20")
     page.choose("#roll", "4")
