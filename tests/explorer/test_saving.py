@@ -62,6 +62,18 @@ def test_pictures_are_saved_as_svg_and_png(save: Save) -> None:
         assert save(panel, "PNG").startswith(PNG)
 
 
+def test_the_path_of_a_held_bolt_is_saved(save: Save, explorer: Explorer) -> None:
+    explorer.click("#tab-device")
+    explorer.click("#device-compute")
+    explorer.one("#turned-chart .curve")
+    assert "curve" not in save("turned", "SVG").decode()
+    assert save("turned", "PNG").startswith(PNG)
+    head, *rows = list(csv.reader(io.StringIO(save("turned", "CSV").decode())))
+    assert [head[0], head[1], head[2]] == ["phase_deg", "z_in", "torque_N_in"]
+    assert float(rows[0][0]) == 130
+    assert len(rows) == int(explorer.run("return document.querySelector('#turned-point').max")) + 1
+
+
 def test_solids_are_saved_as_png(save: Save) -> None:
     content = save("scene", "PNG")
     assert content.startswith(PNG)

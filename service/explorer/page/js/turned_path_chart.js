@@ -32,7 +32,7 @@ function plotsOf(unit, hasFriction) {
   return [
     { title: `height z (${unit})`, curves: { height: "" }, hasLead: true },
     { title: `torque (N ${unit})`, curves: { torque: "" } },
-    { title: "contact forces (N)", curves: { largest_force: "largest", all_forces: "sum" } },
+    { title: "forces (N)", curves: { largest_force: "largest", all_forces: "sum" } },
     { title: "tilt (deg)", curves: { tilt: "bolt", device_tilt: "device" } },
     { title: `shift (${unit})`, curves: { shift: "" } },
     { title: `energy (N ${unit})`, curves: energies },
