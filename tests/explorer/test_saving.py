@@ -42,7 +42,10 @@ def save(explorer: Explorer, tmp_path: Path) -> Save:
             explorer.one(f"#panel-{TABS[panel]} :is(svg, table)")
         explorer.click(f'[data-save="{panel}"] button[data-kind="{kind}"]')
         pattern = f"1-4-20-unc_*_roll-4_pitch0_phase130*.{kind.lower()}"
-        explorer.wait(lambda: any(tmp_path.glob(pattern)), f"no {kind} of {panel} was saved")
+        # The browser reserves the name by an empty file.
+        explorer.wait(
+            lambda: any(path.stat().st_size for path in tmp_path.glob(pattern)), f"no {kind} of {panel} was saved"
+        )
         (path,) = tmp_path.glob(pattern)
         content = path.read_bytes()
         path.unlink()
