@@ -67,6 +67,7 @@ def test_pictures_are_saved_as_svg_and_png(save: Save) -> None:
 
 def test_the_path_of_a_held_bolt_is_saved(save: Save, explorer: Explorer) -> None:
     explorer.click("#tab-device")
+    explorer.click("#device-reset")
     explorer.click("#device-compute")
     explorer.one("#turned-chart .curve")
     assert "curve" not in save("turned", "SVG").decode()
