@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from harness.browser import Explorer
+from tests.explorer.test_device import COMPUTED
 
 pytestmark = pytest.mark.slow
 
@@ -57,6 +58,15 @@ def test_axe_finds_nothing_serious_in_a_tab(explorer: Explorer, repository_root:
     for theme in THEMES:
         explorer.choose("#theme", theme)
         assert violations(explorer, (repository_root / AXE).read_text(), panel, least_passes=4) == []
+
+
+def test_axe_finds_nothing_serious_about_the_path_of_a_held_bolt(explorer: Explorer, repository_root: Path) -> None:
+    explorer.open(f"/#{COMPUTED}")
+    explorer.one("#turned-chart .curve")
+    for theme in THEMES:
+        explorer.choose("#theme", theme)
+        for panel in ("#panel-device", ".panel.turned"):
+            assert violations(explorer, (repository_root / AXE).read_text(), panel, least_passes=4) == []
 
 
 @pytest.mark.parametrize("path", ["/nowhere", "licences"])

@@ -122,7 +122,7 @@ def test_a_path_that_is_cancelled_is_not_shown(explorer: Explorer) -> None:
     explorer.wait(lambda: not explorer.one("#device-progress").is_displayed(), "the progress stays")
     assert not explorer.one("#turned-outcome").is_displayed()
     assert explorer.one("#depth svg").is_displayed()
-    explorer.wait(lambda: "assembly" not in explorer.run("return location.hash"), "the address has the path")
+    explorer.wait(lambda: "assembly" not in explorer.run("return location.hash"), "the link asks for the path")
     explorer.wait(lambda: computing(explorer.address) == 0, "the path is computed on")
 
 

@@ -7,6 +7,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 from harness.browser import Explorer, phase_of
+from tests.explorer.test_device import COMPUTED
 
 pytestmark = pytest.mark.slow
 
@@ -46,6 +47,13 @@ def test_keyboard_reaches_everything_in_a_tab(explorer: Explorer, tab: str) -> N
     explorer.one(f"#panel-{tab} :is(svg, table, select, textarea)")
     explorer.run("document.querySelector(arguments[0]).focus()", BEFORE_PANEL)
     check_all_are_reached(explorer, f"#panel-{tab}")
+
+
+def test_keyboard_reaches_everything_about_the_path_of_a_held_bolt(explorer: Explorer) -> None:
+    explorer.open(f"/#{COMPUTED}&point=100")
+    explorer.one("#turned-chart .curve")
+    explorer.run("document.querySelector('#camera-reset').focus()")
+    check_all_are_reached(explorer, ".panel.turned")
 
 
 def check_all_are_reached(explorer: Explorer, within: str) -> None:

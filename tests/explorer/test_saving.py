@@ -42,7 +42,10 @@ def save(explorer: Explorer, tmp_path: Path) -> Save:
             explorer.one(f"#panel-{TABS[panel]} :is(svg, table)")
         explorer.click(f'[data-save="{panel}"] button[data-kind="{kind}"]')
         pattern = f"1-4-20-unc_*_roll-4_pitch0_phase130*.{kind.lower()}"
-        explorer.wait(lambda: any(tmp_path.glob(pattern)), f"no {kind} of {panel} was saved")
+        # The browser reserves the name by an empty file.
+        explorer.wait(
+            lambda: any(path.stat().st_size for path in tmp_path.glob(pattern)), f"no {kind} of {panel} was saved"
+        )
         (path,) = tmp_path.glob(pattern)
         content = path.read_bytes()
         path.unlink()
@@ -60,6 +63,19 @@ def test_pictures_are_saved_as_svg_and_png(save: Save) -> None:
         assert all(one.attrib["font-family"] for one in elements if one.tag.endswith("}text"))
         assert "var(" not in ET.tostring(root, encoding="unicode")
         assert save(panel, "PNG").startswith(PNG)
+
+
+def test_the_path_of_a_held_bolt_is_saved(save: Save, explorer: Explorer) -> None:
+    explorer.click("#tab-device")
+    explorer.click("#device-reset")
+    explorer.click("#device-compute")
+    explorer.one("#turned-chart .curve")
+    assert "curve" not in save("turned", "SVG").decode()
+    assert save("turned", "PNG").startswith(PNG)
+    head, *rows = list(csv.reader(io.StringIO(save("turned", "CSV").decode())))
+    assert [head[0], head[1], head[2]] == ["phase_deg", "z_in", "torque_N_in"]
+    assert float(rows[0][0]) == 130
+    assert len(rows) == int(explorer.run("return document.querySelector('#turned-point').max")) + 1
 
 
 def test_solids_are_saved_as_png(save: Save) -> None:

@@ -7,6 +7,7 @@ import { DEFAULTS } from "./view.js";
 const REST_MS = 200;
 /** Changes of the same kind that follow one another sooner are one step. */
 const ONE_STEP_MS = 800;
+const NO_STEP = { names: "", at: -Infinity };
 const STEPS = ["library", "roll", "pitch", "tab"];
 
 /** Whether a change of the view is a step of the browser's history. */
@@ -18,7 +19,7 @@ export function isStep(changed, how) {
 export function syncAddress(view, remark) {
   let timer = null;
   let written = view.value;
-  let last = { names: "", at: -Infinity };
+  let last = NO_STEP;
   const addressOf = (value) => `#${fragmentOf(value)}`;
   const write = () => {
     clearTimeout(timer);
@@ -29,6 +30,7 @@ export function syncAddress(view, remark) {
   view.follow((now, changed, how) => {
     if (how === "restored") {
       written = now;
+      last = NO_STEP;
       return;
     }
     const names = [...changed].sort().join(" ");

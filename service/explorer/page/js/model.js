@@ -73,6 +73,8 @@ export class Model {
   #jammingThrottle = new Throttle(0);
   /** Ends the path that is computed. */
   #assembling = new AbortController();
+  /** How often a path was asked for by its button: the same request twice is two paths. */
+  #assemblies = 0;
   #formationDebounce = new Debounce(DEBOUNCE_MS);
 
   /** `onPart` is called with the name of a part that has arrived, `onError` with an error and the part that is missing for it. */
@@ -193,16 +195,19 @@ export class Model {
   /** Requests the path of a held bolt that the view asks for; one that was requested before and is not asked for is ended. */
   followAssembly({ library, unit, assembly }) {
     if (this.library.id !== library) return;
-    const key = `${library} ${assembly}`;
+    const key = `${library} ${assembly} ${this.#assemblies}`;
     if (this.#requested.get("assembly") === key) return;
-    this.dropAssembly();
+    this.#endAssembly();
     this.#request("assembly", key, () => (assembly === "" ? null : this.#assembled(bodyOf(assembly, library), unit)));
   }
 
-  /** Ends the path that is computed; the same one is computed again when it is requested. */
-  dropAssembly() {
+  /** Has the path computed again when it is requested next, also the same one. */
+  repeatAssembly() {
+    this.#assemblies += 1;
+  }
+
+  #endAssembly() {
     this.#assembling.abort();
-    this.#requested.delete("assembly");
     this.assembly = null;
     this.progress = null;
   }
@@ -310,7 +315,7 @@ export class Model {
 
   /** Clears what belongs to the library that was shown. */
   #clear() {
-    this.dropAssembly();
+    this.#endAssembly();
     for (const part of OF_LIBRARY) {
       this[part] = null;
       this.#requested.delete(part);

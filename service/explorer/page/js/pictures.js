@@ -237,7 +237,7 @@ export class Pictures {
   }
 
   #compute(assembly) {
-    this.#model.dropAssembly();
+    this.#model.repeatAssembly();
     this.#view.set({ assembly, point: 0 }, "entry");
     this.#followAssembly();
     this.#showAssembly();

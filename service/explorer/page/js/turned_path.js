@@ -148,6 +148,20 @@ const OUTCOMES = {
   slipped: "The bolt slips off the nut sideways",
   undecided: "Undecided",
 };
+/** Why a path has no certain answer, or what is out of the ordinary about it. */
+const REASONS = {
+  flush: "the base lies flush on the nut's surface",
+  marginal: "a place touches that carries no force",
+  first_contact: "the first contact could not be excluded elsewhere",
+  deep: "deeper than 3.6 thread pitches",
+  tilted: "tilted by more than the flank's half-angle",
+  unsettled: "the descent did not end within its steps",
+  overlap: "an overlap could not be excluded",
+  unbalanced: "the forces do not balance device and push",
+  unstable: "the equilibrium is no minimum",
+  ambiguous: "a step with friction had several solutions",
+  many_contacts: "more than five contacts with friction",
+};
 /** Which margin an outcome rests on first. */
 const DECISIVE = { engaged: "lead", cross_threaded: "play", jammed: "torque", no_snap: "snap", slipped: "offset" };
 
@@ -172,7 +186,7 @@ export function outcomeText(answer, unit) {
   const { outcome, flags, margins } = answer;
   const decisive = DECISIVE[outcome];
   const margin = decisive && (margins?.[decisive] ?? null) !== null ? ` Margin of the ${MARGINS[decisive].name}: ${marginText(decisive, answer, unit)}.` : "";
-  const reasons = flags.length > 0 ? ` (${flags.join(", ").replaceAll("_", " ")})` : "";
+  const reasons = flags.length > 0 ? ` (${flags.map((flag) => REASONS[flag]).join("; ")})` : "";
   return `${OUTCOMES[outcome]}${reasons}.${margin}`;
 }
 

@@ -20,7 +20,7 @@ const VALUE_TICK = 20;
 /** Of so many steps at most there are at least two. */
 const FEWEST_TICKS = 4;
 /** About how wide a letter is, and the mark before a name. */
-const LETTER = 6;
+const LETTER = 6.4;
 const MARK = 16;
 const ROOM = 0.06;
 /** A range below this part of the largest value is one of round-off. */
@@ -32,7 +32,7 @@ function plotsOf(unit, hasFriction) {
   return [
     { title: `height z (${unit})`, curves: { height: "" }, hasLead: true },
     { title: `torque (N ${unit})`, curves: { torque: "" } },
-    { title: "contact forces (N)", curves: { largest_force: "largest", all_forces: "sum" } },
+    { title: "forces (N)", curves: { largest_force: "largest", all_forces: "sum" } },
     { title: "tilt (deg)", curves: { tilt: "bolt", device_tilt: "device" } },
     { title: `shift (${unit})`, curves: { shift: "" } },
     { title: `energy (N ${unit})`, curves: energies },
@@ -65,7 +65,7 @@ export class TurnedPathChart {
     const cells = cellsOf(wanted.length, width, height);
     this.#plots = wanted.map((plot, k) => {
       const names = namesOf(plot, cells[k].width - LEFT - RIGHT);
-      return { ...plot, names, ...scaleOf(cells[k], range, valuesOf(plot, curves), 1 + (names.at(-1)?.row ?? 0)) };
+      return { ...plot, names, ...scaleOf(cells[k], range, valuesOf(plot, curves, lead), 1 + (names.at(-1)?.row ?? 0)) };
     });
     const root = picture(width, height, "Height, torque, contact forces, tilt, shift and energies over the phase of the turned bolt", { class: "turned-curves" });
     const marks = marksOf(answer);
@@ -135,8 +135,8 @@ export function cellsOf(count, width, height) {
   });
 }
 
-function valuesOf(plot, curves) {
-  return Object.keys(plot.curves).flatMap((name) => curves[name]);
+function valuesOf(plot, curves, lead) {
+  return [...Object.keys(plot.curves).flatMap((name) => curves[name]), ...(plot.hasLead ? lead.map(([, height]) => height) : [])];
 }
 
 function scaleOf(cell, [from, to], values, headingLines) {

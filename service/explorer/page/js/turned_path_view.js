@@ -43,8 +43,9 @@ export class TurnedPathView {
     this.#redraw();
   }
 
-  /** Moves everything to a point. */
+  /** Moves everything to a point; nothing while the lead in a new unit has not arrived. */
   moveTo(at) {
+    if (this.#answer === null) return;
     this.#at = at;
     const text = pointText(this.#answer.path, at);
     byId("turned-point").value = at;
