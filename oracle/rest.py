@@ -289,6 +289,13 @@ def turned(command: Floats, x: float, y: float, z: float) -> Floats:
 
 
 @compiled
+def _deviation(place: Floats, up: float, command: Floats, numbers: tuple[float, float, float]) -> Floats:
+    """All six coordinates of a place, of which the compliance centre is at the height ``up``."""
+    centre, _, first = numbers
+    return np.array([place[0], place[1], place[2], place[3], place[4], up - first - centre * command[2, 2]])
+
+
+@compiled
 def _potential(
     place: Floats,
     start: float,
@@ -300,7 +307,7 @@ def _potential(
     nut: Floats,
 ) -> tuple[float, float]:
     """The potential at a place and the height of the bolt's origin there; infinite where there is no height near."""
-    centre, push, first = numbers
+    centre, push, _ = numbers
     rot = turned(command, place[0], place[1], place[2])
     x = centre * (command[0, 2] - rot[0, 2]) + place[3]
     y = centre * (command[1, 2] - rot[1, 2]) + place[4]
@@ -308,7 +315,7 @@ def _potential(
     if math.isnan(height):
         return math.inf, start
     up = height + centre * rot[2, 2]
-    deviation = np.array([place[0], place[1], place[2], place[3], place[4], up - first - centre * command[2, 2]])
+    deviation = _deviation(place, up, command, numbers)
     return 0.5 * deviation @ stiffness @ deviation + push * up, height
 
 
@@ -328,13 +335,13 @@ def _is_free(
 
     Nowhere on the axis is the potential that low where the device is stiff along it: then they are not.
     """
-    centre, push, first = numbers
+    centre, push, _ = numbers
     rot = turned(command, place[0], place[1], place[2])
     t = np.array(
         [centre * (command[0, 2] - rot[0, 2]) + place[3], centre * (command[1, 2] - rot[1, 2]) + place[4], start]
     )
     up = start + centre * rot[2, 2]
-    deviation = np.array([place[0], place[1], place[2], place[3], place[4], up - first - centre * command[2, 2]])
+    deviation = _deviation(place, up, command, numbers)
     force = stiffness @ deviation
     missing = value - (0.5 * deviation @ force + push * up)
     # The upper root of missing = slope z + stiffness z^2 / 2.

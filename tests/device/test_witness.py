@@ -92,6 +92,27 @@ def test_a_device_that_is_stiff_along_the_axis_has_places_of_no_lower_potential(
     assert check(pair, AXIAL, state, 200, np.random.default_rng(28)).faults == ()
 
 
+SLOW = [
+    ("1/4-20 UNC", 0.0, (-1.7579298171557776, -0.667889104691983, -14.249032791488725)),
+    ("1/4-20 UNC-2A/2B at minimum material", 0.0, (-1.2240987410536048, 1.4621506014225796, -15.512103253168576)),
+    ("1/4-20 UNC", 10.0, (-3.998390920053353, 3.1800178782254616, -13.423299144502908)),
+    ("M20x2.5-6g/6H", 10.0, (2.5905756451209356, 1.1503173194500302, -1.2728461176352506)),
+]
+"""Pair, height of the centre (mm) and command. Two contacts press against each other, and the potential is convex along
+them alone; it is convex along none; two maxima of an edge are near each other, in the last two.
+"""
+
+
+@pytest.mark.parametrize(("name", "centre", "pose"), SLOW)
+def test_bolts_between_opposed_contacts_and_beside_two_maxima_settle(
+    name: str, centre: float, pose: tuple[float, float, float]
+) -> None:
+    pair, device = pair_by_designation(name), replace(DEVICE, centre=centre)
+    state = settle_pose(pair, *pose, device)
+    assert state.outcome is Outcome.SETTLED
+    assert check(pair, device, state, 40, np.random.default_rng(29)).faults == ()
+
+
 def test_the_brute_force_from_beside_comes_back(states: list[SettledState]) -> None:
     rng = np.random.default_rng(24)
     for state in states[:3]:

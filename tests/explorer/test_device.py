@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,7 +13,7 @@ from harness.browser import Explorer
 from tests.explorer.test_explorer import MINUS, settled_canvas
 from tests.service.test_assemblies import computing
 from threadstate.device.document import device_document
-from threadstate.device.model import default_device
+from threadstate.device.model import SettledFlag, default_device
 from threadstate.units import LengthUnit
 
 pytestmark = pytest.mark.slow
@@ -124,6 +126,12 @@ def test_a_path_that_is_cancelled_is_not_shown(explorer: Explorer) -> None:
     assert explorer.one("#depth svg").is_displayed()
     explorer.wait(lambda: "assembly" not in explorer.run("return location.hash"), "the link asks for the path")
     explorer.wait(lambda: computing(explorer.address) == 0, "the path is computed on")
+
+
+def test_every_flag_of_a_path_has_its_words(repository_root: Path) -> None:
+    source = (repository_root / "service/explorer/page/js/turned_path.js").read_text()
+    reasons = source.split("const REASONS = {")[1].split("};")[0]
+    assert set(re.findall(r"^  (\w+): ", reasons, re.MULTILINE)) == set(SettledFlag)
 
 
 def test_what_is_not_valid_is_said_beside_its_field(explorer: Explorer) -> None:
