@@ -20,6 +20,7 @@ from typing import Generic, TypeVar
 
 from threadstate.errors import ThreadstateError
 from threadstate.library.identity import LibraryInputs
+from worker.interruption import waiting
 from worker.messages import Chunk, Failure, Ready
 
 QUEUED_PER_PROCESS = 2
@@ -75,13 +76,15 @@ class ComputingProcesses(Generic[Result]):
         Raises:
             ComputeError: a process failed or died.
         """
-        waiting = iter(orientations)
+        remaining = iter(orientations)
         queued = dict.fromkeys((computer.connection for computer in self._computers), 0)
         by_connection = {computer.connection: computer for computer in self._computers}
         starting = set(by_connection)
         announced = False
         while starting or any(queued.values()):
-            for connection in wait(list(by_connection)):
+            with waiting():
+                ready = wait(list(by_connection))
+            for connection in ready:
                 assert isinstance(connection, Connection)
                 message = by_connection[connection].receive()
                 if isinstance(message, Failure):
@@ -93,7 +96,7 @@ class ComputingProcesses(Generic[Result]):
                         on_ready()
                 else:
                     queued[connection] -= 1
-                while queued[connection] < QUEUED_PER_PROCESS and (index := next(waiting, None)) is not None:
+                while queued[connection] < QUEUED_PER_PROCESS and (index := next(remaining, None)) is not None:
                     by_connection[connection].submit(index)
                     queued[connection] += 1
                 if isinstance(message, self._result):

@@ -19,6 +19,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.numbers import number_text
 from worker.cluster.errors import ClusterError, VersionSkewError
 from worker.cluster.versions import own_versions
+from worker.interruption import waiting
 from worker.messages import Chunk
 from worker.output import print_status
 from worker.processes import QUEUED_PER_PROCESS, ComputeError
@@ -62,11 +63,12 @@ class ComputingCluster:
             ClusterError: the scheduler is unreachable, the cluster has no worker for a minute, or one has another
                 version.
         """
-        waiting = iter(orientations)
+        remaining = iter(orientations)
         announced = False
-        while self._submit(waiting) or self._submitted:
+        while self._submit(remaining) or self._submitted:
             try:
-                future = self._done.get(timeout=LOOK_EVERY_S)
+                with waiting():
+                    future = self._done.get(timeout=LOOK_EVERY_S)
             except Empty:
                 continue
             chunk = self._result(future)
@@ -80,7 +82,7 @@ class ComputingCluster:
         """Submit no more; chunks in progress are discarded."""
         self._submitted.clear()
 
-    def _submit(self, waiting: Iterator[int]) -> bool:
+    def _submit(self, remaining: Iterator[int]) -> bool:
         """Submit as many chunks as the workers can queue.
 
         Returns:
@@ -90,7 +92,7 @@ class ComputingCluster:
 
         self._read_threads()
         while len(self._submitted) < self._room:
-            index = next(waiting, None)
+            index = next(remaining, None)
             if index is None:
                 return False
             future = self._client.submit(remote_chunk, self._inputs, index, own_versions(), pure=False)

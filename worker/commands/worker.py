@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import signal
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
 
@@ -21,8 +20,9 @@ def worker(
 ) -> None:
     r"""Compute the libraries that were requested as jobs, until stopped.
 
-    Any number may run at once, on several machines where the database is PostgreSQL's. SIGTERM and Ctrl-C end it; its
-    chunks are then free for others. One that is killed is detected by its missing heartbeat.
+    Any number may run at once, on several machines where the database is PostgreSQL's. SIGTERM and Ctrl-C end it as
+    soon as what it is writing is written; its chunks are then free for others. One that is killed is detected by its
+    missing heartbeat.
 
     \b
     Examples:
@@ -32,13 +32,13 @@ def worker(
     """
     from threadstate.library.engine import writing
     from threadstate.library.schema import check_schema
+    from worker.interruption import interruptible_at_waits
     from worker.jobs.serve import WorkerOptions, serve_jobs
     from worker.output import print_status
 
     settings = read_settings()
-    signal.signal(signal.SIGTERM, _interrupt)
     try:
-        with writing(database or settings.database) as engine:
+        with interruptible_at_waits(), writing(database or settings.database) as engine:
             check_schema(engine)
             options = WorkerOptions(
                 processes=workers or settings.workers,
@@ -49,7 +49,3 @@ def worker(
             serve_jobs(engine, options, until_idle=until_idle)
     except KeyboardInterrupt:
         print_status("stopped")
-
-
-def _interrupt(_signal: int, _frame: object) -> NoReturn:
-    raise KeyboardInterrupt

@@ -73,8 +73,7 @@ def heartbeat(engine: Engine, worker_id: str, lease_s: float, file: Path | None 
         yield beats_of_worker
     finally:
         beats_of_worker.stop()
-        with suppress(KeyboardInterrupt):
-            thread.join()
+        thread.join()
 
 
 @dataclass(frozen=True, slots=True)

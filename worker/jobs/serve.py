@@ -30,6 +30,7 @@ from threadstate.jobs.workers import LostLeaseError, join, leave
 from threadstate.library.identity import code_versions
 from threadstate.library.write import IncompleteLibraryError, open_library, write_chunk
 from worker.cluster.errors import ClusterError
+from worker.interruption import waiting
 from worker.jobs.heartbeat import Heartbeat, heartbeat
 from worker.output import print_status
 from worker.processes import ComputeError
@@ -78,11 +79,11 @@ def serve_jobs(engine: Engine, options: WorkerOptions, *, until_idle: bool) -> N
             print_status(f"{error}; it registers again")
         except ClusterError as error:
             print_status(f"the cluster failed, retrying: {error}")
-            time.sleep(RETRY_S)
+            _wait(RETRY_S)
         except SQLAlchemyError as error:
             reason = " ".join(str(getattr(error, "orig", None) or error).split())
             print_status(f"the database failed, retrying: {reason}")
-            time.sleep(RETRY_S)
+            _wait(RETRY_S)
 
 
 @contextmanager
@@ -108,7 +109,12 @@ def _work(session: _Session, *, until_idle: bool) -> None:
             return
         else:
             release_chunks(session.engine, session.worker_id)
-            time.sleep(POLL_S)
+            _wait(POLL_S)
+
+
+def _wait(seconds: float) -> None:
+    with waiting():
+        time.sleep(seconds)
 
 
 def _work_on(session: _Session, job: NextJob) -> None:
