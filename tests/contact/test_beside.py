@@ -18,6 +18,7 @@ from threadstate.contact import _beside_kernel as beside
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _flank_kernel as flank
+from threadstate.contact._edge_kernel import Box, new_edge
 from threadstate.contact._geometry_kernel import PATH_SIZE, TWO_PI
 from threadstate.contact._range_kernel import error_beside, size_numbers
 from threadstate.contact._stage_kernel import rotation
@@ -197,11 +198,11 @@ def test_third_derivatives_in_the_middle_are_those_of_balls() -> None:
 def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]:
     """Boxes of a search beside a contact that the bend of phi excludes: middle, half-width, start, end."""
     boxes, spare, scratch = (np.zeros(box.BOXES_SIZE) for _ in range(3))
-    numbers = one.search.motion, one.search.curve.packed, one.search.solid.packed
+    edge = new_edge(one.search.motion, one.search.curve.packed, one.search.solid.packed, one.kept)
     count = edge_search.set_initial_boxes(0.0, one.until, boxes)
     for _ in range(40):
         count = edge_search.pad_boxes(count, boxes)
-        edge_search.evaluate_boxes(count, *numbers, one.kept, np.empty(PATH_SIZE), boxes)
+        edge_search.evaluate_boxes(count, edge, boxes)
         left = 0
         for i in range(count):
             kind, half = int(boxes[box.X_CLASS + i]), float(boxes[box.X_HALF + i])
@@ -213,7 +214,7 @@ def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]
             if (
                 half < gap < beside.BESIDE
                 and boxes[box.X_G_LOW + i] > 0.0
-                and edge_search.no_onset_from_contact(theta, half, start, end, *bends, *numbers, one.kept, scratch)[0]
+                and edge_search.no_onset_from_contact(Box(theta, half, start, end), *bends, edge, scratch)[0]
             ):
                 yield theta, half, start, end
             elif left < 100:

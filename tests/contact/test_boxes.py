@@ -20,6 +20,7 @@ from threadstate.contact._branchless_kernel import (
     second_derivative_range,
     sine_cosine,
 )
+from threadstate.contact._edge_kernel import Box, new_edge
 from threadstate.contact._edge_search_kernel import evaluate_box
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import M_COPLANAR, MOTION_SIZE, PATH_SIZE, TWO_PI
@@ -181,8 +182,8 @@ def test_small_boxes_around_an_onset_hold_no_other(states: list[ContactState]) -
     boxes = np.zeros(box.BOXES_SIZE)
     for theta, time, motion, curve, solid in onsets(states):
         if motion[M_COPLANAR] == 0.0:
-            span = time - 1e-9, time + 1e-9
-            found = evaluate_box(theta, 1e-7, *span, motion, curve, solid, new_kept(0), np.empty(PATH_SIZE), boxes)
+            edge = new_edge(motion, curve, solid, new_kept(0))
+            found = evaluate_box(Box(theta, 1e-7, time - 1e-9, time + 1e-9), edge, boxes)
             assert found in (box.ONE_EDGE, box.ONE_THREAD, box.ONE_PLANE)
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
-from tests.contact.samples import Floats
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _record_kernel as record
 from threadstate.contact import _stage_kernel as stage
@@ -29,7 +29,8 @@ def test_a_full_list_of_contacts_drops_the_latest() -> None:
     times = np.random.default_rng(81).permutation(stage.MAX_CONTACTS + 5).astype(float).tolist()
     count = 0
     for i, time in enumerate(times):
-        count = stage.insert_contact(time, stage.EDGE_EDGE, 0.0, 0.0, *around(i), 0.0, count, listed)
+        one = stage.Contact(time, stage.EDGE_EDGE, 0.0, 0.0, *around(i), 0.0)
+        count = stage.insert_contact(one, count, listed)
     assert count == stage.MAX_CONTACTS
     assert listed[:, stage.K_TIME].tolist() == sorted(times)[: stage.MAX_CONTACTS]
 
@@ -51,14 +52,15 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
 ) -> None:
     """``earliest`` interpreted, with an edge search that fills its list of candidates, so far apart in time."""
 
-    def crowded_search(*arguments: Floats) -> tuple[int, int, float]:
-        count, found = int(arguments[11]), arguments[12]
+    def crowded_search(*arguments: Any) -> tuple[int, int, float]:
+        count, found = arguments[5:]
         assert found.shape[1] == CANDIDATE_SIZE
         for i in range(len(found)):
             count = insert_candidate(1e-4 + apart * i, int(ONE_EDGE), 0.3 * i, 0.3 * i, *around(i), 0.0, count, found)
         return count, 1, 1e-4
 
     monkeypatch.setattr(stage, "search_edge", crowded_search)
+    monkeypatch.setattr(stage, "search_both_edges", stage.search_both_edges.py_func)
     pose, out = np.zeros(12), np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE))
     stage.rotation(0.05, 0.02, 1.0, pose)
     pose[11] = 0.01

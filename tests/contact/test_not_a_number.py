@@ -14,6 +14,7 @@ from threadstate.contact import _branchless_kernel as branchless
 from threadstate.contact import _rectangle_kernel as rectangle
 from threadstate.contact._beside_kernel import K_TANGENT, keep, new_kept
 from threadstate.contact._bound_kernel import BOUNDS_SIZE, set_bounds
+from threadstate.contact._edge_kernel import Box, new_edge
 from threadstate.contact._edge_search_kernel import no_onset_from_contact
 from threadstate.contact._entry_kernel import half_space
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
@@ -112,8 +113,8 @@ def test_an_unknown_way_from_a_contact_excludes_nothing(on_plane: bool) -> None:
     kept = new_kept(1)
     keep(1.0, on_plane, True, kept)
     kept[0, K_TANGENT] = 1.0
-    numbers = motion, PAIR.bolt.packed, PAIR.nut.packed
-    no_onset = no_onset_from_contact(1.005, 1e-4, 0.0, 1e-6, 1.0, 2.0, *numbers, kept, np.zeros(box.BOXES_SIZE))
+    edge = new_edge(motion, PAIR.bolt.packed, PAIR.nut.packed, kept)
+    no_onset = no_onset_from_contact(Box(1.005, 1e-4, 0.0, 1e-6), 1.0, 2.0, edge, np.zeros(box.BOXES_SIZE))
     assert no_onset == (False, False)
 
 

@@ -27,6 +27,7 @@ from threadstate.contact import _tangency_kernel as tangency
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
+from threadstate.contact._edge_kernel import Box, new_edge
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
 from threadstate.contact._search_kernel import search_address, search_at
 from threadstate.errors import UnresolvedPoseError
@@ -148,7 +149,7 @@ def test_an_edge_that_lies_in_the_other_plane_is_undecided(height: float, outcom
     """Level on the surface every box of the edge over the nut's flat touches: no list is long enough."""
     motion, _ = descents(pose_at((0.0, 0.0, 90.0), height))
     boxes, spare_boxes = stage.new_work()[:2]
-    found, _ = edge_search.find_inside(motion, BOLT, NUT, new_kept(0), 1e-12, 1e-11, boxes, spare_boxes)
+    found, _ = edge_search.find_inside(new_edge(motion, BOLT, NUT, new_kept(0)), 1e-12, 1e-11, boxes, spare_boxes)
     assert found == outcome
 
 
@@ -163,8 +164,8 @@ def test_the_witness_of_an_edge_that_lies_in_the_other_plane_is_undecided() -> N
 def test_a_level_edge_has_no_onset_of_its_own_with_the_plane() -> None:
     """g has no slope along the edge: the Jacobian of g = g_theta = 0 is singular."""
     motion, _ = descents(pose_at((0.0, 0.0, 90.0), 1e-3))
-    path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
-    assert not onset.newton_onset(ONE_PLANE, 1.0, 0.1, 0.0, 2e-3, motion, BOLT, NUT, new_kept(0), path, jet)[0]
+    edge = new_edge(motion, BOLT, NUT, new_kept(0))
+    assert not onset.newton_onset(ONE_PLANE, Box(1.0, 0.1, 0.0, 2e-3), edge, np.empty(onset.JET_SIZE))[0]
 
 
 def test_edges_that_run_along_each_other_are_not_separated() -> None:
@@ -172,7 +173,7 @@ def test_edges_that_run_along_each_other_are_not_separated() -> None:
     level, _ = descents(pose_at((0.0, 0.0, 0.0), 0.0))
     crest = math.radians(-90.0)
     assert PAIR.bolt.derivatives(P / 4.0)[1] == 0.0 == PAIR.nut.derivatives(P / 4.0)[1]
-    assert not onset.edges_separated(crest, crest, 0.0, level, BOLT, NUT, np.empty(9))
+    assert not onset.edges_separated(crest, crest, 0.0, new_edge(level, BOLT, NUT, new_kept(0)), np.empty(9))
 
 
 def test_edges_are_separated_where_they_first_touch() -> None:
@@ -182,7 +183,7 @@ def test_edges_are_separated_where_they_first_touch() -> None:
     assert first.features is FeaturePair.EDGE_EDGE
     motion, _ = descents(pose_at(pose_deg, state.poses[0].translation[2]))
     on_bolt, on_nut = (math.atan2(point[1], point[0]) for point in (first.point_bolt, first.point))
-    assert onset.edges_separated(on_bolt, on_nut, 0.0, motion, BOLT, NUT, np.empty(9))
+    assert onset.edges_separated(on_bolt, on_nut, 0.0, new_edge(motion, BOLT, NUT, new_kept(0)), np.empty(9))
 
 
 def test_an_onset_beyond_the_far_end_of_a_part_is_no_contact() -> None:
@@ -193,12 +194,12 @@ def test_an_onset_beyond_the_far_end_of_a_part_is_no_contact() -> None:
     pose = pose_at((-4.0, 0.0, 8.0), state.poses[0].translation[2])
     _, motion = descents(pose)
     theta = math.atan2(first.point[1], first.point[0])
-    path, jet, wedge = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE), np.empty(9)
-    onset.set_jet(theta, 0.0, motion, NUT, BOLT, path, jet)
+    edge, jet, wedge = new_edge(motion, NUT, BOLT, new_kept(0)), np.empty(onset.JET_SIZE), np.empty(9)
+    onset.set_jet_beside(theta, 0.0, edge, jet)
     assert 0.0 < jet[onset.J_Z] < P
-    assert onset.is_contact(ONE_THREAD, theta, 0.0, motion, NUT, BOLT, jet, wedge)
+    assert onset.is_contact(ONE_THREAD, theta, 0.0, edge, jet, wedge)
     jet[onset.J_Z] += P
-    assert not onset.is_contact(ONE_THREAD, theta, 0.0, motion, NUT, BOLT, jet, wedge)
+    assert not onset.is_contact(ONE_THREAD, theta, 0.0, edge, jet, wedge)
 
 
 def test_a_full_list_of_candidates_drops_the_latest() -> None:

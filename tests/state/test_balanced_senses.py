@@ -41,18 +41,19 @@ SHORT, LONG, NONE, UNKNOWN = 0.1, 0.2, math.nan, math.nan
 def test_a_sense_that_is_unresolved_is_not_dropped(
     monkeypatch: pytest.MonkeyPatch, senses: tuple[Sense, Sense], expected: tuple[float | None, int]
 ) -> None:
-    """``solve_pose`` interpreted, with a third stage that finds the turns and the statuses of ``senses``.
+    """The stages interpreted, with a third stage that finds the turns and the statuses of ``senses``.
 
     An unresolved sense whose turn is known, and longer, does not matter: only its embedment is unresolved.
     """
     followed: list[Floats] = []
 
-    def third_stage(*arguments: Floats) -> None:
-        axis, row = arguments[2], arguments[11]
+    def third_stage(_scene: sk.Scene, _search: object, course: sk.Course, row: Floats) -> None:
         row[rk.O_MU], row[rk.O_STATUS] = senses[len(followed)]
-        followed.append(axis.copy())
+        followed.append(course.axis.copy())
 
     monkeypatch.setattr(sk, "third_stage", third_stage)
+    for stage in ("first_stage", "second_stage"):
+        monkeypatch.setattr(sk, stage, getattr(sk, stage).py_func)
     options = np.zeros(4)
     options[[sk.S_TURN_LIMIT, sk.S_TIE]] = math.radians(45.0), 1e-6 * PAIR.thread_pitch
     options[sk.S_CONVEX] = outline_is_convex(PAIR.bolt) and outline_is_convex(PAIR.nut)

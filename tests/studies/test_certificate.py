@@ -31,6 +31,8 @@ from studies.certificate.study import Found, audit_boxes, failures
 from threadstate.contact import _branchless_kernel, _frame_kernel, _range_kernel
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact._beside_kernel import new_kept
+from threadstate.contact._edge_kernel import Box as SearchBox
+from threadstate.contact._edge_kernel import new_edge
 from threadstate.contact._geometry_kernel import M_COPLANAR, PATH_SIZE
 
 FAULTS = {
@@ -199,26 +201,16 @@ def dropped(one: Box, *, kind: int) -> Outcome | None:
 
 def onset_boxes() -> Iterator[Box]:
     """Narrow boxes of searches that may have an onset, with the one that Newton's method finds inside."""
-    path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
+    jet = np.empty(onset.JET_SIZE)
     for one in search_boxes(31, 15000):
         claimed = claims(one)
         if 2 <= claimed.box_class <= 4:
             search = one.search
-            inside, theta, tau = onset.newton_onset(
-                claimed.box_class,
-                one.theta,
-                one.half,
-                one.start,
-                one.end,
-                search.motion,
-                search.curve.packed,
-                search.solid.packed,
-                new_kept(0),
-                path,
-                jet,
-            )
+            edge = new_edge(search.motion, search.curve.packed, search.solid.packed, new_kept(0))
+            wanted = SearchBox(one.theta, one.half, one.start, one.end)
+            inside, theta, tau = onset.newton_onset(claimed.box_class, wanted, edge, jet)
             if inside and tau > 0.0:
-                onset.set_jet(theta, tau, search.motion, search.curve.packed, search.solid.packed, path, jet)
+                onset.set_jet_beside(theta, tau, edge, jet)
                 if onset.rises(claimed.box_class, jet):
                     yield Box(search, theta, 1e-6, tau - 1e-7, tau + 1e-7, visited=False)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,8 +34,9 @@ from threadstate.contact._box_kernel import (
     classify_boxes,
 )
 from threadstate.contact._branchless_kernel import larger, smaller
+from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._flank_kernel import no_tangency_on_flanks
-from threadstate.contact._geometry_kernel import M_SIGMA, PATH_SIZE, motion_scale
+from threadstate.contact._geometry_kernel import M_SIGMA, motion_scale
 from threadstate.contact._onset_kernel import (
     C_KIND,
     C_THETA,
@@ -166,44 +168,31 @@ def split_boxes(count: int, boxes: Array, spare_boxes: Array) -> int:
 
 
 @kernel()
-def evaluate_boxes(
-    count: int,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    path: Array,
-    boxes: Array,
-) -> None:
-    """Sets the classes of boxes; g and phi beside contacts in ``kept`` are differences from them."""
+def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
+    """Sets the classes of boxes; g and phi beside earlier contacts are differences from them."""
     for i in range(count):
         boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i], boxes[X_GAP + i] = math.nan, math.nan, math.nan
-    if kept[0, 0] > 0.0:
+    if edge.kept[0, 0] > 0.0:
         for i in range(count):
             start, end = boxes[X_START + i], boxes[X_END + i]
             if boxes[X_HALF + i] <= FINE and 0.5 * (end - start) <= BESIDE:
                 boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i], boxes[X_GAP + i] = values_beside(
-                    boxes[X_THETA + i], 0.5 * (start + end), motion, curve_profile, solid_profile, kept, path
+                    boxes[X_THETA + i],
+                    0.5 * (start + end),
+                    edge.motion,
+                    edge.curve,
+                    edge.solid,
+                    edge.kept,
+                    edge.path,
                 )
-    classify_boxes(count, motion, curve_profile, solid_profile, boxes)
+    classify_boxes(count, edge.motion, edge.curve, edge.solid, boxes)
 
 
 @kernel()
-def evaluate_box(
-    theta: float,
-    half: float,
-    start: float,
-    end: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    path: Array,
-    boxes: Array,
-) -> float:
+def evaluate_box(box: Box, edge: Edge, boxes: Array) -> float:
     """The class of a single box, which is set as the first one of ``boxes``."""
-    boxes[X_THETA], boxes[X_HALF], boxes[X_START], boxes[X_END] = theta, half, start, end
-    evaluate_boxes(1, motion, curve_profile, solid_profile, kept, path, boxes)
+    boxes[X_THETA], boxes[X_HALF], boxes[X_START], boxes[X_END] = box
+    evaluate_boxes(1, edge, boxes)
     return boxes[X_CLASS]
 
 
@@ -214,19 +203,7 @@ def contact_distance(theta: float, kept: Array) -> float:
 
 
 @kernel()
-def no_onset_from_contact(
-    theta: float,
-    half: float,
-    start: float,
-    end: float,
-    bend_low: float,
-    bend_high: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    scratch: Array,
-) -> tuple[bool, bool]:
+def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edge, scratch: Array) -> tuple[bool, bool]:
     """Whether the bend of phi from the nearest contact to a box excludes a tangency with the thread in it.
 
     At a tangency the integral of s phi_thetatheta over the distance s from the contact is phi at the contact, which is
@@ -234,6 +211,8 @@ def no_onset_from_contact(
     (docs/certificate.md, section 7). ``bend_low`` and ``bend_high`` are the range of phi_thetatheta over the box.
     Then whether it may do so in a shorter time.
     """
+    theta, half, start, end = box
+    kept = edge.kept
     nearest, contact, row = nearest_contact(theta, kept)
     gap = abs(nearest)
     width = (gap - half) / PIECES
@@ -242,7 +221,7 @@ def no_onset_from_contact(
         scratch[X_HALF + i] = 0.5 * width + 1e-15
         scratch[X_START + i], scratch[X_END + i] = start, end
         scratch[X_G_BESIDE + i], scratch[X_PHI_BESIDE + i], scratch[X_GAP + i] = math.nan, math.nan, math.nan
-    classify_boxes(PIECES, motion, curve_profile, solid_profile, scratch)
+    classify_boxes(PIECES, edge.motion, edge.curve, edge.solid, scratch)
     touches = kept[row, K_PHI] != 0.0
     tangent = touches and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):
@@ -260,84 +239,40 @@ def no_onset_from_contact(
     if not tangent:
         return False, False
     way = math.copysign(gap + half, nearest)
-    return no_tangency_on_flanks(contact, way, start, end, motion, curve_profile, solid_profile)
+    return no_tangency_on_flanks(contact, way, start, end, edge.motion, edge.curve, edge.solid)
 
 
 @kernel()
-def onset_only_outside(
-    box_class: int,
-    theta: float,
-    half: float,
-    start: float,
-    end: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    scratch: Array,
-    path: Array,
-    jet: Array,
-) -> bool:
+def onset_only_outside(box_class: int, box: Box, edge: Edge, scratch: Array, jet: Array) -> bool:
     """Whether a larger box has at most one onset, too, and has it outside of this one."""
-    wide, span = half * ENLARGEMENT, end - start
-    since, until = start - ENLARGEMENT * span, end + ENLARGEMENT * span
-    found = evaluate_box(theta, wide, since, until, motion, curve_profile, solid_profile, kept, path, scratch)
+    theta, half, start, end = box
+    span = end - start
+    larger_box = Box(theta, half * ENLARGEMENT, start - ENLARGEMENT * span, end + ENLARGEMENT * span)
+    found = evaluate_box(larger_box, edge, scratch)
     if found != box_class:
         return found <= EXCLUDED
-    inside, t, tau = newton_onset(
-        box_class, theta, wide, since, until, motion, curve_profile, solid_profile, kept, path, jet
-    )
+    inside, t, tau = newton_onset(box_class, larger_box, edge, jet)
     return inside and (abs(t - theta) >= half or tau <= start or tau >= end)
 
 
 @kernel()
-def is_the_one(
-    box_class: int,
-    theta: float,
-    half: float,
-    start: float,
-    end: float,
-    t: float,
-    tau: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    path: Array,
-    scratch: Array,
-) -> bool:
+def is_the_one(box_class: int, box: Box, t: float, tau: float, edge: Edge, scratch: Array) -> bool:
     """Whether a root found in a box, or just beside it, is the only one there: the box widened to it has one, too."""
+    theta, half, start, end = box
     if abs(t - theta) <= half and start <= tau <= end:
         return True
-    wide, since, until = max(half, abs(t - theta)), min(start, tau), max(end, tau)
-    return (
-        evaluate_box(theta, wide, since, until, motion, curve_profile, solid_profile, kept, path, scratch) == box_class
-    )
+    widened = Box(theta, max(half, abs(t - theta)), min(start, tau), max(end, tau))
+    return evaluate_box(widened, edge, scratch) == box_class
 
 
 @kernel()
-def is_listed(
-    box_class: int,
-    t: float,
-    tau: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    path: Array,
-    scratch: Array,
-    count: int,
-    found: Array,
-) -> bool:
+def is_listed(box_class: int, t: float, tau: float, edge: Edge, scratch: Array, count: int, found: Array) -> bool:
     """Whether a root is a candidate that is listed: there is a box around both that has at most one onset."""
     for i in range(count):
         if found[i, C_KIND] == box_class and abs(found[i, C_THETA] - t) < SAME_AZIMUTH:
             theta, half = 0.5 * (found[i, C_THETA] + t), 0.5 * abs(found[i, C_THETA] - t) + 1e-15
-            start, end = min(found[i, C_TIME], tau), max(found[i, C_TIME], tau)
-            found_class = evaluate_box(
-                theta, half, start, end, motion, curve_profile, solid_profile, kept, path, scratch
-            )
-            if found_class == box_class:
+            around_both = Box(theta, half, min(found[i, C_TIME], tau), max(found[i, C_TIME], tau))
+            if evaluate_box(around_both, edge, scratch) == box_class:
                 return True
     return False
 
@@ -361,145 +296,100 @@ def insert_entry(tau: float, theta: float, motion: Array, jet: Array, entries: A
     entries[place, E_Z] = 0.0 if is_bolt_edge else jet[J_Z]
 
 
+class EdgeSearch(NamedTuple):
+    """What a search of a motion is to find, and its lists.
+
+    Attributes:
+        any_onset: whether an onset that is not a contact ends the search, too.
+        tie_tolerance: how long after the earliest time the search ends.
+        boxes: a list of boxes.
+        spare_boxes: another one.
+        entries: onsets that are not contacts: there an edge enters an open overlap.
+    """
+
+    any_onset: bool
+    tie_tolerance: float
+    boxes: Array
+    spare_boxes: Array
+    entries: Array
+
+
+@kernel()
+def list_onset(
+    box_class: int, t: float, tau: float, edge: Edge, search: EdgeSearch, scratch: Array, count: int, found: Array
+) -> tuple[int, bool]:
+    """Lists the onset at a root: in ``found`` if it is a contact, else among the entries.
+
+    Returns the number found, and whether it ends the search.
+    """
+    jet, wedge = np.empty(JET_SIZE), np.empty(9)
+    set_jet_beside(t, tau, edge, jet)
+    if not rises(box_class, jet) or contact_distance(t, edge.kept) < AZIMUTH_TOLERANCE:
+        return count, False
+    if not is_contact(box_class, t, tau, edge, jet, wedge):
+        insert_entry(tau, t, edge.motion, jet, search.entries)
+        return count, search.any_onset
+    x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
+    if not is_listed(box_class, t, tau, edge, scratch, count, found):
+        count = insert_candidate(tau, box_class, t, math.atan2(y, x), x, y, z, count, found)
+    return count, True
+
+
 @kernel()
 def search_edge(
-    since: float,
-    until: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    best: float,
-    any_onset: bool,
-    tie_tolerance: float,
-    boxes: Array,
-    spare_boxes: Array,
-    count: int,
-    found: Array,
-    entries: Array,
+    since: float, until: float, best: float, edge: Edge, search: EdgeSearch, count: int, found: Array
 ) -> tuple[int, int, float]:
-    """Contacts of the edge curve of ``curve_profile`` with the solid of ``solid_profile`` from ``since`` to ``until``.
+    """Contacts of an edge curve with the other part's solid from ``since`` to ``until``.
 
-    ``kept`` are the earlier contacts on this curve, ``best`` is the earliest time known: the search ends
-    ``tie_tolerance`` after it. With ``any_onset`` an onset that is not a contact ends the search, too. Returns the
-    number of candidates in ``found`` (earliest first), the number of boxes evaluated (OVERFLOW: too many) and the
-    earliest time. A root that round-off puts before the start counts as before it. Onsets that are not contacts are
-    added to ``entries``: there the edge enters an open overlap.
+    ``best`` is the earliest time known. Returns the number of candidates in ``found`` (earliest first), the number of
+    boxes evaluated (OVERFLOW: too many) and the earliest time. A root that round-off puts before the start counts as
+    before it.
     """
-    path = np.empty(PATH_SIZE)
+    boxes, spare_boxes = search.boxes, search.spare_boxes
     jet = np.empty(JET_SIZE)
-    wedge = np.empty(9)
-    scale = motion_scale(motion, solid_profile)
-    slender = SLENDER * scale
+    scale = motion_scale(edge.motion, edge.solid)
     earliest = since - TIME_SLACK * scale
     evaluated = 0
     narrowest = math.inf
-    n = set_initial_boxes(since, min(until, best + tie_tolerance), boxes)
+    n = set_initial_boxes(since, min(until, best + search.tie_tolerance), boxes)
     while n > 0:
         n = pad_boxes(n, boxes)
-        evaluate_boxes(n, motion, curve_profile, solid_profile, kept, path, boxes)
+        evaluate_boxes(n, edge, boxes)
         evaluated += n
         m = 0
         for i in range(n):
             box_class = int(boxes[X_CLASS + i])
-            half = boxes[X_HALF + i]
-            start = boxes[X_START + i]
-            if box_class <= EXCLUDED or half == 0.0 or start > best + tie_tolerance:
+            box = Box(boxes[X_THETA + i], boxes[X_HALF + i], boxes[X_START + i], boxes[X_END + i])
+            if box_class <= EXCLUDED or box.half == 0.0 or box.start > best + search.tie_tolerance:
                 continue
-            theta = boxes[X_THETA + i]
-            end = boxes[X_END + i]
-            gap = contact_distance(theta, kept)
-            if gap + half < AZIMUTH_TOLERANCE or (gap <= half + 1e-13 and box_class < SPLIT_THETA):
+            gap = contact_distance(box.theta, edge.kept)
+            if gap + box.half < AZIMUTH_TOLERANCE or (gap <= box.half + 1e-13 and box_class < SPLIT_THETA):
                 continue
             shorter = False
-            if half <= FINE and half < gap < BESIDE and boxes[X_G_LOW + i] > 0.0:
-                no_onset, shorter = no_onset_from_contact(
-                    theta,
-                    half,
-                    start,
-                    end,
-                    boxes[X_BEND_LOW + i],
-                    boxes[X_BEND_HIGH + i],
-                    motion,
-                    curve_profile,
-                    solid_profile,
-                    kept,
-                    spare_boxes,
-                )
+            if box.half <= FINE and box.half < gap < BESIDE and boxes[X_G_LOW + i] > 0.0:
+                bends = boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i]
+                no_onset, shorter = no_onset_from_contact(box, bends[0], bends[1], edge, spare_boxes)
                 if no_onset:
                     continue
-            if box_class <= ONE_PLANE and gap > ASIDE * half:
-                inside, t, tau = newton_onset(
-                    box_class, theta, half, start, end, motion, curve_profile, solid_profile, kept, path, jet
-                )
-                inside = inside and is_the_one(
-                    box_class,
-                    theta,
-                    half,
-                    start,
-                    end,
-                    t,
-                    tau,
-                    motion,
-                    curve_profile,
-                    solid_profile,
-                    kept,
-                    path,
-                    spare_boxes,
-                )
-                if inside and earliest <= tau <= best + tie_tolerance:
-                    set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
-                    if rises(box_class, jet) and contact_distance(t, kept) >= AZIMUTH_TOLERANCE:
-                        onset_is_contact = is_contact(
-                            box_class, t, tau, motion, curve_profile, solid_profile, jet, wedge
-                        )
-                        if onset_is_contact:
-                            x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
-                            if not is_listed(
-                                box_class,
-                                t,
-                                tau,
-                                motion,
-                                curve_profile,
-                                solid_profile,
-                                kept,
-                                path,
-                                spare_boxes,
-                                count,
-                                found,
-                            ):
-                                count = insert_candidate(tau, box_class, t, math.atan2(y, x), x, y, z, count, found)
-                        else:
-                            insert_entry(tau, t, motion, jet, entries)
-                        if onset_is_contact or any_onset:
-                            best = min(best, tau)
+            if box_class <= ONE_PLANE and gap > ASIDE * box.half:
+                inside, t, tau = newton_onset(box_class, box, edge, jet)
+                inside = inside and is_the_one(box_class, box, t, tau, edge, spare_boxes)
+                if inside and earliest <= tau <= best + search.tie_tolerance:
+                    count, ends = list_onset(box_class, t, tau, edge, search, spare_boxes, count, found)
+                    best = min(best, tau) if ends else best
                 if inside or (
-                    half < AZIMUTH_TOLERANCE
-                    and onset_only_outside(
-                        box_class,
-                        theta,
-                        half,
-                        start,
-                        end,
-                        motion,
-                        curve_profile,
-                        solid_profile,
-                        kept,
-                        spare_boxes,
-                        path,
-                        jet,
-                    )
+                    box.half < AZIMUTH_TOLERANCE and onset_only_outside(box_class, box, edge, spare_boxes, jet)
                 ):
                     continue
-                evaluated += NEWTON_COST if half < AZIMUTH_TOLERANCE else 0
+                evaluated += NEWTON_COST if box.half < AZIMUTH_TOLERANCE else 0
             by_time = (
                 box_class == SPLIT_TIME
-                or (box_class < SPLIT_THETA and end - start > half)
-                or end - start > slender * half
-                or (shorter and half < gap / NARROW)
+                or (box_class < SPLIT_THETA and box.end - box.start > box.half)
+                or box.end - box.start > SLENDER * scale * box.half
+                or (shorter and box.half < gap / NARROW)
             )
-            narrowest = min(narrowest, half)
-            m = move_to_front(i, min(end, best + tie_tolerance), by_time, m, boxes)
+            narrowest = min(narrowest, box.half)
+            m = move_to_front(i, min(box.end, best + search.tie_tolerance), by_time, m, boxes)
         if 2 * m + VECTOR_WIDTH > CAPACITY or evaluated > MAX_BOXES or narrowest < NARROWEST:
             return count, OVERFLOW, best
         n = split_boxes(m, boxes, spare_boxes)
@@ -508,28 +398,18 @@ def search_edge(
 
 
 @kernel()
-def find_inside(
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    shallow: float,
-    narrow: float,
-    boxes: Array,
-    spare_boxes: Array,
-) -> tuple[int, float]:
-    """Whether the edge curve is inside the other solid at the start of a motion, except at the contacts in ``kept``.
+def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, spare_boxes: Array) -> tuple[int, float]:
+    """Whether the edge curve is inside the other solid at the start of a motion, except at earlier contacts.
 
     Returns INSIDE and the azimuth of a point that is; OUTSIDE: nowhere by more than ``shallow`` thread pitches over
     more than ``narrow`` (rad); UNDECIDED: too many boxes.
     """
-    path = np.empty(PATH_SIZE)
     n = set_initial_boxes(0.0, 0.0, boxes)
     while n > 0:
         n = pad_boxes(n, boxes)
-        evaluate_boxes(n, motion, curve_profile, solid_profile, kept, path, boxes)
+        evaluate_boxes(n, edge, boxes)
         m = 0
-        deepest, azimuth = shallow * solid_profile[pk.P], 0.0
+        deepest, azimuth = shallow * edge.solid[pk.P], 0.0
         for i in range(n):
             box_class = int(boxes[X_CLASS + i])
             half = boxes[X_HALF + i]
@@ -538,10 +418,10 @@ def find_inside(
             theta, depth = boxes[X_THETA + i], boxes[X_DEPTH + i]
             if depth > deepest:
                 deepest, azimuth = depth, theta
-            if (box_class == ONE_EDGE or box_class == PEAK_EDGE) and contact_distance(theta, kept) <= half:
+            if (box_class == ONE_EDGE or box_class == PEAK_EDGE) and contact_distance(theta, edge.kept) <= half:
                 continue
             m = move_to_front(i, 0.0, False, m, boxes)
-        if deepest > shallow * solid_profile[pk.P]:
+        if deepest > shallow * edge.solid[pk.P]:
             return INSIDE, azimuth
         if 2 * m + VECTOR_WIDTH > CAPACITY:
             return UNDECIDED, 0.0

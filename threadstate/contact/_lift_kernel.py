@@ -19,10 +19,10 @@ from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE, set_bounds
 from threadstate.contact._branchless_kernel import larger, smaller
 from threadstate.contact._corner_kernel import deepest_corner_point
+from threadstate.contact._edge_kernel import Edge, new_edge
 from threadstate.contact._edge_search_kernel import INSIDE, OUTSIDE, UNDECIDED, find_inside
 from threadstate.contact._geometry_kernel import (
     M_SIGMA,
-    PATH_SIZE,
     TWO_PI,
     phi_and_gradient,
     position,
@@ -112,20 +112,12 @@ def inside_until(
 
 
 @kernel()
-def contact_overlaps_from(
-    contact: Array,
-    lift: float,
-    bolt_motion: Array,
-    nut_motion: Array,
-    bolt: Array,
-    nut: Array,
-    bounds: Array,
-    path: Array,
-) -> float:
+def contact_overlaps_from(contact: Array, lift: float, bolt_edge: Edge, nut_edge: Edge, bounds: Array) -> float:
     """The least lift from which the point that touches at ``lift`` is proved to overlap up to there."""
     pair = int(contact[K_PAIR])
     if pair == THREAD_THREAD or pair == THREAD_SURFACE:
         x, y, z = contact[K_X], contact[K_Y], contact[K_Z]
+        bolt_motion, path = bolt_edge.motion, bolt_edge.path
         dx, dy, dz = x - bolt_motion[9], y - bolt_motion[10], z - bolt_motion[11] - lift
         set_path_from(
             bolt_motion[0] * dx + bolt_motion[3] * dy + bolt_motion[6] * dz,
@@ -134,79 +126,76 @@ def contact_overlaps_from(
             bolt_motion,
             path,
         )
-        set_bounds(bolt_motion, bolt, nut, bounds)
-        return inside_until(path, lift, 0.0, -1.0, nut, 1.0, bounds)
+        set_bounds(bolt_motion, bolt_edge.curve, bolt_edge.solid, bounds)
+        return inside_until(path, lift, 0.0, -1.0, bolt_edge.solid, 1.0, bounds)
     if pair == BASE_EDGE or pair == THREAD_EDGE:
-        return edge_point_overlaps_from(contact[K_NUT_AZIMUTH], lift, nut_motion, nut, bolt, bounds, path)
-    return edge_point_overlaps_from(contact[K_BOLT_AZIMUTH], lift, bolt_motion, bolt, nut, bounds, path)
+        return edge_point_overlaps_from(contact[K_NUT_AZIMUTH], lift, nut_edge, bounds)
+    return edge_point_overlaps_from(contact[K_BOLT_AZIMUTH], lift, bolt_edge, bounds)
 
 
 @kernel()
-def edge_point_overlaps_from(
-    theta: float, lift: float, motion: Array, curve_profile: Array, solid_profile: Array, bounds: Array, path: Array
-) -> float:
+def set_edge_point_path(theta: float, edge: Edge, bounds: Array) -> None:
+    """Sets the path of the edge point at azimuth ``theta``, and the bounds of its motion."""
+    r = pk.radius(-edge.curve[pk.LEAD] / TWO_PI * theta, edge.curve)
+    set_path(r * math.cos(theta), r * math.sin(theta), edge.motion, edge.path)
+    set_bounds(edge.motion, edge.curve, edge.solid, bounds)
+
+
+@kernel()
+def edge_point_overlaps_from(theta: float, lift: float, edge: Edge, bounds: Array) -> float:
     """The least lift from which the edge point that touches at ``lift`` is proved to overlap up to there."""
-    set_edge_point_path(theta, motion, curve_profile, path)
-    set_bounds(motion, curve_profile, solid_profile, bounds)
-    return inside_until(path, lift, 0.0, -1.0, solid_profile, motion[M_SIGMA], bounds)
+    set_edge_point_path(theta, edge, bounds)
+    return inside_until(edge.path, lift, 0.0, -1.0, edge.solid, edge.motion[M_SIGMA], bounds)
 
 
 @kernel()
-def set_edge_point_path(theta: float, motion: Array, curve_profile: Array, path: Array) -> None:
-    """Sets the path of the edge point at azimuth ``theta``."""
-    r = pk.radius(-curve_profile[pk.LEAD] / TWO_PI * theta, curve_profile)
-    set_path(r * math.cos(theta), r * math.sin(theta), motion, path)
-
-
-@kernel()
-def edge_point_inside_until(
-    theta: float, high: float, motion: Array, curve_profile: Array, solid_profile: Array, bounds: Array, path: Array
-) -> float:
+def edge_point_inside_until(theta: float, high: float, edge: Edge, bounds: Array) -> float:
     """The lift up to which an edge point that is inside is proved to stay inside."""
-    set_edge_point_path(theta, motion, curve_profile, path)
-    set_bounds(motion, curve_profile, solid_profile, bounds)
-    return inside_until(path, 0.0, high, 1.0, solid_profile, motion[M_SIGMA], bounds)
+    set_edge_point_path(theta, edge, bounds)
+    return inside_until(edge.path, 0.0, high, 1.0, edge.solid, edge.motion[M_SIGMA], bounds)
+
+
+@kernel()
+def edges_without_contacts(bolt: Array, nut: Array, work: Work) -> tuple[Edge, Edge]:
+    """The bolt's and the nut's edge by the motions of ``work``, without earlier contacts."""
+    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(0))
+    return bolt_edge, new_edge(work.nut_motion, nut, bolt, new_kept(0))
 
 
 @kernel()
 def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array, work: Work) -> tuple[int, float]:
     """Whether a point overlaps at ``lift`` (INSIDE, OUTSIDE or UNDECIDED), and the lift up to which it does."""
-    boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = work
     bounds = np.empty(BOUNDS_SIZE)
-    path = np.empty(PATH_SIZE)
-    no_contacts = new_kept(0)
+    bolt_edge, nut_edge = edges_without_contacts(bolt, nut, work)
     raised = pose.copy()
     raised[11] += lift
     left = high - lift
     up = np.array([0.0, 0.0, 1.0])
-    set_motions(raised, False, False, up, up, bolt_motion, nut_motion)
-    outcome, theta = find_inside(
-        bolt_motion, bolt, nut, no_contacts, WITNESS_DEPTH, WITNESS_HALF_WIDTH, boxes, spare_boxes
-    )
+    set_motions(raised, False, False, up, up, work.bolt_motion, work.nut_motion)
+    outcome, theta = find_inside(bolt_edge, WITNESS_DEPTH, WITNESS_HALF_WIDTH, work.boxes, work.spare_boxes)
     if outcome == INSIDE:
-        return INSIDE, lift + edge_point_inside_until(theta, left, bolt_motion, bolt, nut, bounds, path)
-    nut_outcome, theta = find_inside(
-        nut_motion, nut, bolt, no_contacts, WITNESS_DEPTH, WITNESS_HALF_WIDTH, boxes, spare_boxes
-    )
+        return INSIDE, lift + edge_point_inside_until(theta, left, bolt_edge, bounds)
+    nut_outcome, theta = find_inside(nut_edge, WITNESS_DEPTH, WITNESS_HALF_WIDTH, work.boxes, work.spare_boxes)
     if nut_outcome == INSIDE:
-        return INSIDE, lift + edge_point_inside_until(theta, left, nut_motion, nut, bolt, bounds, path)
+        return INSIDE, lift + edge_point_inside_until(theta, left, nut_edge, bounds)
     if outcome == UNDECIDED or nut_outcome == UNDECIDED:
         return UNDECIDED, lift
-    inside, x, y, z = ridge.deepest_thread_point(bolt_motion, WITNESS_DEPTH * bolt[pk.P], RIDGE_AZIMUTHS, bolt, nut)
+    motion, path = bolt_edge.motion, bolt_edge.path
+    inside, x, y, z = ridge.deepest_thread_point(motion, WITNESS_DEPTH * bolt[pk.P], RIDGE_AZIMUTHS, bolt, nut)
     if not inside:
         return OUTSIDE, lift
-    set_path_from(x, y, z, bolt_motion, path)
-    set_bounds(bolt_motion, bolt, nut, bounds)
+    set_path_from(x, y, z, motion, path)
+    set_bounds(motion, bolt, nut, bounds)
     return INSIDE, lift + inside_until(path, 0.0, left, 1.0, nut, 1.0, bounds)
 
 
 @kernel()
 def crests_overlap(pose: Array, lift: float, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether a crest is found inside the other part at ``lift``: its corner, or the bolt's lowest in the nut."""
-    _, _, _, _, bolt_motion, nut_motion, _, _, _ = work
+    bolt_motion = work.bolt_motion
     placement = np.empty(PLACEMENT_SIZE)
     up = np.array([0.0, 0.0, 1.0])
-    set_motions(pose, False, False, up, up, bolt_motion, nut_motion)
+    set_motions(pose, False, False, up, up, bolt_motion, work.nut_motion)
     set_placement(bolt_motion, lift, placement)
     depth, _, _ = deepest_corner_point(placement, bolt, nut)
     lowest_depth, _, _ = deepest_lowest_point(placement, bolt, nut)
@@ -275,12 +264,10 @@ def lift_to_last_touch(
         return 0.0, status
     proved_from = last
     if count > 0 and height - found[0, K_TIME] >= last:
-        _, _, _, _, bolt_motion, nut_motion, _, _, _ = work
         up = np.array([0.0, 0.0, 1.0])
-        set_motions(pose, False, False, up, up, bolt_motion, nut_motion)
-        proved_from = contact_overlaps_from(
-            found[0], last, bolt_motion, nut_motion, bolt, nut, np.empty(BOUNDS_SIZE), np.empty(PATH_SIZE)
-        )
+        set_motions(pose, False, False, up, up, work.bolt_motion, work.nut_motion)
+        bolt_edge, nut_edge = edges_without_contacts(bolt, nut, work)
+        proved_from = contact_overlaps_from(found[0], last, bolt_edge, nut_edge, np.empty(BOUNDS_SIZE))
     if proved_from <= 0.0 or status != RESOLVED:
         return last, status
     return climb_witnesses(pose, 0.0, proved_from, last, height, tie_tolerance, bolt, nut, search, work, found)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._beside_kernel import BESIDE, nearest_contact, values_beside
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_THREAD
+from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._geometry_kernel import (
     M_COPLANAR,
     M_KIND,
@@ -107,20 +108,11 @@ def set_jet(
 
 
 @kernel()
-def set_jet_beside(
-    theta: float,
-    tau: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    path: Array,
-    jet: Array,
-) -> None:
-    """The same; beside contacts in ``kept`` g and phi are differences from them."""
-    set_jet(theta, tau, motion, curve_profile, solid_profile, path, jet)
-    if kept[0, 0] != 0.0:
-        g, phi, _ = values_beside(theta, tau, motion, curve_profile, solid_profile, kept, path)
+def set_jet_beside(theta: float, tau: float, edge: Edge, jet: Array) -> None:
+    """The same; beside earlier contacts g and phi are differences from them."""
+    set_jet(theta, tau, edge.motion, edge.curve, edge.solid, edge.path, jet)
+    if edge.kept[0, 0] != 0.0:
+        g, phi, _ = values_beside(theta, tau, edge.motion, edge.curve, edge.solid, edge.kept, edge.path)
         jet[J_G] = jet[J_G] if math.isnan(g) else g
         jet[J_PHI] = jet[J_PHI] if math.isnan(phi) else phi
 
@@ -158,35 +150,24 @@ def onset_step(
 
 
 @kernel()
-def newton_onset(
-    kind: int,
-    theta: float,
-    half: float,
-    start: float,
-    end: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    path: Array,
-    jet: Array,
-) -> tuple[bool, float, float]:
+def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[bool, float, float]:
     """The one onset or end of overlap in a box by Newton's method: whether it is in the box, its azimuth and time.
 
     ``kind`` is the class of the box: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0. Where steps to a
     tangency away from earlier contacts have become as small as what round-off makes of them the root is in the box if
     it is no farther outside than that.
     """
+    theta, half, start, end = box
     value_error, slope_error = 0.0, 0.0
-    if kind != ONE_EDGE and not abs(nearest_contact(theta, kept)[0]) < BESIDE:
-        value_error, slope_error = jet_errors(0.5 * (start + end), motion, curve_profile, solid_profile)
+    if kind != ONE_EDGE and not abs(nearest_contact(theta, edge.kept)[0]) < BESIDE:
+        value_error, slope_error = jet_errors(0.5 * (start + end), edge.motion, edge.curve, edge.solid)
     t = theta
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
-    step = motion_scale(motion, curve_profile)
+    step = motion_scale(edge.motion, edge.curve)
     before, t_error_before, stalls = math.inf, 0.0, 0
     for _ in range(40):
-        set_jet_beside(t, tau, motion, curve_profile, solid_profile, kept, path, jet)
+        set_jet_beside(t, tau, edge, jet)
         determinant, dt, dtau, t_error, tau_error = onset_step(kind, jet, value_error, slope_error)
         if determinant == 0.0:
             return False, t, tau
@@ -247,20 +228,12 @@ def wedge_components(motion: Array, tau: float, wedge: Array, nx: float, ny: flo
 
 
 @kernel()
-def edges_separated(
-    curve_theta: float,
-    solid_theta: float,
-    tau: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    wedge: Array,
-) -> bool:
+def edges_separated(curve_theta: float, solid_theta: float, tau: float, edge: Edge, wedge: Array) -> bool:
     """Whether at a crossing of two edges a plane separates the two wedges."""
-    sigma = motion[M_SIGMA]
-    set_wedge(curve_theta, curve_profile, -sigma, wedge)
-    ex, ey, ez = turn_vector(wedge[0], wedge[1], wedge[2], motion, tau)
-    _, _, sx, sy = edge_point(solid_theta, solid_profile)
+    sigma = edge.motion[M_SIGMA]
+    set_wedge(curve_theta, edge.curve, -sigma, wedge)
+    ex, ey, ez = turn_vector(wedge[0], wedge[1], wedge[2], edge.motion, tau)
+    _, _, sx, sy = edge_point(solid_theta, edge.solid)
     n = math.hypot(sx, sy)
     sx /= n
     sy /= n
@@ -273,8 +246,8 @@ def edges_separated(
     nx /= n
     ny /= n
     nz /= n
-    c1, c2 = wedge_components(motion, tau, wedge, nx, ny, nz)
-    set_wedge(solid_theta, solid_profile, sigma, wedge)
+    c1, c2 = wedge_components(edge.motion, tau, wedge, nx, ny, nz)
+    set_wedge(solid_theta, edge.solid, sigma, wedge)
     s1 = dot(wedge[3], wedge[4], wedge[5], nx, ny, nz)
     s2 = dot(wedge[6], wedge[7], wedge[8], nx, ny, nz)
     tol = 1e-12
@@ -284,12 +257,10 @@ def edges_separated(
 
 
 @kernel()
-def face_separated(
-    curve_theta: float, tau: float, nx: float, ny: float, nz: float, motion: Array, curve_profile: Array, wedge: Array
-) -> bool:
+def face_separated(curve_theta: float, tau: float, nx: float, ny: float, nz: float, edge: Edge, wedge: Array) -> bool:
     """Whether the wedge at the edge point lies on the side of a face to which the face's outward normal n points."""
-    set_wedge(curve_theta, curve_profile, -motion[M_SIGMA], wedge)
-    c1, c2 = wedge_components(motion, tau, wedge, nx, ny, nz)
+    set_wedge(curve_theta, edge.curve, -edge.motion[M_SIGMA], wedge)
+    c1, c2 = wedge_components(edge.motion, tau, wedge, nx, ny, nz)
     return c1 >= -1e-12 and c2 >= -1e-12
 
 
@@ -332,26 +303,17 @@ def rises(kind: int, jet: Array) -> bool:
 
 
 @kernel()
-def is_contact(
-    kind: int,
-    theta: float,
-    tau: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    jet: Array,
-    wedge: Array,
-) -> bool:
+def is_contact(kind: int, theta: float, tau: float, edge: Edge, jet: Array, wedge: Array) -> bool:
     """Whether at an onset the wedge at the edge point is outside the other part; else an overlap is open already."""
-    sigma = motion[M_SIGMA]
+    sigma = edge.motion[M_SIGMA]
     x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
-    if -sigma * z > solid_profile[pk.P]:
+    if -sigma * z > edge.solid[pk.P]:
         # Beyond the far end of the part, which is one thread pitch long.
         return False
     if kind == ONE_EDGE:
-        return edges_separated(theta, math.atan2(y, x), tau, motion, curve_profile, solid_profile, wedge)
+        return edges_separated(theta, math.atan2(y, x), tau, edge, wedge)
     if kind == ONE_THREAD:
-        _, gx, gy, gz = phi_and_gradient(x, y, z, solid_profile, sigma)
+        _, gx, gy, gz = phi_and_gradient(x, y, z, edge.solid, sigma)
         n = math.sqrt(gx * gx + gy * gy + gz * gz)
-        return face_separated(theta, tau, -gx / n, -gy / n, -gz / n, motion, curve_profile, wedge)
-    return face_separated(theta, tau, 0.0, 0.0, sigma, motion, curve_profile, wedge)
+        return face_separated(theta, tau, -gx / n, -gy / n, -gz / n, edge, wedge)
+    return face_separated(theta, tau, 0.0, 0.0, sigma, edge, wedge)

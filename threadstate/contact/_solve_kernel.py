@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -167,6 +168,87 @@ def azimuth(contact: Array) -> float:
     return a + TWO_PI if a < 0.0 else a
 
 
+class Scene(NamedTuple):
+    """The options of a solve and the packed profiles of both parts."""
+
+    options: Array
+    bolt: Array
+    nut: Array
+
+
+class Course(NamedTuple):
+    """A bolt on its way through the stages; numbers in pairs are sums of two doubles (``_refine_kernel``).
+
+    Attributes:
+        pose: its first pose, (12, 2).
+        second: its second one.
+        point: the first contact, (3, 2).
+        axis: of the latest turn, (3, 2).
+        first: the first contact, refined.
+        latest: the latest one, refined.
+        known: the first two contacts.
+        found: contacts of the latest search; then those of the latest stage that are not known yet.
+        work: scratch.
+    """
+
+    pose: Array
+    second: Array
+    point: Array
+    axis: Array
+    first: Array
+    latest: Array
+    known: Array
+    found: Array
+    work: Work
+
+
+@kernel()
+def new_course(work: Work) -> Course:
+    """A course with arrays of its own."""
+    return Course(
+        np.empty((12, 2)),
+        np.empty((12, 2)),
+        np.zeros((3, 2)),
+        np.zeros((3, 2)),
+        np.empty((refine.REFINED_SIZE, 2)),
+        np.empty((refine.REFINED_SIZE, 2)),
+        np.empty((2, CONTACT_SIZE)),
+        np.empty((MAX_CONTACTS, CONTACT_SIZE)),
+        work,
+    )
+
+
+@kernel()
+def thread_search_of(scene: Scene) -> int:
+    """How thread on thread is searched."""
+    return PROVED if scene.options[S_PROVE] > 0.0 else RIDGES
+
+
+@kernel()
+def clear_record(record: Array) -> None:
+    """Sets a record to that of nothing found yet."""
+    record[:] = 0.0
+    for i in (rk.O_LAMBDA, rk.O_MU, rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT):
+        record[i] = math.nan
+
+
+@kernel()
+def append_stage(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, record: Array) -> None:
+    """Appends a stage's pose and its contact."""
+    rk.append_pose(pose, record)
+    rk.append_contact(stage, contact, pose, bolt, nut, record)
+    if rk.grazes(contact, pose, bolt, nut):
+        add_flag(record, rk.FLAG_GRAZING)
+
+
+@kernel()
+def drop_found(dropped: int, simultaneous: int, found: Array) -> int:
+    """Drops the first contacts of those that begin at once; returns how many are left."""
+    for i in range(dropped, simultaneous):
+        copy_numbers(found[i], found[i - dropped])
+    return simultaneous - dropped
+
+
 @kernel()
 def solve_pose(
     roll: float,
@@ -180,180 +262,179 @@ def solve_pose(
     record: Array,
 ) -> None:
     """Solves one tilted pose (angles in rad) into ``record``; see ``_record_kernel`` for its layout."""
-    record[:] = 0.0
-    for i in (rk.O_LAMBDA, rk.O_MU, rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT):
-        record[i] = math.nan
-    found = np.empty((MAX_CONTACTS, CONTACT_SIZE))
-    known = np.empty((2, CONTACT_SIZE))
-    extremes = np.empty((4, fk.EXTREME_SIZE))
+    clear_record(record)
+    scene, course = Scene(options, bolt, nut), new_course(work)
+    simultaneous = first_stage(roll, pitch, phase, scene, search, course)
+    if simultaneous == 0:
+        record[rk.O_STATUS] = UNRESOLVED
+        return
     pose = np.empty(12)
-    axis = np.zeros(3)
-    point = np.zeros(3)
-    tie_tolerance = options[S_TIE]
-    turn_tolerance = tie_tolerance / bolt[pk.R_MAJOR]
-    thread_search = PROVED if options[S_PROVE] > 0.0 else RIDGES
-    # Poses, axis and contacts in sums of two doubles, from one stage to the next.
-    fine_start, fine_pose, fine_second = np.empty((12, 2)), np.empty((12, 2)), np.empty((12, 2))
-    fine_point, fine_axis = np.zeros((3, 2)), np.zeros((3, 2))
-    first, latest = np.empty((refine.REFINED_SIZE, 2)), np.empty((refine.REFINED_SIZE, 2))
+    refine.round_numbers(course.pose, pose)
+    append_stage(1, course.known[0], pose, bolt, nut, record)
+    for i in range(3):
+        refine.set_entry(course.point, i, refine.entry(course.first, refine.F_POINT + i))
+    if simultaneous > 1:
+        add_flag(record, rk.FLAG_TIE)
+        record[rk.O_LAMBDA] = 0.0
+        copy_numbers(course.found[1], course.known[1])
+        course.second[:] = course.pose
+        refine.set_unrefined(course.known[1], course.second, course.latest)
+        left = drop_found(2, simultaneous, course.found)
+    else:
+        left = second_stage(pose, scene, search, course, record)
+        if left < 0:
+            return
+    second = np.empty(12)
+    refine.round_numbers(course.second, second)
+    append_stage(2, course.known[1], second, bolt, nut, record)
 
-    # First stage: straight down.
+    # The turn about the pivot axis, in the sense that lowers the bolt's origin.
+    refine.set_pivot_axis(course.first, course.latest, course.axis)
+    rise = set_pivot_offset(second, course, record)
+    if left > 0:
+        record[rk.O_MU] = 0.0
+        append_third_pose(second, 0.0, left, scene, search, course, record)
+        return
+    if rise > 0.0:
+        refine.reverse(course.axis)
+    if abs(rise) > options[S_TIE]:
+        third_stage(scene, search, course, record)
+        return
+    # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is chosen.
+    add_flag(record, rk.FLAG_BALANCED)
+    other_record = record.copy()
+    third_stage(scene, search, course, record)
+    refine.reverse(course.axis)
+    third_stage(scene, search, course, other_record)
+    choose_shorter_turn(record, other_record)
+
+
+@kernel()
+def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: Search, course: Course) -> int:
+    """The way straight down to the first contact: how many begin at once; 0: unresolved."""
+    pose, down, point = np.empty(12), np.array([0.0, 0.0, -1.0]), np.zeros(3)
+    found, bolt, nut = course.found, scene.bolt, scene.nut
     rotation(roll, pitch, phase, pose)
     pose[9] = 0.0
     pose[10] = 0.0
     high = start_height(pose, bolt)
     pose[11] = high
-    axis[2] = -1.0
     simultaneous = 1
-    if options[S_CONVEX] > 0.0 and meets_surface_first(pose, bolt, nut, found[0]):
+    if scene.options[S_CONVEX] > 0.0 and meets_surface_first(pose, bolt, nut, found[0]):
         pose[11] = found[0, K_TIME]
-        refine.widen_numbers(pose, fine_pose)
-        refine.set_unrefined(found[0], fine_pose, first)
+        refine.widen_numbers(pose, course.pose)
+        refine.set_unrefined(found[0], course.pose, course.first)
     else:
+        tie, limit = scene.options[S_TIE], high + bolt[pk.P]
         count, status, _ = search(
             pose,
             False,
             point,
-            axis,
-            known,
+            down,
+            course.known,
             0,
-            high + bolt[pk.P],
-            tie_tolerance,
+            limit,
+            tie,
             bolt,
             nut,
-            thread_search,
-            work,
+            thread_search_of(scene),
+            course.work,
             found,
         )
         if status != RESOLVED or count == 0:
-            record[rk.O_STATUS] = UNRESOLVED
-            return
-        simultaneous, time = sort_simultaneous(found, count, tie_tolerance)
-        refine.set_first_pose(roll, pitch, phase, high, fine_start)
-        fine_axis[2, 0] = -1.0
+            return 0
+        simultaneous, time = sort_simultaneous(found, count, tie)
+        start = np.empty((12, 2))
+        refine.set_first_pose(roll, pitch, phase, high, start)
+        course.axis[2, 0] = -1.0
         _, settles = refine.refine_contact(
             False,
-            fine_start,
-            fine_point,
-            fine_axis,
+            start,
+            course.point,
+            course.axis,
             bolt,
             nut,
             found[0],
             time,
             simultaneous == 1,
-            fine_pose,
-            first,
+            course.pose,
+            course.first,
         )
         if not settles:
+            return 0
+    copy_numbers(found[0], course.known[0])
+    return simultaneous
+
+
+@kernel()
+def second_stage(pose: Array, scene: Scene, search: Search, course: Course, record: Array) -> int:
+    """The turn about the tangent at the first contact up to the second one.
+
+    Returns how many third contacts begin with it; -1: there is no second one, or it is unresolved.
+    """
+    point, axis, extremes = np.empty(3), np.empty(3), np.empty((4, fk.EXTREME_SIZE))
+    found, known, bolt, nut = course.found, course.known, scene.bolt, scene.nut
+    pair = int(known[0, K_PAIR])
+    refine.set_second_axis(pair, course.first, course.pose, bolt, nut, course.axis)
+    refine.round_numbers(course.point, point)
+    refine.round_numbers(course.axis, axis)
+    limit, flush, count = scene.options[S_TURN_LIMIT], -1.0, 0
+    tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
+    if pair == EDGE_SURFACE:
+        flush = turn_to_flush(pose, axis)
+        if flush <= limit:
+            limit = flush - FLUSH_MARGIN
+    # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
+    if flush < 0.0 or scene.options[S_CONVEX] == 0.0:
+        count, status, _ = search(
+            pose, True, point, axis, known, 1, limit, tie, bolt, nut, thread_search_of(scene), course.work, found
+        )
+        if status != RESOLVED:
             record[rk.O_STATUS] = UNRESOLVED
-            return
-        refine.round_numbers(fine_pose, pose)
-    copy_numbers(found[0], known[0])
-    rk.append_pose(pose, record)
-    rk.append_contact(1, known[0], pose, bolt, nut, record)
-    if rk.grazes(known[0], pose, bolt, nut):
-        add_flag(record, rk.FLAG_GRAZING)
+            return -1
+    if count == 0:
+        if flush >= 0.0 and append_flush_pose(2, pose, point, axis, flush, bolt, nut, extremes, record):
+            record[rk.O_LAMBDA] = flush
+        else:
+            add_flag(record, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
+        return -1
+    simultaneous, time = sort_simultaneous(found, count, tie)
     if simultaneous > 1:
         add_flag(record, rk.FLAG_TIE)
+    record[rk.O_LAMBDA], settles = refine.refine_contact(
+        True,
+        course.pose,
+        course.point,
+        course.axis,
+        bolt,
+        nut,
+        found[0],
+        time,
+        simultaneous == 1,
+        course.second,
+        course.latest,
+    )
+    if not settles:
+        record[rk.O_STATUS] = UNRESOLVED
+        return -1
+    copy_numbers(found[0], known[1])
+    return drop_found(1, simultaneous, found)
 
-    # Second stage: the turn about the tangent at the first contact.
-    for i in range(3):
-        refine.set_entry(fine_point, i, refine.entry(first, refine.F_POINT + i))
-    refine.round_numbers(fine_point, point)
-    second = np.empty(12)
-    third_is_simultaneous = False
-    if simultaneous > 1:
-        record[rk.O_LAMBDA] = 0.0
-        copy_numbers(found[1], known[1])
-        copy_numbers(pose, second)
-        fine_second = fine_pose.copy()
-        refine.set_unrefined(known[1], fine_second, latest)
-        for i in range(2, simultaneous):
-            copy_numbers(found[i], found[i - 2])
-        simultaneous -= 2
-        third_is_simultaneous = simultaneous > 0
-    else:
-        refine.set_second_axis(int(known[0, K_PAIR]), first, fine_pose, bolt, nut, fine_axis)
-        refine.round_numbers(fine_axis, axis)
-        limit = options[S_TURN_LIMIT]
-        flush = -1.0
-        if int(known[0, K_PAIR]) == EDGE_SURFACE:
-            flush = turn_to_flush(pose, axis)
-            if flush <= limit:
-                limit = flush - FLUSH_MARGIN
-        count = 0
-        # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
-        if flush < 0.0 or options[S_CONVEX] == 0.0:
-            count, status, _ = search(
-                pose, True, point, axis, known, 1, limit, turn_tolerance, bolt, nut, thread_search, work, found
-            )
-            if status != RESOLVED:
-                record[rk.O_STATUS] = UNRESOLVED
-                return
-        if count == 0:
-            if flush >= 0.0 and append_flush_pose(2, pose, point, axis, flush, bolt, nut, extremes, record):
-                record[rk.O_LAMBDA] = flush
-            else:
-                add_flag(record, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
-            return
-        simultaneous, time = sort_simultaneous(found, count, turn_tolerance)
-        if simultaneous > 1:
-            add_flag(record, rk.FLAG_TIE)
-        record[rk.O_LAMBDA], settles = refine.refine_contact(
-            True,
-            fine_pose,
-            fine_point,
-            fine_axis,
-            bolt,
-            nut,
-            found[0],
-            time,
-            simultaneous == 1,
-            fine_second,
-            latest,
-        )
-        if not settles:
-            record[rk.O_STATUS] = UNRESOLVED
-            return
-        refine.round_numbers(fine_second, second)
-        copy_numbers(found[0], known[1])
-        for i in range(1, simultaneous):
-            copy_numbers(found[i], found[i - 1])
-        simultaneous -= 1
-        third_is_simultaneous = simultaneous > 0
-    rk.append_pose(second, record)
-    rk.append_contact(2, known[1], second, bolt, nut, record)
-    if rk.grazes(known[1], second, bolt, nut):
-        add_flag(record, rk.FLAG_GRAZING)
 
-    # Third stage: the turn about the pivot axis, in the sense that lowers the bolt's origin.
-    refine.set_pivot_axis(first, latest, fine_axis)
-    refine.round_numbers(fine_axis, axis)
+@kernel()
+def set_pivot_offset(second: Array, course: Course, record: Array) -> float:
+    """Sets the distance of the bolt's origin from the pivot axis; returns by how much a turn about it lifts the origin
+    (a length a rad).
+    """
+    point, axis = np.empty(3), np.empty(3)
+    refine.round_numbers(course.point, point)
+    refine.round_numbers(course.axis, axis)
     ox, oy, oz = second[9] - point[0], second[10] - point[1], second[11] - point[2]
     cx = axis[1] * oz - axis[2] * oy
     cy = axis[2] * ox - axis[0] * oz
     cz = axis[0] * oy - axis[1] * ox
     record[rk.O_PIVOT] = math.sqrt(cx * cx + cy * cy + cz * cz)
-    if third_is_simultaneous:
-        record[rk.O_MU] = 0.0
-        append_third_pose(second, 0.0, known, simultaneous, tie_tolerance, bolt, nut, search, work, found, record)
-        return
-    if cz > 0.0:
-        refine.reverse(fine_axis)
-    if abs(cz) > tie_tolerance:
-        third_stage(
-            fine_second, fine_point, fine_axis, known, options, bolt, nut, search, work, found, extremes, record
-        )
-        return
-    # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is chosen.
-    add_flag(record, rk.FLAG_BALANCED)
-    other_record = record.copy()
-    third_stage(fine_second, fine_point, fine_axis, known, options, bolt, nut, search, work, found, extremes, record)
-    refine.reverse(fine_axis)
-    third_stage(
-        fine_second, fine_point, fine_axis, known, options, bolt, nut, search, work, found, extremes, other_record
-    )
-    choose_shorter_turn(record, other_record)
+    return cz
 
 
 @kernel()
@@ -372,44 +453,27 @@ def choose_shorter_turn(record: Array, other_record: Array) -> None:
 
 
 @kernel()
-def third_stage(
-    fine_second: Array,
-    fine_point: Array,
-    fine_axis: Array,
-    known: Array,
-    options: Array,
-    bolt: Array,
-    nut: Array,
-    search: Search,
-    work: Work,
-    found: Array,
-    extremes: Array,
-    record: Array,
-) -> None:
-    """The turn about the pivot axis up to the third contact, the drop and the embedment.
-
-    Pose, point and axis are sums of two doubles (``_refine_kernel``).
-    """
+def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> None:
+    """The turn about the pivot axis up to the third contact, the drop and the embedment."""
     second, point, axis = np.empty(12), np.empty(3), np.empty(3)
-    refine.round_numbers(fine_second, second)
-    refine.round_numbers(fine_point, point)
-    refine.round_numbers(fine_axis, axis)
-    tie_tolerance = options[S_TIE]
-    turn_tolerance = tie_tolerance / bolt[pk.R_MAJOR]
-    thread_search = PROVED if options[S_PROVE] > 0.0 else RIDGES
-    limit = options[S_TURN_LIMIT]
-    flush = -1.0
+    found, known, bolt, nut = course.found, course.known, scene.bolt, scene.nut
+    refine.round_numbers(course.second, second)
+    refine.round_numbers(course.point, point)
+    refine.round_numbers(course.axis, axis)
+    tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
+    limit, flush = scene.options[S_TURN_LIMIT], -1.0
     if lies_in_both_planes(int(known[0, K_PAIR])) and lies_in_both_planes(int(known[1, K_PAIR])):
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - FLUSH_MARGIN
     count, status, _ = search(
-        second, True, point, axis, known, 2, limit, turn_tolerance, bolt, nut, thread_search, work, found
+        second, True, point, axis, known, 2, limit, tie, bolt, nut, thread_search_of(scene), course.work, found
     )
     if status != RESOLVED:
         record[rk.O_STATUS] = UNRESOLVED
         return
     if count == 0:
+        extremes = np.empty((4, fk.EXTREME_SIZE))
         if flush > 0.0 and append_flush_pose(3, second, point, axis, flush, bolt, nut, extremes, record):
             record[rk.O_MU] = flush
             record[rk.O_DROP] = second[11] - record[rk.O_POSE + 35]
@@ -417,16 +481,15 @@ def third_stage(
         else:
             add_flag(record, rk.FLAG_NO_THIRD)
         return
-    third = np.empty(12)
-    simultaneous, time = sort_simultaneous(found, count, turn_tolerance)
+    simultaneous, time = sort_simultaneous(found, count, tie)
     if simultaneous > 1:
         add_flag(record, rk.FLAG_TIE)
-    fine_third, latest = np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
+    third, fine_third, latest = np.empty(12), np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
     record[rk.O_MU], settles = refine.refine_contact(
         True,
-        fine_second,
-        fine_point,
-        fine_axis,
+        course.second,
+        course.point,
+        course.axis,
         bolt,
         nut,
         found[0],
@@ -439,34 +502,23 @@ def third_stage(
         record[rk.O_STATUS] = UNRESOLVED
         return
     refine.round_numbers(fine_third, third)
-    append_third_pose(
-        third, second[11] - third[11], known, simultaneous, tie_tolerance, bolt, nut, search, work, found, record
-    )
+    append_third_pose(third, second[11] - third[11], simultaneous, scene, search, course, record)
 
 
 @kernel()
 def append_third_pose(
-    third: Array,
-    drop: float,
-    known: Array,
-    simultaneous: int,
-    tie_tolerance: float,
-    bolt: Array,
-    nut: Array,
-    search: Search,
-    work: Work,
-    found: Array,
-    record: Array,
+    third: Array, drop: float, simultaneous: int, scene: Scene, search: Search, course: Course, record: Array
 ) -> None:
     """Appends the third pose and its contacts, the first ``simultaneous`` found; sets the drop and the embedment."""
+    bolt, nut, work = scene.bolt, scene.nut, course.work
     rk.append_pose(third, record)
     contacts = np.empty((2 + simultaneous, CONTACT_SIZE))
     for i in range(2):
-        copy_numbers(known[i], contacts[i])
+        copy_numbers(course.known[i], contacts[i])
     for i in range(simultaneous):
-        copy_numbers(found[i], contacts[2 + i])
-        rk.append_contact(3, found[i], third, bolt, nut, record)
-        if rk.grazes(found[i], third, bolt, nut):
+        copy_numbers(course.found[i], contacts[2 + i])
+        rk.append_contact(3, course.found[i], third, bolt, nut, record)
+        if rk.grazes(course.found[i], third, bolt, nut):
             add_flag(record, rk.FLAG_GRAZING)
     record[rk.O_DROP] = drop
     record[rk.O_EMBEDMENT] = 0.0
@@ -475,7 +527,7 @@ def append_third_pose(
         or edges_overlap(third, contacts, 2 + simultaneous, bolt, nut, work)
         or crests_overlap(third, RETRY_OFFSET * bolt[pk.P], bolt, nut, work)
     ):
-        lift, status = least_lift(third, tie_tolerance, bolt, nut, search, work, found)
+        lift, status = least_lift(third, scene.options[S_TIE], bolt, nut, search, work, course.found)
         record[rk.O_EMBEDMENT] = lift
         if status != RESOLVED:
             record[rk.O_STATUS] = UNRESOLVED

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,12 +15,14 @@ from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact import _thread_surface_kernel as ts
 from threadstate.contact._beside_kernel import K_TANGENT, keep, new_kept
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
+from threadstate.contact._edge_kernel import Edge, new_edge
 from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
     ENTRY_SIZE,
     MAX_ENTRIES,
     OUTSIDE,
     OVERFLOW,
+    EdgeSearch,
     find_inside,
     search_edge,
 )
@@ -38,7 +41,33 @@ from threadstate.contact._onset_kernel import (
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array]
+
+
+class Work(NamedTuple):
+    """The scratch arrays of one thread of work.
+
+    Attributes:
+        boxes: a list of boxes.
+        spare_boxes: another one.
+        bolt_found: candidates on the bolt's edge.
+        nut_found: candidates on the nut's edge.
+        bolt_motion: motion of the bolt in the nut's frame.
+        nut_motion: motion of the nut in the bolt's frame.
+        rectangles: rectangles of the bolt's thread.
+        tangencies: contacts of thread with thread.
+        entries: where edges enter open overlaps.
+    """
+
+    boxes: Array
+    spare_boxes: Array
+    bolt_found: Array
+    nut_found: Array
+    bolt_motion: Array
+    nut_motion: Array
+    rectangles: Array
+    tangencies: Array
+    entries: Array
+
 
 # Pairs of features, in the order of ``FeaturePair``.
 EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, THREAD_SURFACE, FLUSH = range(8)
@@ -64,6 +93,9 @@ TOUCH_DEPTH = 1e-10
 
 LEAST_HALF_WIDTH = 1e-7
 """Half-width (rad) of an overlap that is not distinguished from a contact."""
+
+SAME_TANGENCY = 1e-4
+"""How near (thread pitches) a contact of thread with thread is to an earlier one that is the same."""
 
 SPAN_REDUCTION = 0.25
 SHORTEST_SPAN = 1e-9
@@ -137,40 +169,39 @@ def set_motions(
         nut_motion[16 + i] = -(pose[i] * axis[0] + pose[3 + i] * axis[1] + pose[6 + i] * axis[2])
 
 
+class Contact(NamedTuple):
+    """A contact of a stage: time, pair of features, azimuths on the bolt and on the nut, point in the nut's frame."""
+
+    time: float
+    pair: int
+    bolt_azimuth: float
+    nut_azimuth: float
+    x: float
+    y: float
+    z: float
+
+
 @kernel()
-def insert_contact(
-    time: float,
-    pair: int,
-    bolt_azimuth: float,
-    nut_azimuth: float,
-    x: float,
-    y: float,
-    z: float,
-    count: int,
-    out: Array,
-) -> int:
+def insert_contact(one: Contact, count: int, out: Array) -> int:
     """Inserts a contact by time unless it is listed already (found from the other edge); returns the number listed.
 
-    A full list drops the latest. Azimuths are those on the bolt and on the nut.
+    A full list drops the latest.
     """
+    near = AZIMUTH_TOLERANCE * (abs(one.x) + abs(one.y))
     for i in range(count):
-        if abs(out[i, K_X] - x) + abs(out[i, K_Y] - y) + abs(out[i, K_Z] - z) < AZIMUTH_TOLERANCE * (abs(x) + abs(y)):
+        if abs(out[i, K_X] - one.x) + abs(out[i, K_Y] - one.y) + abs(out[i, K_Z] - one.z) < near:
             return count
     if count == MAX_CONTACTS:
-        if time >= out[count - 1, K_TIME]:
+        if one.time >= out[count - 1, K_TIME]:
             return count
         count -= 1
     i = count
-    while i > 0 and out[i - 1, K_TIME] > time:
+    while i > 0 and out[i - 1, K_TIME] > one.time:
         copy_numbers(out[i - 1], out[i])
         i -= 1
-    out[i, K_TIME] = time
-    out[i, K_PAIR] = pair
-    out[i, K_BOLT_AZIMUTH] = bolt_azimuth
-    out[i, K_NUT_AZIMUTH] = nut_azimuth
-    out[i, K_X] = x
-    out[i, K_Y] = y
-    out[i, K_Z] = z
+    out[i, K_TIME], out[i, K_PAIR] = one.time, one.pair
+    out[i, K_BOLT_AZIMUTH], out[i, K_NUT_AZIMUTH] = one.bolt_azimuth, one.nut_azimuth
+    out[i, K_X], out[i, K_Y], out[i, K_Z] = one.x, one.y, one.z
     return count + 1
 
 
@@ -183,7 +214,7 @@ def may_be_truncated(listed: Array, count: int, until: float) -> bool:
 @kernel()
 def new_work() -> Work:
     """The scratch arrays of one thread of work."""
-    return (
+    return Work(
         np.empty(BOXES_SIZE),
         np.empty(BOXES_SIZE),
         np.empty((MAX_CANDIDATES, CANDIDATE_SIZE)),
@@ -253,6 +284,61 @@ def axis_in_both_planes(known: Array, known_count: int) -> bool:
     return known_count > 0
 
 
+@kernel()
+def search_both_edges(
+    limit: float, is_turn: bool, bolt_edge: Edge, nut_edge: Edge, search: EdgeSearch, work: Work
+) -> tuple[int, int, float, int]:
+    """The onsets of both edges, in spans of time that grow.
+
+    Returns the number of candidates of the bolt's and of the nut's edge, the earliest time and a status.
+    """
+    bolt_count, nut_count, best, since = 0, 0, limit, 0.0
+    span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt_edge.curve[pk.P]
+    while since < best:
+        until = min(since + span, limit)
+        bolt_count, bolt_evaluated, best = search_edge(
+            since, until, best, bolt_edge, search, bolt_count, work.bolt_found
+        )
+        nut_count, nut_evaluated, best = search_edge(since, until, best, nut_edge, search, nut_count, work.nut_found)
+        if bolt_evaluated == OVERFLOW or nut_evaluated == OVERFLOW:
+            span *= SPAN_REDUCTION
+            if span < SHORTEST_SPAN * motion_scale(bolt_edge.motion, bolt_edge.curve):
+                return bolt_count, nut_count, best, UNRESOLVED
+            continue
+        since = until
+        span *= SPAN_GROWTH
+    return bolt_count, nut_count, best, RESOLVED
+
+
+@kernel()
+def list_edge_contacts(bolt_count: int, nut_count: int, nut: Array, work: Work, out: Array) -> int:
+    """Lists the contacts of both edges in ``out``; returns their number."""
+    count = 0
+    for i in range(bolt_count):
+        one = work.bolt_found[i]
+        kind = int(one[C_KIND])
+        pair = EDGE_EDGE if kind == ONE_EDGE else (EDGE_SURFACE if kind == ONE_PLANE else EDGE_THREAD)
+        contact = Contact(one[C_TIME], pair, one[C_THETA], one[C_OTHER_THETA], one[C_X], one[C_Y], one[C_Z])
+        count = insert_contact(contact, count, out)
+    for i in range(nut_count):
+        one = work.nut_found[i]
+        kind = int(one[C_KIND])
+        pair = EDGE_EDGE if kind == ONE_EDGE else (BASE_EDGE if kind == ONE_PLANE else THREAD_EDGE)
+        x, y, _, _ = edge_point(one[C_THETA], nut)
+        contact = Contact(one[C_TIME], pair, one[C_OTHER_THETA], one[C_THETA], x, y, 0.0)
+        count = insert_contact(contact, count, out)
+    return count
+
+
+@kernel()
+def is_known(x: float, y: float, z: float, known: Array, known_count: int, bolt: Array) -> bool:
+    """Whether a contact of thread with thread is one of those through which the axis runs."""
+    for i in range(known_count):
+        if abs(x - known[i, K_X]) + abs(y - known[i, K_Y]) + abs(z - known[i, K_Z]) < SAME_TANGENCY * bolt[pk.P]:
+            return True
+    return False
+
+
 def earliest(
     pose: Array,
     is_turn: bool,
@@ -277,136 +363,51 @@ def earliest(
     earliest time at which an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how
     thread on thread is searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
-    boxes, spare_boxes, bolt_found, nut_found, bolt_motion, nut_motion, rectangles, tangencies, entries = work
+    tangencies = work.tangencies
     on_surface = np.empty((ts.MAX_FOUND, tk.TANGENCY_SIZE))
-    bolt_kept, nut_kept = new_kept(known_count), new_kept(known_count)
-    keep_contacts(known, known_count, pose, bolt, nut, bolt_kept, nut_kept)
+    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(known_count))
+    nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(known_count))
+    keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
     coplanar = axis_in_both_planes(known, known_count)
-    set_motions(pose, is_turn, coplanar, point, axis, bolt_motion, nut_motion)
-    any_onset = not is_turn
-    entries[0, 0] = 0.0
-    bolt_count = 0
-    nut_count = 0
-    rectangles_evaluated = 0
-    best = limit
-    since = 0.0
-    span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt[pk.P]
-    while since < best:
-        until = min(since + span, limit)
-        bolt_count, bolt_evaluated, best = search_edge(
-            since,
-            until,
-            bolt_motion,
-            bolt,
-            nut,
-            bolt_kept,
-            best,
-            any_onset,
-            tie_tolerance,
-            boxes,
-            spare_boxes,
-            bolt_count,
-            bolt_found,
-            entries,
-        )
-        nut_count, nut_evaluated, best = search_edge(
-            since,
-            until,
-            nut_motion,
-            nut,
-            bolt,
-            nut_kept,
-            best,
-            any_onset,
-            tie_tolerance,
-            boxes,
-            spare_boxes,
-            nut_count,
-            nut_found,
-            entries,
-        )
-        if bolt_evaluated == OVERFLOW or nut_evaluated == OVERFLOW:
-            span *= SPAN_REDUCTION
-            if span < SHORTEST_SPAN * motion_scale(bolt_motion, bolt):
-                return 0, UNRESOLVED, best
-            continue
-        since = until
-        span *= SPAN_GROWTH
+    set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
+    work.entries[0, 0] = 0.0
+    search = EdgeSearch(not is_turn, tie_tolerance, work.boxes, work.spare_boxes, work.entries)
+    bolt_count, nut_count, best, status = search_both_edges(limit, is_turn, bolt_edge, nut_edge, search, work)
+    if status != RESOLVED:
+        return 0, UNRESOLVED, best
     reach = min(limit, best + tie_tolerance)
-    unexplained = any_onset and best < limit
-    if (bolt_count > 0 and bolt_found[0, C_TIME] <= best + tie_tolerance) or (
-        nut_count > 0 and nut_found[0, C_TIME] <= best + tie_tolerance
+    unexplained = not is_turn and best < limit
+    if (bolt_count > 0 and work.bolt_found[0, C_TIME] <= best + tie_tolerance) or (
+        nut_count > 0 and work.nut_found[0, C_TIME] <= best + tie_tolerance
     ):
         unexplained = False
     tangency_count = 0
     if thread_search != PROVED:
-        tangency_count = ridge.ridge_contacts(bolt_motion, bolt, nut, reach, RIDGE_AZIMUTHS, tangencies)
+        tangency_count = ridge.ridge_contacts(work.bolt_motion, bolt, nut, reach, RIDGE_AZIMUTHS, tangencies)
         if is_turn:
             tangency_count = ridge.contacts_behind_entries(
-                entries, reach, bolt_motion, bolt, nut, tangencies, tangency_count
+                work.entries, reach, work.bolt_motion, bolt, nut, tangencies, tangency_count
             )
-    on_surface_count = ts.thread_surface_contacts(bolt_motion, bolt, nut, reach, on_surface, 0)
+    on_surface_count = ts.thread_surface_contacts(work.bolt_motion, bolt, nut, reach, on_surface, 0)
     if thread_search == PROVED or (
         thread_search == RIDGES and unexplained and tangency_count == 0 and on_surface_count == 0
     ):
         # Where no edge contact explains the earliest entry, the threads must have met before it.
-        tangency_count, rectangles_evaluated = rect.tangencies(bolt_motion, bolt, nut, reach, rectangles, tangencies)
+        tangency_count, rectangles_evaluated = rect.tangencies(
+            work.bolt_motion, bolt, nut, reach, work.rectangles, tangencies
+        )
         if rectangles_evaluated == rect.OVERFLOW:
             return 0, UNRESOLVED, best
-    count = 0
-    for i in range(bolt_count):
-        kind = int(bolt_found[i, C_KIND])
-        pair = EDGE_EDGE if kind == ONE_EDGE else (EDGE_SURFACE if kind == ONE_PLANE else EDGE_THREAD)
-        count = insert_contact(
-            bolt_found[i, C_TIME],
-            pair,
-            bolt_found[i, C_THETA],
-            bolt_found[i, C_OTHER_THETA],
-            bolt_found[i, C_X],
-            bolt_found[i, C_Y],
-            bolt_found[i, C_Z],
-            count,
-            out,
-        )
-    for i in range(nut_count):
-        kind = int(nut_found[i, C_KIND])
-        pair = EDGE_EDGE if kind == ONE_EDGE else (BASE_EDGE if kind == ONE_PLANE else THREAD_EDGE)
-        nut_theta = nut_found[i, C_THETA]
-        x, y, _, _ = edge_point(nut_theta, nut)
-        count = insert_contact(
-            nut_found[i, C_TIME], pair, nut_found[i, C_OTHER_THETA], nut_theta, x, y, 0.0, count, out
-        )
+    count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
     for i in range(tangency_count):
         x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
-        is_known = False
-        for j in range(known_count):
-            if abs(x - known[j, K_X]) + abs(y - known[j, K_Y]) + abs(z - known[j, K_Z]) < 1e-4 * bolt[pk.P]:
-                is_known = True
-        if not is_known:
-            count = insert_contact(
-                tangencies[i, tk.T_TIME],
-                THREAD_THREAD,
-                tangencies[i, tk.T_THETA],
-                math.atan2(y, x),
-                x,
-                y,
-                z,
-                count,
-                out,
-            )
+        if not is_known(x, y, z, known, known_count, bolt):
+            time, azimuth = tangencies[i, tk.T_TIME], tangencies[i, tk.T_THETA]
+            count = insert_contact(Contact(time, THREAD_THREAD, azimuth, math.atan2(y, x), x, y, z), count, out)
     for i in range(on_surface_count):
         x, y = on_surface[i, tk.T_X], on_surface[i, tk.T_Y]
-        count = insert_contact(
-            on_surface[i, tk.T_TIME],
-            THREAD_SURFACE,
-            on_surface[i, tk.T_THETA],
-            math.atan2(y, x),
-            x,
-            y,
-            0.0,
-            count,
-            out,
-        )
+        time, azimuth = on_surface[i, tk.T_TIME], on_surface[i, tk.T_THETA]
+        count = insert_contact(Contact(time, THREAD_SURFACE, azimuth, math.atan2(y, x), x, y, 0.0), count, out)
     # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best
@@ -414,8 +415,8 @@ def earliest(
         tie_end = out[0, K_TIME] + tie_tolerance
         if (
             may_be_truncated(out, count, tie_end)
-            or may_be_truncated(bolt_found, bolt_count, tie_end)
-            or may_be_truncated(nut_found, nut_count, tie_end)
+            or may_be_truncated(work.bolt_found, bolt_count, tie_end)
+            or may_be_truncated(work.nut_found, nut_count, tie_end)
         ):
             return count, UNRESOLVED, best
     return count, RESOLVED, best
@@ -424,12 +425,12 @@ def earliest(
 @kernel()
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
-    boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = work
-    bolt_kept, nut_kept = new_kept(count), new_kept(count)
-    keep_contacts(contacts, count, pose, bolt, nut, bolt_kept, nut_kept)
+    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(count))
+    nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(count))
+    keep_contacts(contacts, count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
     down = np.array([0.0, 0.0, -1.0])
-    set_motions(pose, False, False, down, down, bolt_motion, nut_motion)
-    outcome, _ = find_inside(bolt_motion, bolt, nut, bolt_kept, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes)
+    set_motions(pose, False, False, down, down, work.bolt_motion, work.nut_motion)
+    outcome, _ = find_inside(bolt_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.spare_boxes)
     if outcome == OUTSIDE:
-        outcome, _ = find_inside(nut_motion, nut, bolt, nut_kept, TOUCH_DEPTH, LEAST_HALF_WIDTH, boxes, spare_boxes)
+        outcome, _ = find_inside(nut_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.spare_boxes)
     return outcome != OUTSIDE

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._beside_kernel import keep, new_kept
+from threadstate.contact._edge_kernel import new_edge
 from threadstate.contact._edge_search_kernel import OUTSIDE, find_inside
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._ridge_grid_kernel import (
@@ -50,26 +51,26 @@ FREE, EDGE_INSIDE, THREAD_INSIDE = range(3)
 @kernel()
 def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, nut: Array, stage: Work) -> int:
     """Whether the parts overlap at a pose by more than ``limit`` (a length), beside the places at which they touch."""
-    boxes, spare_boxes, _, _, bolt_motion, nut_motion, _, _, _ = stage
-    on_bolt, on_nut = new_kept(MAX_PLACES), new_kept(MAX_PLACES)
+    on_bolt = new_edge(stage.bolt_motion, bolt, nut, new_kept(MAX_PLACES))
+    on_nut = new_edge(stage.nut_motion, nut, bolt, new_kept(MAX_PLACES))
     for i in range(count):
         pair = int(places[i, G_PAIR])
         if pair != BASE_EDGE and pair != THREAD_EDGE and pair != THREAD_THREAD:
-            keep(places[i, G_THETA], False, False, on_bolt)
+            keep(places[i, G_THETA], False, False, on_bolt.kept)
         if pair == BASE_EDGE or pair == THREAD_EDGE:
-            keep(places[i, G_THETA], False, False, on_nut)
+            keep(places[i, G_THETA], False, False, on_nut.kept)
         elif pair == EDGE_EDGE:
-            keep(math.atan2(places[i, G_POINT + 1], places[i, G_POINT]), False, False, on_nut)
+            keep(math.atan2(places[i, G_POINT + 1], places[i, G_POINT]), False, False, on_nut.kept)
     down = np.array([0.0, 0.0, -1.0])
-    set_motions(pose, False, False, down, down, bolt_motion, nut_motion)
+    set_motions(pose, False, False, down, down, stage.bolt_motion, stage.nut_motion)
     shallow = limit / bolt[pk.P]
-    outcome, _ = find_inside(bolt_motion, bolt, nut, on_bolt, shallow, NARROW, boxes, spare_boxes)
+    outcome, _ = find_inside(on_bolt, shallow, NARROW, stage.boxes, stage.spare_boxes)
     if outcome != OUTSIDE:
         return EDGE_INSIDE
-    outcome, _ = find_inside(nut_motion, nut, bolt, on_nut, shallow, NARROW, boxes, spare_boxes)
+    outcome, _ = find_inside(on_nut, shallow, NARROW, stage.boxes, stage.spare_boxes)
     if outcome != OUTSIDE:
         return EDGE_INSIDE
-    return THREAD_INSIDE if threads_overlap(pose, limit, bolt_motion, nut_motion, bolt, nut) else FREE
+    return THREAD_INSIDE if threads_overlap(pose, limit, stage.bolt_motion, stage.nut_motion, bolt, nut) else FREE
 
 
 @kernel()

@@ -8,6 +8,7 @@ which there is no candidate is not known here.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +19,9 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
+from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._edge_search_kernel import AZIMUTH_TOLERANCE, contact_distance
-from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE, copy_numbers
+from threadstate.contact._geometry_kernel import M_KIND, MOTION_SIZE, PATH_SIZE, copy_numbers
 from threadstate.contact._onset_kernel import (
     J_G,
     J_G_THETA,
@@ -40,6 +42,8 @@ from threadstate.contact._solve_kernel import (
     FLUSH_MARGIN,
     add_flag,
     append_flush_pose,
+    append_stage,
+    clear_record,
     lies_in_both_planes,
     second_axis,
     turn_to_flush,
@@ -70,7 +74,35 @@ from threadstate.contact._surface_kernel import start_height
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Work = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array, Array]
+
+
+class Work(NamedTuple):
+    """The scratch arrays of one thread of work.
+
+    Attributes:
+        bolt_motion: motion of the bolt in the nut's frame.
+        nut_motion: motion of the nut in the bolt's frame.
+        bolt_kept: earlier contacts on the bolt's edge.
+        nut_kept: those on the nut's.
+        path: path of a point.
+        jet: of an edge point.
+        wedge: unit vectors at an edge point.
+        placement: of the bolt.
+        tangency_jet: of a point of the thread.
+        tangencies: contacts of thread with thread.
+    """
+
+    bolt_motion: Array
+    nut_motion: Array
+    bolt_kept: Array
+    nut_kept: Array
+    path: Array
+    jet: Array
+    wedge: Array
+    placement: Array
+    tangency_jet: Array
+    tangencies: Array
+
 
 # A candidate: its stage (0: none), height of the bolt or turn, pair, azimuths, axial position on the bolt's thread.
 F_STAGE, F_TIME, F_PAIR, F_BOLT_AZIMUTH, F_NUT_AZIMUTH, F_BOLT_Z = range(6)
@@ -90,17 +122,17 @@ SAME_PLACE = 1e-6
 @kernel()
 def new_work() -> Work:
     """The scratch arrays of one thread of work."""
-    return (
+    return Work(
         np.empty(MOTION_SIZE),
         np.empty(MOTION_SIZE),
+        new_kept(2),
+        new_kept(2),
         np.empty(PATH_SIZE),
         np.empty(JET_SIZE),
         np.empty(9),
         np.empty(tk.PLACEMENT_SIZE),
         np.empty(tk.JET_SIZE),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
-        new_kept(2),
-        new_kept(2),
     )
 
 
@@ -124,28 +156,17 @@ def set_candidates(record: Array, candidates: Array) -> None:
 
 
 @kernel()
-def follow_edge_point(
-    kind: int,
-    theta: float,
-    tau: float,
-    motion: Array,
-    curve_profile: Array,
-    solid_profile: Array,
-    kept: Array,
-    work: Work,
-) -> tuple[bool, float, float]:
+def follow_edge_point(kind: int, theta: float, tau: float, edge: Edge, work: Work) -> tuple[bool, float, float]:
     """The contact of one kind near an azimuth and a time of an edge: whether there is one, its azimuth and time.
 
-    ``kept`` are the earlier contacts on the edge. The point is left in the jet.
+    The point is left in the jet.
     """
-    _, _, path, jet, wedge, _, _, _, _, _ = work
-    span = REACH_TURN if motion[12] > 0.0 else REACH_HEIGHT * solid_profile[pk.P]
-    found, t, time = newton_onset(
-        kind, theta, REACH_AZIMUTH, tau - span, tau + span, motion, curve_profile, solid_profile, kept, path, jet
-    )
+    jet = work.jet
+    span = REACH_TURN if edge.motion[M_KIND] > 0.0 else REACH_HEIGHT * edge.solid[pk.P]
+    found, t, time = newton_onset(kind, Box(theta, REACH_AZIMUTH, tau - span, tau + span), edge, jet)
     if not found:
         return False, t, time
-    set_jet_beside(t, time, motion, curve_profile, solid_profile, kept, path, jet)
+    set_jet_beside(t, time, edge, jet)
     # A peak of the lesser of g and phi, at which the other one is not negative.
     if kind == ONE_EDGE:
         is_peak = jet[J_G_THETA] * jet[J_PHI_THETA] < 0.0
@@ -153,9 +174,9 @@ def follow_edge_point(
         is_peak = jet[J_PHI_THETA_THETA] < 0.0 and jet[J_G] >= 0.0
     else:
         is_peak = jet[J_G_THETA_THETA] < 0.0 and jet[J_PHI] >= 0.0
-    if not is_peak or not rises(kind, jet) or contact_distance(t, kept) < AZIMUTH_TOLERANCE:
+    if not is_peak or not rises(kind, jet) or contact_distance(t, edge.kept) < AZIMUTH_TOLERANCE:
         return False, t, time
-    return is_contact(kind, t, time, motion, curve_profile, solid_profile, jet, wedge), t, time
+    return is_contact(kind, t, time, edge, jet, work.wedge), t, time
 
 
 @kernel()
@@ -172,12 +193,14 @@ def follow_candidate(
 
     The motion and the earlier contacts on each edge are in ``work``.
     """
-    bolt_motion, nut_motion, _, jet, _, placement, tangency_jet, tangencies, bolt_kept, nut_kept = work
+    jet, tangencies = work.jet, work.tangencies
     pair = int(candidate[F_PAIR])
     contact[K_PAIR] = pair
     if pair == THREAD_THREAD:
         theta, z = candidate[F_BOLT_AZIMUTH], candidate[F_BOLT_Z]
-        count = tk.newton_tangency(theta, z, tau, limit, bolt_motion, bolt, nut, placement, tangency_jet, tangencies, 0)
+        count = tk.newton_tangency(
+            theta, z, tau, limit, work.bolt_motion, bolt, nut, work.placement, work.tangency_jet, tangencies, 0
+        )
         if count == 0:
             return False
         contact[K_TIME] = tangencies[0, tk.T_TIME]
@@ -191,18 +214,16 @@ def follow_candidate(
         return True
     if pair == BASE_EDGE or pair == THREAD_EDGE:
         kind = int(ONE_PLANE) if pair == BASE_EDGE else int(ONE_THREAD)
-        found, theta, time = follow_edge_point(
-            kind, candidate[F_NUT_AZIMUTH], tau, nut_motion, nut, bolt, nut_kept, work
-        )
+        edge = Edge(work.nut_motion, nut, bolt, work.nut_kept, work.path)
+        found, theta, time = follow_edge_point(kind, candidate[F_NUT_AZIMUTH], tau, edge, work)
         r = pk.radius(-nut[pk.LEAD] / (2.0 * math.pi) * theta, nut)
         contact[K_BOLT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
         contact[K_NUT_AZIMUTH] = theta
         contact[K_X], contact[K_Y], contact[K_Z] = r * math.cos(theta), r * math.sin(theta), 0.0
     else:
         kind = int(ONE_EDGE) if pair == EDGE_EDGE else int(ONE_PLANE) if pair == EDGE_SURFACE else int(ONE_THREAD)
-        found, theta, time = follow_edge_point(
-            kind, candidate[F_BOLT_AZIMUTH], tau, bolt_motion, bolt, nut, bolt_kept, work
-        )
+        edge = Edge(work.bolt_motion, bolt, nut, work.bolt_kept, work.path)
+        found, theta, time = follow_edge_point(kind, candidate[F_BOLT_AZIMUTH], tau, edge, work)
         contact[K_BOLT_AZIMUTH] = theta
         contact[K_NUT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
         contact[K_X], contact[K_Y], contact[K_Z] = jet[J_X], jet[J_Y], jet[J_Z]
@@ -229,8 +250,8 @@ def earliest_candidate(
     ``known`` are the contacts of the stages before.
     """
     is_turn = stage > 1
-    set_motions(pose, is_turn, axis_in_both_planes(known, stage - 1), point, axis, work[0], work[1])
-    keep_contacts(known, stage - 1, pose, bolt, nut, work[8], work[9])
+    set_motions(pose, is_turn, axis_in_both_planes(known, stage - 1), point, axis, work.bolt_motion, work.nut_motion)
+    keep_contacts(known, stage - 1, pose, bolt, nut, work.bolt_kept, work.nut_kept)
     one = np.empty(CONTACT_SIZE)
     contact[K_TIME] = math.inf
     for i in range(CANDIDATES):
@@ -251,15 +272,6 @@ def earliest_candidate(
 
 
 @kernel()
-def append_stage(stage: int, contact: Array, pose: Array, bolt: Array, nut: Array, record: Array) -> None:
-    """Appends a stage's pose and its contact."""
-    rk.append_pose(pose, record)
-    rk.append_contact(stage, contact, pose, bolt, nut, record)
-    if rk.grazes(contact, pose, bolt, nut):
-        add_flag(record, rk.FLAG_GRAZING)
-
-
-@kernel()
 def follow_pose(
     roll: float,
     pitch: float,
@@ -275,9 +287,7 @@ def follow_pose(
 
     The three stages of a whole solve. Ties, balanced poses and embedments are left out.
     """
-    record[:] = 0.0
-    for i in (rk.O_LAMBDA, rk.O_MU, rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT):
-        record[i] = math.nan
+    clear_record(record)
     pose, second, third = np.empty(12), np.empty(12), np.empty(12)
     known = np.empty((3, CONTACT_SIZE))
     extremes = np.empty((4, fk.EXTREME_SIZE))

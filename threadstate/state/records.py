@@ -33,7 +33,7 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats) -> Float
     Raises:
         InvalidValueError: the flanks of the pair are too flat, or its bolt has a chamfer.
     """
-    packed = _packed(pair, options)
+    packed = packed_options(pair, options)
     records = np.empty((len(poses_deg), rk.RECORD_SIZE))
     level = (np.abs(poses_deg[:, 0]) < LEVEL_TILT_DEG) & (np.abs(poses_deg[:, 1]) < LEVEL_TILT_DEG)
     if not level.any():
@@ -55,7 +55,12 @@ LARGEST_TILT_DEG = 14.2
 
 
 @lru_cache(maxsize=64)
-def _packed(pair: Pair, options: SolveOptions) -> Floats:
+def packed_options(pair: Pair, options: SolveOptions) -> Floats:
+    """Options as the kernels take them, in their order, read-only.
+
+    Raises:
+        InvalidValueError: the flanks of the pair are too flat, or its bolt has a chamfer.
+    """
     require_flat_base(pair, "the exact method")
     for name in ("flank_half_angle_deg", "flank_half_angle_neg_deg"):
         half_angle = getattr(pair.form, name)
