@@ -13,7 +13,7 @@ from threadstate.contact import _record_kernel as record
 from threadstate.contact import _stage_kernel as stage
 from threadstate.contact._box_kernel import ONE_EDGE
 from threadstate.contact._geometry_kernel import M_SIGMA, MOTION_SIZE
-from threadstate.contact._onset_kernel import CANDIDATE_SIZE, JET_SIZE, insert_candidate
+from threadstate.contact._onset_kernel import CANDIDATE_SIZE, JET_SIZE, Candidate, insert_candidate
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR = quarter_twenty_unc()
@@ -56,7 +56,8 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
         count, found = arguments[5:]
         assert found.shape[1] == CANDIDATE_SIZE
         for i in range(len(found)):
-            count = insert_candidate(1e-4 + apart * i, int(ONE_EDGE), 0.3 * i, 0.3 * i, *around(i), 0.0, count, found)
+            one = Candidate(1e-4 + apart * i, int(ONE_EDGE), 0.3 * i, 0.3 * i, *around(i), 0.0)
+            count = insert_candidate(one, count, found)
         return count, 1, 1e-4
 
     monkeypatch.setattr(stage, "search_edge", crowded_search)

@@ -208,7 +208,8 @@ def test_a_full_list_of_candidates_drops_the_latest() -> None:
     count = 0
     for i, time in enumerate(times):
         x, y = 0.12 * math.cos(0.3 * i), 0.12 * math.sin(0.3 * i)
-        count = onset.insert_candidate(time, int(ONE_EDGE), 0.3 * i, 0.3 * i, x, y, 0.0, count, found)
+        one = onset.Candidate(time, int(ONE_EDGE), 0.3 * i, 0.3 * i, x, y, 0.0)
+        count = onset.insert_candidate(one, count, found)
     assert count == onset.MAX_CANDIDATES
     assert found[:, onset.C_TIME].tolist() == sorted(times)[: onset.MAX_CANDIDATES]
 

@@ -46,6 +46,7 @@ from threadstate.contact._onset_kernel import (
     J_Z,
     JET_SIZE,
     TIME_SLACK,
+    Candidate,
     insert_candidate,
     is_contact,
     newton_onset,
@@ -329,9 +330,9 @@ def list_onset(
     if not is_contact(box_class, t, tau, edge, jet, wedge):
         insert_entry(tau, t, edge.motion, jet, search.entries)
         return count, search.any_onset
-    x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
     if not is_listed(box_class, t, tau, edge, scratch, count, found):
-        count = insert_candidate(tau, box_class, t, math.atan2(y, x), x, y, z, count, found)
+        x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
+        count = insert_candidate(Candidate(tau, box_class, t, math.atan2(y, x), x, y, z), count, found)
     return count, True
 
 

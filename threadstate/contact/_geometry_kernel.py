@@ -47,6 +47,23 @@ def copy_numbers(source: Array, target: Array) -> None:
 
 
 @kernel()
+def place_by_time(time: float, count: int, rows: Array) -> tuple[int, int]:
+    """Makes room for what has a time in rows that are sorted by time, their first column: later ones move down.
+
+    Of a full list the latest is dropped. Returns the row, -1 where that would be the latest, and how many are listed.
+    """
+    if count == rows.shape[0]:
+        if time >= rows[count - 1, 0]:
+            return -1, count
+        count -= 1
+    i = count
+    while i > 0 and rows[i - 1, 0] > time:
+        copy_numbers(rows[i - 1], rows[i])
+        i -= 1
+    return i, count + 1
+
+
+@kernel()
 def motion_scale(motion: Array, profile: Array) -> float:
     """The unit of a motion's steps and tolerances: a radian, or ``SCALE_PITCHES`` thread pitches of a translation."""
     return SCALE_PITCHES * profile[pk.P] if motion[M_KIND] == 0.0 else 1.0

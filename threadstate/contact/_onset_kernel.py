@@ -7,6 +7,7 @@ contact onset unless an overlap is open there already.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from threadstate.contact._geometry_kernel import (
     edge_point,
     motion_scale,
     phi_and_gradient,
+    place_by_time,
     position,
     set_path,
     turn_vector,
@@ -264,33 +266,33 @@ def face_separated(curve_theta: float, tau: float, nx: float, ny: float, nz: flo
     return c1 >= -1e-12 and c2 >= -1e-12
 
 
+class Candidate(NamedTuple):
+    """A candidate contact: time, class of its box, azimuths on the curve and the solid, point in the solid's frame."""
+
+    time: float
+    kind: int
+    theta: float
+    other_theta: float
+    x: float
+    y: float
+    z: float
+
+
 @kernel()
-def insert_candidate(
-    time: float, kind: int, theta: float, other: float, x: float, y: float, z: float, count: int, found: Array
-) -> int:
+def insert_candidate(one: Candidate, count: int, found: Array) -> int:
     """Inserts a candidate by time unless it is listed; a full list drops the latest. Returns the number listed."""
+    near = 1e-9 * (abs(one.x) + abs(one.y))
     for i in range(count):
-        if found[i, C_KIND] == kind and abs(found[i, C_X] - x) + abs(found[i, C_Y] - y) + abs(
-            found[i, C_Z] - z
-        ) < 1e-9 * (abs(x) + abs(y)):
+        apart = abs(found[i, C_X] - one.x) + abs(found[i, C_Y] - one.y) + abs(found[i, C_Z] - one.z)
+        if found[i, C_KIND] == one.kind and apart < near:
             return count
-    if count == MAX_CANDIDATES:
-        if time >= found[count - 1, C_TIME]:
-            return count
-        count -= 1
-    i = count
-    while i > 0 and found[i - 1, C_TIME] > time:
-        for j in range(CANDIDATE_SIZE):
-            found[i, j] = found[i - 1, j]
-        i -= 1
-    found[i, C_TIME] = time
-    found[i, C_KIND] = kind
-    found[i, C_THETA] = theta
-    found[i, C_OTHER_THETA] = other
-    found[i, C_X] = x
-    found[i, C_Y] = y
-    found[i, C_Z] = z
-    return count + 1
+    i, listed = place_by_time(one.time, count, found)
+    if i < 0:
+        return listed
+    found[i, C_TIME], found[i, C_KIND] = one.time, one.kind
+    found[i, C_THETA], found[i, C_OTHER_THETA] = one.theta, one.other_theta
+    found[i, C_X], found[i, C_Y], found[i, C_Z] = one.x, one.y, one.z
+    return listed
 
 
 @kernel()

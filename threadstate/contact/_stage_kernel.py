@@ -26,7 +26,7 @@ from threadstate.contact._edge_search_kernel import (
     find_inside,
     search_edge,
 )
-from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, copy_numbers, edge_point, motion_scale
+from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point, motion_scale, place_by_time
 from threadstate.contact._onset_kernel import (
     C_KIND,
     C_OTHER_THETA,
@@ -191,18 +191,13 @@ def insert_contact(one: Contact, count: int, out: Array) -> int:
     for i in range(count):
         if abs(out[i, K_X] - one.x) + abs(out[i, K_Y] - one.y) + abs(out[i, K_Z] - one.z) < near:
             return count
-    if count == MAX_CONTACTS:
-        if one.time >= out[count - 1, K_TIME]:
-            return count
-        count -= 1
-    i = count
-    while i > 0 and out[i - 1, K_TIME] > one.time:
-        copy_numbers(out[i - 1], out[i])
-        i -= 1
+    i, listed = place_by_time(one.time, count, out)
+    if i < 0:
+        return listed
     out[i, K_TIME], out[i, K_PAIR] = one.time, one.pair
     out[i, K_BOLT_AZIMUTH], out[i, K_NUT_AZIMUTH] = one.bolt_azimuth, one.nut_azimuth
     out[i, K_X], out[i, K_Y], out[i, K_Z] = one.x, one.y, one.z
-    return count + 1
+    return listed
 
 
 @kernel()

@@ -21,8 +21,8 @@ from threadstate.contact._geometry_kernel import (
     M_POINT,
     M_ROT,
     TWO_PI,
-    copy_numbers,
     motion_scale,
+    place_by_time,
 )
 from threadstate.thread import _profile_kernel as pk
 
@@ -248,36 +248,33 @@ def newton_tangency(
         if small or (abs(jet[J_PHI]) < ROUND_OFF * bolt[pk.P] and abs(du) < settled and abs(dz) < 1e-8 * bolt[pk.P]):
             converged = True
             break
-    # Both parts are one thread pitch long.
-    if (
-        not converged
-        or z < 0.0
-        or z > bolt[pk.P]
-        or jet[J_Z] > 0.0
-        or jet[J_Z] < -bolt[pk.P]
-        or tau <= 0.0
-        or tau > limit
-        or jet[J_RATE] <= 0.0
-    ):
+    if not converged or tau <= 0.0 or tau > limit or not is_contact_of_threads(z, jet, bolt):
         return count
-    # A contact: phi has a maximum, i.e. the Hessian in (u, z) is negative definite.
-    if not (jet[J_UU] < 0.0 and jet[J_UU] * jet[J_ZZ] - jet[J_UZ] * jet[J_UZ] > 0.0):
-        return count
+    return insert_tangency(tau, theta, z, jet, bolt, found, count)
+
+
+@kernel()
+def is_contact_of_threads(z: float, jet: Array, bolt: Array) -> bool:
+    """Whether a tangency is on both parts, one thread pitch long, and a maximum of phi that rises: a contact."""
+    on_both = 0.0 <= z <= bolt[pk.P] and -bolt[pk.P] <= jet[J_Z] <= 0.0
+    # At a maximum the Hessian in (u, z) is negative definite.
+    is_maximum = jet[J_UU] < 0.0 and jet[J_UU] * jet[J_ZZ] - jet[J_UZ] * jet[J_UZ] > 0.0
+    return on_both and jet[J_RATE] > 0.0 and is_maximum
+
+
+@kernel()
+def insert_tangency(tau: float, theta: float, z: float, jet: Array, bolt: Array, found: Array, count: int) -> int:
+    """Inserts a tangency by time unless it is listed; a full list drops the latest. Returns the number listed."""
     for i in range(count):
         if abs(found[i, T_X] - jet[J_X]) + abs(found[i, T_Y] - jet[J_Y]) < 1e-6 * bolt[pk.P]:
             return count
-    if count == MAX_TANGENCIES:
-        if tau >= found[count - 1, T_TIME]:
-            return count
-        count -= 1
-    i = count
-    while i > 0 and found[i - 1, T_TIME] > tau:
-        copy_numbers(found[i - 1], found[i])
-        i -= 1
+    i, listed = place_by_time(tau, count, found)
+    if i < 0:
+        return listed
     found[i, T_TIME] = tau
     found[i, T_THETA] = theta
     found[i, T_Z] = z
     found[i, T_X] = jet[J_X]
     found[i, T_Y] = jet[J_Y]
     found[i, T_POINT_Z] = jet[J_Z]
-    return count + 1
+    return listed
