@@ -103,7 +103,10 @@ def test_a_rectangle_of_unknown_place_stays_undecided() -> None:
         unknown_motion = motion.copy()
         unknown_motion[unknown] = math.nan
         set_bounds(unknown_motion, bolt, nut, bounds)
-        assert rectangle.classify_rectangle(small, 0.01, unknown_motion, bolt, nut, bounds, path) == rectangle.UNDECIDED
+        assert (
+            rectangle.classify_rectangle(small, 0.01, unknown_motion, bolt, nut, bounds, path)
+            == rectangle.RECT_UNDECIDED
+        )
 
 
 @pytest.mark.parametrize("on_plane", [True, False])

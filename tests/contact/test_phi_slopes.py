@@ -53,7 +53,7 @@ def tilted_turn() -> Floats:
 
 
 def jet(theta: float, z: float, tau: float, bolt: Profile, nut: Profile) -> Floats:
-    placement, out = np.empty(tk.PLACEMENT_SIZE), np.empty(tk.JET_SIZE)
+    placement, out = np.empty(tk.PLACEMENT_SIZE), np.empty(tk.TANGENCY_JET_SIZE)
     tk.set_placement(tilted_turn(), tau, placement)
     tk.set_jet(theta, z, placement, bolt.packed, nut.packed, out)
     return out
@@ -84,18 +84,18 @@ def test_derivatives_of_phi_are_those_of_its_differences() -> None:
         axial = [jet(theta, z + d, TAU, bolt, nut) for d in (STEP * k, -STEP * k)]
         later = [jet(theta, z, TAU + d, bolt, nut) for d in (STEP, -STEP)]
         by_u, by_z, by_tau = ((a - b) / (2.0 * d) for (a, b), d in ((along, STEP), (axial, STEP * k), (later, STEP)))
-        assert [by_u[tk.J_PHI], by_z[tk.J_PHI], by_tau[tk.J_PHI]] == pytest.approx(
-            here[[tk.J_A, tk.J_B, tk.J_RATE]], abs=3e-5
+        assert [by_u[tk.TJ_PHI], by_z[tk.TJ_PHI], by_tau[tk.TJ_PHI]] == pytest.approx(
+            here[[tk.TJ_A, tk.TJ_B, tk.TJ_RATE]], abs=3e-5
         )
-        curvatures = [jet(theta + a, z + b, TAU, bolt, nut)[tk.J_ZZ] for a in (-1e-4, 1e-4) for b in (-1e-5, 1e-5)]
+        curvatures = [jet(theta + a, z + b, TAU, bolt, nut)[tk.TJ_ZZ] for a in (-1e-4, 1e-4) for b in (-1e-5, 1e-5)]
         if max(curvatures) - min(curvatures) > 0.02 * (1.0 + max(map(abs, curvatures))):
             continue
         smooth += 1
-        scale = 1e-5 * (1.0 + abs(here[tk.J_ZZ]))
-        assert [by_u[tk.J_A], by_u[tk.J_B], by_z[tk.J_B]] == pytest.approx(
-            here[[tk.J_UU, tk.J_UZ, tk.J_ZZ]], rel=1e-5, abs=scale
+        scale = 1e-5 * (1.0 + abs(here[tk.TJ_ZZ]))
+        assert [by_u[tk.TJ_A], by_u[tk.TJ_B], by_z[tk.TJ_B]] == pytest.approx(
+            here[[tk.TJ_UU, tk.TJ_UZ, tk.TJ_ZZ]], rel=1e-5, abs=scale
         )
-        assert [by_tau[tk.J_A], by_tau[tk.J_B]] == pytest.approx(here[[tk.J_UT, tk.J_ZT]], rel=1e-5, abs=scale)
+        assert [by_tau[tk.TJ_A], by_tau[tk.TJ_B]] == pytest.approx(here[[tk.TJ_UT, tk.TJ_ZT]], rel=1e-5, abs=scale)
     assert smooth > 150
 
 
@@ -106,5 +106,5 @@ def test_slopes_without_branches_are_the_same(bolt: Profile, nut: Profile) -> No
     for theta, z in places():
         exact = jet(theta, z, TAU, bolt, nut)
         assert slopes_at(theta, z, placement, bolt.packed, nut.packed) == pytest.approx(
-            (exact[tk.J_PHI], exact[tk.J_A], exact[tk.J_B]), abs=1e-8
+            (exact[tk.TJ_PHI], exact[tk.TJ_A], exact[tk.TJ_B]), abs=1e-8
         )

@@ -217,7 +217,7 @@ def test_a_full_list_of_candidates_drops_the_latest() -> None:
 def test_a_point_on_the_axis_of_a_turn_never_enters() -> None:
     path = np.zeros(PATH_SIZE)
     path[0], path[2] = 0.09, -0.01
-    assert entry.entry_time(path, True, NUT, 1.0, 0.0, 1.0, 2.0, math.inf, 0.08) == (entry.NEVER, entry.NONE)
+    assert entry.entry_time(path, True, NUT, 1.0, 0.0, 1.0, 2.0, math.inf, 0.08) == (entry.NEVER, entry.NO_ENTRY)
 
 
 # --- Thread on thread
@@ -230,7 +230,7 @@ def test_a_full_list_of_tangencies_drops_the_latest() -> None:
     assert first.features is FeaturePair.THREAD_THREAD
     motion, _ = descents(pose_at(pose_deg, state.poses[0].translation[2] + above))
     theta, z = math.atan2(first.point_bolt[1], first.point_bolt[0]), first.point_bolt[2]
-    placement, jet = np.empty(tangency.PLACEMENT_SIZE), np.empty(tangency.JET_SIZE)
+    placement, jet = np.empty(tangency.PLACEMENT_SIZE), np.empty(tangency.TANGENCY_JET_SIZE)
     for listed_times, is_listed in ((1.0, True), (0.0, False)):
         found = np.zeros((tangency.MAX_TANGENCIES, tangency.TANGENCY_SIZE))
         found[:, tangency.T_TIME] = listed_times
@@ -285,7 +285,7 @@ def test_a_witness_is_followed_for_a_limited_number_of_steps() -> None:
     step = lift.LEAST_GAP * P
     bounds[B_LIPSCHITZ], bounds[B_SECOND_DERIVATIVE] = depth / step, math.inf
     reached = lift.inside_until(path, 0.0, 0.005, 1.0, NUT, 1.0, bounds)
-    assert 0.5 * lift.MAX_STEPS * step < reached < 0.005
+    assert 0.5 * lift.MAX_WITNESS_STEPS * step < reached < 0.005
 
 
 # --- Patches and contacts that next to no pose has

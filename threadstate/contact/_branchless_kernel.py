@@ -17,6 +17,9 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 Numbers = tuple[float, ...]
 
+VECTOR_WIDTH = 8
+"""Boxes and columns are processed in groups of this size."""
+
 TWO_OVER_PI = 2.0 / math.pi
 HALF_PI_HIGH = 1.5707963267341256
 HALF_PI_LOW = 6.077100506506192e-11

@@ -20,7 +20,7 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-SAMPLES = 96
+CREST_SAMPLES = 96
 """Points of a helix of the bolt's thread, all round, between which crossings are found."""
 MAX_SEEDS = 64
 BEYOND = 0.1
@@ -62,9 +62,9 @@ def set_crests(bolt: Array, crests: Array) -> None:
     for which in range(HELICES):
         s = helix(which, True, bolt)
         r = pk.radius(s, bolt)
-        for i in range(SAMPLES + 1):
+        for i in range(CREST_SAMPLES + 1):
             j = which * HELIX_SIZE + i
-            theta = TWO_PI * i / SAMPLES
+            theta = TWO_PI * i / CREST_SAMPLES
             z = s + k * theta
             crests[W_X + j], crests[W_Y + j] = r * math.cos(theta), r * math.sin(theta)
             crests[W_Z + j] = z - p * math.floor(z / p)
@@ -118,11 +118,11 @@ def crest_crossings(placement: Array, bolt: Array, nut: Array, crests: Array, se
     count = 0
     for of_bolt in range(HELICES):
         first = of_bolt * HELIX_SIZE
-        for i in range(first + 1, first + SAMPLES + 1):
+        for i in range(first + 1, first + CREST_SAMPLES + 1):
             for of_nut in range(2 if of_bolt == ROOT else HELICES):
                 share = crests[W_SHARE + of_nut * CRESTS_SIZE + i]
                 if share >= 0.0 and count < MAX_SEEDS:
-                    seeds[count, 0] = TWO_PI / SAMPLES * (i - first - 1 + share)
+                    seeds[count, 0] = TWO_PI / CREST_SAMPLES * (i - first - 1 + share)
                     seeds[count, 1] = crests[W_Z + i - 1] + share * (crests[W_Z + i] - crests[W_Z + i - 1])
                     count += 1
     return count

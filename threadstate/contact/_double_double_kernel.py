@@ -16,7 +16,7 @@ SPLITTER = 2.0**27 + 1.0
 """Times it a double parts into two halves of 26 bits, whose products are exact."""
 
 HALF_PI: Pair = (math.pi / 2.0, 6.123233995736766e-17)
-TWO_PI: Pair = (2.0 * math.pi, 2.4492935982947064e-16)
+WIDE_TWO_PI: Pair = (2.0 * math.pi, 2.4492935982947064e-16)
 
 
 def _two_doubles(number: Fraction) -> Pair:

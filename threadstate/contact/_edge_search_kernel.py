@@ -33,7 +33,7 @@ from threadstate.contact._box_kernel import (
     X_THETA,
     classify_boxes,
 )
-from threadstate.contact._branchless_kernel import larger, smaller
+from threadstate.contact._branchless_kernel import VECTOR_WIDTH, larger, smaller
 from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._flank_kernel import no_tangency_on_flanks
 from threadstate.contact._geometry_kernel import M_SIGMA, motion_scale
@@ -98,7 +98,6 @@ NEWTON_COST = 24
 """Cost of a failure of Newton's method in a narrow box, in evaluations of a box."""
 
 OVERFLOW = -1
-VECTOR_WIDTH = 8
 
 OUTSIDE, INSIDE, UNDECIDED = range(3)
 

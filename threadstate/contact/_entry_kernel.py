@@ -22,13 +22,13 @@ Array = NDArray[np.float64]
 
 NEVER = math.inf
 
-NONE = 0
+NO_ENTRY = 0
 """No entry up to the limit."""
 PLANE = 1
 """Entry through the flat face."""
 THREAD = 2
 """Entry through the thread."""
-INSIDE = 3
+INSIDE_ALREADY = 3
 """Inside from the start."""
 
 
@@ -115,7 +115,7 @@ def entry_time(
     """
     start, stop = half_space(-sigma * path[2], -sigma * path[5], -sigma * path[8], is_turn)
     if start > limit:
-        return NEVER, NONE
+        return NEVER, NO_ENTRY
     end = min(stop, limit)
     speed = path[9]
     time_second_derivative = second_derivative * speed * speed + (lipschitz * speed if is_turn else 0.0)
@@ -126,7 +126,7 @@ def entry_time(
         x, y, z = position(path, tau, is_turn)
         value, gx, gy, gz = phi_and_gradient(x, y, z, profile, sigma)
         if value >= 0.0 and step == 0:
-            return (tau, PLANE) if start > 0.0 else (0.0, INSIDE)
+            return (tau, PLANE) if start > 0.0 else (0.0, INSIDE_ALREADY)
         vx, vy, vz = velocity(path, tau, is_turn)
         rate = gx * vx + gy * vy + gz * vz
         if certain or (rate > 0.0 and -2.0 * value * time_second_derivative < rate * rate):
@@ -149,11 +149,11 @@ def entry_time(
                     move = max(move, span)
         else:
             # A point on the axis of a turn stays where it is.
-            return NEVER, NONE
+            return NEVER, NO_ENTRY
         if certain:
             tau += move
         elif tau >= end:
-            return NEVER, NONE
+            return NEVER, NO_ENTRY
         else:
             tau = min(tau + move, end)
-    return (tau, THREAD) if tau <= end else (NEVER, NONE)
+    return (tau, THREAD) if tau <= end else (NEVER, NO_ENTRY)

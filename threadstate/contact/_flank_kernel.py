@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 LARGEST_DEVIATION = 0.0625
 """Up to which bounds of log(1 + epsilon) are derived: farther from coaxial nothing is claimed."""
 
-ROUND_OFF = 64.0
+ROUND_OFF_FACTOR = 64.0
 """More than the sum of the factors by which errors of epsilon enter the third derivative."""
 
 
@@ -167,5 +167,5 @@ def no_tangency_on_flanks(
     rate = rate_bound(c, (speed, turning * c[0], turning * c[1], turning * c[2]), larger_r, inverse_r, f1, k)
     round_off = UNIT * r_bound * (6.0 + 28.0 * abs(tau)) + error_by_time * abs(tau) + UNIT * 8.0 * speed
     round_off += UNIT * 8.0 * math.sqrt(origin[0] ** 2 + origin[1] ** 2 + origin[2] ** 2)
-    certain = abs(third) - fourth * a - ROUND_OFF * (1.0 + abs(f1) * helix) * round_off
+    certain = abs(third) - fourth * a - ROUND_OFF_FACTOR * (1.0 + abs(f1) * helix) * round_off
     return certain > rate * b, certain > 0.0 or rate * b > fourth * a

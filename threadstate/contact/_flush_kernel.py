@@ -13,10 +13,10 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-SAMPLES = 64
+OUTLINE_SAMPLES = 64
 
 # An extreme point: azimuth on the bolt, whether it lies on the nut's outline too (1.0 or 0.0), x, y.
-F_THETA, F_CORNER, F_X, F_Y = range(4)
+XP_THETA, XP_CORNER, XP_X, XP_Y = range(4)
 EXTREME_SIZE = 4
 
 
@@ -82,17 +82,17 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
     They are points of the bolt's outline: where it runs across the direction, or at a corner of the patch (where it
     crosses the nut's outline). Returns how many differ; 0 where the outlines do not overlap.
     """
-    theta = np.empty(SAMPLES + 1)
-    over = np.empty(SAMPLES + 1)
-    place = np.empty((SAMPLES + 1, 4))
-    corners = np.empty((SAMPLES, 3))
+    theta = np.empty(OUTLINE_SAMPLES + 1)
+    over = np.empty(OUTLINE_SAMPLES + 1)
+    place = np.empty((OUTLINE_SAMPLES + 1, 4))
+    corners = np.empty((OUTLINE_SAMPLES, 3))
     corner_count = 0
-    for i in range(SAMPLES + 1):
-        theta[i] = TWO_PI * i / SAMPLES
+    for i in range(OUTLINE_SAMPLES + 1):
+        theta[i] = TWO_PI * i / OUTLINE_SAMPLES
         x, y, dx, dy = base_outline(theta[i], pose, bolt)
         place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
         over[i] = math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
-    for i in range(SAMPLES):
+    for i in range(OUTLINE_SAMPLES):
         if (over[i] > 0.0) != (over[i + 1] > 0.0):
             t = outline_root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
             corners[corner_count, 0] = t
@@ -105,7 +105,7 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
         best = -math.inf
         best_theta = 0.0
         is_corner = False
-        for i in range(SAMPLES):
+        for i in range(OUTLINE_SAMPLES):
             reach = nx * place[i, 0] + ny * place[i, 1]
             if over[i] > 0.0 and reach > best:
                 best = reach
@@ -129,12 +129,12 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
         x, y, _, _ = base_outline(best_theta, pose, bolt)
         new = True
         for i in range(count):
-            if abs(out[i, F_X] - x) + abs(out[i, F_Y] - y) < 1e-6 * bolt[pk.R_MAJOR]:
+            if abs(out[i, XP_X] - x) + abs(out[i, XP_Y] - y) < 1e-6 * bolt[pk.R_MAJOR]:
                 new = False
         if new:
-            out[count, F_THETA] = best_theta
-            out[count, F_CORNER] = 1.0 if is_corner else 0.0
-            out[count, F_X] = x
-            out[count, F_Y] = y
+            out[count, XP_THETA] = best_theta
+            out[count, XP_CORNER] = 1.0 if is_corner else 0.0
+            out[count, XP_X] = x
+            out[count, XP_Y] = y
             count += 1
     return count

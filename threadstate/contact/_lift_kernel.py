@@ -70,7 +70,7 @@ WITNESS_HALF_WIDTH = 1e-11
 """Half-width (rad) of the narrowest overlap that has a witness: where two edges cross they are deep and narrow."""
 
 MAX_WITNESSES = 40
-MAX_STEPS = 4000
+MAX_WITNESS_STEPS = 4000
 
 
 @kernel()
@@ -82,12 +82,12 @@ def inside_until(
     A solid is one thread pitch long. The point moves along a straight ``path``, forwards (``sign`` 1) or backwards
     (-1); ``since``, ``until`` and the result are distances from its start. A step ends where the bounds on the
     derivatives of phi let the point leave; the search ends where one is shorter than a quarter of ``LEAST_GAP``, or
-    after ``MAX_STEPS``.
+    after ``MAX_WITNESS_STEPS``.
     """
     second_derivative = bounds[B_SECOND_DERIVATIVE]
     least_step = 0.25 * LEAST_GAP * profile[pk.P]
     reached = since
-    for _ in range(MAX_STEPS):
+    for _ in range(MAX_WITNESS_STEPS):
         left = sign * (until - reached)
         if left <= 0.0:
             return until

@@ -26,6 +26,7 @@ from threadstate.contact._bound_kernel import (
     sine_of_tilt,
 )
 from threadstate.contact._branchless_kernel import larger
+from threadstate.contact._edge_search_kernel import OVERFLOW
 from threadstate.contact._entry_kernel import NEVER, THREAD, entry_time, half_space
 from threadstate.contact._geometry_kernel import (
     M_KIND,
@@ -37,15 +38,14 @@ from threadstate.contact._geometry_kernel import (
     turn_vector,
     velocity,
 )
-from threadstate.contact._tangency_kernel import JET_SIZE, PLACEMENT_SIZE, T_TIME, newton_tangency
+from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, T_TIME, TANGENCY_JET_SIZE, newton_tangency
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
 MAX_RECTANGLES = 4000
-MAX_STEPS = 120
+MAX_RECTANGLE_STEPS = 120
 MAX_EVALUATIONS = 200_000
-OVERFLOW = -1
 
 # A rectangle of the bolt's thread: middle and half-widths.
 R_THETA = 0
@@ -58,14 +58,14 @@ AZIMUTHS = 24
 NEWTON_HALF_THETA = 0.03
 LEAST_HALF_THETA = 2e-3
 
-UNDECIDED, EXCLUDED, ABOVE_SURFACE = range(3)
+RECT_UNDECIDED, RECT_EXCLUDED, ABOVE_SURFACE = range(3)
 
 
 @kernel()
 def classify_rectangle(
     rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array
 ) -> int:
-    """Evaluates the bounds of a rectangle up to ``limit``: UNDECIDED, EXCLUDED or, all the time, ABOVE_SURFACE."""
+    """The class of a rectangle up to ``limit``: RECT_UNDECIDED, RECT_EXCLUDED or, all the time, ABOVE_SURFACE."""
     is_turn = motion[M_KIND] != 0.0
     theta = rect[R_THETA]
     z = rect[R_Z]
@@ -96,7 +96,7 @@ def classify_rectangle(
     fastest = bounds[B_LIPSCHITZ] * v
     hx0, hy0, hz0 = -r_b * sine, r_b * cosine, k
     zx0, zy0, zz0 = slope_b * cosine, slope_b * sine, 1.0
-    for _ in range(MAX_STEPS):
+    for _ in range(MAX_RECTANGLE_STEPS):
         x, y, zz = position(path, tau, is_turn)
         value, gx, gy, gz = phi_and_gradient(x, y, zz, nut, 1.0)
         hx, hy, hzz = turn_vector(hx0, hy0, hz0, motion, tau)
@@ -114,7 +114,7 @@ def classify_rectangle(
         s_t0 = abs(vz - k * (x * vy - y * vx) / r2)
         transverse_speed0 = math.sqrt(vx * vx + vy * vy)
         span = 0.0
-        outcome = UNDECIDED
+        outcome = RECT_UNDECIDED
         for attempt in range(4):
             # First the instant tau, then spans of time: all that is left, an eighth of it, a sixty-fourth.
             if attempt > 0:
@@ -146,12 +146,12 @@ def classify_rectangle(
                     clearance = value - below
                     rate = -rate
                 if clearance > 0.0:
-                    outcome = EXCLUDED
+                    outcome = RECT_EXCLUDED
                 continue
             turning = bounds[B_LIPSCHITZ] if is_turn else 0.0
             phi_ht = f2 * s_t * s_h + curvature_factor * transverse_speed * c1 + turning * c1
             phi_zt = f2 * s_t * s_z + (curvature_factor * transverse_speed + turning) * (1.0 + bolt[pk.STEEPEST])
-            if outcome == EXCLUDED:
+            if outcome == RECT_EXCLUDED:
                 phi_tt = f2 * s_t * s_t + curvature_factor * transverse_speed * v + turning * v
                 if (rate + phi_ht * h + phi_zt * hs + 0.5 * phi_tt * span) * span <= clearance:
                     break
@@ -160,13 +160,13 @@ def classify_rectangle(
             ):
                 break
             if attempt == 3:
-                if outcome == UNDECIDED:
-                    return UNDECIDED
+                if outcome == RECT_UNDECIDED:
+                    return RECT_UNDECIDED
                 span = clearance / fastest
         if tau + span >= end:
-            return EXCLUDED
+            return RECT_EXCLUDED
         tau += span
-    return UNDECIDED
+    return RECT_UNDECIDED
 
 
 @kernel()
@@ -198,7 +198,7 @@ def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Arra
     bounds = np.empty(BOUNDS_SIZE)
     path = np.empty(PATH_SIZE)
     placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(JET_SIZE)
+    jet = np.empty(TANGENCY_JET_SIZE)
     set_bounds(motion, bolt, nut, bounds)
     p = bolt[pk.P]
     count = 0
@@ -218,7 +218,7 @@ def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Arra
             evaluated += 1
             if outcome == ABOVE_SURFACE:
                 break
-            if outcome == UNDECIDED:
+            if outcome == RECT_UNDECIDED:
                 depth += 1
             low = high
             high = min(2.0 * high, p)
@@ -239,7 +239,7 @@ def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Arra
                 r[R_HALF_Z] = 0.5 * parent[R_HALF_Z]
                 r[R_Z] = parent[R_Z] + side * r[R_HALF_Z]
             evaluated += 1
-            if classify_rectangle(r, best, motion, bolt, nut, bounds, path) != UNDECIDED:
+            if classify_rectangle(r, best, motion, bolt, nut, bounds, path) != RECT_UNDECIDED:
                 continue
             if r[R_HALF_THETA] < NEWTON_HALF_THETA:
                 tau = touch_time(r, limit, motion, bolt, nut, bounds, path)

@@ -21,7 +21,7 @@ from threadstate.contact import _onset_kernel as onset
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._double_double_kernel import (
-    TWO_PI,
+    WIDE_TWO_PI,
     Pair,
     add,
     azimuth,
@@ -220,7 +220,7 @@ def set_moved(pose: Array, is_turn: bool, point: Array, axis: Array, time: Pair,
 @kernel()
 def advance(profile: Array) -> Pair:
     """The lead per radian."""
-    return divide((profile[pk.LEAD], 0.0), TWO_PI)
+    return divide((profile[pk.LEAD], 0.0), WIDE_TWO_PI)
 
 
 @kernel()
@@ -333,9 +333,9 @@ def set_thread_residuals(
     x = plus(rotated(pose, at), vector_at(pose, 9))
     set_vector(refined, F_POINT, x)
     gap, r, slope = clearance(x, nut)
-    jet[tk.J_PHI] = gap[0]
-    jet[tk.J_A] = clearance_slope(x, rotated(pose, along), r, slope, k)[0]
-    jet[tk.J_B] = clearance_slope(x, rotated(pose, up), r, slope, k)[0]
+    jet[tk.TJ_PHI] = gap[0]
+    jet[tk.TJ_A] = clearance_slope(x, rotated(pose, along), r, slope, k)[0]
+    jet[tk.TJ_B] = clearance_slope(x, rotated(pose, up), r, slope, k)[0]
 
 
 @kernel()
@@ -404,7 +404,7 @@ def refine_thread(
     refined: Array,
 ) -> bool:
     """The same where thread meets thread."""
-    placement, jet = np.empty(tk.PLACEMENT_SIZE), np.empty(tk.JET_SIZE)
+    placement, jet = np.empty(tk.PLACEMENT_SIZE), np.empty(tk.TANGENCY_JET_SIZE)
     unit = motion_scale(motion, bolt)
     theta, z, time = entry(refined, F_THETA), entry(refined, F_AXIAL), entry(refined, F_TIME)
     start, from_z, since = theta[0], z[0], time[0]

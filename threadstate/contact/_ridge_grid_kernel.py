@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import profile_numbers, radius_and_slope
+from threadstate.contact._branchless_kernel import VECTOR_WIDTH, profile_numbers, radius_and_slope
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._slope_kernel import placement_numbers, slopes
 from threadstate.contact._tangency_kernel import PLACEMENT_OFF, PLACEMENT_ROT
@@ -21,8 +21,6 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-VECTOR_WIDTH = 8
-"""Columns are processed in groups of this size."""
 MAX_AZIMUTHS = 64
 MAX_PIECES = 16
 BLOCK_SIZE = 2 * MAX_AZIMUTHS + VECTOR_WIDTH
@@ -45,20 +43,20 @@ MAX_CROSSINGS = MAX_RIDGES * (MAX_AZIMUTHS + 1) + BATCH
 
 # Where ridges cross azimuths: a block for each of theta, its cosine and sine, the column, z and the slope A there; then
 # the z between which it lies with the slopes B (reduced where an end was retained), the side of the last step, and phi.
-C_THETA = 0
-C_COS = MAX_CROSSINGS
-C_SIN = 2 * MAX_CROSSINGS
-C_COLUMN = 3 * MAX_CROSSINGS
-C_Z = 4 * MAX_CROSSINGS
-C_A = 5 * MAX_CROSSINGS
-C_LOW = 6 * MAX_CROSSINGS
-C_HIGH = 7 * MAX_CROSSINGS
-C_B_LOW = 8 * MAX_CROSSINGS
-C_B_HIGH = 9 * MAX_CROSSINGS
-C_SIDE = 10 * MAX_CROSSINGS
-C_PHI = 11 * MAX_CROSSINGS
+CR_THETA = 0
+CR_COS = MAX_CROSSINGS
+CR_SIN = 2 * MAX_CROSSINGS
+CR_COLUMN = 3 * MAX_CROSSINGS
+CR_Z = 4 * MAX_CROSSINGS
+CR_A = 5 * MAX_CROSSINGS
+CR_LOW = 6 * MAX_CROSSINGS
+CR_HIGH = 7 * MAX_CROSSINGS
+CR_B_LOW = 8 * MAX_CROSSINGS
+CR_B_HIGH = 9 * MAX_CROSSINGS
+CR_SIDE = 10 * MAX_CROSSINGS
+CR_PHI = 11 * MAX_CROSSINGS
 CROSSINGS_SIZE = 12 * MAX_CROSSINGS
-MAX_STEPS = 16
+MAX_CROSSING_STEPS = 16
 CROSSING_TOLERANCE = 1e-4
 """A crossing is located to this part of a pitch, or until B is less than ``SLOPE_TOLERANCE`` there."""
 SLOPE_TOLERANCE = 1e-6
@@ -142,15 +140,15 @@ def list_crossings(first: int, columns: int, pieces: int, azimuths: int, grid: A
             b_low = grid[G_B + m * BLOCK_SIZE + j]
             b_high = grid[G_B + (m + 1) * BLOCK_SIZE + j]
             if b_low > 0.0 and b_high < 0.0:
-                crossings[C_THETA + count] = TWO_PI * j / azimuths
-                crossings[C_COS + count] = grid[G_COS + j]
-                crossings[C_SIN + count] = grid[G_SIN + j]
-                crossings[C_COLUMN + count] = j
-                crossings[C_LOW + count] = top * m / pieces
-                crossings[C_HIGH + count] = top * (m + 1) / pieces
-                crossings[C_B_LOW + count] = b_low
-                crossings[C_B_HIGH + count] = b_high
-                crossings[C_SIDE + count] = 0.0
+                crossings[CR_THETA + count] = TWO_PI * j / azimuths
+                crossings[CR_COS + count] = grid[G_COS + j]
+                crossings[CR_SIN + count] = grid[G_SIN + j]
+                crossings[CR_COLUMN + count] = j
+                crossings[CR_LOW + count] = top * m / pieces
+                crossings[CR_HIGH + count] = top * (m + 1) / pieces
+                crossings[CR_B_LOW + count] = b_low
+                crossings[CR_B_HIGH + count] = b_high
+                crossings[CR_SIDE + count] = 0.0
                 count += 1
                 ridge += 1
                 if ridge == MAX_RIDGES:
@@ -174,35 +172,35 @@ def locate_crossings(count: int, placement: Array, bolt: Array, nut: Array, cros
     narrow = CROSSING_TOLERANCE * bolt[pk.P]
     for first in range(0, count, BATCH):
         batch = crossings[first:]
-        for _ in range(MAX_STEPS):
+        for _ in range(MAX_CROSSING_STEPS):
             unconverged = 0
             for j in range(BATCH):
-                low = batch[C_LOW + j]
-                high = batch[C_HIGH + j]
-                b_low = batch[C_B_LOW + j]
-                b_high = batch[C_B_HIGH + j]
-                side = batch[C_SIDE + j]
+                low = batch[CR_LOW + j]
+                high = batch[CR_HIGH + j]
+                b_low = batch[CR_B_LOW + j]
+                b_high = batch[CR_B_HIGH + j]
+                side = batch[CR_SIDE + j]
                 z = (low * b_high - high * b_low) / (b_high - b_low)
-                r, slope, _, _ = radius_and_slope(z - k * batch[C_THETA + j], bolt_numbers)
-                cos = batch[C_COS + j]
-                sin = batch[C_SIN + j]
+                r, slope, _, _ = radius_and_slope(z - k * batch[CR_THETA + j], bolt_numbers)
+                cos = batch[CR_COS + j]
+                sin = batch[CR_SIN + j]
                 phi, a, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, placement_values, nut_numbers)
                 up = b > 0.0
                 factor = 1.0 - b / (b_low if up else b_high)
                 factor = factor if factor > 0.0 else 0.5
                 # Where a slope was exactly zero the next one is divided by it.
                 factor = factor if factor <= 1.0 else 0.5
-                batch[C_Z + j] = z
-                batch[C_A + j] = a
-                batch[C_PHI + j] = phi
-                batch[C_LOW + j] = z if up else low
-                batch[C_HIGH + j] = high if up else z
+                batch[CR_Z + j] = z
+                batch[CR_A + j] = a
+                batch[CR_PHI + j] = phi
+                batch[CR_LOW + j] = z if up else low
+                batch[CR_HIGH + j] = high if up else z
                 reduced_low = factor * b_low if side > 0.0 else b_low
                 reduced_high = factor * b_high if side < 0.0 else b_high
-                batch[C_B_LOW + j] = b if up else reduced_low
-                batch[C_B_HIGH + j] = reduced_high if up else b
-                batch[C_SIDE + j] = -1.0 if up else 1.0
-                wide = batch[C_HIGH + j] - batch[C_LOW + j] > narrow
+                batch[CR_B_LOW + j] = b if up else reduced_low
+                batch[CR_B_HIGH + j] = reduced_high if up else b
+                batch[CR_SIDE + j] = -1.0 if up else 1.0
+                wide = batch[CR_HIGH + j] - batch[CR_LOW + j] > narrow
                 unconverged += 1 if wide and abs(b) > SLOPE_TOLERANCE else 0
             if unconverged == 0:
                 break
@@ -221,12 +219,12 @@ def list_maxima(
     places = 0
     before = 0
     before_end = 0
-    column = crossings[C_COLUMN]
+    column = crossings[CR_COLUMN]
     while before < count:
         # The crossings of one column, from ``before`` on, and of the next, from ``after`` on.
         after = before_end
         after_end = after
-        while after_end < count and crossings[C_COLUMN + after_end] == column:
+        while after_end < count and crossings[CR_COLUMN + after_end] == column:
             after_end += 1
         column += 1.0
         while before < before_end or after < after_end:
@@ -234,25 +232,25 @@ def list_maxima(
             is_after = after < after_end
             i, j = before, after
             if is_before and is_after:
-                z_excess = crossings[C_Z + j] - crossings[C_Z + i] - advance
-                rise = abs(crossings[C_PHI + j] - crossings[C_PHI + i])
-                slope = 0.5 * (abs(crossings[C_A + i]) + abs(crossings[C_A + j]))
+                z_excess = crossings[CR_Z + j] - crossings[CR_Z + i] - advance
+                rise = abs(crossings[CR_PHI + j] - crossings[CR_PHI + i])
+                slope = 0.5 * (abs(crossings[CR_A + i]) + abs(crossings[CR_A + j]))
                 z_gap = max_z_gap if rise < max_phi_gap + slope * step else 0.0
                 is_before = z_excess > -z_gap or (z_gap == 0.0 and z_excess == 0.0)
                 is_after = z_excess < z_gap
             before += 1 if is_before else 0
             after += 1 if is_after else 0
-            if (is_before and not crossings[C_A + i] > 0.0) or (is_after and not crossings[C_A + j] < 0.0):
+            if (is_before and not crossings[CR_A + i] > 0.0) or (is_after and not crossings[CR_A + j] < 0.0):
                 continue
             w = 1.0 if is_after else 0.0
             if is_before and is_after:
-                w = crossings[C_A + i] / (crossings[C_A + i] - crossings[C_A + j])
+                w = crossings[CR_A + i] / (crossings[CR_A + i] - crossings[CR_A + j])
             if not is_before:
                 i = j
             if not is_after:
                 j = i
-            maxima[places, 0] = crossings[C_THETA + i] + w * (crossings[C_THETA + j] - crossings[C_THETA + i])
-            maxima[places, 1] = crossings[C_Z + i] + w * (crossings[C_Z + j] - crossings[C_Z + i])
+            maxima[places, 0] = crossings[CR_THETA + i] + w * (crossings[CR_THETA + j] - crossings[CR_THETA + i])
+            maxima[places, 1] = crossings[CR_Z + i] + w * (crossings[CR_Z + j] - crossings[CR_Z + i])
             places += 1
         before = before_end
         before_end = after_end

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._branchless_kernel import VECTOR_WIDTH
 from threadstate.contact._corner_kernel import deepest_corner_point
 from threadstate.contact._crest_crossing_kernel import CRESTS_ARRAY_SIZE, MAX_SEEDS, crest_crossings, set_crests
 from threadstate.contact._edge_search_kernel import E_THETA, E_TIME, E_Z
@@ -22,7 +23,6 @@ from threadstate.contact._ridge_grid_kernel import (
     GRID_SIZE,
     MAX_CROSSINGS,
     MAX_PIECES,
-    VECTOR_WIDTH,
     list_crossings,
     list_maxima,
     locate_crossings,
@@ -31,21 +31,21 @@ from threadstate.contact._ridge_grid_kernel import (
     set_tops,
 )
 from threadstate.contact._tangency_kernel import (
-    J_A,
-    J_B,
-    J_PHI,
-    J_RATE,
-    J_UT,
-    J_UU,
-    J_UZ,
-    J_Z,
-    J_ZT,
-    J_ZZ,
-    JET_SIZE,
     PLACEMENT_OFF,
     PLACEMENT_ROT,
     PLACEMENT_SIZE,
     T_TIME,
+    TANGENCY_JET_SIZE,
+    TJ_A,
+    TJ_B,
+    TJ_PHI,
+    TJ_RATE,
+    TJ_UT,
+    TJ_UU,
+    TJ_UZ,
+    TJ_Z,
+    TJ_ZT,
+    TJ_ZZ,
     newton_tangency,
     set_jet,
     set_placement,
@@ -92,7 +92,7 @@ FIRST_PART_OF_WINDOW = 4.0**-9
 """The part of the window about a point of a ridge in which the ridge is looked for first."""
 NARROW_AZIMUTHS = 1e-11
 """A maximum is bracketed to this width (rad)."""
-SETTLED, SETTLED_FILLET, LEAST_SETTLED = 1e-4, 0.05, 1e-7
+SETTLED_STEP, SETTLED_FILLET, LEAST_SETTLED = 1e-4, 0.05, 1e-7
 """The size of Newton's last step towards a maximum: in radians and in thread pitches, and the part of the least fillet
 if that is less, down to a number of radians that round-off on a sharp corner allows."""
 AXIAL_SAMPLES = 24
@@ -118,20 +118,20 @@ def nearby_maximum(
     k = bolt[pk.LEAD] / TWO_PI
     p = bolt[pk.P]
     fillet = SETTLED_FILLET * min(bolt[pk.RHO_MINOR], bolt[pk.RHO_MAJOR], nut[pk.RHO_MINOR], nut[pk.RHO_MAJOR])
-    settled_z = min(SETTLED * p, fillet)
-    settled_theta = max(min(SETTLED, fillet / p), LEAST_SETTLED)
+    settled_z = min(SETTLED_STEP * p, fillet)
+    settled_theta = max(min(SETTLED_STEP, fillet / p), LEAST_SETTLED)
     ascent_steps = 0
     set_jet(theta, z, placement, bolt, nut, jet)
     for _ in range(20):
-        a, b = jet[J_A], jet[J_B]
-        uu, uz, zz = jet[J_UU], jet[J_UZ], jet[J_ZZ]
+        a, b = jet[TJ_A], jet[TJ_B]
+        uu, uz, zz = jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
         det = uu * zz - uz * uz
         if zz < 0.0 and det > 0.0:
             du = min(max((uz * b - zz * a) / det, -0.1), 0.1)
             dz = (uz * a - uu * b) / det
         else:
             ascent_steps += 1
-            if ascent_steps > MAX_ASCENT_STEPS or abs(jet[J_PHI]) >= time_range * jet[J_RATE]:
+            if ascent_steps > MAX_ASCENT_STEPS or abs(jet[TJ_PHI]) >= time_range * jet[TJ_RATE]:
                 return theta, z, False
             if zz < 0.0:
                 du = ASCENT_STEP if a * zz < uz * b else -ASCENT_STEP
@@ -160,9 +160,9 @@ def ridge_point(
     w = window * FIRST_PART_OF_WINDOW
     while True:
         set_jet(theta, z - w, placement, bolt, nut, jet)
-        if jet[J_B] > 0.0:
+        if jet[TJ_B] > 0.0:
             set_jet(theta, z + w, placement, bolt, nut, jet)
-            if jet[J_B] < 0.0:
+            if jet[TJ_B] < 0.0:
                 break
         if w >= window:
             return z, False
@@ -171,9 +171,9 @@ def ridge_point(
     while True:
         middle = 0.5 * (low + high)
         set_jet(theta, middle, placement, bolt, nut, jet)
-        if not low < middle < high or jet[J_B] == 0.0:
+        if not low < middle < high or jet[TJ_B] == 0.0:
             return middle, True
-        if jet[J_B] > 0.0:
+        if jet[TJ_B] > 0.0:
             low = middle
         else:
             high = middle
@@ -193,17 +193,17 @@ def bracketed_maximum(
     z, found = ridge_point(theta, z, window, placement, bolt, nut, jet)
     if not found:
         return theta, z, False
-    uphill = math.copysign(step, jet[J_A])
+    uphill = math.copysign(step, jet[TJ_A])
     after, z_after = theta, z
     for _ in range(MAX_RIDGE_STEPS):
         after, z_after = theta + uphill, z + k * uphill
         z_after, found = ridge_point(after, z_after, window, placement, bolt, nut, jet)
         if not found:
             return theta, z, False
-        if not jet[J_A] * uphill > 0.0:
+        if not jet[TJ_A] * uphill > 0.0:
             break
         theta, z = after, z_after
-    if jet[J_A] * uphill > 0.0:
+    if jet[TJ_A] * uphill > 0.0:
         return theta, z, False
     while True:
         middle = 0.5 * (theta + after)
@@ -212,7 +212,7 @@ def bracketed_maximum(
             return middle, z_middle, False
         if abs(after - theta) < NARROW_AZIMUTHS:
             return middle, z_middle, True
-        if jet[J_A] * uphill > 0.0:
+        if jet[TJ_A] * uphill > 0.0:
             theta, z = middle, z_middle
         else:
             after, z_after = middle, z_middle
@@ -251,15 +251,15 @@ def follow_maximum(
         theta, z, converged = nearby_maximum(
             theta, z, 2.0 * FOLLOW_RANGE * step, placement if i == 0 else later_placement, bolt, nut, jet
         )
-        if not converged and abs(jet[J_PHI]) < 2.0 * FOLLOW_RANGE * step * jet[J_RATE]:
+        if not converged and abs(jet[TJ_PHI]) < 2.0 * FOLLOW_RANGE * step * jet[TJ_RATE]:
             ridge_step = FIRST_RIDGE_STEP if i == 0 else LATER_RIDGE_STEP
             window = (FIRST_WINDOW if i == 0 else LATER_WINDOW) * p
             theta, z, converged = bracketed_maximum(
                 start_theta, start_z, ridge_step, window, placement if i == 0 else later_placement, bolt, nut, jet
             )
-        if not converged or z < -0.05 * p or jet[J_Z] > 0.05 * p or jet[J_RATE] <= 0.0:
+        if not converged or z < -0.05 * p or jet[TJ_Z] > 0.05 * p or jet[TJ_RATE] <= 0.0:
             return count
-        move = -jet[J_PHI] / jet[J_RATE]
+        move = -jet[TJ_PHI] / jet[TJ_RATE]
         if abs(tau + move - start) > FOLLOW_RANGE * step:
             return count
         if abs(move) < 1e-6 * step:
@@ -272,9 +272,9 @@ def follow_maximum(
         if tau <= 0.0 or tau > limit + farthest:
             return count
         # The maximum moves along with time such that A and B stay zero.
-        det = jet[J_UU] * jet[J_ZZ] - jet[J_UZ] * jet[J_UZ]
-        du = move * (jet[J_UZ] * jet[J_ZT] - jet[J_ZZ] * jet[J_UT]) / det
-        dz = move * (jet[J_UZ] * jet[J_UT] - jet[J_UU] * jet[J_ZT]) / det
+        det = jet[TJ_UU] * jet[TJ_ZZ] - jet[TJ_UZ] * jet[TJ_UZ]
+        du = move * (jet[TJ_UZ] * jet[TJ_ZT] - jet[TJ_ZZ] * jet[TJ_UT]) / det
+        dz = move * (jet[TJ_UZ] * jet[TJ_UT] - jet[TJ_UU] * jet[TJ_ZT]) / det
         theta += du
         z += k * du + dz
     return count
@@ -341,7 +341,7 @@ def deepest_thread_point(
     """
     grid = np.empty(GRID_SIZE)
     placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(JET_SIZE)
+    jet = np.empty(TANGENCY_JET_SIZE)
     crossings = np.empty(CROSSINGS_SIZE)
     maxima = np.empty((MAX_CROSSINGS, 2))
     set_columns(azimuths, bolt, grid)
@@ -352,13 +352,13 @@ def deepest_thread_point(
         for j in range(AXIAL_SAMPLES + 1):
             theta, z = math.pi * i / azimuths, p * j / AXIAL_SAMPLES
             set_jet(theta, z, placement, bolt, nut, jet)
-            depth = min(jet[J_PHI], -jet[J_Z], p + jet[J_Z])
+            depth = min(jet[TJ_PHI], -jet[TJ_Z], p + jet[TJ_Z])
             if depth > deepest:
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
         for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
             theta, z, converged = nearby_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
-            depth = min(jet[J_PHI], -jet[J_Z], p + jet[J_Z])
+            depth = min(jet[TJ_PHI], -jet[TJ_Z], p + jet[TJ_Z])
             if converged and depth > deepest and 0.0 <= z <= p:
                 deepest, at_theta, at_z = depth, theta, z
     if deepest == shallow:
@@ -423,7 +423,7 @@ def contacts_at_crossings(
 ) -> int:
     """Adds the contacts that crossings of crests lead to at so many equally spaced instants, the last at ``end``."""
     placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(JET_SIZE)
+    jet = np.empty(TANGENCY_JET_SIZE)
     later_placement = np.empty(PLACEMENT_SIZE)
     seeds = np.empty((MAX_SEEDS, 2))
     crests = np.zeros(CRESTS_ARRAY_SIZE)
@@ -435,7 +435,7 @@ def contacts_at_crossings(
         for j in range(crest_crossings(placement, bolt, nut, crests, seeds)):
             theta, z = seeds[j, 0], seeds[j, 1]
             set_jet(theta, z, placement, bolt, nut, jet)
-            if abs(jet[J_PHI]) < near + soon * abs(jet[J_RATE]):
+            if abs(jet[TJ_PHI]) < near + soon * abs(jet[TJ_RATE]):
                 count = follow_maximum(
                     theta, z, tau, limit, motion, bolt, nut, placement, later_placement, jet, found, count
                 )
@@ -457,7 +457,7 @@ def contacts_at_instants(
     """Adds the contacts that maxima lead to at so many equally spaced instants, the last at ``end``."""
     grid = np.empty(GRID_SIZE)
     placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(JET_SIZE)
+    jet = np.empty(TANGENCY_JET_SIZE)
     later_placement = np.empty(PLACEMENT_SIZE)
     crossings = np.empty(CROSSINGS_SIZE)
     maxima = np.empty((MAX_CROSSINGS, 2))
@@ -484,7 +484,7 @@ def contacts_behind_entries(
     """
     placement = np.empty(PLACEMENT_SIZE)
     later_placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(JET_SIZE)
+    jet = np.empty(TANGENCY_JET_SIZE)
     for i in range(1, int(entries[0, 0]) + 1):
         tau = entries[i, E_TIME]
         if tau > limit:

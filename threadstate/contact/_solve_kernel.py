@@ -122,7 +122,7 @@ def append_flush_pose(
     rk.append_pose(level, record)
     known = int(record[rk.O_CONTACTS])
     for i in range(count):
-        x, y = extremes[i, fk.F_X], extremes[i, fk.F_Y]
+        x, y = extremes[i, fk.XP_X], extremes[i, fk.XP_Y]
         is_listed = False
         for j in range(known):
             c = rk.O_CONTACT + rk.POINT_SIZE * j + rk.P_POINT
@@ -130,7 +130,7 @@ def append_flush_pose(
                 is_listed = True
         if not is_listed:
             rk.append_flush_point(
-                stage, extremes[i, fk.F_THETA], extremes[i, fk.F_CORNER] > 0.0, x, y, bolt, nut, record
+                stage, extremes[i, fk.XP_THETA], extremes[i, fk.XP_CORNER] > 0.0, x, y, bolt, nut, record
             )
     record[rk.O_FLAGS] = int(record[rk.O_FLAGS]) | rk.FLAG_FLUSH
     return True

@@ -391,7 +391,7 @@ def earliest(
         tangency_count, rectangles_evaluated = rect.tangencies(
             work.bolt_motion, bolt, nut, reach, work.rectangles, tangencies
         )
-        if rectangles_evaluated == rect.OVERFLOW:
+        if rectangles_evaluated == OVERFLOW:
             return 0, UNRESOLVED, best
     count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
     for i in range(tangency_count):

@@ -43,7 +43,7 @@ REACH_THETA = 0.12
 REACH_Z = 0.2
 """The same along the axis, in pitches."""
 
-ROUND_OFF = 4e-15
+PHI_ROUND_OFF = 4e-15
 """Round-off of phi, in thread pitches: where phi changes slowly with time it bounds the last steps from below."""
 
 # The placement of the bolt after a motion: rotation by rows, offset, and its velocity there; that of a point x is
@@ -56,19 +56,19 @@ PLACEMENT_SIZE = 18
 
 # phi at a point of the bolt's thread, its derivatives A (by u), B (by z) and its rate (by tau), the point in the nut's
 # frame, and the second derivatives.
-J_PHI = 0
-J_A = 1
-J_B = 2
-J_RATE = 3
-J_X = 4
-J_Y = 5
-J_Z = 6
-J_UU = 7
-J_UZ = 8
-J_ZZ = 9
-J_UT = 10
-J_ZT = 11
-JET_SIZE = 12
+TJ_PHI = 0
+TJ_A = 1
+TJ_B = 2
+TJ_RATE = 3
+TJ_X = 4
+TJ_Y = 5
+TJ_Z = 6
+TJ_UU = 7
+TJ_UZ = 8
+TJ_ZZ = 9
+TJ_UT = 10
+TJ_ZT = 11
+TANGENCY_JET_SIZE = 12
 
 
 @kernel()
@@ -156,19 +156,19 @@ def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, j
     zs = z_z - k_r * za
     ts = tz - k_r * ta
     twist = f1 * k_r / r
-    jet[J_PHI] = r - f
-    jet[J_A] = ur - f1 * us
-    jet[J_B] = zr - f1 * zs
-    jet[J_RATE] = tr - f1 * ts
-    jet[J_X] = x
-    jet[J_Y] = y
-    jet[J_Z] = zz
+    jet[TJ_PHI] = r - f
+    jet[TJ_A] = ur - f1 * us
+    jet[TJ_B] = zr - f1 * zs
+    jet[TJ_RATE] = tr - f1 * ts
+    jet[TJ_X] = x
+    jet[TJ_Y] = y
+    jet[TJ_Z] = zz
     along_out = gx * outx + gy * outy - f1 * outz
     along_across = gx * acrossx + gy * acrossy - f1 * acrossz
-    jet[J_UU] = ua * ua / r - f2 * us * us - 2.0 * twist * ur * ua - r_b * along_out
-    jet[J_UZ] = ua * za / r - f2 * us * zs - twist * (ur * za + ua * zr) + slope * along_across
-    jet[J_ZZ] = za * za / r - f2 * zs * zs - 2.0 * twist * zr * za + second_derivative * along_out
-    jet[J_UT] = (
+    jet[TJ_UU] = ua * ua / r - f2 * us * us - 2.0 * twist * ur * ua - r_b * along_out
+    jet[TJ_UZ] = ua * za / r - f2 * us * zs - twist * (ur * za + ua * zr) + slope * along_across
+    jet[TJ_ZZ] = za * za / r - f2 * zs * zs - 2.0 * twist * zr * za + second_derivative * along_out
+    jet[TJ_UT] = (
         ua * ta / r
         - f2 * us * ts
         - twist * (ur * ta + ua * tr)
@@ -176,7 +176,7 @@ def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, j
         + gy * (az * ux - ax * uz)
         - f1 * (ax * uy - ay * ux)
     )
-    jet[J_ZT] = (
+    jet[TJ_ZT] = (
         za * ta / r
         - f2 * zs * ts
         - twist * (zr * ta + za * tr)
@@ -189,8 +189,8 @@ def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, j
 @kernel()
 def tangency_step(jet: Array) -> tuple[float, float, float, float]:
     """Newton's step to phi = A = B = 0: the determinant, and the changes of u, z and tau."""
-    phi, a, b, rate = jet[J_PHI], jet[J_A], jet[J_B], jet[J_RATE]
-    uu, uz, zz, ut, zt = jet[J_UU], jet[J_UZ], jet[J_ZZ], jet[J_UT], jet[J_ZT]
+    phi, a, b, rate = jet[TJ_PHI], jet[TJ_A], jet[TJ_B], jet[TJ_RATE]
+    uu, uz, zz, ut, zt = jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ], jet[TJ_UT], jet[TJ_ZT]
     # Cramer's rule: minors of the rows of A and B, and the combinations of A and B with each column.
     minor_u = uz * zt - ut * zz
     minor_z = uu * zt - ut * uz
@@ -232,7 +232,7 @@ def newton_tangency(
     step = motion_scale(motion, bolt)
     # Round-off in the place on a fillet, over its radius, is that of the slopes there.
     fillet = min(bolt[pk.RHO_MINOR], bolt[pk.RHO_MAJOR], nut[pk.RHO_MINOR], nut[pk.RHO_MAJOR])
-    settled = max(1e-8, 2.0 * ROUND_OFF * bolt[pk.P] / fillet)
+    settled = max(1e-8, 2.0 * PHI_ROUND_OFF * bolt[pk.P] / fillet)
     for _ in range(30):
         determinant, du, dz, dt = tangency_step(jet)
         if determinant == 0.0:
@@ -245,7 +245,9 @@ def newton_tangency(
         set_placement(motion, tau, placement)
         set_jet(theta, z, placement, bolt, nut, jet)
         small = abs(du) < 1e-11 and abs(dz) < 1e-11 * bolt[pk.P] and abs(dt) < 1e-14 * (step + abs(tau))
-        if small or (abs(jet[J_PHI]) < ROUND_OFF * bolt[pk.P] and abs(du) < settled and abs(dz) < 1e-8 * bolt[pk.P]):
+        if small or (
+            abs(jet[TJ_PHI]) < PHI_ROUND_OFF * bolt[pk.P] and abs(du) < settled and abs(dz) < 1e-8 * bolt[pk.P]
+        ):
             converged = True
             break
     if not converged or tau <= 0.0 or tau > limit or not is_contact_of_threads(z, jet, bolt):
@@ -256,17 +258,17 @@ def newton_tangency(
 @kernel()
 def is_contact_of_threads(z: float, jet: Array, bolt: Array) -> bool:
     """Whether a tangency is on both parts, one thread pitch long, and a maximum of phi that rises: a contact."""
-    on_both = 0.0 <= z <= bolt[pk.P] and -bolt[pk.P] <= jet[J_Z] <= 0.0
+    on_both = 0.0 <= z <= bolt[pk.P] and -bolt[pk.P] <= jet[TJ_Z] <= 0.0
     # At a maximum the Hessian in (u, z) is negative definite.
-    is_maximum = jet[J_UU] < 0.0 and jet[J_UU] * jet[J_ZZ] - jet[J_UZ] * jet[J_UZ] > 0.0
-    return on_both and jet[J_RATE] > 0.0 and is_maximum
+    is_maximum = jet[TJ_UU] < 0.0 and jet[TJ_UU] * jet[TJ_ZZ] - jet[TJ_UZ] * jet[TJ_UZ] > 0.0
+    return on_both and jet[TJ_RATE] > 0.0 and is_maximum
 
 
 @kernel()
 def insert_tangency(tau: float, theta: float, z: float, jet: Array, bolt: Array, found: Array, count: int) -> int:
     """Inserts a tangency by time unless it is listed; a full list drops the latest. Returns the number listed."""
     for i in range(count):
-        if abs(found[i, T_X] - jet[J_X]) + abs(found[i, T_Y] - jet[J_Y]) < 1e-6 * bolt[pk.P]:
+        if abs(found[i, T_X] - jet[TJ_X]) + abs(found[i, T_Y] - jet[TJ_Y]) < 1e-6 * bolt[pk.P]:
             return count
     i, listed = place_by_time(tau, count, found)
     if i < 0:
@@ -274,7 +276,7 @@ def insert_tangency(tau: float, theta: float, z: float, jet: Array, bolt: Array,
     found[i, T_TIME] = tau
     found[i, T_THETA] = theta
     found[i, T_Z] = z
-    found[i, T_X] = jet[J_X]
-    found[i, T_Y] = jet[J_Y]
-    found[i, T_POINT_Z] = jet[J_Z]
+    found[i, T_X] = jet[TJ_X]
+    found[i, T_Y] = jet[TJ_Y]
+    found[i, T_POINT_Z] = jet[TJ_Z]
     return listed

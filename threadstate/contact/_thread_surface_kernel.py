@@ -30,11 +30,11 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-# The lowest point of one turn of the thread: whether there is one (NONE, or AT_FLANK where the flank beside the fillet
-# goes on down, or LOWEST), azimuth and axial position on the bolt's thread, and height over the nut's surface.
+# The lowest point of one turn of the thread: whether there is one (NO_POINT, or AT_FLANK where the flank beside the
+# fillet goes on down, or LOWEST), azimuth and axial position on the bolt's thread, and height over the nut's surface.
 L_KIND, L_THETA, L_Z, L_HEIGHT = range(4)
 LOWEST_SIZE = 4
-NONE, AT_FLANK, LOWEST = range(3)
+NO_POINT, AT_FLANK, LOWEST = range(3)
 
 LEAST_STEP = 1e-6
 """Shortest step of a motion (in units of ``motion_scale``): a touch that lasts less long is not found. Its depth is at
@@ -69,7 +69,7 @@ def set_lowest(turn: float, near: float, placement: Array, bolt: Array, lowest: 
     k = bolt[pk.LEAD] / TWO_PI
     across = math.hypot(nx, ny)
     rho = bolt[pk.RHO_MAJOR]
-    lowest[L_KIND] = NONE
+    lowest[L_KIND] = NO_POINT
     f, u, sine, cosine, beta = bolt[pk.R_MAJOR], bolt[pk.U_TOP], 0.0, 1.0, 0.0
     for _ in range(MAX_RADIUS_STEPS):
         if not abs(nz * k) < across * f:
@@ -86,7 +86,7 @@ def set_lowest(turn: float, near: float, placement: Array, bolt: Array, lowest: 
             break
     # Elsewhere the height has a saddle there: its second derivatives are f and 1 / f'', and f' tan(psi) mixed.
     if not f * cosine * cosine > rho * math.cos(beta) * (math.sin(beta) * sine) ** 2:
-        lowest[L_KIND] = NONE
+        lowest[L_KIND] = NO_POINT
         return
     down = math.atan2(-ny, -nx) - near
     theta = near + down - TWO_PI * math.floor(down / TWO_PI + 0.5) + math.atan2(sine, cosine)
@@ -187,7 +187,7 @@ def follow_turn(
         set_placement(motion, tau, placement)
         set_lowest(turn, near, placement, bolt, lowest)
         step = least_step
-        if lowest[L_KIND] == NONE:
+        if lowest[L_KIND] == NO_POINT:
             is_above = False
             if not is_turn:
                 return count

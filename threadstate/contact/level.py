@@ -15,11 +15,10 @@ import numpy as np
 
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
+from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._stage_kernel import FLUSH, rotation
 from threadstate.thread.pair import Pair
 from threadstate.thread.play import axial_limits
-
-TWO_PI = 2.0 * math.pi
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ from threadstate.contact._stage_kernel import (
     Work,
     set_motions,
 )
-from threadstate.contact._tangency_kernel import J_PHI, J_Z, JET_SIZE, PLACEMENT_SIZE
+from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, TANGENCY_JET_SIZE, TJ_PHI, TJ_Z
 from threadstate.device._gap_kernel import G_PAIR, G_POINT, G_THETA
 from threadstate.device._places_kernel import MAX_PITCHES, MAX_PLACES, thread_maximum
 from threadstate.thread import _profile_kernel as pk
@@ -108,11 +108,11 @@ def ridge_is_inside(pose: Array, limit: float, bolt: Array, nut: Array) -> bool:
     crossings = np.empty(CROSSINGS_SIZE)
     maxima = np.empty((MAX_CROSSINGS, 2))
     placement = np.zeros(PLACEMENT_SIZE)
-    jet = np.empty(JET_SIZE)
+    jet = np.empty(TANGENCY_JET_SIZE)
     copy_numbers(pose, placement[0:12])
     set_columns(FINE_AZIMUTHS, bolt, grid)
     for j in range(ridge_maxima(FINE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
         _, z, _ = thread_maximum(maxima[j, 0], maxima[j, 1], placement, bolt, nut, jet)
-        if min(jet[J_PHI], -jet[J_Z], z) > limit:
+        if min(jet[TJ_PHI], -jet[TJ_Z], z) > limit:
             return True
     return False

@@ -38,8 +38,17 @@ from threadstate.contact._stage_kernel import (
     THREAD_EDGE,
     THREAD_THREAD,
 )
-from threadstate.contact._tangency_kernel import J_A, J_B, J_PHI, J_UU, J_UZ, J_Z, J_ZZ, PLACEMENT_SIZE
-from threadstate.contact._tangency_kernel import JET_SIZE as THREAD_JET_SIZE
+from threadstate.contact._tangency_kernel import (
+    PLACEMENT_SIZE,
+    TANGENCY_JET_SIZE,
+    TJ_A,
+    TJ_B,
+    TJ_PHI,
+    TJ_UU,
+    TJ_UZ,
+    TJ_Z,
+    TJ_ZZ,
+)
 from threadstate.contact._tangency_kernel import set_jet as set_thread_jet
 from threadstate.device._chart_kernel import D_FINE, N_OFFSET, N_ROTATION
 from threadstate.device._gap_kernel import (
@@ -111,7 +120,7 @@ def new_threads(bolt: Array) -> Threads:
         np.empty(CROSSINGS_SIZE),
         np.empty((MAX_CROSSINGS, 2)),
         np.zeros(PLACEMENT_SIZE),
-        np.empty(THREAD_JET_SIZE),
+        np.empty(TANGENCY_JET_SIZE),
         samples,
     )
 
@@ -336,7 +345,7 @@ def add_threads(
             theta, inward = math.atan2(y, x), -1.0
         if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
             set_thread_jet(theta, z, placement, bolt, nut, jet)
-            if inward * jet[J_B] > 0.0:
+            if inward * jet[TJ_B] > 0.0:
                 count = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
     return count
 
@@ -368,10 +377,10 @@ def add_thread(
     """
     placement, jet = threads[3], threads[4]
     theta, z, converged = thread_maximum(theta, z, placement, bolt, nut, jet)
-    if not converged or jet[J_PHI] < -reach or base + z <= 0.0 or jet[J_Z] >= 0.0:
+    if not converged or jet[TJ_PHI] < -reach or base + z <= 0.0 or jet[TJ_Z] >= 0.0:
         return count
     theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
-    if converged and jet[J_PHI] >= -reach and base + z > 0.0 and jet[J_Z] < 0.0:
+    if converged and jet[TJ_PHI] >= -reach and base + z > 0.0 and jet[TJ_Z] < 0.0:
         return add_place(THREAD_THREAD, theta, base + z, place, device, bolt, nut, work, count, places)
     return count
 
@@ -402,7 +411,7 @@ def polished_maximum(
     from_theta, from_z = theta, z
     for _ in range(8):
         set_thread_jet(theta, z, placement, bolt, nut, jet)
-        a, b, uu, uz, zz = jet[J_A], jet[J_B], jet[J_UU], jet[J_UZ], jet[J_ZZ]
+        a, b, uu, uz, zz = jet[TJ_A], jet[TJ_B], jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
         determinant = uu * zz - uz * uz
         if not (zz < 0.0 and determinant > 0.0):
             return theta, z, False

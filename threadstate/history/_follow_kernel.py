@@ -131,7 +131,7 @@ def new_work() -> Work:
         np.empty(JET_SIZE),
         np.empty(9),
         np.empty(tk.PLACEMENT_SIZE),
-        np.empty(tk.JET_SIZE),
+        np.empty(tk.TANGENCY_JET_SIZE),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
     )
 
