@@ -72,9 +72,9 @@ def parts(force: tuple[float, float, float], normal: tuple[float, float, float])
     return along, np.array(force) - along * np.array(normal)
 
 
-def test_the_snap_is_where_it_is_without_friction(course: Course) -> None:
-    """The contact that sticks on the surface until then delays it by less than 0.1 deg."""
-    assert math.degrees(course.legs[0].points[-1, fk.P_PHASE]) == pytest.approx(357.67, abs=0.1)
+def test_the_snap_comes_a_little_later_than_without_friction(course: Course) -> None:
+    """The friction of the contact on the surface delays it by 0.2 deg."""
+    assert math.degrees(course.legs[0].points[-1, fk.P_PHASE]) - 357.67 == pytest.approx(0.19, abs=0.02)
     assert course.path.is_free()
 
 
@@ -183,6 +183,12 @@ def test_bad_frictions_are_refused(mu: float) -> None:
         settle_pose(UNC, 0.0, -4.0, 300.0, mu=mu)
     with pytest.raises(InvalidValueError, match="mu is"):
         assemble_pose(UNC, 0.0, -4.0, 300.0, mu=mu)
+
+
+@pytest.mark.parametrize("step", [0.0, 0.2, 3.0, math.nan])
+def test_bad_longest_steps_are_refused(step: float) -> None:
+    with pytest.raises(InvalidValueError, match=r"longest_step is .*; valid: 0.25 to 2 deg"):
+        assemble_pose(UNC, 0.0, -4.0, 300.0, longest_step=step)
 
 
 def test_equations_of_a_step_are_solved_by_elimination() -> None:

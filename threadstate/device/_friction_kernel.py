@@ -29,6 +29,7 @@ from threadstate.device._chart_kernel import (
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_VALUE, GAP_SIZE
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
+    K_AXIS,
     K_FORCE,
     K_MODE,
     K_NORMAL,
@@ -42,10 +43,12 @@ from threadstate.device._modes_kernel import (
     SOLVED,
     STICKS,
     ModesWork,
-    is_consistent,
+    cones_hold,
     new_modes_work,
+    overlaps_beside,
     set_velocities,
     solve_mode,
+    tangent,
 )
 from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, Threads, find_places, new_threads
 from threadstate.device._quadratic_kernel import SOLVED as PROGRAM_SOLVED
@@ -75,10 +78,13 @@ from threadstate.device._strip_kernel import (
 from threadstate.device._strip_kernel import CONTACT_SIZE as STRIP_CONTACT_SIZE
 from threadstate.device._strip_kernel import MAX_CONTACTS as STRIP_CONTACTS
 from threadstate.device._turn_kernel import (
+    ABOVE,
     BELOW_TOP,
     DEGREE,
+    EVENT_WIDTH,
     LOADED,
     M_ABOUT_BOLT,
+    M_LONGEST,
     M_PUSH,
     M_TILT,
     SNAP_FALL,
@@ -106,16 +112,21 @@ STEP_REACH = 2e-2
 
 LONGEST_TURN, LONGEST_PUSH = 1.0 * DEGREE, 1.0 / 16.0
 FIRST_PART, LEAST_PART = 0.25, 1.0 / 256.0
-"""The longest steps of phase (rad) and of push (parts of its whole); the first and the shortest over the longest."""
+"""The longest steps of phase (rad) and of push (parts of its whole) where no others are asked for; the first and the
+shortest over the longest."""
 
-EDGES = 48
-"""Edges of the pyramid inside a friction cone by which a bolt at rest is tested."""
+EDGES, MORE_EDGES = 12, 60
+"""Edges of the pyramid inside a friction cone with which the test of a bolt at rest begins, and how many are added, one
+at a time, where it takes more."""
+
+BEYOND = 1e-8
+"""By how much a velocity may be outside the cones' polar, over its size, where no edge is added."""
 
 LAID = 3e-3
 """How near (nominal radii) to the level pose on a strip a bolt is laid there: along the strip a step takes it half as
 far."""
 
-MAX_POINTS = 1500
+MAX_POINTS = 2500
 
 ENERGY_STEP = 2e-5
 """Potential, over push times nominal radius, that a step may leave unexplained: more is a fall."""
@@ -223,66 +234,126 @@ def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Arra
 def rests(q: Array, push: float, mu: float, count: int, contacts: Array, device: Array) -> bool:
     """Whether forces within the contacts' cones balance device and push where the bolt is; sets them.
 
-    The cones are taken from inside, as pyramids.
+    The cones are approached from inside, by pyramids that gain the edges on which the bolt would begin to move.
     """
     n = free_coordinates(device)
+    r = device[D_SCALE]
     place = np.empty(PLACE_SIZE)
     metric = np.empty((COORDINATES, COORDINATES))
     factor = np.empty((COORDINATES, COORDINATES))
     gradient = np.empty(COORDINATES)
     by_q = np.empty(COORDINATES)
-    velocity = np.empty((3, COORDINATES))
-    total = EDGES * count
-    rows = np.zeros((total, COORDINATES))
-    edges = np.empty((total, 3))
+    velocities = np.empty((MOST_CONTACTS, 3, COORDINATES))
+    most = (EDGES + MORE_EDGES) * count
+    rows = np.zeros((most, COORDINATES))
+    edges = np.empty((most, 3))
+    owners = np.empty(most, dtype=np.int64)
     set_place(q, device, place)
     set_metric(n, place, device, metric)
     cholesky(metric, n, factor)
     set_gradient(n, q, push, device, by_q, gradient)
+    total = 0
     for c in range(count):
-        nx, ny, nz = contacts[c, K_NORMAL], contacts[c, K_NORMAL + 1], contacts[c, K_NORMAL + 2]
-        ax, ay = (1.0, 0.0) if abs(nx) < 0.8 else (0.0, 1.0)
-        along = ax * nx + ay * ny
-        ux, uy, uz = ax - along * nx, ay - along * ny, -along * nz
-        size = math.sqrt(ux * ux + uy * uy + uz * uz)
-        ux, uy, uz = ux / size, uy / size, uz / size
-        vx, vy, vz = ny * uz - nz * uy, nz * ux - nx * uz, nx * uy - ny * ux
-        set_velocities(contacts[c, K_POINT : K_POINT + 3], place, device, velocity)
+        set_velocities(contacts[c, K_POINT : K_POINT + 3], place, device, velocities[c])
+        contacts[c, K_AXIS] = 0.0 if abs(contacts[c, K_NORMAL]) < 0.8 else 1.0
+        ux, uy, uz = tangent(0, contacts[c])
+        vx, vy, vz = tangent(1, contacts[c])
         for e in range(EDGES):
-            a, b = mu * math.cos(2.0 * math.pi * e / EDGES), mu * math.sin(2.0 * math.pi * e / EDGES)
-            i = EDGES * c + e
-            edges[i, 0], edges[i, 1], edges[i, 2] = nx + a * ux + b * vx, ny + a * uy + b * vy, nz + a * uz + b * vz
-            for j in range(n):
-                for h in range(3):
-                    rows[i, j] -= velocity[h, j] * edges[i, h]
-    stiffness = push / (1e-3 * device[D_SCALE])
+            a, b = math.cos(2.0 * math.pi * e / EDGES), math.sin(2.0 * math.pi * e / EDGES)
+            total = add_edge(
+                total,
+                c,
+                mu,
+                a * ux + b * vx,
+                a * uy + b * vy,
+                a * uz + b * vz,
+                contacts,
+                velocities,
+                n,
+                rows,
+                edges,
+                owners,
+            )
+    stiffness = push / (1e-3 * r)
     for j in range(n):
         gradient[j] /= stiffness
     step = np.empty(COORDINATES)
-    forces = np.empty(total)
-    status = solve_program(
-        n,
-        factor,
-        gradient,
-        total,
-        rows,
-        np.zeros(total),
-        1e-14 * device[D_SCALE],
-        np.empty(6 * total + 90),
-        np.empty(COORDINATES + 2, dtype=np.int64),
-        step,
-        forces,
-    )
-    if status != PROGRAM_SOLVED or stiffness * length_of(n, step, metric) > 1e-9 * push:
-        return False
+    forces = np.empty(most)
+    work, active = np.empty(6 * most + 90), np.empty(COORDINATES + 2, dtype=np.int64)
+    limits = np.zeros(most)
+    moved = np.empty(3)
+    while True:
+        status = solve_program(n, factor, gradient, total, rows, limits, 1e-14 * r, work, active, step, forces)
+        if status != PROGRAM_SOLVED:
+            return False
+        length = length_of(n, step, metric)
+        if stiffness * length <= 1e-9 * push:
+            break
+        earlier = total
+        for c in range(count):
+            normal, square = 0.0, 0.0
+            for h in range(3):
+                moved[h] = 0.0
+                for j in range(n):
+                    moved[h] += velocities[c, h, j] * step[j]
+                normal += moved[h] * contacts[c, K_NORMAL + h]
+            for h in range(3):
+                moved[h] -= normal * contacts[c, K_NORMAL + h]
+                square += moved[h] * moved[h]
+            across = math.sqrt(square)
+            if normal - mu * across < -BEYOND * length and total < most:
+                total = add_edge(
+                    total,
+                    c,
+                    mu,
+                    -moved[0] / across,
+                    -moved[1] / across,
+                    -moved[2] / across,
+                    contacts,
+                    velocities,
+                    n,
+                    rows,
+                    edges,
+                    owners,
+                )
+        if total == earlier:
+            return False
     for c in range(count):
         for h in range(3):
             contacts[c, K_SLIP + h] = 0.0
             contacts[c, K_FORCE + h] = 0.0
-            for e in range(EDGES):
-                contacts[c, K_FORCE + h] += stiffness * forces[EDGES * c + e] * edges[EDGES * c + e, h]
         contacts[c, K_MODE] = STICKS
+    for e in range(total):
+        for h in range(3):
+            contacts[owners[e], K_FORCE + h] += stiffness * forces[e] * edges[e, h]
     return True
+
+
+@kernel()
+def add_edge(
+    i: int,
+    owner: int,
+    mu: float,
+    x: float,
+    y: float,
+    z: float,
+    contacts: Array,
+    velocities: Array,
+    n: int,
+    rows: Array,
+    edges: Array,
+    owners: Indices,
+) -> int:
+    """Adds the edge of a contact's cone on the side of a unit tangent, and its row; the number of edges then."""
+    edges[i, 0] = contacts[owner, K_NORMAL] + mu * x
+    edges[i, 1] = contacts[owner, K_NORMAL + 1] + mu * y
+    edges[i, 2] = contacts[owner, K_NORMAL + 2] + mu * z
+    owners[i] = owner
+    for j in range(n):
+        rows[i, j] = 0.0
+        for h in range(3):
+            rows[i, j] -= velocities[owner, h, j] * edges[i, h]
+    return i + 1
 
 
 @kernel()
@@ -326,15 +397,20 @@ def enumerate_modes(
     r = device[D_SCALE]
     modes = np.empty(MOST_CONTACTS, dtype=np.int64)
     contacts = np.empty((MOST_CONTACTS, K_SIZE))
-    trial = np.empty(COORDINATES)
+    trial, start = np.empty(COORDINATES), np.empty(COORDINATES)
     place = np.empty(PLACE_SIZE)
+    for j in range(COORDINATES):
+        start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
+    set_place(start, device, place)
+    found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+    at_start = places[:found].copy()
     total = 0
     if not turns:
         for c in range(count):
             copy_numbers(candidates[c], contacts[c])
         if rests(q, push, mu, count, contacts, device):
             total = add_solution(total, q, count, contacts, device, solutions)
-    for code in range(1, 3**count):
+    for code in range(3**count):
         rest, sticking = code, 0
         for c in range(count):
             modes[c] = rest % 3
@@ -344,17 +420,21 @@ def enumerate_modes(
             contacts[c, K_MODE] = modes[c]
         if sticking > 1:
             continue
-        for j in range(COORDINATES):
-            trial[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
+        copy_numbers(start, trial)
+        for j in range(found):
+            copy_numbers(at_start[j], places[j])
+        status = solve_mode(
+            modes, count, mu, found, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work
+        )
         if (
-            solve_mode(modes, count, mu, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work)
-            != SOLVED
+            status != SOLVED
             or distance(carried, trial, device) > STEP_REACH * r
+            or not cones_hold(modes, count, mu, unit, r, contacts)
         ):
             continue
         set_place(trial, device, place)
-        found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
-        if is_consistent(modes, count, mu, unit, r, found, contacts, modes_work):
+        after = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+        if not overlaps_beside(modes, count, r, after, contacts, places):
             total = add_solution(total, trial, count, contacts, device, solutions)
     return total
 
@@ -625,6 +705,22 @@ def unexplained(i: int, path: Path) -> float:
 
 
 @kernel()
+def same_features(i: int, count: int, contacts: Array, path: Path) -> bool:
+    """Whether contacts have the features of a point's."""
+    points, all_contacts = path
+    if points[i, P_COUNT] != count:
+        return False
+    for c in range(count):
+        more = 0
+        for h in range(count):
+            more += 1 if contacts[h, K_PAIR] == contacts[c, K_PAIR] else 0
+            more -= 1 if all_contacts[i, h, K_PAIR] == contacts[c, K_PAIR] else 0
+        if more != 0:
+            return False
+    return True
+
+
+@kernel()
 def go_back(i: int, q: Array, contacts: Array, path: Path) -> int:
     """Sets coordinates and contacts to those of a point; the number of contacts."""
     points, all_contacts = path
@@ -659,7 +755,7 @@ def follow_friction(
     setting = (command, device, strip, bolt, nut, new_threads(bolt), new_work(), new_modes_work())
     turn, growth = phases[1] - phases[0], pushes[1] - pushes[0]
     turns = turn != 0.0
-    longest = LONGEST_TURN / abs(turn) if turns else LONGEST_PUSH
+    longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     step, reached, i = FIRST_PART * longest, 0.0, 0
     on_strip = False
     solutions = (
@@ -706,6 +802,16 @@ def follow_friction(
                 step = max(0.5 * size, LEAST_PART * longest)
                 continue
             path[0][i + 1, P_FALL] = max(lost, 0.0)
+        if (
+            turns
+            and not on_strip
+            and losses[2] > 0.0
+            and size * abs(turn) > ABOVE * EVENT_WIDTH
+            and not same_features(i, count, contacts, path)
+        ):
+            count = go_back(i, q, contacts, path)
+            step = max(0.5 * size, EVENT_WIDTH / abs(turn))
+            continue
         i += 1
         reached = target
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)

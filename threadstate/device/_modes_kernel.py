@@ -1,10 +1,11 @@
 """A step of a bolt whose contacts stick, slip or open: Coulomb friction by the incremental rule of forces, section 5.
 
 A mode says of each contact what it does in the step. Its equations are the balance of device, push and contacts after
-the step, no gap at contacts that stay, and no slip at those that stick; a contact that slips has the friction mu N
-against its slip. They are solved on the exact contact functions by Newton's method, with Broyden's update for what the
-tangential forces add, and what is found is checked: forces, cones and gaps. Lengths are over the nominal radius, forces
-over the push.
+the step, no gap at contacts that stay, and no slip s at those that stick. At a contact that slips the force T across
+the normal is mu N times the direction of T - rho s, with a number rho > 0: that is mu N against the slip, and where the
+slip is next to nothing its direction is that of the force before. They are solved on the exact contact functions by
+Newton's method, with Broyden's update for what the tangential forces add, and what is found is checked: forces, cones
+and gaps. Lengths are over the nominal radius, forces over the push.
 """
 
 from __future__ import annotations
@@ -16,19 +17,51 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._stage_kernel import (
+    BASE_EDGE,
+    EDGE_EDGE,
+    EDGE_SURFACE,
+    EDGE_THREAD,
+    THREAD_EDGE,
+    THREAD_THREAD,
+)
+from threadstate.contact._tangency_kernel import J_Z
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_SCALE,
     D_STIFFNESS,
     N_CENTRE,
     N_JACOBIAN,
+    N_OFFSET,
     N_ROTATION,
     PLACE_SIZE,
     elastic_energy,
     set_place,
 )
-from threadstate.device._gap_kernel import G_HESSIAN, G_NORM, G_NORMAL, G_PAIR, G_POINT, G_VALUE, GAP_SIZE
-from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, Threads, find_places
+from threadstate.device._gap_kernel import (
+    EDGE_JET_SIZE,
+    G_HESSIAN,
+    G_NORM,
+    G_NORMAL,
+    G_PAIR,
+    G_POINT,
+    G_THETA,
+    G_VALUE,
+    G_Z,
+    GAP_SIZE,
+    GAP_WORK,
+    set_gap,
+)
+from threadstate.device._places_kernel import (
+    MAX_PLACES,
+    PLACES_WORK,
+    W_GAP,
+    W_JET,
+    Threads,
+    bracketed_peak,
+    find_places,
+    polished_maximum,
+)
 from threadstate.device._rest_kernel import coordinate, free_coordinates, scale
 
 Array = NDArray[np.float64]
@@ -41,16 +74,27 @@ MOST_CONTACTS = 5
 """Contacts whose modes are enumerated; of more a step is not decided."""
 
 MOST_UNKNOWNS = COORDINATES + 3 * MOST_CONTACTS
-ITERATIONS, FROZEN, THAW = 40, 10, 1e-6
-"""Iterations; in the first ones, until the residual is small, friction has the directions of the slip in the first."""
+ITERATIONS = 40
 RESIDUAL = 1e-11
 """Largest residual of a mode's equations: forces over the push, gaps and slips over the nominal radius."""
 
 LONGEST = 0.02
 """The longest change of the coordinates in an iteration, in nominal radii."""
 
+FARTHEST = 0.05
+"""How far the coordinates may go in all iterations, in nominal radii: more than twice what a step may."""
+
+WINDOW = 0.02
+"""Within this azimuth (rad) of where a contact was its place is looked for in an iteration, before all are searched."""
+
+LEAST_SLIP = 1e-9
+"""The least slip (nominal radii) that the numbers rho of a step are made for."""
+
 SAME_POINT = 0.1
 """How far (nominal radii) a contact's point may move in a step, and a place be from it to be the same contact."""
+
+SAME_PLACE = 1e-6
+"""How far apart (nominal radii) a contact of a solution and the place that a search finds of it are at most."""
 
 TOUCHES = 1e-9
 """Gap (nominal radii) up to which a place touches."""
@@ -65,9 +109,10 @@ REACH = 5e-3
 """Gap, in nominal radii, up to which places are looked for."""
 
 # A contact of a step: point in the nut's frame, unit normal into the bolt, force on the bolt (N), slip of the bolt's
-# point over the nut in the step, what it does, pair of features, direction of the slip that friction opposes.
-K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_DIRECTION = 0, 3, 6, 9, 12, 13, 14
-CONTACT_SIZE = 17
+# point over the nut in the step, what it does, pair of features, the nut's axis (0: x, 1: y) that its tangents are made
+# of.
+K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_AXIS = 0, 3, 6, 9, 12, 13, 14
+CONTACT_SIZE = 15
 
 ModesWork = tuple[Array, Array, Array, Array, Array, Array, Array, Array]
 """Places, search, matrix, spare matrix, residual, unknowns, velocities of points, indices of places."""
@@ -157,10 +202,9 @@ def set_slip(before: Array, place: Array, contact: Array) -> None:
 
 @kernel()
 def tangent(which: int, contact: Array) -> tuple[float, float, float]:
-    """One of two unit vectors across a contact's normal."""
+    """One of two unit vectors across a contact's normal; its axis without its part along the normal is the first."""
     nx, ny, nz = contact[K_NORMAL], contact[K_NORMAL + 1], contact[K_NORMAL + 2]
-    # The nut's x axis, or y where the normal is along x, without its part along the normal.
-    ax, ay = (1.0, 0.0) if abs(nx) < 0.8 else (0.0, 1.0)
+    ax, ay = 1.0 - contact[K_AXIS], contact[K_AXIS]
     along = ax * nx + ay * ny
     ux, uy, uz = ax - along * nx, ay - along * ny, -along * nz
     size = math.sqrt(ux * ux + uy * uy + uz * uz)
@@ -171,8 +215,12 @@ def tangent(which: int, contact: Array) -> tuple[float, float, float]:
 
 
 @kernel()
-def match_places(count: int, contacts: Array, found: int, places: Array, r: float, indices: Array) -> bool:
-    """Sets which place each contact is now, the nearest one; False where one has none."""
+def match_places(
+    modes: Indices, count: int, contacts: Array, found: int, places: Array, r: float, indices: Array
+) -> bool:
+    """Sets which place each contact is now, the nearest one, -1 of one that opens and has none; False where another has
+    none.
+    """
     for i in range(count):
         best, nearest = -1, SAME_POINT * r
         for j in range(found):
@@ -184,18 +232,61 @@ def match_places(count: int, contacts: Array, found: int, places: Array, r: floa
                 apart += (places[j, G_POINT + h] - contacts[i, K_POINT + h]) ** 2
             if not taken and math.sqrt(apart) < nearest:
                 best, nearest = j, math.sqrt(apart)
-        if best < 0:
+        if best < 0 and modes[i] != OPENS:
             return False
         indices[i] = best
     return True
 
 
 @kernel()
+def follow_places(
+    modes: Indices,
+    count: int,
+    place: Array,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: ModesWork,
+) -> bool:
+    """Sets the places of the contacts that stay anew, from where they were; False where one is not found near by."""
+    places, search, _, _, _, _, _, indices = work
+    jet = search[W_JET : W_JET + EDGE_JET_SIZE]
+    placement, thread_jet = threads[3], threads[4]
+    gap_work = search[W_GAP : W_GAP + GAP_WORK]
+    for c in range(count):
+        if modes[c] == OPENS:
+            continue
+        gap = places[int(indices[c])]
+        pair, theta, z = int(gap[G_PAIR]), gap[G_THETA], gap[G_Z]
+        if pair == THREAD_THREAD:
+            copy_numbers(place[N_ROTATION : N_ROTATION + 9], placement[0:9])
+            copy_numbers(place[N_OFFSET : N_OFFSET + 3], placement[9:12])
+            theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, thread_jet)
+            if not converged or z <= 0.0 or thread_jet[J_Z] >= 0.0:
+                return False
+        else:
+            of_bolt = not (pair == BASE_EDGE or pair == THREAD_EDGE)
+            curve, solid = (bolt, nut) if of_bolt else (nut, bolt)
+            kind, theta = bracketed_peak(of_bolt, theta - WINDOW, theta + WINDOW, place, curve, solid, jet)
+            if kind < 0 or (kind == 2 and not of_bolt):
+                return False
+            if kind == 2:
+                pair = EDGE_EDGE
+            elif kind == 0:
+                pair = EDGE_SURFACE if of_bolt else BASE_EDGE
+            else:
+                pair = EDGE_THREAD if of_bolt else THREAD_EDGE
+        set_gap(pair, theta, z, place, device, bolt, nut, gap_work, gap)
+    return True
+
+
+@kernel()
 def set_equations(
-    frozen: bool,
     modes: Indices,
     count: int,
     mu: float,
+    rho: float,
     q: Array,
     push: float,
     unit: float,
@@ -207,17 +298,20 @@ def set_equations(
 ) -> int:
     """Sets residual and matrix of a mode at ``q``, and the contacts' forces from the unknowns; the number of unknowns.
 
-    Of the matrix the change of tangential forces with the pose is left out but for the direction of the slip.
+    The unknowns are the coordinates, then of each contact that stays the force along its normal and both tangents. Of
+    the matrix the change of tangential forces with the pose is left out.
     """
     places, _, matrix, _, residual, unknowns, velocities, indices = work
     n = free_coordinates(device)
     r = device[D_SCALE]
     by_q = np.empty(COORDINATES)
+    force, along, ahead = np.empty(3), np.empty(2), np.empty(2)
+    basis = np.empty((3, 3))
     elastic_energy(q, device, by_q)
     by_q[5] += push
     size = n
     for i in range(count):
-        size += 0 if modes[i] == OPENS else (1 if modes[i] == SLIPS else 3)
+        size += 0 if modes[i] == OPENS else 3
     for i in range(size):
         residual[i] = 0.0
         for j in range(size):
@@ -237,71 +331,115 @@ def set_equations(
             continue
         gap = places[int(indices[c])]
         velocity = velocities[c]
-        for h in range(3):
-            contacts[c, K_POINT + h] = gap[G_POINT + h]
-            contacts[c, K_NORMAL + h] = gap[G_NORMAL + h]
-        contacts[c, K_PAIR] = gap[G_PAIR]
+        set_contact(gap, contacts[c])
         set_velocities(gap[G_POINT : G_POINT + 3], place, device, velocity)
         set_slip(before, place, contacts[c])
+        basis[0, 0], basis[0, 1], basis[0, 2] = gap[G_NORMAL], gap[G_NORMAL + 1], gap[G_NORMAL + 2]
+        basis[1, 0], basis[1, 1], basis[1, 2] = tangent(0, contacts[c])
+        basis[2, 0], basis[2, 1], basis[2, 2] = tangent(1, contacts[c])
         normal_force = unknowns[row]
-        force = np.empty(3)
-        by_normal = np.empty(3)
-        slip = math.sqrt(contacts[c, K_SLIP] ** 2 + contacts[c, K_SLIP + 1] ** 2 + contacts[c, K_SLIP + 2] ** 2)
         for h in range(3):
-            if not frozen:
-                contacts[c, K_DIRECTION + h] = contacts[c, K_SLIP + h] / slip if slip > 0.0 else 0.0
-            by_normal[h] = contacts[c, K_NORMAL + h]
-            if modes[c] == SLIPS:
-                by_normal[h] -= mu * contacts[c, K_DIRECTION + h]
-            force[h] = normal_force * by_normal[h]
+            force[h] = 0.0
+            for t in range(3):
+                force[h] += unknowns[row + t] * basis[t, h]
         for i in range(n):
             for j in range(n):
                 a, b = coordinate(i, device), coordinate(j, device)
                 bend = gap[G_HESSIAN + 6 * a + b] / (scale(a, device) * scale(b, device))
                 matrix[i, j] += normal_force * r / gap[G_NORM] * bend
-        residual[row] = gap[G_VALUE] / gap[G_NORM] / r
-        for i in range(n):
-            along = 0.0
-            pushed = 0.0
-            for h in range(3):
-                along += velocity[h, i] * contacts[c, K_NORMAL + h]
-                pushed += velocity[h, i] * by_normal[h]
-            matrix[row, i] = -along
-            matrix[i, row] = -pushed
-        if modes[c] == STICKS:
-            for t in range(2):
-                ux, uy, uz = tangent(t, contacts[c])
-                tangential = unknowns[row + 1 + t]
-                force[0] += tangential * ux
-                force[1] += tangential * uy
-                force[2] += tangential * uz
-                residual[row + 1 + t] = (
-                    ux * contacts[c, K_SLIP] + uy * contacts[c, K_SLIP + 1] + uz * contacts[c, K_SLIP + 2]
-                ) / r
-                for i in range(n):
-                    along = ux * velocity[0, i] + uy * velocity[1, i] + uz * velocity[2, i]
-                    matrix[row + 1 + t, i] = along
-                    matrix[i, row + 1 + t] = -along
-        elif slip > 0.0 and not frozen:
-            # The friction turns with the slip.
+        for t in range(3):
             for i in range(n):
-                for j in range(n):
-                    total = 0.0
-                    vs_i, vs_j, vn_i, vn_j = 0.0, 0.0, 0.0, 0.0
-                    for h in range(3):
-                        total += velocity[h, i] * velocity[h, j]
-                        vs_i += velocity[h, i] * contacts[c, K_SLIP + h] / slip
-                        vs_j += velocity[h, j] * contacts[c, K_SLIP + h] / slip
-                        vn_i += velocity[h, i] * contacts[c, K_NORMAL + h]
-                        vn_j += velocity[h, j] * contacts[c, K_NORMAL + h]
-                    matrix[i, j] += mu * normal_force * (total - vs_i * vs_j - vn_i * vn_j) * r / slip
+                part = 0.0
+                for h in range(3):
+                    part += velocity[h, i] * basis[t, h]
+                matrix[row + t, i] = -part if t == 0 else part
+                matrix[i, row + t] = -part
+        residual[row] = gap[G_VALUE] / gap[G_NORM] / r
+        for t in range(2):
+            along[t] = 0.0
+            for h in range(3):
+                along[t] += basis[1 + t, h] * contacts[c, K_SLIP + h] / r
+            residual[row + 1 + t] = along[t]
+        if modes[c] == SLIPS:
+            for t in range(2):
+                ahead[t] = unknowns[row + 1 + t] - rho * along[t]
+            length = math.hypot(ahead[0], ahead[1])
+            for t in range(2):
+                ahead[t] /= length if length > 0.0 else 1.0
+            turned = mu * normal_force / length if length > 0.0 else 0.0
+            for i in range(n):
+                first, second = matrix[row + 1, i], matrix[row + 2, i]
+                across = ahead[0] * second - ahead[1] * first
+                matrix[row + 1, i] = -turned * rho * ahead[1] * across
+                matrix[row + 2, i] = turned * rho * ahead[0] * across
+            for t in range(2):
+                residual[row + 1 + t] = unknowns[row + 1 + t] - mu * normal_force * ahead[t]
+                matrix[row + 1 + t, row] = -mu * ahead[t]
+                for m in range(2):
+                    same = 1.0 if t == m else 0.0
+                    matrix[row + 1 + t, row + 1 + m] = same - turned * (same - ahead[t] * ahead[m])
         for i in range(n):
             for h in range(3):
                 residual[i] -= velocity[h, i] * force[h]
         for h in range(3):
             contacts[c, K_FORCE + h] = force[h] * unit
-        row += 1 if modes[c] == SLIPS else 3
+        row += 3
     return size
+
+
+@kernel()
+def set_contact(gap: Array, contact: Array) -> None:
+    """Sets point, normal and features of a contact to those of its place."""
+    for h in range(3):
+        contact[K_POINT + h] = gap[G_POINT + h]
+        contact[K_NORMAL + h] = gap[G_NORMAL + h]
+    contact[K_PAIR] = gap[G_PAIR]
+
+
+@kernel()
+def set_first_unknowns(
+    modes: Indices,
+    count: int,
+    mu: float,
+    unit: float,
+    r: float,
+    n: int,
+    before: Array,
+    place: Array,
+    contacts: Array,
+    work: ModesWork,
+) -> float:
+    """Sets the unknown forces to those before the step, of a contact that slips and had none across its normal against
+    the slip with which the step begins; rho.
+    """
+    places, _, _, _, _, unknowns, _, indices = work
+    row = n
+    longest = LEAST_SLIP * r
+    for c in range(count):
+        if modes[c] == OPENS:
+            continue
+        contact = contacts[c]
+        normal = 0.0
+        for h in range(3):
+            normal += contact[K_FORCE + h] * contact[K_NORMAL + h]
+        set_contact(places[int(indices[c])], contact)
+        set_slip(before, place, contact)
+        contact[K_AXIS] = 0.0 if abs(contact[K_NORMAL]) < 0.8 else 1.0
+        slip = math.sqrt(contact[K_SLIP] ** 2 + contact[K_SLIP + 1] ** 2 + contact[K_SLIP + 2] ** 2)
+        longest = max(longest, slip)
+        unknowns[row] = normal / unit
+        for t in range(2):
+            ux, uy, uz = tangent(t, contact)
+            unknowns[row + 1 + t] = (
+                ux * contact[K_FORCE] + uy * contact[K_FORCE + 1] + uz * contact[K_FORCE + 2]
+            ) / unit
+        if modes[c] == SLIPS and not math.hypot(unknowns[row + 1], unknowns[row + 2]) > 1e-3 * mu * unknowns[row]:
+            for t in range(2):
+                ux, uy, uz = tangent(t, contact)
+                along = ux * contact[K_SLIP] + uy * contact[K_SLIP + 1] + uz * contact[K_SLIP + 2]
+                unknowns[row + 1 + t] = -mu * unknowns[row] * along / slip if slip > 0.0 else 0.0
+        row += 3
+    return mu * r / longest
 
 
 @kernel()
@@ -318,6 +456,7 @@ def solve_mode(
     modes: Indices,
     count: int,
     mu: float,
+    found: int,
     q: Array,
     push: float,
     unit: float,
@@ -331,62 +470,49 @@ def solve_mode(
 ) -> int:
     """Solves a mode's equations from ``q``, in place; SOLVED where its residuals vanish. Contacts are set.
 
-    ``before`` is the pose before the step; ``unit`` the force that forces are counted in.
+    ``before`` is the pose before the step; ``unit`` the force that forces are counted in; ``found`` places are those
+    at ``q``.
     """
     places, search, matrix, spare, residual, unknowns, _, indices = work
     n = free_coordinates(device)
     r = device[D_SCALE]
     place = np.empty(PLACE_SIZE)
     step = np.empty(MOST_UNKNOWNS)
-    size = n
-    for c in range(count):
-        if modes[c] != OPENS:
-            normal = 0.0
-            for h in range(3):
-                normal += contacts[c, K_FORCE + h] * contacts[c, K_NORMAL + h]
-            unknowns[size] = normal / unit
-            if modes[c] == STICKS:
-                unknowns[size + 1] = 0.0
-                unknowns[size + 2] = 0.0
-            size += 1 if modes[c] == SLIPS else 3
     update = np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS))
-    earlier = np.zeros(MOST_UNKNOWNS)
     expected = np.zeros(MOST_UNKNOWNS)
-    frozen, changed = False, True
+    start = q.copy()
+    set_place(q, device, place)
+    if not match_places(modes, count, contacts, found, places, r, indices):
+        return UNSOLVED
+    rho = set_first_unknowns(modes, count, mu, unit, r, n, before, place, contacts, work)
     for iteration in range(ITERATIONS):
         set_place(q, device, place)
-        found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
-        if not match_places(count, contacts, found, places, r, indices):
-            return UNSOLVED
-        set_equations(frozen, modes, count, mu, q, push, unit, place, before, device, contacts, work)
+        if iteration > 0 and not follow_places(modes, count, place, device, bolt, nut, threads, work):
+            found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+            if not match_places(modes, count, contacts, found, places, r, indices):
+                return UNSOLVED
+        size = set_equations(modes, count, mu, rho, q, push, unit, place, before, device, contacts, work)
         worst = largest(size, residual)
-        if frozen and (worst < THAW or iteration >= FROZEN):
-            frozen, changed = False, True
-            set_equations(frozen, modes, count, mu, q, push, unit, place, before, device, contacts, work)
-            worst = largest(size, residual)
-        if worst < RESIDUAL and not frozen:
+        if worst < RESIDUAL:
             return SOLVED
         if not worst < 1e6:
             return UNSOLVED
-        if changed:
-            update[:, :] = 0.0
-        else:
+        if iteration > 0:
             # Broyden: what the last step changed beyond what the matrix had expected of it.
             length = 0.0
             for i in range(size):
                 length += step[i] * step[i]
-            for i in range(n):
-                off = (residual[i] - expected[i]) / length
+            for i in range(size):
+                if i >= n and (i - n) % 3 == 0:
+                    continue
+                off = (residual[i] - expected[i]) / length if length > 0.0 else 0.0
                 for j in range(size):
                     update[i, j] += off * step[j]
-        changed = False
-        if iteration == 0:
-            frozen = True
         for i in range(size):
             for j in range(size):
                 spare[i, j] = matrix[i, j] + update[i, j]
             spare[i, size] = -residual[i]
-        copy_numbers(residual, earlier)
+            expected[i] = residual[i]
         if not solve_linear(size, spare):
             return UNSOLVED
         longest = 0.0
@@ -395,26 +521,24 @@ def solve_mode(
         part = min(1.0, LONGEST / longest) if longest > 0.0 else 1.0
         for i in range(size):
             step[i] = part * spare[i, size]
-        for i in range(n):
-            expected[i] = earlier[i]
+        away = 0.0
+        for i in range(size):
             for j in range(size):
                 expected[i] += (matrix[i, j] + update[i, j]) * step[j]
+        for i in range(n):
             j = coordinate(i, device)
             q[j] += step[i] * r / scale(j, device)
+            away = max(away, abs(q[j] - start[j]) * scale(j, device) / r)
+        if away > FARTHEST:
+            return UNSOLVED
         for i in range(n, size):
             unknowns[i] += step[i]
     return UNSOLVED
 
 
 @kernel()
-def is_consistent(
-    modes: Indices, count: int, mu: float, unit: float, r: float, found: int, contacts: Array, work: ModesWork
-) -> bool:
-    """Whether what a mode's equations give is what the mode says: forces in their cones, nothing overlaps.
-
-    ``found`` places are those of the solution.
-    """
-    places, _, _, _, _, _, _, indices = work
+def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, contacts: Array) -> bool:
+    """Whether the forces of a mode's solution are what the mode says: in their cones, and against the slip."""
     for c in range(count):
         if modes[c] == OPENS:
             continue
@@ -424,19 +548,29 @@ def is_consistent(
             square += contacts[c, K_FORCE + h] ** 2
         if normal < -SLACK * unit:
             return False
-        slip = 0.0
+        slip, against = 0.0, 0.0
         for h in range(3):
             slip += contacts[c, K_SLIP + h] ** 2
+            against += contacts[c, K_SLIP + h] * contacts[c, K_FORCE + h]
         if modes[c] == STICKS:
             across = math.sqrt(max(square - normal * normal, 0.0))
             if across > mu * normal + SLACK * unit:
                 return False
-        elif not math.sqrt(slip) > TOUCHES * r:
+        elif against > 0.0 or not math.sqrt(slip) > TOUCHES * r:
             return False
+    return True
+
+
+@kernel()
+def overlaps_beside(modes: Indices, count: int, r: float, found: int, contacts: Array, places: Array) -> bool:
+    """Whether one of the ``found`` places of a mode's solution overlaps that is none of its contacts."""
     for j in range(found):
         is_contact = False
         for c in range(count):
-            is_contact = is_contact or (modes[c] != OPENS and int(indices[c]) == j)
+            apart = 0.0
+            for h in range(3):
+                apart += abs(places[j, G_POINT + h] - contacts[c, K_POINT + h])
+            is_contact = is_contact or (modes[c] != OPENS and apart < SAME_PLACE * r)
         if not is_contact and places[j, G_VALUE] > OVERLAP * r:
-            return False
-    return True
+            return True
+    return False

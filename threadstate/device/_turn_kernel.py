@@ -75,7 +75,8 @@ ABOVE = 1.0 + 1e-6
 """By how much a step has to be longer than the shortest one to be shortened: less is round-off of the phase."""
 
 FIRST_STEP, LARGEST_STEP, EVENT_WIDTH, LEAST_STEP = 0.25 * DEGREE, 2.0 * DEGREE, 0.05 * DEGREE, 1e-3 * DEGREE
-"""Steps of the phase (rad): the first, the longest, those in which contacts change, and the shortest."""
+"""Steps of the phase (rad): the first, the longest where no other is asked for, those in which contacts change, and the
+shortest."""
 
 DESCENT_STEP = 3e-3
 """The longest step of a descent in a step of the phase, in nominal radii."""
@@ -135,9 +136,9 @@ MAX_EVENTS = 400
 GAINED, LOST, MOVED, FALL, SNAP, ON_FLUSH, OFF_FLUSH, ON_FLANK, OFF_STRIP, BRIDGED = range(10)
 
 # A command in numbers: the rotation at phase 0 by rows, whether the phase is about the bolt, the commanded height, the
-# push.
-M_TILT, M_ABOUT_BOLT, M_HEIGHT, M_PUSH = 0, 9, 10, 11
-COMMAND_SIZE = 12
+# push, the longest step of the phase (rad).
+M_TILT, M_ABOUT_BOLT, M_HEIGHT, M_PUSH, M_LONGEST = 0, 9, 10, 11, 12
+COMMAND_SIZE = 13
 
 # The result of a leg: how it ended, numbers of points, of events, of descents and of those that did not end, what the
 # certificate says of the end.
@@ -660,7 +661,7 @@ def step_on(
     state[S_SMOOTH] = 1.0 if changed == 0 and not fell and next_kind == kind and kind == ON_CONTACTS else 0.0
     state[S_PHASE], state[S_KIND], state[S_COUNT] = target, next_kind, next_count
     state[S_BRIDGING], state[S_FALLING] = 0.0, 0.0
-    state[S_STEP] = min(2.0 * size, LARGEST_STEP)
+    state[S_STEP] = min(2.0 * size, command[M_LONGEST])
     copy_numbers(trial, q)
     for j in range(next_count):
         copy_numbers(next_contacts[j], contacts[j])
@@ -674,7 +675,7 @@ def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, con
     trial = np.empty(COORDINATES)
     for j in range(STATE_SIZE):
         state[j] = 0.0
-    state[S_PHASE], state[S_STEP], state[S_KIND] = start, FIRST_STEP, kind
+    state[S_PHASE], state[S_STEP], state[S_KIND] = start, min(FIRST_STEP, command[M_LONGEST]), kind
     set_phase(start, command, device)
     if kind != ON_CONTACTS:
         _, count = closed_step(kind, q, setting, contacts, trial)

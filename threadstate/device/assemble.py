@@ -27,7 +27,12 @@ from threadstate.device.assembly_model import (
     PathEventKind,
 )
 from threadstate.device.assembly_outcome import Ending, outcome_of
-from threadstate.device.command import command_numbers, strip_numbers
+from threadstate.device.command import (
+    LONGEST_STEP_DEG,
+    LONGEST_STEP_WITH_FRICTION_DEG,
+    command_numbers,
+    strip_numbers,
+)
 from threadstate.device.flush import level_numbers
 from threadstate.device.friction import REASONS as FRICTION_REASONS
 from threadstate.device.friction import FrictionPath, friction_events, point_of
@@ -45,6 +50,8 @@ from threadstate.device.settle import (
 )
 from threadstate.device.strategy import Strategy
 from threadstate.device.watch import PathWatch
+from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.state.model import FeaturePair, StagePose
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
@@ -54,6 +61,9 @@ __all__ = ["assemble_pose"]
 Floats = NDArray[np.float64]
 
 COUNTER_CLOCKWISE_DEG, CLOCKWISE_DEG = 360.0, 270.0
+
+LEAST_LONGEST_STEP_DEG = 0.25
+"""The least longest step: with shorter ones a turn of 360 deg has more points than a leg has room for."""
 
 EVENTS = {
     tk.GAINED: PathEventKind.GAINED,
@@ -79,31 +89,34 @@ def assemble_pose(
     strategy: Strategy = Strategy.CCW_THEN_CW,
     *,
     mu: float = 0.0,
+    longest_step: float | None = None,
     watch: PathWatch | None = None,
 ) -> AssemblyPath:
     """The path of a bolt that settles at a commanded pose and is turned; angles in degrees.
 
     Forces, section 5; a left-hand bolt is turned the other way round. The device is the default one of forces, section
-    4, unless another is given. The path is a sequence of equilibria, at most 2 deg of phase apart, and 0.05 deg where
-    contacts change; with friction, of steps of at most 1 deg. The same input gives the same bits. By ``watch`` another
-    thread sees how far it is, and stops it.
+    4, unless another is given. The path is a sequence of equilibria, at most ``longest_step`` (deg) of phase apart, and
+    0.05 deg where contacts change. It is 2 deg, or 1 deg with friction, unless another is given, and with friction the
+    push grows by at most 1/16 of its whole a step, in proportion. The same input gives the same bits. By ``watch``
+    another thread sees how far it is, and stops it.
 
     Raises:
-        InvalidValueError: as :func:`threadstate.device.settle.settle_pose`.
+        InvalidValueError: as :func:`threadstate.device.settle.settle_pose`; a longest step outside 0.25 to 2 deg.
         PathStoppedError: the path was stopped.
     """
     watch = watch or PathWatch()
     wanted = checked_poses([(roll_deg, pitch_deg, phase_deg)])
     check_friction(mu)
     check_pair(pair)
+    longest = _checked_step(longest_step, mu)
     held = (device or default_device()).in_unit(pair.unit)
     numbers = device_numbers(pair, held)
     rotations, rows = settled_rows(pair, held, numbers, wanted)
     row = tuple(part[0] for part in rows)
-    command = command_numbers(held, float(wanted[0, 0]), float(wanted[0, 1]), float(row[0][sk.R_HEIGHT]))
+    command = command_numbers(held, float(wanted[0, 0]), float(wanted[0, 1]), float(row[0][sk.R_HEIGHT]), longest)
     path = None
     if mu > 0.0:
-        start, path = state_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch)
+        start, path = state_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch, longest_step_deg=longest)
     else:
         start = settled_state(pair, held, numbers, wanted[0], rotations[0], row)
     if start.outcome is not Outcome.SETTLED:
@@ -115,6 +128,20 @@ def assemble_pose(
     else:
         course = _without_friction(pair, numbers, command, row, phase, plan_of(pair, strategy), watch)
     return _path(pair, held, start, strategy, mu, course)
+
+
+def _checked_step(longest_step: float | None, mu: float) -> float:
+    """The longest step of the phase in degrees, that where none is given.
+
+    Raises:
+        InvalidValueError: it is not a number of the valid range.
+    """
+    if longest_step is None:
+        return LONGEST_STEP_WITH_FRICTION_DEG if mu > 0.0 else LONGEST_STEP_DEG
+    if not LEAST_LONGEST_STEP_DEG <= longest_step <= LONGEST_STEP_DEG:
+        valid = f"{number_text(LEAST_LONGEST_STEP_DEG)} to {number_text(LONGEST_STEP_DEG)} deg"
+        raise InvalidValueError("longest_step", longest_step, valid)
+    return longest_step
 
 
 @dataclass

@@ -16,6 +16,9 @@ from threadstate.thread.play import axial_limits
 
 Floats = NDArray[np.float64]
 
+LONGEST_STEP_DEG, LONGEST_STEP_WITH_FRICTION_DEG = 2.0, 1.0
+"""The longest step of the phase where no other is asked for."""
+
 
 def commanded_rotation(roll_deg: float, pitch_deg: float, phase_deg: float, about: About) -> Floats:
     """The commanded rotation by rows, shape (9,): bolt to nut (forces, section 4)."""
@@ -30,13 +33,16 @@ def commanded_rotation(roll_deg: float, pitch_deg: float, phase_deg: float, abou
     return np.asarray(out[:9].reshape(3, 3) @ turn[:9].reshape(3, 3)).ravel()
 
 
-def command_numbers(device: Device, roll_deg: float, pitch_deg: float, height: float) -> Floats:
-    """A tilt, the height of the command and the push as the kernels take them for every phase."""
+def command_numbers(
+    device: Device, roll_deg: float, pitch_deg: float, height: float, longest_step_deg: float = LONGEST_STEP_DEG
+) -> Floats:
+    """A tilt, the height of the command, the push and the longest step as the kernels take them for every phase."""
     numbers = np.zeros(tk.COMMAND_SIZE)
     numbers[tk.M_TILT : tk.M_TILT + 9] = commanded_rotation(roll_deg, pitch_deg, 0.0, device.about)
     numbers[tk.M_ABOUT_BOLT] = device.about is About.BOLT
     numbers[tk.M_HEIGHT] = height
     numbers[tk.M_PUSH] = device.push
+    numbers[tk.M_LONGEST] = math.radians(longest_step_deg)
     return numbers
 
 

@@ -13,7 +13,12 @@ from threadstate.device import _rest_kernel as rest
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device._places_kernel import FINE, MAX_PLACES
-from threadstate.device.command import command_numbers, commanded_rotation, strip_numbers
+from threadstate.device.command import (
+    LONGEST_STEP_WITH_FRICTION_DEG,
+    command_numbers,
+    commanded_rotation,
+    strip_numbers,
+)
 from threadstate.device.equilibrium import BALANCED, balance, stability
 from threadstate.device.flush import flush_contacts, level_numbers, level_start
 from threadstate.device.friction import FrictionPath, begin_friction, settled_with_friction
@@ -147,6 +152,8 @@ def state_with_friction(
     result: Floats,
     mu: float,
     watch: PathWatch | None = None,
+    *,
+    longest_step_deg: float = LONGEST_STEP_WITH_FRICTION_DEG,
 ) -> tuple[SettledState, FrictionPath | None]:
     """The state of a pose that settles with friction, and the path that goes on from it; None where it has no start.
 
@@ -159,7 +166,7 @@ def state_with_friction(
         outcome = Outcome.UNDECIDED
         nothing = (None, None, None, (), None, (), NO_MARGINS, ())
         return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing), None
-    command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]))
+    command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]), longest_step_deg)
     path = begin_friction(pair, numbers, command, strip_numbers(pair), math.radians(phase_deg), mu, watch)
     return settled_with_friction(device, pose_deg, path), path
 
