@@ -10,12 +10,14 @@
 # make chart      measure speed against accuracy, write docs/speed-accuracy.svg, .json and .md
 # make stability  put the methods to hard places, write docs/stability.md, its maps and lists
 # make certificate audit the bounds that close boxes in ball arithmetic, write the end of docs/certificate.md
+# make certainty what a surer search of thread on thread costs, docs/certainty.md and its picture
 # make statics    what a push does to the states, docs/statics.md and its maps
 # make settled    where held bolts rest beside the paper's states, docs/settled-compared.md and its maps
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
 # make settle     settled states beside the brute force, their minima found again, changed commands, docs/settle-checked.md
+# make paper-case the paper's case turned by compliant hands, docs/paper-case.md and its pictures
 # make peer       settled states beside MuJoCo's in one run, docs/settle-peer.md
 # make witness    the numbers of 10,000 loaded states beside a conic solver's, docs/statics-witness.md
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
@@ -39,7 +41,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate settle peer
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -92,6 +94,12 @@ stability: setup
 
 certificate: setup
 	$(BIN)/python -m studies.certificate
+
+certainty: setup
+	$(BIN)/python -m studies.certainty
+
+paper-case: setup
+	$(BIN)/python -m studies.paper_case
 
 statics: setup
 	$(BIN)/python -m studies.statics

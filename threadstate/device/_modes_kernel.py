@@ -25,7 +25,7 @@ from threadstate.contact._stage_kernel import (
     THREAD_EDGE,
     THREAD_THREAD,
 )
-from threadstate.contact._tangency_kernel import J_Z
+from threadstate.contact._tangency_kernel import TJ_Z
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_SCALE,
@@ -263,7 +263,7 @@ def follow_places(
             copy_numbers(place[N_ROTATION : N_ROTATION + 9], placement[0:9])
             copy_numbers(place[N_OFFSET : N_OFFSET + 3], placement[9:12])
             theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, thread_jet)
-            if not converged or z <= 0.0 or thread_jet[J_Z] >= 0.0:
+            if not converged or z <= 0.0 or thread_jet[TJ_Z] >= 0.0:
                 return False
         else:
             of_bolt = not (pair == BASE_EDGE or pair == THREAD_EDGE)
