@@ -47,11 +47,11 @@ def command_numbers(
 
 
 def strip_numbers(pair: Pair) -> Floats:
-    """What the kernels know of a pair's flanks."""
+    """What the kernels know of a pair's flanks: of flanks that nowhere face each other that they have no strip."""
     numbers = np.empty(st.STRIP_SIZE)
     bolt, nut = pair.bolt, pair.nut
-    numbers[st.S_DOWN] = axial_limits(pair)[0]
     numbers[st.S_LOW] = max(bolt.radius(bolt.boundaries[1]), nut.radius(nut.boundaries[1]))
     numbers[st.S_HIGH] = min(bolt.radius(bolt.boundaries[2]), nut.radius(nut.boundaries[2]))
     numbers[st.S_STARTS] = pair.starts
+    numbers[st.S_DOWN] = axial_limits(pair)[0] if numbers[st.S_LOW] < numbers[st.S_HIGH] else 0.0
     return numbers
