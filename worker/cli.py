@@ -41,6 +41,7 @@ from worker.commands.settings import settings
 from worker.commands.settle import settle
 from worker.commands.solve import solve
 from worker.commands.statics import statics
+from worker.commands.success import success
 from worker.commands.summary import summary
 from worker.commands.sweep import sweep
 from worker.commands.threads import threads
@@ -68,6 +69,7 @@ COMMANDS = (
     jamming,
     settle,
     assemble,
+    success,
     rebuild,
     rebuild_settled,
     sweep,

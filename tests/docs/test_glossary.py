@@ -36,6 +36,12 @@ from threadstate.network.moves import Move
 from threadstate.state.document import StateDocument
 from threadstate.state.model import FeaturePair, Flag, StateClass
 from threadstate.statics.verdict import Verdict
+from threadstate.success.document import (
+    CellDocument,
+    CriticalFrictionDocument,
+    OrientationDocument,
+    PhaseBoundaryDocument,
+)
 from threadstate.thread.regions import Region
 
 OTHER_STANDARDS = ("Problem", "ProblemItem", "Health", "Readiness", "NodeLinkNetwork")
@@ -120,6 +126,11 @@ def test_every_field_of_a_path_is_a_term(known: set[str]) -> None:
         *(AssemblyDocument, AssemblyEventDocument, AssemblyPathDocument, AssemblyEnergyDocument),
         *(AssemblyMarginsDocument, AssemblyTravelDocument, AssemblyProgressDocument),
     )
+    assert sorted({name for document in documents for name in document.__annotations__} - known) == []
+
+
+def test_every_field_of_a_success_map_is_a_term(known: set[str]) -> None:
+    documents = (OrientationDocument, CellDocument, PhaseBoundaryDocument, CriticalFrictionDocument)
     assert sorted({name for document in documents for name in document.__annotations__} - known) == []
 
 

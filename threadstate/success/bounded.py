@@ -1,0 +1,108 @@
+"""Paths that are not followed beyond a limit of points: how a path ends, or that it has more."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Event, Thread
+
+from threadstate.device.assemble import assemble_pose
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath
+from threadstate.device.model import Device
+from threadstate.device.strategy import Strategy
+from threadstate.device.watch import PathStoppedError, PathWatch, RunningLeg
+from threadstate.success.model import Cell
+from threadstate.thread.pair import Pair
+
+LOOK_S = 0.02
+"""How often a path is looked at. What is found does not depend on it, only how soon a path ends that passes the limit.
+"""
+
+
+class BoundedWatch(PathWatch):
+    """A watch that ends a path of which one leg has more points than a limit.
+
+    A leg only gains points. One that was stopped beyond the limit and one that was not looked at in time therefore end
+    alike: the outcome does not depend on time.
+    """
+
+    def __init__(self, point_limit: int) -> None:
+        super().__init__()
+        self._point_limit = point_limit
+        self._leg: RunningLeg | None = None
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the leg that is followed, or was last, has more points than the limit."""
+        return self._leg is not None and self._leg.reached()[0] > self._point_limit
+
+    def begin_leg(self, leg: RunningLeg) -> None:
+        """A kernel is about to follow a leg."""
+        self._leg = leg
+        super().begin_leg(leg)
+
+    def end_leg(self) -> None:
+        """The kernel has returned.
+
+        Raises:
+            PathStoppedError: the leg has more points than the limit.
+        """
+        if self.is_over:
+            raise PathStoppedError("the path has more points than its limit")
+        super().end_leg()
+
+    @contextmanager
+    def looking(self) -> Iterator[None]:
+        """Another thread looks at the path while the context lasts."""
+        ended = Event()
+        thread = Thread(target=self._look, args=(ended,), daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            thread.join()
+
+    def _look(self, ended: Event) -> None:
+        while not ended.wait(LOOK_S):
+            if self.is_over:
+                self.stop()
+
+
+def bounded_cell(
+    pair: Pair,
+    device: Device,
+    strategy: Strategy,
+    pose_deg: tuple[float, float, float],
+    mu: float,
+    point_limit: int,
+) -> Cell:
+    """The cell of the path from a commanded pose (roll, pitch, phase in degrees) at a friction.
+
+    Raises:
+        InvalidValueError: as :func:`threadstate.device.assemble.assemble_pose`.
+    """
+    watch = BoundedWatch(point_limit)
+    phase_deg = pose_deg[2]
+    try:
+        with watch.looking():
+            path = assemble_pose(pair, *pose_deg, device, strategy, mu=mu, watch=watch)
+    except PathStoppedError:
+        return Cell(phase_deg, mu, AssemblyOutcome.UNDECIDED, (), True, None, None, None, None)
+    return cell_of(path)
+
+
+def cell_of(path: AssemblyPath) -> Cell:
+    """The cell of a path that was followed to its end."""
+    travel = path.travel
+    return Cell(
+        path.start.phase_deg,
+        path.mu,
+        path.outcome,
+        path.flags,
+        False,
+        None if travel is None else travel.torque,
+        None if travel is None else travel.tilt_deg,
+        None if travel is None else travel.shift,
+        path.points[-1].phase_deg if path.points else None,
+    )

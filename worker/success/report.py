@@ -1,0 +1,115 @@
+"""A success map as the command line prints it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from threadstate.numbers import number_text
+from threadstate.success.document import orientation_document
+from threadstate.success.inputs import SuccessInputs
+from threadstate.success.map_file import inputs_document
+from threadstate.success.model import CriticalFriction, OrientationMap
+from threadstate.success.summary import map_counts, orientation_summary, tilt_area
+from worker.output import print_json, print_line
+from worker.success.run import SuccessResult
+from worker.tables import table
+
+
+def print_map_json(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float) -> None:
+    """Print inputs, hashes, summaries and all orientations as one object."""
+    print_json(
+        {
+            **inputs_document(inputs),
+            "content_sha256": result.content_sha256,
+            "unit": inputs.pair.unit,
+            "computed": result.computed,
+            "elapsed_s": round(elapsed_s, 3),
+            "summary": [_friction_document(inputs, result, mu) for mu in inputs.frictions],
+            "orientations": [_orientation(inputs, one) for one in result.orientations],
+        }
+    )
+
+
+def print_map(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float) -> None:
+    """Print how many orientations engage at each friction, and each orientation."""
+    unit = inputs.pair.unit
+    totals = table("mu", "orientations", "engaged", "around level", "largest", "outcomes", words_last=True)
+    for mu in inputs.frictions:
+        area = tilt_area(result.orientations, inputs.grid, mu)
+        counts = map_counts(result.orientations, inputs.grid, mu)
+        outcomes = [f"{count} {outcome.value}" for outcome, count in counts.outcomes]
+        flags = [f"{count} {flag}" for flag, count in counts.flags]
+        bounded = [f"{counts.bounded} bounded"] if counts.bounded else []
+        words = ", ".join([*outcomes, *bounded, *flags])
+        numbers = (area.orientations, area.engaged, area.around_level, area.largest)
+        totals.add_row(number_text(mu), *map(str, numbers), words)
+    totals.print()
+    print_line("")
+    rows = table(
+        "roll", "pitch", "critical friction", "mu", "share", "worst phase", f"torque (N {unit})", "tilt", "shift"
+    )
+    for one in result.orientations:
+        for mu in inputs.frictions:
+            summary = orientation_summary(one, inputs.grid, mu)
+            rows.add_row(
+                number_text(one.roll_deg),
+                number_text(one.pitch_deg),
+                critical_text(one.critical),
+                number_text(mu),
+                f"{summary.engaged}/{summary.phases}",
+                number_text(summary.worst_phase_deg),
+                *("-" if value is None else f"{value:.3g}" for value in (summary.torque, summary.tilt_deg)),
+                "-" if summary.shift is None else f"{summary.shift:.3g}",
+            )
+    rows.print()
+    print_line("")
+    kept = len(result.orientations) - result.computed
+    print_line(
+        f"content {result.content_sha256[:12]}: {result.computed} orientations computed in {elapsed_s:.1f} s"
+        + (f", {kept} read from the file" if kept else "")
+    )
+
+
+def critical_text(critical: CriticalFriction) -> str:
+    """The interval of a critical friction in words; an undecided end is marked."""
+    if critical.first is None:
+        return f">= {critical.last:.4g}"
+    last = "none" if critical.last is None else f"{critical.last:.4g}"
+    assert critical.outcome is not None
+    return f"{last} to {critical.first:.4g} ({critical.outcome.value})"
+
+
+def _friction_document(inputs: SuccessInputs, result: SuccessResult, mu: float) -> dict[str, Any]:
+    area = tilt_area(result.orientations, inputs.grid, mu)
+    counts = map_counts(result.orientations, inputs.grid, mu)
+    return {
+        "mu": mu,
+        "orientations": area.orientations,
+        "engaged": area.engaged,
+        "around_level": area.around_level,
+        "largest": area.largest,
+        "area": area.largest * area.cell_deg2,
+        "outcomes": {outcome.value: count for outcome, count in counts.outcomes},
+        "flags": dict(counts.flags),
+        "bounded": counts.bounded,
+    }
+
+
+def _orientation(inputs: SuccessInputs, one: OrientationMap) -> dict[str, Any]:
+    summaries = [orientation_summary(one, inputs.grid, mu) for mu in inputs.frictions]
+    return {
+        **orientation_document(one),
+        "summary": [
+            {
+                "mu": summary.mu,
+                "share": summary.share,
+                "engaged": summary.engaged,
+                "undecided": summary.undecided,
+                "worst_phase": summary.worst_phase_deg,
+                "torque": summary.torque,
+                "tilt": summary.tilt_deg,
+                "shift": summary.shift,
+            }
+            for summary in summaries
+        ],
+    }
