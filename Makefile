@@ -12,6 +12,7 @@
 # make certificate audit the bounds that close boxes in ball arithmetic, write the end of docs/certificate.md
 # make statics    what a push does to the states, docs/statics.md and its maps
 # make settled    where held bolts rest beside the paper's states, docs/settled-compared.md and its maps
+# make success    success maps of the default device, the end of docs/success.md and its pictures
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
@@ -39,7 +40,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate settle peer
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled success statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate settle peer
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -99,6 +100,9 @@ statics: setup
 settled: setup
 	$(BIN)/threadstate rebuild-settled
 	$(BIN)/python -m studies.settled
+
+success: setup
+	$(BIN)/python -m studies.success
 
 witness: setup
 	$(BIN)/python -m studies.witness
