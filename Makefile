@@ -13,6 +13,7 @@
 # make certainty what a surer search of thread on thread costs, docs/certainty.md and its picture
 # make statics    what a push does to the states, docs/statics.md and its maps
 # make settled    where held bolts rest beside the paper's states, docs/settled-compared.md and its maps
+# make success    success maps of the default device, the end of docs/success.md and its pictures
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
@@ -41,7 +42,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -107,6 +108,9 @@ statics: setup
 settled: setup
 	$(BIN)/threadstate rebuild-settled
 	$(BIN)/python -m studies.settled
+
+success: setup
+	$(BIN)/python -m studies.success
 
 witness: setup
 	$(BIN)/python -m studies.witness

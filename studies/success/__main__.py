@@ -1,0 +1,47 @@
+"""``make success``: success maps of the default device; writes the end of docs/success.md and its pictures.
+
+The maps are kept in files below ``data/success``, so that an interrupted run goes on, and one that was done is read.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from studies.success.page import HEADING, picture_name, section, share_picture
+from studies.success.study import StudiedMap, studied_inputs
+from worker.success.run import computed_map_with_progress
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "success.md"
+
+
+def main() -> None:
+    """Compute the maps, write the section and the pictures."""
+    parser = argparse.ArgumentParser(prog="python -m studies.success", description=__doc__)
+    parser.add_argument("--workers", type=int, default=1, help="processes [%(default)s]")
+    parser.add_argument("--into", type=Path, default=ROOT / "data" / "success", help="folder of maps [data/success]")
+    arguments = parser.parse_args()
+    arguments.into.mkdir(parents=True, exist_ok=True)
+    maps: list[StudiedMap] = []
+    for inputs in studied_inputs():
+        path = arguments.into / f"{inputs.strategy.value}-{inputs.sha256[:12]}.map"
+        maps.append(StudiedMap(inputs, computed_map_with_progress(inputs, arguments.workers, path).orientations))
+        _write(maps)
+
+
+def _write(maps: Sequence[StudiedMap]) -> None:
+    """Write the section and the pictures, of the maps that there are so far."""
+    text = PAGE.read_text()
+    head = text[: text.index(HEADING)] if HEADING in text else f"{text}\n"
+    PAGE.write_text(head + section(maps))
+    folder = PAGE.with_suffix("")
+    folder.mkdir(exist_ok=True)
+    for one in maps:
+        if one.inputs.frictions == (0.0,):
+            (folder / f"{picture_name(one)}.svg").write_text(share_picture(one))
+
+
+if __name__ == "__main__":
+    main()

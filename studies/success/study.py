@@ -1,0 +1,47 @@
+"""The maps of the study: those of the default device and pair, by either strategy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from threadstate.device.model import default_device
+from threadstate.device.strategy import Strategy
+from threadstate.library.grid import Grid
+from threadstate.success.document import map_sha256
+from threadstate.success.inputs import SuccessInputs
+from threadstate.success.model import OrientationMap
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+FRICTIONLESS_GRID = Grid(4.0, 1.0, 180.0)
+"""All 81 orientations of the default grid, from two phases."""
+FRICTION_GRID = Grid(4.0, 4.0, 360.0)
+"""Nine orientations, from one phase: a path with friction takes some seconds."""
+FRICTIONS = (0.1, 0.2, 0.3)
+
+
+@dataclass(frozen=True)
+class StudiedMap:
+    """A map with what it was computed from."""
+
+    inputs: SuccessInputs
+    orientations: Sequence[OrientationMap]
+
+    @cached_property
+    def content_sha256(self) -> str:
+        """Its content hash."""
+        return map_sha256(self.orientations)
+
+
+def studied_inputs() -> list[SuccessInputs]:
+    """What the maps are computed from: frictionless ones, then those with friction, each by both strategies.
+
+    Boundaries are those of the starting phases, and critical frictions those between the frictions of the map.
+    """
+    pair, device = quarter_twenty_unc(), default_device()
+    return [
+        SuccessInputs(pair, device, strategy, grid, frictions, phase_tolerance_deg=360.0, mu_tolerance=0.1)
+        for grid, frictions in ((FRICTIONLESS_GRID, (0.0,)), (FRICTION_GRID, FRICTIONS))
+        for strategy in Strategy
+    ]
