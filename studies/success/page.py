@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from studies.pictures import FAINT, INK, picture
+from studies.success.halved import Confirmed
 from studies.success.study import StudiedMap
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.device.strategy import Strategy
@@ -21,8 +22,8 @@ SHADES = ("#bcd9e6", "#7db4d0", "#3f8fbf", "#0b5f99")
 """By the part of the starting phases that engages: up to a quarter, a half, three quarters, and all."""
 
 
-def section(maps: Sequence[StudiedMap]) -> str:
-    """The section in Markdown, from its heading on."""
+def section(maps: Sequence[StudiedMap], checks: Sequence[Confirmed] = ()) -> str:
+    """The section in Markdown, from its heading on; with ``checks`` of the maps, in their order, once there are any."""
     lines = [
         HEADING.rstrip("\n"),
         *_words(maps),
@@ -33,6 +34,7 @@ def section(maps: Sequence[StudiedMap]) -> str:
         "",
         *_reasons(maps),
         *_critical(maps),
+        *(_halved(maps, checks) if checks else []),
     ]
     pictures = [one for one in maps if one.inputs.frictions == (0.0,)]
     for one in pictures:
@@ -181,6 +183,28 @@ def _critical(maps: Sequence[StudiedMap]) -> list[str]:
                     for found in one.orientations
                 ),
             ]
+    return lines
+
+
+def _halved(maps: Sequence[StudiedMap], checks: Sequence[Confirmed]) -> list[str]:
+    lines = [
+        "",
+        "Both sides of each boundary with two certain outcomes, followed again with half the step:",
+        "",
+        "| strategy | mu | boundaries | paths beside them | that end otherwise |",
+        "|---|---|---|---|---|",
+    ]
+    for one, check in zip(maps, checks, strict=True):
+        otherwise = ", ".join(
+            f"roll {number_text(side.roll_deg)}, pitch {number_text(side.pitch_deg)}, phase "
+            f"{number_text(side.cell.phase_deg)}, mu {number_text(side.cell.mu)}: {side.cell.outcome.value}, then "
+            f"{cell.outcome.value}"
+            for side, cell in check.changed
+        )
+        lines.append(
+            f"| `{one.inputs.strategy.value}` | {_listed(one.inputs.frictions)} | {check.boundaries} | {check.paths} | "
+            f"{otherwise or 'none'} |"
+        )
     return lines
 
 

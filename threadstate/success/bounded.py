@@ -76,8 +76,11 @@ def bounded_cell(
     pose_deg: tuple[float, float, float],
     mu: float,
     point_limit: int,
+    longest_step_deg: float | None = None,
 ) -> Cell:
     """The cell of the path from a commanded pose (roll, pitch, phase in degrees) at a friction.
+
+    ``longest_step_deg`` is the path's longest step; None: that of :func:`threadstate.device.assemble.assemble_pose`.
 
     Raises:
         InvalidValueError: as :func:`threadstate.device.assemble.assemble_pose`.
@@ -86,7 +89,7 @@ def bounded_cell(
     phase_deg = pose_deg[2]
     try:
         with watch.looking():
-            path = assemble_pose(pair, *pose_deg, device, strategy, mu=mu, watch=watch)
+            path = assemble_pose(pair, *pose_deg, device, strategy, mu=mu, longest_step=longest_step_deg, watch=watch)
     except PathStoppedError:
         return Cell(phase_deg, mu, AssemblyOutcome.UNDECIDED, (), True, None, None, None, None)
     return cell_of(path)
