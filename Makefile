@@ -19,6 +19,7 @@
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
 # make settle     settled states beside the brute force, their minima found again, changed commands, docs/settle-checked.md
 # make paper-case the paper's case turned by compliant hands, docs/paper-case.md and its pictures
+# make paths      paths with friction: energy, and the same with half the step, docs/paths-checked.md
 # make peer       settled states beside MuJoCo's in one run, docs/settle-peer.md
 # make witness    the numbers of 10,000 loaded states beside a conic solver's, docs/statics-witness.md
 # make histories  look at the boundaries of random orientations' histories from outside, start the grid's ten times as dense
@@ -42,7 +43,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success
+.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success paths
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -117,6 +118,9 @@ witness: setup
 
 settle: setup $(VENV)/.oracle
 	$(BIN)/python -m studies.settle
+
+paths: setup
+	$(BIN)/python -m studies.paths
 
 peer: setup $(VENV)/.oracle $(VENV)-mujoco/.dependencies
 	$(BIN)/python -m benchmarks.settle_peer --mujoco $(VENV)-mujoco/bin/python

@@ -283,12 +283,14 @@ def test_with_less_friction_there_is_one_solution() -> None:
             assert not planar_rests(tilt, commanded, 0.1, float(after[fk.P_PUSH]))
 
 
-def test_a_peg_that_wedges_stays_however_large_the_push() -> None:
-    """With friction above that of wedging both contacts stick from the first time that both touch."""
+def test_a_peg_that_can_wedge_has_two_solutions_at_each_step() -> None:
+    """With friction above that of wedging contacts can hold any push; whether they do is not computed."""
     points = followed(8.0, 0.4)
     touching = points[points[:, fk.P_COUNT] == 2]
     assert len(touching) > 5
     tilt = math.acos(touching[0, fk.P_POSE + 8])
-    line = math.atan2(-touching[0, fk.P_POSE + 11] - r * math.sin(tilt), 2.0 * R)
+    line = math.atan2(two_point_depth(tilt) - r * math.sin(tilt), 2.0 * R)
     assert math.tan(line + tilt) < 0.4
-    assert np.ptp(touching[1:, fk.P_POSE + 11]) < 1e-9
+    for before, after in pairwise(touching):
+        assert planar_rests(math.acos(before[fk.P_POSE + 8]), math.radians(8.0), 0.4, float(after[fk.P_PUSH]))
+        assert after[fk.P_SOLUTIONS] == 2

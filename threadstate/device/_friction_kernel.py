@@ -38,6 +38,7 @@ from threadstate.device._modes_kernel import (
     K_SLIP,
     MOST_CONTACTS,
     OPENS,
+    OVERLAP,
     REACH,
     SLIPS,
     SOLVED,
@@ -46,6 +47,7 @@ from threadstate.device._modes_kernel import (
     cones_hold,
     new_modes_work,
     overlaps_beside,
+    set_contact,
     set_velocities,
     solve_mode,
     tangent,
@@ -401,15 +403,17 @@ def enumerate_modes(
     place = np.empty(PLACE_SIZE)
     for j in range(COORDINATES):
         start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
+    total = 0
+    if not turns:
+        set_place(q, device, place)
+        touching = touching_contacts(
+            find_places(OVERLAP * r, place, device, bolt, nut, threads, search, places), places, contacts
+        )
+        if rests(q, push, mu, touching, contacts, device):
+            total = add_solution(total, q, touching, contacts, device, solutions)
     set_place(start, device, place)
     found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
     at_start = places[:found].copy()
-    total = 0
-    if not turns:
-        for c in range(count):
-            copy_numbers(candidates[c], contacts[c])
-        if rests(q, push, mu, count, contacts, device):
-            total = add_solution(total, q, count, contacts, device, solutions)
     for code in range(3**count):
         rest, sticking = code, 0
         for c in range(count):
@@ -437,6 +441,17 @@ def enumerate_modes(
         if not overlaps_beside(modes, count, r, after, contacts, places):
             total = add_solution(total, trial, count, contacts, device, solutions)
     return total
+
+
+@kernel()
+def touching_contacts(found: int, places: Array, contacts: Array) -> int:
+    """Sets contacts without forces at the ``found`` places, as many as there is room for; their number."""
+    count = min(found, MOST_CONTACTS)
+    for c in range(count):
+        for h in range(K_SIZE):
+            contacts[c, h] = 0.0
+        set_contact(places[c], contacts[c])
+    return count
 
 
 @kernel()

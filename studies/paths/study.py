@@ -1,0 +1,157 @@
+"""Paths with friction, each followed with the usual longest steps and with half of them (docs/paths-checked.md)."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate.device import _friction_kernel as fk
+from threadstate.device.command import LONGEST_STEP_WITH_FRICTION_DEG
+from threadstate.device.friction import FrictionLeg
+from threadstate.device.model import Outcome, default_device
+from threadstate.device.settle import device_numbers, settled_rows, state_with_friction
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+Floats = NDArray[np.float64]
+
+SEED = 2033
+TILT_DEG = 4.0
+FRICTIONS = (0.02, 0.05, 0.1, 0.2)
+ACCURACY_DEG, ACCURACY = 0.1, 2e-3
+"""How far half the step moves a fall (deg of phase), and the pose at the end (nominal radii)."""
+
+ENDS = {
+    fk.REACHED: "turned",
+    fk.TORQUE_OVER: "jammed",
+    fk.SLIPPED_OFF: "slipped",
+    fk.TOO_DEEP: "deep",
+    fk.TOO_MANY: "more than five contacts",
+    fk.ON_PATCH: "flush, or leaves a strip",
+    fk.PATH_FULL: "out of points",
+    fk.NO_MINIMUM: "a fall that does not end",
+}
+
+
+@dataclass(frozen=True)
+class Followed:
+    """A path at one longest step: how it ended, its balance and its losses over push times nominal radius.
+
+    ``falls_deg`` are the phases of falls, ``place`` the pose's translation at the end over the nominal radius,
+    ``ambiguous`` whether a step had several solutions, ``least_loss`` the least loss by friction in a step.
+    """
+
+    end: str
+    balance: float
+    friction: float
+    falls: float
+    least_loss: float
+    falls_deg: tuple[float, ...]
+    place: tuple[float, ...]
+    ambiguous: bool
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A command, and its paths with the usual longest step and half of it; none where the bolt does not settle."""
+
+    name: str
+    start: str
+    half_start: str
+    whole: Followed | None = None
+    half: Followed | None = None
+
+    @property
+    def is_ended(self) -> bool:
+        """Whether both paths end with an answer."""
+        ends = [path.end for path in (self.whole, self.half) if path is not None and not path.ambiguous]
+        return len(ends) == 2 and set(ends) <= {"turned", "jammed", "slipped"}
+
+    @property
+    def moved(self) -> float:
+        """How far apart the ends of both paths are, in nominal radii."""
+        assert self.whole is not None
+        assert self.half is not None
+        return math.dist(self.whole.place, self.half.place)
+
+    @property
+    def moved_fall_deg(self) -> float | None:
+        """How far apart the same falls of both are, in degrees; None where they have other numbers of them."""
+        assert self.whole is not None
+        assert self.half is not None
+        before, after = self.whole.falls_deg, self.half.falls_deg
+        if len(before) != len(after):
+            return None
+        return max((abs(a - b) for a, b in zip(before, after, strict=True)), default=0.0)
+
+
+@dataclass
+class Found:
+    """What was found of paths that were turned by ``turn_deg``."""
+
+    turn_deg: float
+    paths: list[Compared] = field(default_factory=list)
+
+    def add(self, compared: Compared) -> None:
+        """Add a path."""
+        self.paths.append(compared)
+
+
+def command(number: int) -> tuple[float, float, float, float]:
+    """Roll, pitch and phase (deg) and friction of the path with a number."""
+    choose = np.random.default_rng([SEED, number])
+    roll, pitch = choose.uniform(-TILT_DEG, TILT_DEG, 2)
+    return float(roll), float(pitch), float(choose.uniform(-180.0, 180.0)), FRICTIONS[number % len(FRICTIONS)]
+
+
+def done(task: tuple[int, float]) -> Compared:
+    """The path with a number, turned clockwise by so many degrees, at both longest steps."""
+    number, turn_deg = task
+    roll, pitch, phase, mu = command(number)
+    name = f"roll {roll:.3f}, pitch {pitch:.3f}, phase {phase:.3f}, mu {mu}"
+    start, whole = followed((roll, pitch, phase), mu, turn_deg, LONGEST_STEP_WITH_FRICTION_DEG)
+    half_start, half = followed((roll, pitch, phase), mu, turn_deg, 0.5 * LONGEST_STEP_WITH_FRICTION_DEG)
+    return Compared(name, start, half_start, whole, half)
+
+
+def followed(
+    pose_deg: tuple[float, float, float], mu: float, turn_deg: float, longest_step_deg: float
+) -> tuple[str, Followed | None]:
+    """How a bolt settles with friction, and its path as it is turned clockwise; None where it does not settle."""
+    pair = quarter_twenty_unc()
+    device = default_device().in_unit(pair.unit)
+    numbers = device_numbers(pair, device)
+    pose = np.array(pose_deg)
+    _, rows = settled_rows(pair, device, numbers, pose[None])
+    began = time.process_time()
+    state, path = state_with_friction(pair, device, numbers, pose, rows[0][0], mu, longest_step_deg=longest_step_deg)
+    start = ", ".join([state.outcome.value, *(flag.value for flag in state.flags)])
+    if path is None or state.outcome is not Outcome.SETTLED:
+        return start, None
+    phase = math.radians(pose_deg[2])
+    leg = path.follow((phase, phase - math.radians(turn_deg)), (device.push, device.push))
+    unit = device.push * pair.nominal_diameter / 2.0
+    return start, measured(leg, unit, pair.nominal_diameter / 2.0, time.process_time() - began)
+
+
+def measured(leg: FrictionLeg, unit: float, r: float, seconds: float) -> Followed:
+    """What a leg says of its energy, falls and end; energies over ``unit``, lengths over ``r``."""
+    rows = leg.points
+    work = float((0.5 * (rows[1:, fk.P_TORQUE] + rows[:-1, fk.P_TORQUE]) * np.diff(rows[:, fk.P_PHASE])).sum())
+    friction, falls = float(rows[:, fk.P_FRICTION].sum()), float(rows[:, fk.P_FALL].sum())
+    gained = float(rows[-1, fk.P_POTENTIAL] - rows[0, fk.P_POTENTIAL])
+    return Followed(
+        ENDS[leg.status],
+        (work - gained - friction - falls) / unit,
+        friction / unit,
+        falls / unit,
+        float(rows[:, fk.P_FRICTION].min()) / unit,
+        tuple(float(phase) for phase in np.degrees(rows[rows[:, fk.P_FALL] > 0.0, fk.P_PHASE])),
+        tuple(float(x) for x in rows[-1, fk.P_POSE + 9 : fk.P_POSE + 12] / r),
+        bool((rows[:, fk.P_SOLUTIONS] > 1.0).any()),
+        seconds,
+    )
