@@ -37,8 +37,8 @@ def section(found: Found) -> str:
     lines += [
         "The most of each range that a corner or the middle of a box uses, and of an error in the middle; 1 is all.",
         "It is natural for a size, whose range is about 0. A slope in the middle is claimed to be that of some profile",
-        "displaced by up to 1.5e-14 p (section 6); here it is set against the one that is not displaced, so that on",
-        "fillets it may use more than its error.",
+        "displaced by up to 1.5e-14 p (certificate, section 6); here it is set against the one that is not displaced,",
+        "so that on fillets it may use more than its error.",
         "",
     ]
     lines += _table(

@@ -14,6 +14,7 @@ from threadstate.device.assembly_model import AssemblyPath, PathEventKind
 from threadstate.units import LengthUnit, conversion_factor
 
 WIDTH = 118
+LET_GO = "([the device](device.md#friction)): there the torque jumps to the frictionless one for a point."
 MM = conversion_factor(LengthUnit.INCH, LengthUnit.MILLIMETRE)
 TURN_COLORS = ("#9aa7b4", "#b3261e")
 """Of the counter-clockwise turn and of the clockwise one."""
@@ -30,7 +31,7 @@ def page(shown: Sequence[AssemblyPath], by_tilt: Mapping[float, Limit], by_centr
             "all phases and finds those at which it can go down. Here the same bolt is held by the",
             "[default device](device.md#the-device), pushed down with 10 N from phase",
             f"{PHASE_DEG:g} deg, turned counter-clockwise until it snaps onto the thread, and then clockwise",
-            "([forces](forces.md), section 7). Does that assemble it, and up to which friction and stiffness?",
+            "([forces](forces.md), section 5). Does that assemble it, and up to which friction and stiffness?",
             "`make paper-case` computed this page.",
         ),
         "",
@@ -81,15 +82,22 @@ def _story(path: AssemblyPath) -> str:
     if snap is None or path.travel is None or path.energy is None:
         return f"{how} the path ends `{path.outcome.value}`."
     falls = sum(event.kind is PathEventKind.FALL for event in path.events)
+    unsolved = sum(point.solutions == 0 for point in path.points)
+    let_go = (
+        [f"After {unsolved} of its steps, which have no solution with friction, the bolt is let go without it", LET_GO]
+        if unsolved
+        else []
+    )
     travel, energy = path.travel, path.energy
     return _paragraph(
         f"{how} it snaps at {snap.phase_deg:.2f} deg, by {MM * (snap.drop or 0.0):.3f} mm, and ends",
-        f"`{path.outcome.value}`; it falls {falls} times on the way. The largest torque is",
+        f"`{path.outcome.value}`; falls on the way: {falls}. The largest torque is",
         f"{MM * travel.torque:.2f} N mm, the device gives way by {travel.tilt_deg:.2f} deg and",
         f"{MM * travel.shift:.3f} mm.",
         f"Friction takes {MM * energy.friction:.2f} N mm, falls take {MM * energy.falls:.3f} N",
         "mm; the energies add up to",
         f"{MM * abs(energy.balance):.1e} N mm.",
+        *let_go,
     )
 
 
