@@ -14,11 +14,12 @@ from threadstate.device import _friction_kernel as fk
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _strip_kernel as st
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, ContactMotion, Held
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, ContactMotion, Held, PathEventKind
 from threadstate.device.command import command_numbers, strip_numbers
 from threadstate.device.friction import FrictionLeg, FrictionPath, begin_friction, point_of
 from threadstate.device.model import Outcome, SettledFlag, default_device
 from threadstate.device.settle import device_numbers, settle_pose, settled_rows, state_with_friction
+from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
@@ -168,6 +169,26 @@ def test_an_aligned_screw_locks_between_the_frictions_of_its_radii(name: str) ->
     assert strip_torque(pair, 0.99 * least) > 0.0
     assert strip_torque(pair, 1.02 * largest) < 0.0
     assert strip_torque(pair, 0.0) == pytest.approx(k, rel=1e-8)
+
+
+def test_what_a_step_meets_is_one_of_its_contacts() -> None:
+    """Steps have a solution also where the bolt meets what without friction it would not touch; some two falls do not.
+
+    With the contacts of the frictionless bolt alone 149 steps of this path had none.
+    """
+    path = assemble_pose(UNC, 2.0, 3.0, 13.0, strategy=Strategy.CW, mu=0.2)
+    assert path.outcome is AssemblyOutcome.IDLE
+    assert sum(point.solutions == 0 for point in path.points[1:]) <= 4
+    assert sum(event.kind is PathEventKind.GAINED for event in path.events) >= 5
+
+
+def test_after_a_fall_friction_comes_up_again() -> None:
+    """A path goes on from its snap in steps that are long enough: with the least ones none had a solution."""
+    path = assemble_pose(UNC, -3.0, -2.0, 169.0, mu=0.1)
+    assert path.outcome is AssemblyOutcome.ENGAGED
+    assert path.energy is not None
+    assert abs(path.energy.balance) < 1e-3 * path.energy.friction
+    assert sum(point.solutions == 0 for point in path.points[1:]) <= 4
 
 
 def test_what_is_not_followed_with_friction_says_so() -> None:

@@ -33,7 +33,8 @@ from threadstate.contact._stage_kernel import (
 )
 from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, TANGENCY_JET_SIZE, TJ_PHI, TJ_Z
 from threadstate.device._gap_kernel import G_PAIR, G_POINT, G_THETA
-from threadstate.device._places_kernel import MAX_PITCHES, MAX_PLACES, thread_maximum
+from threadstate.device._places_kernel import MAX_PITCHES, MAX_PLACES
+from threadstate.device._thread_maximum_kernel import thread_maximum
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -112,7 +113,7 @@ def ridge_is_inside(pose: Array, limit: float, bolt: Array, nut: Array) -> bool:
     copy_numbers(pose, placement[0:12])
     set_columns(FINE_AZIMUTHS, bolt, grid)
     for j in range(ridge_maxima(FINE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
-        _, z, _ = thread_maximum(maxima[j, 0], maxima[j, 1], placement, bolt, nut, jet)
+        _, z, _ = thread_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
         if min(jet[TJ_PHI], -jet[TJ_Z], z) > limit:
             return True
     return False

@@ -36,6 +36,7 @@ from threadstate.device._modes_kernel import (
     K_PAIR,
     K_POINT,
     K_SLIP,
+    MOST_CANDIDATES,
     MOST_CONTACTS,
     OPENS,
     OVERLAP,
@@ -46,7 +47,7 @@ from threadstate.device._modes_kernel import (
     ModesWork,
     cones_hold,
     new_modes_work,
-    overlaps_beside,
+    overlap_beside,
     set_contact,
     set_velocities,
     solve_mode,
@@ -128,6 +129,9 @@ LAID = 3e-3
 """How near (nominal radii) to the level pose on a strip a bolt is laid there: along the strip a step takes it half as
 far."""
 
+BRIDGING = 4.0
+"""How much longer the steps become that are tried where no step is short enough."""
+
 MAX_POINTS = 2500
 
 ENERGY_STEP = 2e-5
@@ -136,7 +140,7 @@ ENERGY_STEP = 2e-5
 # How a path ends.
 REACHED, SNAP_REACHED, TORQUE_OVER, SLIPPED_OFF, TOO_DEEP, TOO_MANY, ON_PATCH, PATH_FULL, NO_MINIMUM = range(9)
 GOES_ON, SHORTER = -1, -2
-"""Of a step: the path goes on, or the step has to be shorter."""
+"""Of a step: the path goes on, or the step has to have another length, as a rule a shorter one."""
 
 FREE_STEPS = 60
 """Steps of the descent without friction that says which contacts a step may gain."""
@@ -176,7 +180,7 @@ def add_candidate(count: int, point: Array, normal: Array, pair: float, r: float
             apart += (contacts[i, K_POINT + h] - point[h]) ** 2
         if math.sqrt(apart) < SAME_CONTACT * r:
             return count
-    if count < MOST_CONTACTS:
+    if count < MOST_CANDIDATES:
         for h in range(K_SIZE):
             contacts[count, h] = 0.0
         for h in range(3):
@@ -388,22 +392,24 @@ def enumerate_modes(
     candidates: Array,
     setting: Setting,
     solutions: Solutions,
-) -> int:
-    """Sets every solution of a step; returns their number.
+    met: Array,
+) -> tuple[int, bool]:
+    """Sets every solution of a step: their number, and whether one that would be overlaps beside its contacts.
 
-    ``q`` is the bolt before the step, ``carried`` where the hand carries it, ``free`` where it would be without
-    friction, ``before`` the pose before. A bolt that turns about a rigid axis has no two contacts that stick.
+    ``met`` is set to where the last such one does. ``q`` is the bolt before the step, ``carried`` where the hand
+    carries it, ``free`` where it would be without friction, ``before`` the pose before. A bolt that turns about a rigid
+    axis has no two contacts that stick.
     """
     _, device, _, bolt, nut, threads, _, modes_work = setting
     places, search = modes_work[0], modes_work[1]
     r = device[D_SCALE]
-    modes = np.empty(MOST_CONTACTS, dtype=np.int64)
-    contacts = np.empty((MOST_CONTACTS, K_SIZE))
+    modes = np.empty(MOST_CANDIDATES, dtype=np.int64)
+    contacts = np.empty((MOST_CANDIDATES, K_SIZE))
     trial, start = np.empty(COORDINATES), np.empty(COORDINATES)
     place = np.empty(PLACE_SIZE)
     for j in range(COORDINATES):
         start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
-    total = 0
+    total, has_met = 0, False
     if not turns:
         set_place(q, device, place)
         touching = touching_contacts(
@@ -415,15 +421,17 @@ def enumerate_modes(
     found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
     at_start = places[:found].copy()
     for code in range(3**count):
-        rest, sticking = code, 0
+        rest, sticking, touching = code, 0, 0
         for c in range(count):
             modes[c] = rest % 3
             rest //= 3
             sticking += 1 if modes[c] == STICKS else 0
+            touching += 0 if modes[c] == OPENS else 1
+        if sticking > 1 or touching > MOST_CONTACTS:
+            continue
+        for c in range(count):
             copy_numbers(candidates[c], contacts[c])
             contacts[c, K_MODE] = modes[c]
-        if sticking > 1:
-            continue
         copy_numbers(start, trial)
         for j in range(found):
             copy_numbers(at_start[j], places[j])
@@ -438,9 +446,13 @@ def enumerate_modes(
             continue
         set_place(trial, device, place)
         after = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
-        if not overlaps_beside(modes, count, r, after, contacts, places):
+        beside = overlap_beside(modes, count, r, after, contacts, places)
+        if beside >= 0:
+            copy_numbers(places[beside], met)
+            has_met = True
+        else:
             total = add_solution(total, trial, count, contacts, device, solutions)
-    return total
+    return total, has_met
 
 
 @kernel()
@@ -473,28 +485,26 @@ def chosen(total: int, carried: Array, count: int, contacts: Array, device: Arra
 
 
 @kernel()
-def candidates_of(count: int, contacts: Array, found: int, setting: Setting, push: float, candidates: Array) -> int:
-    """Sets the contacts of a step: those before it, then those that a bolt without friction would have after it."""
-    device, work = setting[1], setting[6]
+def add_free_contacts(total: int, found: int, push: float, device: Array, work: Work, candidates: Array) -> int:
+    """Adds the contacts of a bolt without friction, as many as there is room for; the number of candidates then."""
     places, multipliers = work[0], work[15]
-    r = device[D_SCALE]
-    total = 0
-    for c in range(count):
-        copy_numbers(contacts[c], candidates[c])
-        total += 1
     for j in range(found):
         if multipliers[j] * places[j, G_NORM] > LOADED * push:
-            total = add_candidate(
-                total,
-                places[j, G_POINT : G_POINT + 3],
-                places[j, G_NORMAL : G_NORMAL + 3],
-                places[j, G_PAIR],
-                r,
-                candidates,
-            )
-            if total > MOST_CONTACTS:
-                return total
+            total = min(add_candidate_at(total, places[j], device, candidates), MOST_CANDIDATES)
     return total
+
+
+@kernel()
+def add_candidate_at(total: int, gap: Array, device: Array, candidates: Array) -> int:
+    """Adds a place of overlap to a step's contacts, as :func:`add_candidate`."""
+    return add_candidate(
+        total,
+        gap[G_POINT : G_POINT + 3],
+        gap[G_NORMAL : G_NORMAL + 3],
+        gap[G_PAIR],
+        device[D_SCALE],
+        candidates,
+    )
 
 
 @kernel()
@@ -652,12 +662,42 @@ def fall_without_friction(q: Array, push: float, setting: Setting, contacts: Arr
 
 
 @kernel()
+def solve_step(
+    q: Array,
+    free: Array,
+    before: Array,
+    push: float,
+    mu: float,
+    turns: bool,
+    total: int,
+    candidates: Array,
+    setting: Setting,
+    solutions: Solutions,
+) -> tuple[int, int]:
+    """Sets every solution of a step, with what the bolt meets in it added to the candidates.
+
+    Returns how many there are, and the number of candidates: one more than there is room for where it meets too many.
+    """
+    command, device = setting[0], setting[1]
+    met = np.empty(GAP_SIZE)
+    while True:
+        number, has_met = enumerate_modes(
+            q, q, free, before, push, command[M_PUSH], mu, turns, total, candidates, setting, solutions, met
+        )
+        known = total
+        if has_met:
+            total = add_candidate_at(total, met, device, candidates)
+        if total == known or total > MOST_CANDIDATES:
+            return number, total
+
+
+@kernel()
 def step_with_friction(
     q: Array,
     push: float,
     mu: float,
     turns: bool,
-    is_least: bool,
+    falls: bool,
     before: Array,
     count: int,
     contacts: Array,
@@ -667,46 +707,55 @@ def step_with_friction(
 ) -> tuple[int, int]:
     """A step from ``q`` to a new command, in place: how the path ends there, if it does, and its number of contacts.
 
-    SHORTER where there is no solution or too many contacts, and the step is not the least; ``before`` is the pose
-    before it.
+    Where there is no solution, or there are too many contacts, SHORTER, or if it ``falls`` where it falls to;
+    ``before`` is the pose before the step. The contacts are those before the step and what the bolt meets in it; where
+    they have no solution, and where the push grows, those that a bolt without friction would have are added.
     """
     command, device, _, bolt, nut, threads, work, _ = setting
     free = q.copy()
-    candidates = np.empty((MOST_CONTACTS, K_SIZE))
-    status, found = descend(
-        free,
-        push,
-        STEP_REACH * device[D_SCALE],
-        math.inf,
-        FREE_STEPS,
-        PATH_TOLERANCE,
-        PATH_OVERLAP,
-        device,
-        bolt,
-        nut,
-        threads,
-        work,
-    )
-    if status == FLUSH:
-        return ON_PATCH, 0
-    if status != AT_REST:
-        copy_numbers(q, free)
-        found = 0
-    total = candidates_of(count, contacts, found, setting, push, candidates)
-    if total > MOST_CONTACTS:
-        return (TOO_MANY if is_least else SHORTER), 0
-    unit = command[M_PUSH]
-    number = enumerate_modes(q, q, free, before, push, unit, mu, turns, total, candidates, setting, solutions)
+    candidates = np.empty((MOST_CANDIDATES, K_SIZE))
+    for c in range(count):
+        copy_numbers(contacts[c], candidates[c])
+    number, total = 0, count
+    if turns:
+        number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
+    if number == 0 and total <= MOST_CANDIDATES:
+        status, found = descend(
+            free,
+            push,
+            STEP_REACH * device[D_SCALE],
+            math.inf,
+            FREE_STEPS,
+            PATH_TOLERANCE,
+            PATH_OVERLAP,
+            device,
+            bolt,
+            nut,
+            threads,
+            work,
+        )
+        if status == FLUSH:
+            return ON_PATCH, 0
+        if status != AT_REST:
+            copy_numbers(q, free)
+            found = 0
+        known = total
+        total = add_free_contacts(total, found, push, device, work, candidates)
+        if total > known or not turns:
+            number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
+    if total > MOST_CANDIDATES:
+        return (TOO_MANY if falls else SHORTER), 0
     losses[2] = number
     if number == 0:
-        return fall_without_friction(q, push, setting, contacts) if is_least else (SHORTER, 0)
+        return fall_without_friction(q, push, setting, contacts) if falls else (SHORTER, 0)
     best = chosen(number, q, count, contacts, device, solutions)
     copy_numbers(solutions[0][best], q)
     losses[0] = friction_loss(count, contacts, int(solutions[2][best]), solutions[1][best])
     count = int(solutions[2][best])
-    for c in range(count):
+    used = kept(count, solutions[1][best], command[M_PUSH])
+    for c in range(used):
         copy_numbers(solutions[1][best, c], contacts[c])
-    return GOES_ON, kept(count, contacts, unit)
+    return GOES_ON, used
 
 
 @kernel()
@@ -771,11 +820,12 @@ def follow_friction(
     turn, growth = phases[1] - phases[0], pushes[1] - pushes[0]
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
+    least = LEAST_PART * longest
     step, reached, i = FIRST_PART * longest, 0.0, 0
-    on_strip = False
+    on_strip, bridging, falling = False, False, False
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
-        np.empty((MAX_SOLUTIONS, MOST_CONTACTS, K_SIZE)),
+        np.empty((MAX_SOLUTIONS, MOST_CANDIDATES, K_SIZE)),
         np.empty(MAX_SOLUTIONS, dtype=np.int64),
     )
     before, losses = np.empty(PLACE_SIZE), np.zeros(3)
@@ -791,7 +841,6 @@ def follow_friction(
         set_place(q, device, before)
         set_phase(phases[0] + target * turn, command, device)
         losses[0], losses[1], losses[2] = 0.0, 0.0, 1.0
-        is_least = size <= LEAST_PART * longest
         slid = slide_on_strip(q, push, mu, (target - reached) * turn, setting, contacts, losses) if turns else 0
         if slid > 0:
             on_strip, count, ended = True, slid, GOES_ON
@@ -799,10 +848,15 @@ def follow_friction(
             return ON_PATCH, i + 1, count
         else:
             ended, next_count = step_with_friction(
-                q, push, mu, turns, is_least, before, count, contacts, setting, solutions, losses
+                q, push, mu, turns, falling, before, count, contacts, setting, solutions, losses
             )
             if ended == SHORTER:
-                step = max(0.5 * size, LEAST_PART * longest)
+                if size > least and not bridging:
+                    step = max(0.5 * size, least)
+                elif size < min(longest, 1.0 - reached):
+                    bridging, step = True, min(BRIDGING * size, longest)
+                else:
+                    falling, step = True, least
                 continue
             if ended != GOES_ON:
                 return ended, i + 1, count
@@ -812,15 +866,14 @@ def follow_friction(
         )
         lost = unexplained(i + 1, path)
         if abs(lost) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and not on_strip:
-            if not is_least:
+            if size > least and not (bridging or falling):
                 count = go_back(i, q, contacts, path)
-                step = max(0.5 * size, LEAST_PART * longest)
+                step = max(0.5 * size, least)
                 continue
             path[0][i + 1, P_FALL] = max(lost, 0.0)
         if (
             turns
-            and not on_strip
-            and losses[2] > 0.0
+            and not (on_strip or bridging or falling)
             and size * abs(turn) > ABOVE * EVENT_WIDTH
             and not same_features(i, count, contacts, path)
         ):
@@ -832,7 +885,9 @@ def follow_friction(
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
         if ended != GOES_ON:
             return ended, i + 1, count
-        step = min(2.0 * size, longest)
+        # After a fall no force of friction is known: they come up in the next step, which has to be long enough.
+        step = FIRST_PART * longest if losses[2] == 0.0 else min(2.0 * size, longest)
+        bridging, falling = False, False
     return REACHED, i + 1, count
 
 

@@ -16,23 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import copy_numbers
-from threadstate.contact._stage_kernel import (
-    BASE_EDGE,
-    EDGE_EDGE,
-    EDGE_SURFACE,
-    EDGE_THREAD,
-    THREAD_EDGE,
-    THREAD_THREAD,
-)
-from threadstate.contact._tangency_kernel import TJ_Z
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_SCALE,
     D_STIFFNESS,
     N_CENTRE,
     N_JACOBIAN,
-    N_OFFSET,
     N_ROTATION,
     PLACE_SIZE,
     elastic_energy,
@@ -45,22 +34,18 @@ from threadstate.device._gap_kernel import (
     G_NORMAL,
     G_PAIR,
     G_POINT,
-    G_THETA,
     G_VALUE,
-    G_Z,
     GAP_SIZE,
     GAP_WORK,
     set_gap,
 )
+from threadstate.device._place_near_kernel import NOWHERE, place_near
 from threadstate.device._places_kernel import (
     MAX_PLACES,
     PLACES_WORK,
     W_GAP,
     W_JET,
     Threads,
-    bracketed_peak,
-    find_places,
-    polished_maximum,
 )
 from threadstate.device._rest_kernel import coordinate, free_coordinates, scale
 
@@ -70,8 +55,8 @@ Indices = NDArray[np.int64]
 OPENS, SLIPS, STICKS = range(3)
 """What a contact does in a step."""
 
-MOST_CONTACTS = 5
-"""Contacts whose modes are enumerated; of more a step is not decided."""
+MOST_CONTACTS, MOST_CANDIDATES = 5, 8
+"""The most contacts that touch at once, and of which the modes are enumerated; of more a step is not decided."""
 
 MOST_UNKNOWNS = COORDINATES + 3 * MOST_CONTACTS
 ITERATIONS = 40
@@ -83,9 +68,6 @@ LONGEST = 0.02
 
 FARTHEST = 0.05
 """How far the coordinates may go in all iterations, in nominal radii: more than twice what a step may."""
-
-WINDOW = 0.02
-"""Within this azimuth (rad) of where a contact was its place is looked for in an iteration, before all are searched."""
 
 LEAST_SLIP = 1e-9
 """The least slip (nominal radii) that the numbers rho of a step are made for."""
@@ -130,8 +112,8 @@ def new_modes_work() -> ModesWork:
         np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
         np.empty(MOST_UNKNOWNS),
         np.empty(MOST_UNKNOWNS),
-        np.empty((MOST_CONTACTS, 3, COORDINATES)),
-        np.empty(MOST_CONTACTS),
+        np.empty((MOST_CANDIDATES, 3, COORDINATES)),
+        np.empty(MOST_CANDIDATES),
     )
 
 
@@ -251,32 +233,14 @@ def follow_places(
 ) -> bool:
     """Sets the places of the contacts that stay anew, from where they were; False where one is not found near by."""
     places, search, _, _, _, _, _, indices = work
-    jet = search[W_JET : W_JET + EDGE_JET_SIZE]
-    placement, thread_jet = threads[3], threads[4]
     gap_work = search[W_GAP : W_GAP + GAP_WORK]
     for c in range(count):
         if modes[c] == OPENS:
             continue
         gap = places[int(indices[c])]
-        pair, theta, z = int(gap[G_PAIR]), gap[G_THETA], gap[G_Z]
-        if pair == THREAD_THREAD:
-            copy_numbers(place[N_ROTATION : N_ROTATION + 9], placement[0:9])
-            copy_numbers(place[N_OFFSET : N_OFFSET + 3], placement[9:12])
-            theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, thread_jet)
-            if not converged or z <= 0.0 or thread_jet[TJ_Z] >= 0.0:
-                return False
-        else:
-            of_bolt = not (pair == BASE_EDGE or pair == THREAD_EDGE)
-            curve, solid = (bolt, nut) if of_bolt else (nut, bolt)
-            kind, theta = bracketed_peak(of_bolt, theta - WINDOW, theta + WINDOW, place, curve, solid, jet)
-            if kind < 0 or (kind == 2 and not of_bolt):
-                return False
-            if kind == 2:
-                pair = EDGE_EDGE
-            elif kind == 0:
-                pair = EDGE_SURFACE if of_bolt else BASE_EDGE
-            else:
-                pair = EDGE_THREAD if of_bolt else THREAD_EDGE
+        pair, theta, z = place_near(gap, place, bolt, nut, threads, search[W_JET : W_JET + EDGE_JET_SIZE])
+        if pair == NOWHERE:
+            return False
         set_gap(pair, theta, z, place, device, bolt, nut, gap_work, gap)
     return True
 
@@ -473,7 +437,7 @@ def solve_mode(
     ``before`` is the pose before the step; ``unit`` the force that forces are counted in; ``found`` places are those
     at ``q``.
     """
-    places, search, matrix, spare, residual, unknowns, _, indices = work
+    places, _, matrix, spare, residual, unknowns, _, indices = work
     n = free_coordinates(device)
     r = device[D_SCALE]
     place = np.empty(PLACE_SIZE)
@@ -488,9 +452,7 @@ def solve_mode(
     for iteration in range(ITERATIONS):
         set_place(q, device, place)
         if iteration > 0 and not follow_places(modes, count, place, device, bolt, nut, threads, work):
-            found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
-            if not match_places(modes, count, contacts, found, places, r, indices):
-                return UNSOLVED
+            return UNSOLVED
         size = set_equations(modes, count, mu, rho, q, push, unit, place, before, device, contacts, work)
         worst = largest(size, residual)
         if worst < RESIDUAL:
@@ -562,8 +524,9 @@ def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, con
 
 
 @kernel()
-def overlaps_beside(modes: Indices, count: int, r: float, found: int, contacts: Array, places: Array) -> bool:
-    """Whether one of the ``found`` places of a mode's solution overlaps that is none of its contacts."""
+def overlap_beside(modes: Indices, count: int, r: float, found: int, contacts: Array, places: Array) -> int:
+    """Which of the ``found`` places of a mode's solution overlaps most and is none of its contacts, -1 if none does."""
+    deepest, beside = OVERLAP * r, -1
     for j in range(found):
         is_contact = False
         for c in range(count):
@@ -571,6 +534,6 @@ def overlaps_beside(modes: Indices, count: int, r: float, found: int, contacts: 
             for h in range(3):
                 apart += abs(places[j, G_POINT + h] - contacts[c, K_POINT + h])
             is_contact = is_contact or (modes[c] != OPENS and apart < SAME_PLACE * r)
-        if not is_contact and places[j, G_VALUE] > OVERLAP * r:
-            return True
-    return False
+        if not is_contact and places[j, G_VALUE] > deepest:
+            deepest, beside = places[j, G_VALUE], j
+    return beside

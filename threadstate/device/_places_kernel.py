@@ -8,6 +8,7 @@ solver, and the certificate of ``_certificate_kernel`` says whether anything was
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,14 +22,7 @@ from threadstate.contact._ridge_grid_kernel import (
     MAX_CROSSINGS,
     set_columns,
 )
-from threadstate.contact._ridge_kernel import (
-    FIRST_RIDGE_STEP,
-    FIRST_WINDOW,
-    LATER_RIDGE_STEP,
-    bracketed_maximum,
-    nearby_maximum,
-    ridge_maxima,
-)
+from threadstate.contact._ridge_kernel import LATER_RIDGE_STEP, ridge_maxima
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -41,13 +35,9 @@ from threadstate.contact._stage_kernel import (
 from threadstate.contact._tangency_kernel import (
     PLACEMENT_SIZE,
     TANGENCY_JET_SIZE,
-    TJ_A,
     TJ_B,
     TJ_PHI,
-    TJ_UU,
-    TJ_UZ,
     TJ_Z,
-    TJ_ZZ,
 )
 from threadstate.contact._tangency_kernel import set_jet as set_thread_jet
 from threadstate.device._chart_kernel import D_FINE, N_OFFSET, N_ROTATION
@@ -62,14 +52,22 @@ from threadstate.device._gap_kernel import (
     G_PAIR,
     G_POINT,
     G_THETA,
+    G_Z,
     GAP_WORK,
     moved_point,
     set_edge_jet,
     set_gap,
 )
+from threadstate.device._thread_maximum_kernel import (
+    MAXIMUM,
+    polished_maximum,
+    ridge_maximum,
+    thread_maximum,
+)
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 SAMPLES = 96
 FINE, FINEST = 8, 64
@@ -88,6 +86,7 @@ MAX_PITCHES = 4
 
 MAX_STEPS = 60
 NEWTON_STEPS = 12
+MAX_NARROWINGS = 8
 
 # Scratch of the search: depths at samples, at fine ones too, an edge's jet, the work of a gap.
 W_DEPTH = 0
@@ -96,10 +95,33 @@ W_JET = W_FINE + SAMPLES * FINEST
 W_GAP = W_JET + EDGE_JET_SIZE
 PLACES_WORK = W_GAP + GAP_WORK
 
-Threads = tuple[Array, Array, Array, Array, Array, Array]
-"""What the search knows of a pair, and its work: of thread on thread grid, crossings, maxima, placement and jet; then
-samples of both edges, which the first search sets.
-"""
+MAX_KNOWN, FORGOTTEN = 32, 16
+"""Maxima of phi along the threads that are remembered, and the searches in a row without one of them after which it is
+forgotten."""
+
+# A maximum that is remembered: azimuth, height over the bolt's base, searches since it was last found, and its place in
+# the present one's list, -1 for none.
+K_THETA, K_Z, K_MISSED, K_PLACE = range(4)
+KNOWN_SIZE = 4
+
+
+class Threads(NamedTuple):
+    """What the search knows of a pair, and its work.
+
+    Of thread on thread: grid, crossings, maxima, placement and jet; ``samples`` of both edges, which the first search
+    sets; and the maxima along the threads that the last searches have found, ``known``, with their number in
+    ``known_count``: two of them between two azimuths of the grid are told apart by where they were before.
+    """
+
+    grid: Array
+    crossings: Array
+    maxima: Array
+    placement: Array
+    jet: Array
+    samples: Array
+    known: Array
+    known_count: Indices
+
 
 # Azimuths of the grid; of the edges' samples into how many parts an interval is divided, then x and y of the bolt's,
 # then of the nut's.
@@ -115,14 +137,22 @@ def new_threads(bolt: Array) -> Threads:
     set_columns(RIDGE_AZIMUTHS, bolt, grid)
     samples[S_AZIMUTHS] = RIDGE_AZIMUTHS
     samples[S_PARTS] = 0.0
-    return (
+    return Threads(
         grid,
         np.empty(CROSSINGS_SIZE),
         np.empty((MAX_CROSSINGS, 2)),
         np.zeros(PLACEMENT_SIZE),
         np.empty(TANGENCY_JET_SIZE),
         samples,
+        np.empty((MAX_KNOWN, KNOWN_SIZE)),
+        np.zeros(1, dtype=np.int64),
     )
+
+
+@kernel()
+def forget_maxima(threads: Threads) -> None:
+    """Forgets the maxima that are remembered: the next search is of another path."""
+    threads.known_count[0] = 0
 
 
 @kernel()
@@ -214,6 +244,26 @@ def bracketed_peak(
 
 
 @kernel()
+def peak_beside(
+    of_bolt: bool, middle: float, step: float, place: Array, curve: Array, solid: Array, jet: Array
+) -> tuple[int, float]:
+    """As :func:`bracketed_peak`, the maximum beside a sample that is higher than those a step before and after it.
+
+    An end at which the slope is that of another maximum beside it is moved towards the sample, half-way each time.
+    """
+    low, high = middle - step, middle + step
+    for _ in range(MAX_NARROWINGS):
+        kind, theta = bracketed_peak(of_bolt, low, high, place, curve, solid, jet)
+        if kind >= 0:
+            return kind, theta
+        if theta == low:
+            low = 0.5 * (low + middle)
+        else:
+            high = 0.5 * (high + middle)
+    return -1, middle
+
+
+@kernel()
 def add_place(
     pair: int,
     theta: float,
@@ -225,10 +275,12 @@ def add_place(
     work: Array,
     count: int,
     places: Array,
-) -> int:
-    """Adds a place of overlap to the list, unless one of the same features is there already; their number then."""
+) -> tuple[int, int]:
+    """Adds a place of overlap to the list, unless one of the same features is there already: their number, and which it
+    is, -1 where the list is full.
+    """
     if count == MAX_PLACES:
-        return count
+        return count, -1
     set_gap(pair, theta, z, place, device, bolt, nut, work[W_GAP : W_GAP + GAP_WORK], places[count])
     near = 1e-7 * bolt[pk.R_MAJOR]
     for i in range(count):
@@ -236,8 +288,8 @@ def add_place(
         for j in range(3):
             apart += abs(places[i, G_POINT + j] - places[count, G_POINT + j])
         if apart < near and places[i, G_PAIR] == pair:
-            return count
-    return count + 1
+            return count, i
+    return count + 1, count
 
 
 @kernel()
@@ -256,8 +308,8 @@ def find_places(
     jet = work[W_JET : W_JET + EDGE_JET_SIZE]
     depth = work[W_DEPTH : W_DEPTH + SAMPLES]
     parts = int(device[D_FINE])
-    if threads[5][S_PARTS] != parts:
-        set_samples(parts, bolt, nut, threads[5])
+    if threads.samples[S_PARTS] != parts:
+        set_samples(parts, bolt, nut, threads.samples)
     all_fine = SAMPLES * parts
     fine = work[W_FINE : W_FINE + all_fine]
     step = TWO_PI / all_fine
@@ -267,7 +319,7 @@ def find_places(
         of_bolt = part == 0
         curve = bolt if of_bolt else nut
         solid = nut if of_bolt else bolt
-        samples = threads[5][S_POINTS + 2 * part * all_fine :]
+        samples = threads.samples[S_POINTS + 2 * part * all_fine :]
         for i in range(SAMPLES):
             depth[i] = sample_depth(of_bolt, i * parts, min(floor, lowest), place, samples, solid)
         for i in range(SAMPLES):
@@ -280,7 +332,7 @@ def find_places(
                 continue
             if fine[i] < fine[i - 1 if i > 0 else all_fine - 1] or fine[i] < fine[i + 1 if i < all_fine - 1 else 0]:
                 continue
-            kind, theta = bracketed_peak(of_bolt, (i - 1) * step, (i + 1) * step, place, curve, solid, jet)
+            kind, theta = peak_beside(of_bolt, i * step, step, place, curve, solid, jet)
             if kind < 0 or (kind == 2 and not of_bolt):
                 # The crossing of both edges is found from the bolt's.
                 continue
@@ -292,7 +344,7 @@ def find_places(
                 pair = EDGE_SURFACE if of_bolt else BASE_EDGE
             else:
                 pair = EDGE_THREAD if of_bolt else THREAD_EDGE
-            count = add_place(pair, theta, 0.0, place, device, bolt, nut, work, count, places)
+            count, _ = add_place(pair, theta, 0.0, place, device, bolt, nut, work, count, places)
     return add_threads(reach, place, device, bolt, nut, threads, work, count, places)
 
 
@@ -313,28 +365,32 @@ def add_threads(
     The search covers one thread pitch of the bolt: of a deeper one each pitch is searched, as the same thread moved
     down its axis.
     """
-    grid, crossings, maxima, placement, jet, samples = threads
+    placement, samples, maxima = threads.placement, threads.samples, threads.maxima
     for i in range(9):
         placement[i] = place[N_ROTATION + i]
     p = bolt[pk.P]
     # Nothing of the thread lies below the nut's surface where the base does not.
     below = -lowest_height(place, bolt)
+    if below <= 0.0:
+        return count
     edges = count
     azimuths = thread_azimuths(device)
-    if below > 0.0 and samples[S_AZIMUTHS] != azimuths:
-        set_columns(azimuths, bolt, grid)
+    if samples[S_AZIMUTHS] != azimuths:
+        set_columns(azimuths, bolt, threads.grid)
         samples[S_AZIMUTHS] = azimuths
+    set_base(0.0, place, placement)
+    for i in range(threads.known_count[0]):
+        theta, z = threads.known[i, K_THETA], threads.known[i, K_Z]
+        count, found = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
+        threads.known[i, K_PLACE] = found
     # The first pitch comes last, so that its placement is left for the ridges that end at an edge.
     for turn in range(min(math.ceil(below / p), MAX_PITCHES) - 1, -1, -1):
         base = turn * p
-        for i in range(3):
-            placement[9 + i] = place[N_OFFSET + i] + base * place[N_ROTATION + 3 * i + 2]
-        for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
-            count = add_thread(
+        set_base(base, place, placement)
+        for j in range(ridge_maxima(azimuths, placement, bolt, nut, threads.grid, threads.crossings, maxima)):
+            count, _ = add_thread(
                 maxima[j, 0], maxima[j, 1], base, reach, place, device, bolt, nut, threads, work, count, places
             )
-    if below <= 0.0:
-        return count
     # A ridge that goes from one edge to the other between two azimuths of the grid ends at a maximum along the edge,
     # from which phi rises into both threads: up the bolt's from its base, down it from the nut's surface.
     for i in range(edges):
@@ -344,10 +400,42 @@ def add_threads(
             x, y, z = moved_point(False, place, places[i, G_POINT], places[i, G_POINT + 1], places[i, G_POINT + 2])
             theta, inward = math.atan2(y, x), -1.0
         if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
-            set_thread_jet(theta, z, placement, bolt, nut, jet)
-            if inward * jet[TJ_B] > 0.0:
-                count = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
+            set_thread_jet(theta, z, placement, bolt, nut, threads.jet)
+            if inward * threads.jet[TJ_B] > 0.0:
+                count, _ = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
+    remember(edges, count, places, threads)
     return count
+
+
+@kernel()
+def set_base(base: float, place: Array, placement: Array) -> None:
+    """Moves a placement of the bolt, in its axes, to where a height over its base is that of the base."""
+    for i in range(3):
+        placement[9 + i] = place[N_OFFSET + i] + base * place[N_ROTATION + 3 * i + 2]
+
+
+@kernel()
+def remember(edges: int, count: int, places: Array, threads: Threads) -> None:
+    """Remembers the places on the threads, which come after those on edges, and forgets maxima that are long missed."""
+    known = threads.known
+    new = np.ones(MAX_PLACES)
+    kept = 0
+    for i in range(threads.known_count[0]):
+        j = int(known[i, K_PLACE])
+        missed = known[i, K_MISSED] + 1.0
+        if missed > FORGOTTEN or (j >= 0 and new[j] == 0.0):
+            continue
+        if j < 0:
+            known[kept, K_THETA], known[kept, K_Z], known[kept, K_MISSED] = known[i, K_THETA], known[i, K_Z], missed
+        else:
+            known[kept, K_THETA], known[kept, K_Z], known[kept, K_MISSED] = places[j, G_THETA], places[j, G_Z], 0.0
+            new[j] = 0.0
+        kept += 1
+    for j in range(edges, count):
+        if new[j] > 0.0 and kept < MAX_KNOWN:
+            known[kept, K_THETA], known[kept, K_Z], known[kept, K_MISSED] = places[j, G_THETA], places[j, G_Z], 0.0
+            kept += 1
+    threads.known_count[0] = kept
 
 
 @kernel()
@@ -370,58 +458,22 @@ def add_thread(
     work: Array,
     count: int,
     places: Array,
-) -> int:
-    """Adds the maximum of phi near a point of the bolt's thread, if it is inside both threads; the number of places.
+) -> tuple[int, int]:
+    """Adds the maximum of phi near a point of the bolt's thread, if it is inside both threads.
+
+    Returns the number of places, and which it is, -1 where there is none.
 
     ``z`` is counted from the height ``base`` over the bolt's base, to which the placement has moved the bolt.
     """
-    placement, jet = threads[3], threads[4]
-    theta, z, converged = thread_maximum(theta, z, placement, bolt, nut, jet)
-    if not converged or jet[TJ_PHI] < -reach or base + z <= 0.0 or jet[TJ_Z] >= 0.0:
-        return count
-    theta, z, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
-    if converged and jet[TJ_PHI] >= -reach and base + z > 0.0 and jet[TJ_Z] < 0.0:
-        return add_place(THREAD_THREAD, theta, base + z, place, device, bolt, nut, work, count, places)
-    return count
-
-
-@kernel()
-def thread_maximum(
-    theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
-) -> tuple[float, float, bool]:
-    """The maximum of phi over the bolt's thread that is near a point of a ridge; whether there is one.
-
-    By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge: long
-    ones, and short ones where the ridge is short.
-    """
-    at, up, converged = nearby_maximum(theta, z, 0.0, placement, bolt, nut, jet)
-    for step in (FIRST_RIDGE_STEP, LATER_RIDGE_STEP):
-        if not converged:
-            window = FIRST_WINDOW * bolt[pk.P]
-            at, up, converged = bracketed_maximum(theta, z, step, window, placement, bolt, nut, jet)
-            set_thread_jet(at, up, placement, bolt, nut, jet)
-    return at, up, converged
-
-
-@kernel()
-def polished_maximum(
-    theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
-) -> tuple[float, float, bool]:
-    """A maximum of phi over the bolt's thread to the last digits, from one that is near; whether it is a maximum."""
-    from_theta, from_z = theta, z
-    for _ in range(8):
-        set_thread_jet(theta, z, placement, bolt, nut, jet)
-        a, b, uu, uz, zz = jet[TJ_A], jet[TJ_B], jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
-        determinant = uu * zz - uz * uz
-        if not (zz < 0.0 and determinant > 0.0):
-            return theta, z, False
-        du = (uz * b - zz * a) / determinant
-        dz = (uz * a - uu * b) / determinant
-        theta += du
-        z += bolt[pk.LEAD] / TWO_PI * du + dz
-        if abs(theta - from_theta) > 0.05 or abs(z - from_z) > 0.05 * bolt[pk.P]:
-            return theta, z, False
-        if abs(du) < 1e-13 and abs(dz) < 1e-13 * bolt[pk.P]:
-            break
-    set_thread_jet(theta, z, placement, bolt, nut, jet)
-    return theta, z, True
+    placement, jet = threads.placement, threads.jet
+    theta, z, kind = thread_maximum(theta, z, base, placement, bolt, nut, jet)
+    if kind != MAXIMUM or jet[TJ_PHI] < -reach or base + z <= 0.0 or jet[TJ_Z] >= 0.0:
+        return count, -1
+    at, up, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
+    if not converged:
+        # Beside a jump of the curvature Newton's method goes to and fro.
+        at, up, kind = ridge_maximum(theta, z, base, LATER_RIDGE_STEP, placement, bolt, nut, jet)
+        converged = kind == MAXIMUM
+    if converged and jet[TJ_PHI] >= -reach and base + up > 0.0 and jet[TJ_Z] < 0.0:
+        return add_place(THREAD_THREAD, at, base + up, place, device, bolt, nut, work, count, places)
+    return count, -1

@@ -429,7 +429,7 @@ def descend_with(
         copy_numbers(multipliers, saved_multipliers)
         least = size / longest_step
         accepted = False
-        for _ in range(MAX_SHORTENINGS):
+        for attempt in range(MAX_SHORTENINGS):
             for i in range(n):
                 for j in range(n):
                     model[i, j] += damping * metric[i, j]
@@ -453,6 +453,7 @@ def descend_with(
             energy = elastic_energy(moved, device, by_q) + push * moved[5]
             if is_out and energy <= potential + owed:
                 accepted = True
+                damping = 0.0 if attempt == 0 else 0.25 * damping
                 has_risen = has_risen or energy > potential
                 count = trial_count
                 copy_numbers(moved, q)
@@ -469,7 +470,6 @@ def descend_with(
             set_constraints(n, count, places, device, normals, limits)
         if not accepted:
             return UNSETTLED, count, True
-        damping = 0.0 if length < 0.5 * longest_step else 0.25 * damping
         if math.hypot(place[N_OFFSET], place[N_OFFSET + 1]) > r:
             return SLIPPED, count, False
         if lowest_height(place, bolt) < -DEEPEST * bolt[pk.P]:

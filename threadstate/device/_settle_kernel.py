@@ -25,7 +25,7 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._flush_kernel import flush_until, set_flush, tip_over
 from threadstate.device._gap_kernel import G_VALUE
-from threadstate.device._places_kernel import FINE, FINEST, Threads, new_threads
+from threadstate.device._places_kernel import FINE, FINEST, Threads, forget_maxima, new_threads
 from threadstate.device._rest_kernel import (
     AT_REST,
     FLUSH,
@@ -333,6 +333,7 @@ def settle_with(
         for attempt in range(2):
             device[D_FINE] = FINE if attempt == 0 else FINEST
             set_command(rotations[i], height, device, q)
+            forget_maxima(threads)
             follow_push(q, tips[i], push, device, bolt, nut, threads, work, results[i], falls[i], paths[i])
             copy_numbers(q, ends[i])
             set_place(q, device, place)

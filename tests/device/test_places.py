@@ -1,0 +1,124 @@
+"""Places of overlap that lie close together: found beside each other, remembered, and followed from edge to thread."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from threadstate.contact._stage_kernel import EDGE_THREAD, THREAD_EDGE, THREAD_THREAD
+from threadstate.device import _chart_kernel as ck
+from threadstate.device import _gap_kernel as gk
+from threadstate.device import _place_near_kernel as near
+from threadstate.device import _places_kernel as pl
+from threadstate.device.assemble import assemble_pose
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
+from threadstate.device.strategy import Strategy
+from threadstate.state.model import FeaturePair
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+pytestmark = pytest.mark.slow
+
+Floats = NDArray[np.float64]
+
+UNC = quarter_twenty_unc()
+BOLT, NUT = UNC.bolt.packed, UNC.nut.packed
+R = UNC.nominal_diameter / 2.0
+TOUCHING = 1e-9 * R
+
+
+def numbers() -> Floats:
+    """Of a device that commands the nut's axes."""
+    device = np.zeros(ck.DEVICE_SIZE)
+    device[ck.D_ROTATION : ck.D_ROTATION + 9] = np.eye(3).ravel()
+    device[ck.D_SCALE] = R
+    device[ck.D_FINE] = pl.FINE
+    return device
+
+
+def place_of(rotation: Floats, offset: Floats) -> Floats:
+    """A pose in numbers, in coordinates that turn about the nut's axes."""
+    angle = math.acos((np.trace(rotation) - 1.0) / 2.0)
+    vector = np.array(
+        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
+    )
+    place = np.zeros(ck.PLACE_SIZE)
+    turn = vector * (angle / (2.0 * math.sin(angle)) if angle > 0.0 else 0.5)
+    ck.set_place(np.concatenate((turn, offset)), numbers(), place)
+    return place
+
+
+def found(place: Floats, reach: float, threads: pl.Threads) -> Floats:
+    """The places of a search."""
+    places = np.zeros((pl.MAX_PLACES + 1, gk.GAP_SIZE))
+    count = pl.find_places(reach, place, numbers(), BOLT, NUT, threads, np.zeros(pl.PLACES_WORK), places)
+    return places[:count]
+
+
+@pytest.fixture(scope="module")
+def path() -> AssemblyPath:
+    """A path on which two maxima of the threads lie between two azimuths of the search's grid."""
+    return assemble_pose(UNC, -4.0, 0.0, 130.0, strategy=Strategy.CW)
+
+
+def test_what_a_search_does_not_tell_apart_is_remembered(path: AssemblyPath) -> None:
+    """Contacts of the path are missed by a search that knows nothing of the one before; the path goes on to its end."""
+    assert path.outcome is AssemblyOutcome.ENGAGED
+    assert not any(event.kind is PathEventKind.BRIDGED for event in path.events)
+    missed = 0
+    for point in path.points:
+        touching = [contact for contact in point.contacts if contact.features is FeaturePair.THREAD_THREAD]
+        place = place_of(np.array(point.pose.rotation), np.array(point.pose.translation))
+        places = found(place, 0.005 * R, pl.new_threads(BOLT))
+        for contact in touching:
+            apart = np.abs(places[:, gk.G_POINT : gk.G_POINT + 3] - np.array(contact.point)).max(axis=1)
+            missed += bool(apart.min(initial=math.inf) > 1e-6 * R)
+    assert missed > 0
+
+
+def test_a_remembered_maximum_is_found_again_and_one_long_missed_is_forgotten(path: AssemblyPath) -> None:
+    """What is remembered is followed to the next pose; after as many searches without it, nothing is."""
+    threads = pl.new_threads(BOLT)
+    for point in path.points:
+        rotation, offset = np.array(point.pose.rotation), np.array(point.pose.translation)
+        first = found(place_of(rotation, offset), 0.005 * R, threads)
+        known = int((first[:, gk.G_PAIR] == THREAD_THREAD).sum())
+        if known > 0:
+            break
+    assert threads.known_count[0] == known > 0
+    again = found(place_of(rotation, offset), 0.005 * R, threads)
+    assert sorted(again[:, gk.G_VALUE]) == pytest.approx(sorted(first[:, gk.G_VALUE]), abs=1e-12 * R)
+    lifted = place_of(rotation, offset + np.array([0.0, 0.0, 0.02 * R]))
+    for _ in range(pl.FORGOTTEN):
+        assert (found(lifted, 1e-6 * R, threads)[:, gk.G_PAIR] != THREAD_THREAD).all()
+        assert threads.known_count[0] == known
+    found(lifted, 1e-6 * R, threads)
+    assert threads.known_count[0] == 0
+
+
+def test_two_maxima_of_an_edge_beside_each_other_are_both_found() -> None:
+    """A path that ended where two maxima of the bolt's edge lie 0.02 rad apart, one of them in another's bracket."""
+    turned = assemble_pose(UNC, -2.0, 0.0, 0.0, strategy=Strategy.CW)
+    assert turned.outcome is AssemblyOutcome.ENGAGED
+    assert not any(event.kind in (PathEventKind.BRIDGED, PathEventKind.FALL) for event in turned.events)
+
+
+def test_a_contact_goes_on_from_an_edge_into_the_threads_and_back(path: AssemblyPath) -> None:
+    """Between two points of the path where a contact changes its features, it is followed from either one's place."""
+    changes = 0
+    for before, after in zip(path.points, path.points[1:], strict=False):
+        for old, new in ((before, after), (after, before)):
+            pairs = {contact.features for contact in old.contacts} ^ {contact.features for contact in new.contacts}
+            if FeaturePair.THREAD_THREAD not in pairs or len(old.contacts) != len(new.contacts):
+                continue
+            threads = pl.new_threads(BOLT)
+            places = found(place_of(np.array(old.pose.rotation), np.array(old.pose.translation)), TOUCHING, threads)
+            place = place_of(np.array(new.pose.rotation), np.array(new.pose.translation))
+            for gap in places:
+                pair, _, _ = near.place_near(gap, place, BOLT, NUT, threads, np.zeros(gk.EDGE_JET_SIZE))
+                assert pair != near.NOWHERE
+                changes += int(gap[gk.G_PAIR]) in (EDGE_THREAD, THREAD_EDGE) and pair == THREAD_THREAD
+                changes += int(gap[gk.G_PAIR]) == THREAD_THREAD and pair != THREAD_THREAD
+    assert changes > 0

@@ -1,0 +1,111 @@
+"""Where a contact is after a small motion: its place of overlap is followed from where it was, over edges and threads.
+
+A contact of the threads that leaves them goes on along the edge at which it leaves; one of an edge from which phi rises
+into both threads goes on within them.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers
+from threadstate.contact._ridge_kernel import LATER_RIDGE_STEP
+from threadstate.contact._stage_kernel import (
+    BASE_EDGE,
+    EDGE_EDGE,
+    EDGE_SURFACE,
+    EDGE_THREAD,
+    THREAD_EDGE,
+    THREAD_THREAD,
+)
+from threadstate.contact._tangency_kernel import TJ_B, TJ_X, TJ_Y, TJ_Z, set_jet
+from threadstate.device._chart_kernel import N_OFFSET, N_ROTATION
+from threadstate.device._gap_kernel import G_PAIR, G_THETA, G_Z, moved_point
+from threadstate.device._places_kernel import Threads, bracketed_peak
+from threadstate.device._thread_maximum_kernel import MAXIMUM, NONE, polished_maximum, ridge_maximum, thread_maximum
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+WINDOWS = (0.02, 0.1)
+"""Within these azimuths (rad) of where a contact was its place along an edge is looked for, one after the other."""
+
+NOWHERE = -1
+"""Instead of a pair of features: no place is near."""
+
+
+@kernel()
+def place_near(
+    gap: Array, place: Array, bolt: Array, nut: Array, threads: Threads, edge_jet: Array
+) -> tuple[int, float, float]:
+    """The pair of features, azimuth and height at which a place of overlap is now, from where it was."""
+    copy_numbers(place[N_ROTATION : N_ROTATION + 9], threads.placement[0:9])
+    copy_numbers(place[N_OFFSET : N_OFFSET + 3], threads.placement[9:12])
+    pair = int(gap[G_PAIR])
+    if pair == THREAD_THREAD:
+        return from_thread(gap[G_THETA], gap[G_Z], place, bolt, nut, threads, edge_jet)
+    of_bolt = not (pair == BASE_EDGE or pair == THREAD_EDGE)
+    pair, theta = edge_place(of_bolt, gap[G_THETA], place, bolt, nut, edge_jet)
+    if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
+        return from_edge(pair, theta, place, bolt, nut, threads)
+    return pair, theta, 0.0
+
+
+@kernel()
+def edge_place(of_bolt: bool, was: float, place: Array, bolt: Array, nut: Array, jet: Array) -> tuple[int, float]:
+    """The pair of features of an edge's place near an azimuth, and where it is."""
+    curve, solid = (bolt, nut) if of_bolt else (nut, bolt)
+    for window in WINDOWS:
+        kind, theta = bracketed_peak(of_bolt, was - window, was + window, place, curve, solid, jet)
+        if kind == 0:
+            return (EDGE_SURFACE if of_bolt else BASE_EDGE), theta
+        if kind == 1:
+            return (EDGE_THREAD if of_bolt else THREAD_EDGE), theta
+        if kind == 2 and of_bolt:
+            return EDGE_EDGE, theta
+    return NOWHERE, was
+
+
+@kernel()
+def from_edge(
+    pair: int, theta: float, place: Array, bolt: Array, nut: Array, threads: Threads
+) -> tuple[int, float, float]:
+    """A place of an edge, or that of the threads to which phi rises from it."""
+    jet = threads.jet
+    at, up, inward = theta, 0.0, 1.0
+    if pair == THREAD_EDGE:
+        r = pk.radius(-nut[pk.LEAD] / TWO_PI * theta, nut)
+        x, y, up = moved_point(False, place, r * math.cos(theta), r * math.sin(theta), 0.0)
+        at, inward = math.atan2(y, x), -1.0
+    set_jet(at, up, threads.placement, bolt, nut, jet)
+    if inward * jet[TJ_B] > 0.0:
+        at, up, kind = thread_maximum(at, up, 0.0, threads.placement, bolt, nut, jet)
+        if kind == MAXIMUM and up > 0.0 and jet[TJ_Z] < 0.0:
+            at, up, converged = polished_maximum(at, up, threads.placement, bolt, nut, jet)
+            if converged and up > 0.0 and jet[TJ_Z] < 0.0:
+                return THREAD_THREAD, at, up
+    return pair, theta, 0.0
+
+
+@kernel()
+def from_thread(
+    theta: float, z: float, place: Array, bolt: Array, nut: Array, threads: Threads, edge_jet: Array
+) -> tuple[int, float, float]:
+    """A place of the threads, or that of the edge at which it has left them."""
+    jet = threads.jet
+    at, up, converged = polished_maximum(theta, z, threads.placement, bolt, nut, jet)
+    if not converged:
+        at, up, kind = ridge_maximum(theta, z, 0.0, LATER_RIDGE_STEP, threads.placement, bolt, nut, jet)
+        if kind == NONE:
+            return NOWHERE, at, up
+    if up <= 0.0:
+        pair, at = edge_place(True, at, place, bolt, nut, edge_jet)
+        return pair, at, 0.0
+    if jet[TJ_Z] >= 0.0:
+        pair, at = edge_place(False, math.atan2(jet[TJ_Y], jet[TJ_X]), place, bolt, nut, edge_jet)
+        return pair, at, 0.0
+    return THREAD_THREAD, at, up

@@ -1,0 +1,203 @@
+"""The maximum of phi over the bolt's thread near a point of a ridge: by Newton's method, or bracketed along the ridge.
+
+Heights are counted from a height ``base`` over the bolt's base, to which the placement has moved the bolt. Steps along
+a ridge end where it leaves either thread: a maximum beyond is no place of overlap.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import TWO_PI
+from threadstate.contact._ridge_kernel import (
+    FIRST_PART_OF_WINDOW,
+    FIRST_RIDGE_STEP,
+    FIRST_WINDOW,
+    LATER_RIDGE_STEP,
+    MAX_RIDGE_STEPS,
+    NARROW_AZIMUTHS,
+    nearby_maximum,
+)
+from threadstate.contact._tangency_kernel import (
+    TJ_A,
+    TJ_B,
+    TJ_UU,
+    TJ_UZ,
+    TJ_Z,
+    TJ_ZZ,
+    set_jet,
+)
+from threadstate.thread import _profile_kernel as pk
+
+Array = NDArray[np.float64]
+
+NONE, MAXIMUM, OUTSIDE = range(3)
+"""What is near: no maximum, one, or a ridge that rises out of either thread."""
+
+SLOPE_LEFT = 1e-13
+"""The slope at which a point counts as one of the ridge."""
+
+POLISHED, POLISHED_NEAR = 1e-13, 1e-9
+"""The last step of Newton's method, in radians and thread pitches: at which it ends, and the largest with which what it
+has reached counts as a maximum."""
+
+POLISH_STEPS = 12
+
+
+@kernel()
+def reduced(slope: float, retained: float, before: float) -> float:
+    """The slope at a retained end of a bracket, reduced as Anderson and Bjorck (1973) do, after a step to ``slope``."""
+    factor = 1.0 - slope / before
+    return retained * (factor if factor > 0.0 else 0.5)
+
+
+@kernel()
+def ridge_point(
+    theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, bool]:
+    """Where phi has a ridge near z on an azimuth: B falls through zero, however narrow the ridge is.
+
+    It is bracketed between z - w and z + w for a growing w, up to ``window``, and then by regula falsi with every third
+    step a bisection. Also returns whether there is one.
+    """
+    w = window * FIRST_PART_OF_WINDOW
+    while True:
+        set_jet(theta, z - w, placement, bolt, nut, jet)
+        b_low = jet[TJ_B]
+        if b_low > 0.0:
+            set_jet(theta, z + w, placement, bolt, nut, jet)
+            if jet[TJ_B] < 0.0:
+                break
+        if w >= window:
+            return z, False
+        w *= 4.0
+    low, high, b_high = z - w, z + w, jet[TJ_B]
+    side, i = 0, 0
+    while True:
+        middle = 0.5 * (low + high)
+        at = middle if i % 3 == 2 else (low * b_high - high * b_low) / (b_high - b_low)
+        if not low < at < high:
+            at = middle
+        set_jet(theta, at, placement, bolt, nut, jet)
+        b = jet[TJ_B]
+        if abs(b) <= SLOPE_LEFT or not low < middle < high:
+            return at, True
+        if b > 0.0:
+            if side > 0:
+                b_high = reduced(b, b_high, b_low)
+            low, b_low, side = at, b, 1
+        else:
+            if side < 0:
+                b_low = reduced(b, b_low, b_high)
+            high, b_high, side = at, b, -1
+        i += 1
+
+
+@kernel()
+def ridge_maximum(
+    theta: float,
+    z: float,
+    base: float,
+    step: float,
+    placement: Array,
+    bolt: Array,
+    nut: Array,
+    jet: Array,
+) -> tuple[float, float, int]:
+    """The highest point of phi along the ridge near (theta, z), by steps in azimuth uphill and then by regula falsi.
+
+    Along the ridge A falls through zero there. At each azimuth the ridge is looked for within a window of where the
+    helix through the point before leads, or of the line between two ridge points. Also returns what there is.
+    """
+    k = bolt[pk.LEAD] / TWO_PI
+    window = FIRST_WINDOW * bolt[pk.P]
+    z, found = ridge_point(theta, z, window, placement, bolt, nut, jet)
+    if not found:
+        return theta, z, NONE
+    slope = jet[TJ_A]
+    uphill = math.copysign(step, slope)
+    after, z_after, after_slope = theta, z, slope
+    for _ in range(MAX_RIDGE_STEPS):
+        after, z_after = theta + uphill, z + k * uphill
+        z_after, found = ridge_point(after, z_after, window, placement, bolt, nut, jet)
+        if not found:
+            return theta, z, NONE
+        after_slope = jet[TJ_A]
+        if not after_slope * uphill > 0.0:
+            break
+        if base + z_after <= 0.0 or jet[TJ_Z] >= 0.0:
+            return after, z_after, OUTSIDE
+        theta, z, slope = after, z_after, after_slope
+    if after_slope * uphill > 0.0:
+        return theta, z, NONE
+    side, i = 0, 0
+    while True:
+        part = 0.5 if i % 3 == 2 else slope / (slope - after_slope)
+        at = theta + part * (after - theta)
+        z_at, found = ridge_point(at, z + part * (z_after - z), window, placement, bolt, nut, jet)
+        if not found:
+            return at, z_at, NONE
+        a = jet[TJ_A]
+        if abs(after - theta) < NARROW_AZIMUTHS or abs(a) <= SLOPE_LEFT * bolt[pk.R_MAJOR]:
+            return at, z_at, MAXIMUM
+        if a * uphill > 0.0:
+            if side > 0:
+                after_slope = reduced(a, after_slope, slope)
+            theta, z, slope, side = at, z_at, a, 1
+        else:
+            if side < 0:
+                slope = reduced(a, slope, after_slope)
+            after, z_after, after_slope, side = at, z_at, a, -1
+        i += 1
+
+
+@kernel()
+def thread_maximum(
+    theta: float, z: float, base: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, float, int]:
+    """The maximum of phi over the bolt's thread that is near a point of a ridge, and what there is.
+
+    By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge: long
+    ones, and short ones where the ridge is short.
+    """
+    at, up, converged = nearby_maximum(theta, z, 0.0, placement, bolt, nut, jet)
+    if converged:
+        return at, up, MAXIMUM
+    kind = NONE
+    for step in (FIRST_RIDGE_STEP, LATER_RIDGE_STEP):
+        at, up, kind = ridge_maximum(theta, z, base, step, placement, bolt, nut, jet)
+        if kind != NONE:
+            break
+    set_jet(at, up, placement, bolt, nut, jet)
+    return at, up, kind
+
+
+@kernel()
+def polished_maximum(
+    theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, float, bool]:
+    """A maximum of phi over the bolt's thread to the last digits, from one that is near; whether it is a maximum."""
+    from_theta, from_z = theta, z
+    p = bolt[pk.P]
+    left = math.inf
+    for _ in range(POLISH_STEPS):
+        set_jet(theta, z, placement, bolt, nut, jet)
+        a, b, uu, uz, zz = jet[TJ_A], jet[TJ_B], jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
+        determinant = uu * zz - uz * uz
+        if not (zz < 0.0 and determinant > 0.0):
+            return theta, z, False
+        du = (uz * b - zz * a) / determinant
+        dz = (uz * a - uu * b) / determinant
+        theta += du
+        z += bolt[pk.LEAD] / TWO_PI * du + dz
+        if abs(theta - from_theta) > 0.05 or abs(z - from_z) > 0.05 * p:
+            return theta, z, False
+        left = max(abs(du), abs(dz) / p)
+        if left < POLISHED:
+            break
+    set_jet(theta, z, placement, bolt, nut, jet)
+    return theta, z, left < POLISHED_NEAR
