@@ -29,8 +29,8 @@ ENDS = {
     fk.TORQUE_OVER: "jammed",
     fk.SLIPPED_OFF: "slipped",
     fk.TOO_DEEP: "deep",
-    fk.TOO_MANY: "more than five contacts",
-    fk.ON_PATCH: "flush, or leaves a strip",
+    fk.TOO_MANY: "too many contacts",
+    fk.ON_PATCH: "tips off the surface, or leaves a strip",
     fk.PATH_FULL: "out of points",
     fk.NO_MINIMUM: "a fall that does not end",
 }

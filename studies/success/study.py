@@ -17,8 +17,8 @@ from threadstate.thread.catalogue import quarter_twenty_unc
 FRICTIONLESS_GRID = Grid(4.0, 1.0, 180.0)
 """All 81 orientations of the default grid, from two phases; boundaries between them are narrowed."""
 FRICTIONLESS_TOLERANCE_DEG = 6.0
-FRICTION_GRID = Grid(4.0, 4.0, 360.0)
-"""Nine orientations, from one phase: a path with friction takes some seconds."""
+FRICTION_GRID = Grid(4.0, 1.0, 360.0)
+"""All 81 orientations again, from one phase: a path with friction takes ten times as long as one without."""
 FRICTIONS = (0.1, 0.2, 0.3)
 
 

@@ -77,9 +77,11 @@ def set_flush(device: Array, q: Array) -> bool:
 
 
 @kernel()
-def centre_of_pressure(q: Array, push: float, place: Array, device: Array) -> tuple[float, float, float, float]:
-    """Where the surface's force acts in the level pose (x, y), its size, and the moment about z that nothing
-    balances.
+def centre_of_pressure(
+    q: Array, push: float, place: Array, device: Array, friction: Array
+) -> tuple[float, float, float, float]:
+    """Where the surface's force along z acts in the level pose (x, y), its size, and the moment about z that nothing
+    balances. ``friction`` is the surface's force along x and y, and its moment about z at the compliance centre.
     """
     by_q = np.empty(COORDINATES)
     elastic_energy(q, device, by_q)
@@ -121,10 +123,10 @@ def centre_of_pressure(q: Array, push: float, place: Array, device: Array) -> tu
         ) / determinant
         for i in range(3):
             moments[case, i] = m[3 * i] * w[0] + m[3 * i + 1] * w[1] + m[3 * i + 2] * w[2]
-    rest = moments[0, 2]
-    mx, my = moments[0, 0], moments[0, 1]
+    rest = moments[0, 2] + friction[2]
+    mx, my = moments[0, 0] + place[N_CENTRE + 2] * friction[1], moments[0, 1] - place[N_CENTRE + 2] * friction[0]
     if device[D_RIGID] > 0.0:
-        reaction = -moments[0, 2] / moments[1, 2]
+        reaction = -rest / moments[1, 2]
         mx += reaction * moments[1, 0]
         my += reaction * moments[1, 1]
         rest = 0.0
@@ -163,7 +165,7 @@ def flush_until(push: float, device: Array, bolt: Array, nut: Array, level: Arra
     points = np.empty((POINTS, POINT_SIZE))
     hull = np.empty((POINTS + 2, POINT_SIZE))
     set_place(level, device, place)
-    x, y, force, rest = centre_of_pressure(level, push, place, device)
+    x, y, force, rest = centre_of_pressure(level, push, place, device, np.zeros(3))
     if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
         return 0.0, 0.0
     size = convex_hull(points, patch_points(place, bolt, nut, points), hull)

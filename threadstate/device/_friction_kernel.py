@@ -26,6 +26,7 @@ from threadstate.device._chart_kernel import (
     elastic_energy,
     set_place,
 )
+from threadstate.device._flush_kernel import tip_over
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_VALUE, GAP_SIZE
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
@@ -70,6 +71,19 @@ from threadstate.device._rest_kernel import (
     set_metric,
 )
 from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, PATH_OVERLAP, PATH_TOLERANCE, distance
+from threadstate.device._slide_kernel import (
+    L_FORCE,
+    L_FRICTION,
+    L_LOSS,
+    L_MOMENT,
+    L_SLIDES,
+    L_X,
+    L_Y,
+    LYING_SIZE,
+    is_level,
+    lie_flush,
+    lies_beside,
+)
 from threadstate.device._strip_kernel import (
     C_FORCE,
     C_NORMAL,
@@ -90,8 +104,12 @@ from threadstate.device._turn_kernel import (
     M_LONGEST,
     M_PUSH,
     M_TILT,
+    ON_CONTACTS,
+    ON_STRIP,
+    ON_SURFACE,
     SNAP_FALL,
     SNAP_SPAN,
+    TIP,
     TORQUE_LIMIT,
     fall_down,
     set_phase,
@@ -132,6 +150,10 @@ far."""
 BRIDGING = 4.0
 """How much longer the steps become that are tried where no step is short enough."""
 
+BESIDE_TIP = 0.3
+"""How much less deep than the deepest one, in what a bolt has been tipped by times the nominal radius, a place is on
+which it tips as well."""
+
 MAX_POINTS = 2500
 
 ENERGY_STEP = 2e-5
@@ -145,9 +167,9 @@ GOES_ON, SHORTER = -1, -2
 FREE_STEPS = 60
 """Steps of the descent without friction that says which contacts a step may gain."""
 
-# A point: phase (rad), push, whether on a strip, potential, elastic energy, torque, contacts, coordinates, rotation and
-# translation, friction loss of the step, loss of a fall, number of solutions of the step.
-P_PHASE, P_PUSH, P_ON_STRIP, P_POTENTIAL, P_ENERGY, P_TORQUE, P_COUNT, P_COORDINATES, P_POSE = (
+# A point: phase (rad), push, what holds the bolt, potential, elastic energy, torque, contacts, coordinates, rotation
+# and translation, friction loss of the step, loss of a fall, number of solutions of the step.
+P_PHASE, P_PUSH, P_KIND, P_POTENTIAL, P_ENERGY, P_TORQUE, P_COUNT, P_COORDINATES, P_POSE = (
     0,
     1,
     2,
@@ -512,7 +534,7 @@ def add_path_point(
     i: int,
     phase: float,
     push: float,
-    on_strip: bool,
+    kind: int,
     q: Array,
     count: int,
     contacts: Array,
@@ -521,19 +543,23 @@ def add_path_point(
     device: Array,
     path: Path,
 ) -> None:
-    """Sets a point of the path; ``losses`` are friction, fall and the number of solutions."""
+    """Sets a point of the path.
+
+    ``losses`` are friction, fall, the number of solutions, and the moment about z on the bolt beside that of contacts.
+    """
     points, all_contacts = path
     by_q = np.empty(COORDINATES)
     place = np.empty(PLACE_SIZE)
     set_place(q, device, place)
     energy = elastic_energy(q, device, by_q)
-    points[i, P_PHASE], points[i, P_PUSH], points[i, P_ON_STRIP] = phase, push, 1.0 if on_strip else 0.0
+    points[i, P_PHASE], points[i, P_PUSH], points[i, P_KIND] = phase, push, kind
     points[i, P_POTENTIAL], points[i, P_ENERGY] = energy + push * q[5], energy
-    points[i, P_TORQUE] = torque_with(q, count, contacts, command, device)
+    along = command[M_TILT + 8] if command[M_ABOUT_BOLT] > 0.0 else 1.0
+    points[i, P_TORQUE] = torque_with(q, count, contacts, command, device) - along * losses[3]
     points[i, P_COUNT] = count
     copy_numbers(q, points[i, P_COORDINATES : P_COORDINATES + COORDINATES])
     copy_numbers(place[0:12], points[i, P_POSE : P_POSE + 12])
-    copy_numbers(losses, points[i, P_FRICTION : P_FRICTION + 3])
+    copy_numbers(losses[0:3], points[i, P_FRICTION : P_FRICTION + 3])
     for c in range(count):
         copy_numbers(contacts[c], all_contacts[i, c])
 
@@ -759,6 +785,111 @@ def step_with_friction(
 
 
 @kernel()
+def lay_flush(
+    falls: bool,
+    q: Array,
+    push: float,
+    mu: float,
+    turns: bool,
+    before: Array,
+    contacts: Array,
+    setting: Setting,
+    losses: Array,
+) -> bool:
+    """Lays a bolt flush on the surface, in place, if it stays there; the contact is the resultant of the pressure.
+
+    One that does not fall there is laid where that lowers its potential. One that lies there already and does not stay
+    is tipped a little in the direction in which it leaves.
+    """
+    command, device, _, bolt, nut, _, _, _ = setting
+    level, lying, by_q = np.empty(COORDINATES), np.zeros(LYING_SIZE), np.empty(COORDINATES)
+    was_level = is_level(q, device) and not falls
+    stays, direction = lie_flush(push, mu, turns, before, device, bolt, nut, level, lying)
+    if not stays:
+        if was_level:
+            place = np.empty(PLACE_SIZE)
+            set_place(level, device, place)
+            tip_over(direction, TIP, place, level)
+            copy_numbers(level, q)
+        return False
+    rises = elastic_energy(level, device, by_q) + push * level[5] - elastic_energy(q, device, by_q) - push * q[5]
+    if rises > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and not (falls or was_level):
+        return False
+    copy_numbers(level, q)
+    for h in range(K_SIZE):
+        contacts[0, h] = 0.0
+    contacts[0, K_POINT], contacts[0, K_POINT + 1], contacts[0, K_NORMAL + 2] = lying[L_X], lying[L_Y], 1.0
+    contacts[0, K_FORCE], contacts[0, K_FORCE + 1] = lying[L_FRICTION], lying[L_FRICTION + 1]
+    contacts[0, K_FORCE + 2] = lying[L_FORCE]
+    contacts[0, K_MODE], contacts[0, K_PAIR] = SLIPS if lying[L_SLIDES] > 0.0 else STICKS, FLUSH_PAIR
+    losses[0], losses[2], losses[3] = lying[L_LOSS], 1.0, lying[L_MOMENT]
+    return True
+
+
+@kernel()
+def contacts_of_tip(q: Array, push: float, setting: Setting, contacts: Array) -> int:
+    """Sets the contacts of a bolt that has been tipped off the surface, each with its share of the push; their number.
+
+    They are the places that are lowest, to part of what the bolt has been tipped by; it is moved along z, in place, to
+    where they touch.
+    """
+    _, device, _, bolt, nut, threads, _, modes_work = setting
+    places, search = modes_work[0], modes_work[1]
+    place = np.empty(PLACE_SIZE)
+    tipped = TIP * device[D_SCALE]
+    set_place(q, device, place)
+    found = find_places(2.0 * tipped, place, device, bolt, nut, threads, search, places)
+    deepest = -math.inf
+    for j in range(found):
+        deepest = max(deepest, places[j, G_VALUE])
+    count = 0
+    for j in range(found):
+        if places[j, G_VALUE] > deepest - BESIDE_TIP * tipped and count < MOST_CONTACTS:
+            for h in range(K_SIZE):
+                contacts[count, h] = 0.0
+            set_contact(places[j], contacts[count])
+            contacts[count, K_MODE] = SLIPS
+            count += 1
+    for c in range(count):
+        for h in range(3):
+            contacts[c, K_FORCE + h] = push / count * contacts[c, K_NORMAL + h]
+    if count > 0:
+        q[5] += deepest
+    return count
+
+
+@kernel()
+def step_held(
+    kind: int,
+    q: Array,
+    push: float,
+    mu: float,
+    turn: float,
+    before: Array,
+    contacts: Array,
+    setting: Setting,
+    losses: Array,
+) -> tuple[int, int, int]:
+    """A step of a bolt that a strip or the surface holds after it, in place.
+
+    Returns what holds it, the number of contacts, and how the path ends there, if it does. On contacts, where neither
+    does: a bolt that leaves the surface is tipped. One that a strip no longer holds is not followed.
+    """
+    _, device, _, bolt, _, _, _, _ = setting
+    losses[0], losses[1], losses[2], losses[3] = 0.0, 0.0, 1.0, 0.0
+    turns = turn != 0.0
+    slid = slide_on_strip(q, push, mu, turn, setting, contacts, losses) if turns else 0
+    if slid > 0:
+        return ON_STRIP, slid, GOES_ON
+    if kind == ON_STRIP:
+        return ON_STRIP, 0, ON_PATCH
+    is_beside = kind == ON_SURFACE or lies_beside(q, device, bolt[pk.R_MAJOR])
+    if is_beside and lay_flush(False, q, push, mu, turns, before, contacts, setting, losses):
+        return ON_SURFACE, 1, GOES_ON
+    return ON_CONTACTS, 0, GOES_ON
+
+
+@kernel()
 def unexplained(i: int, path: Path) -> float:
     """The potential lost in the step to a point that neither torque, push nor friction explains."""
     points, _ = path
@@ -821,16 +952,18 @@ def follow_friction(
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
-    step, reached, i = FIRST_PART * longest, 0.0, 0
-    on_strip, bridging, falling = False, False, False
+    step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
+    bridging, falling = False, False
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
         np.empty((MAX_SOLUTIONS, MOST_CANDIDATES, K_SIZE)),
         np.empty(MAX_SOLUTIONS, dtype=np.int64),
     )
-    before, losses = np.empty(PLACE_SIZE), np.zeros(3)
+    before, losses = np.empty(PLACE_SIZE), np.zeros(4)
     set_phase(phases[0], command, device)
-    add_path_point(0, phases[0], pushes[0], False, q, count, contacts, losses, command, device, path)
+    if count == 1 and contacts[0, K_PAIR] == FLUSH_PAIR and is_level(q, device):
+        kind = ON_SURFACE
+    add_path_point(0, phases[0], pushes[0], kind, q, count, contacts, losses, command, device, path)
     while reached < 1.0:
         if i + 1 == MAX_POINTS:
             return PATH_FULL, i + 1, count
@@ -840,48 +973,57 @@ def follow_friction(
         set_phase(phases[0] + reached * turn, command, device)
         set_place(q, device, before)
         set_phase(phases[0] + target * turn, command, device)
-        losses[0], losses[1], losses[2] = 0.0, 0.0, 1.0
-        slid = slide_on_strip(q, push, mu, (target - reached) * turn, setting, contacts, losses) if turns else 0
-        if slid > 0:
-            on_strip, count, ended = True, slid, GOES_ON
-        elif on_strip:
-            return ON_PATCH, i + 1, count
-        else:
+        next_kind, next_count, ended = step_held(
+            kind, q, push, mu, (target - reached) * turn, before, contacts, setting, losses
+        )
+        tips = next_kind == ON_CONTACTS and kind == ON_SURFACE
+        if tips and size > least and size * abs(turn) > ABOVE * EVENT_WIDTH and not (bridging or falling):
+            # Where it tips is narrowed first.
+            count = go_back(i, q, contacts, path)
+            step = max(0.5 * size, EVENT_WIDTH / abs(turn), least)
+            continue
+        if next_kind == ON_CONTACTS and ended == GOES_ON:
+            if tips:
+                count = contacts_of_tip(q, push, setting, contacts)
             ended, next_count = step_with_friction(
                 q, push, mu, turns, falling, before, count, contacts, setting, solutions, losses
             )
-            if ended == SHORTER:
-                if size > least and not bridging:
-                    step = max(0.5 * size, least)
-                elif size < min(longest, 1.0 - reached):
-                    bridging, step = True, min(BRIDGING * size, longest)
-                else:
-                    falling, step = True, least
-                continue
-            if ended != GOES_ON:
-                return ended, i + 1, count
-            count = next_count
+            if ended == ON_PATCH and lay_flush(True, q, push, mu, turns, before, contacts, setting, losses):
+                next_kind, next_count, ended = ON_SURFACE, 1, GOES_ON
+        if ended == SHORTER or (ended == ON_PATCH and not falling and next_kind == ON_CONTACTS):
+            count = go_back(i, q, contacts, path)
+            if size > least and not bridging:
+                step = max(0.5 * size, least)
+            elif size < min(longest, 1.0 - reached):
+                bridging, step = True, min(BRIDGING * size, longest)
+            else:
+                falling, step = True, least
+            continue
+        if ended != GOES_ON:
+            return ended, i + 1, count
+        count = next_count
         add_path_point(
-            i + 1, phases[0] + target * turn, push, on_strip, q, count, contacts, losses, command, device, path
+            i + 1, phases[0] + target * turn, push, next_kind, q, count, contacts, losses, command, device, path
         )
         lost = unexplained(i + 1, path)
-        if abs(lost) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and not on_strip:
+        if abs(lost) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and next_kind != ON_STRIP:
             if size > least and not (bridging or falling):
                 count = go_back(i, q, contacts, path)
                 step = max(0.5 * size, least)
                 continue
             path[0][i + 1, P_FALL] = max(lost, 0.0)
+        changed = next_kind != kind or (next_kind == ON_CONTACTS and not same_features(i, count, contacts, path))
         if (
             turns
-            and not (on_strip or bridging or falling)
+            and changed
+            and not (next_kind == ON_STRIP or bridging or falling)
             and size * abs(turn) > ABOVE * EVENT_WIDTH
-            and not same_features(i, count, contacts, path)
         ):
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, EVENT_WIDTH / abs(turn))
             continue
         i += 1
-        reached = target
+        reached, kind = target, next_kind
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
         if ended != GOES_ON:
             return ended, i + 1, count

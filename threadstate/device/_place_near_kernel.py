@@ -24,7 +24,7 @@ from threadstate.contact._stage_kernel import (
 )
 from threadstate.contact._tangency_kernel import TJ_B, TJ_X, TJ_Y, TJ_Z, set_jet
 from threadstate.device._chart_kernel import N_OFFSET, N_ROTATION
-from threadstate.device._gap_kernel import G_PAIR, G_THETA, G_Z, moved_point
+from threadstate.device._gap_kernel import E_G, E_PHI, G_PAIR, G_THETA, G_Z, moved_point
 from threadstate.device._places_kernel import Threads, bracketed_peak
 from threadstate.device._thread_maximum_kernel import MAXIMUM, NONE, polished_maximum, ridge_maximum, thread_maximum
 from threadstate.thread import _profile_kernel as pk
@@ -33,6 +33,10 @@ Array = NDArray[np.float64]
 
 WINDOWS = (0.02, 0.1)
 """Within these azimuths (rad) of where a contact was its place along an edge is looked for, one after the other."""
+
+BESIDE_CROSSING = 5e-3
+"""How deep below the other part's face (nominal radii) a place along an edge is at most whose contact may go on along
+the other part's edge: a crossing of both edges divides into a place of each."""
 
 NOWHERE = -1
 """Instead of a pair of features: no place is near."""
@@ -50,6 +54,8 @@ def place_near(
         return from_thread(gap[G_THETA], gap[G_Z], place, bolt, nut, threads, edge_jet)
     of_bolt = not (pair == BASE_EDGE or pair == THREAD_EDGE)
     pair, theta = edge_place(of_bolt, gap[G_THETA], place, bolt, nut, edge_jet)
+    if (pair == EDGE_THREAD or pair == THREAD_EDGE) and edge_jet[E_G] < BESIDE_CROSSING * bolt[pk.R_MAJOR]:
+        pair, theta = deeper_edge(pair, theta, min(edge_jet[E_G], edge_jet[E_PHI]), place, bolt, nut, edge_jet)
     if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
         return from_edge(pair, theta, place, bolt, nut, threads)
     return pair, theta, 0.0
@@ -68,6 +74,21 @@ def edge_place(of_bolt: bool, was: float, place: Array, bolt: Array, nut: Array,
         if kind == 2 and of_bolt:
             return EDGE_EDGE, theta
     return NOWHERE, was
+
+
+@kernel()
+def deeper_edge(
+    pair: int, theta: float, depth: float, place: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[int, float]:
+    """Of a place of one part's edge near the other's, and the place of that one beside it, the deeper one."""
+    of_bolt = pair == EDGE_THREAD
+    curve = bolt if of_bolt else nut
+    r = pk.radius(-curve[pk.LEAD] / TWO_PI * theta, curve)
+    x, y, _ = moved_point(of_bolt, place, r * math.cos(theta), r * math.sin(theta), 0.0)
+    other, at = edge_place(not of_bolt, math.atan2(y, x), place, bolt, nut, jet)
+    if (other == EDGE_THREAD or other == THREAD_EDGE) and min(jet[E_G], jet[E_PHI]) > depth:
+        return other, at
+    return pair, theta
 
 
 @kernel()

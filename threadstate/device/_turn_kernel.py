@@ -224,7 +224,7 @@ def set_flush_contact(q: Array, push: float, device: Array, contacts: Array) -> 
     """Sets the resultant of the pressure on the nut's surface as one contact; 1."""
     place = np.empty(PLACE_SIZE)
     set_place(q, device, place)
-    x, y, force, _ = centre_of_pressure(q, push, place, device)
+    x, y, force, _ = centre_of_pressure(q, push, place, device, np.zeros(3))
     contacts[0, C_PAIR] = FLUSH_PAIR
     contacts[0, C_POINT], contacts[0, C_POINT + 1], contacts[0, C_POINT + 2] = x, y, 0.0
     contacts[0, C_NORMAL], contacts[0, C_NORMAL + 1], contacts[0, C_NORMAL + 2] = 0.0, 0.0, 1.0
@@ -465,7 +465,7 @@ def closed_step(kind: int, q: Array, setting: Setting, contacts: Array, trial: A
             return True, set_flush_contact(trial, push, device, contacts)
         # The centre of pressure has left the patch: the bolt tips towards it.
         set_place(trial, device, place)
-        x, y, _, _ = centre_of_pressure(trial, push, place, device)
+        x, y, _, _ = centre_of_pressure(trial, push, place, device, np.zeros(3))
         direction = math.atan2(y - place[N_OFFSET + 1], x - place[N_OFFSET])
         tip_over(direction, TIP, place, trial)
         return False, 0

@@ -261,7 +261,7 @@ def _with_friction(
             break
     if any(point.solutions > 1 for leg in course.legs for point in leg) and course.ending is not Ending.FAILED:
         course.ending, course.reason = Ending.FAILED, SettledFlag.AMBIGUOUS
-    course.is_free = course.legs[-1][-1].held is Held.STRIP or path.is_free()
+    course.is_free = course.legs[-1][-1].held is not Held.CONTACTS or path.is_free()
     return course
 
 

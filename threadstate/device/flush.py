@@ -73,7 +73,7 @@ def flush_contacts(
     """
     place = np.empty(ck.PLACE_SIZE)
     ck.set_place(q, numbers, place)
-    x, y, force, _ = fk.centre_of_pressure(q, device.push, place, numbers)
+    x, y, force, _ = fk.centre_of_pressure(q, device.push, place, numbers, np.zeros(3))
     _, hull, margin, _ = patch_hull(pair, place, x, y)
     if len(hull) < 3:
         return (), None, math.inf

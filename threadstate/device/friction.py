@@ -16,6 +16,7 @@ from threadstate.device import _turn_kernel as tk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device.assembly_model import AssemblyPoint, ContactMotion, Held, PathEvent, PathEventKind
 from threadstate.device.equilibrium import BALANCED, balance
+from threadstate.device.flush import patch_hull
 from threadstate.device.model import (
     Device,
     Fall,
@@ -37,6 +38,10 @@ FEATURES = tuple(FeaturePair)
 ROOM = 8
 """Contacts that a point has room for: those of a strip."""
 
+HELD = (Held.CONTACTS, Held.SURFACE, Held.STRIP)
+
+LAID = {Held.SURFACE: PathEventKind.ON_SURFACE, Held.STRIP: PathEventKind.ON_STRIP}
+
 MOTIONS = {mk.SLIPS: ContactMotion.SLIDES, mk.STICKS: ContactMotion.STICKS}
 
 REASONS = {
@@ -46,8 +51,8 @@ REASONS = {
     fk.PATH_FULL: SettledFlag.UNSETTLED,
     fk.NO_MINIMUM: SettledFlag.UNSETTLED,
 }
-"""Why a path with friction has no certain end. A bolt that lies flush on the surface, or that a strip of flank does not
-hold any more, is not followed with friction."""
+"""Why a path with friction has no certain end. A bolt that a strip of flank does not hold any more is not followed with
+friction, nor one that a device whose twist is not rigid lays flush on the surface."""
 
 
 @dataclass(frozen=True)
@@ -160,7 +165,7 @@ def point_of(row: Floats, contacts: Floats, numbers: Floats, command: Floats) ->
     found = contacts[: int(row[fk.P_COUNT])]
     return AssemblyPoint(
         math.degrees(row[fk.P_PHASE]),
-        Held.STRIP if row[fk.P_ON_STRIP] else Held.CONTACTS,
+        HELD[int(row[fk.P_KIND])],
         StagePose(tuple(_vector(line) for line in pose[:9].reshape(3, 3)), _vector(pose[9:])),  # type: ignore[arg-type]
         _vector(q[3:] - numbers[ck.D_PLACE : ck.D_PLACE + 3]),
         _vector(np.degrees(q[:3])),
@@ -187,8 +192,11 @@ def friction_events(points: Sequence[AssemblyPoint], rows: Floats) -> list[PathE
         if after.solutions > 1:
             events.append(PathEvent(PathEventKind.AMBIGUOUS, *phases))
         if after.held is not before.held:
-            events.append(PathEvent(PathEventKind.ON_STRIP, *phases))
-            continue
+            if before.held is Held.SURFACE:
+                events.append(PathEvent(PathEventKind.OFF_SURFACE, *phases))
+            if after.held is not Held.CONTACTS:
+                events.append(PathEvent(LAID[after.held], *phases))
+                continue
         left = [contact.features for contact in before.contacts]
         for contact in after.contacts if after.held is Held.CONTACTS else ():
             if contact.features in left:
@@ -236,14 +244,20 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) 
         flags = (REASONS[leg.status],)
     elif (leg.points[:, fk.P_SOLUTIONS] > 1.0).any():
         flags = (SettledFlag.AMBIGUOUS,)
-    elif not path.is_free():
+    elif last.held is Held.CONTACTS and not path.is_free():
         flags = (SettledFlag.OVERLAP,)
     else:
         pose = leg.points[-1, fk.P_POSE : fk.P_POSE + 12]
         residual = balance(path.pair, device, path.q, pose, path.numbers, last.contacts)
         outcome = Outcome.SETTLED if residual <= BALANCED else Outcome.UNDECIDED
-        flags = () if residual <= BALANCED else (SettledFlag.UNBALANCED,)
+        flags = (SettledFlag.FLUSH,) if last.held is Held.SURFACE else ()
+        flags += () if residual <= BALANCED else (SettledFlag.UNBALANCED,)
     is_settled = outcome is Outcome.SETTLED
+    pressure = None
+    if is_settled and last.held is Held.SURFACE:
+        place = np.empty(ck.PLACE_SIZE)
+        ck.set_place(path.q, path.numbers, place)
+        _, _, pressure, _ = patch_hull(path.pair, place, *last.contacts[0].point[:2])
     least = min((math.hypot(*contact.force) for contact in last.contacts), default=None)
     force = least / device.push if is_settled and least is not None else None
     return SettledState(
@@ -258,7 +272,7 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) 
         last.contacts if is_settled else (),
         last.elastic_energy if is_settled else None,
         falls,
-        SettledMargins(force, None, None, residual, None),
+        SettledMargins(force, None, None, residual, pressure),
         points,
     )
 

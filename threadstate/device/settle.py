@@ -161,8 +161,9 @@ def state_with_friction(
     """
     roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
     is_level = abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG
-    if is_level or result[sk.R_STATUS] == sk.NO_FIRST_CONTACT:
-        flag = SettledFlag.FLUSH if is_level else SettledFlag.FIRST_CONTACT
+    leaves = is_level and result[sk.R_STATUS] != rest.FLUSH
+    if leaves or result[sk.R_STATUS] == sk.NO_FIRST_CONTACT:
+        flag = SettledFlag.FLUSH if leaves else SettledFlag.FIRST_CONTACT
         outcome = Outcome.UNDECIDED
         nothing = (None, None, None, (), None, (), NO_MARGINS, ())
         return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing), None
