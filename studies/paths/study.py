@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.device import _friction_kernel as fk
+from threadstate.device import _friction_step_kernel as fs
 from threadstate.device.command import LONGEST_STEP_WITH_FRICTION_DEG
 from threadstate.device.friction import FrictionLeg
 from threadstate.device.model import Outcome, default_device
@@ -25,14 +26,14 @@ ACCURACY_DEG, ACCURACY = 0.1, 2e-3
 """How far half the step moves a fall (deg of phase), and the pose at the end (nominal radii)."""
 
 ENDS = {
-    fk.REACHED: "turned",
-    fk.TORQUE_OVER: "jammed",
-    fk.SLIPPED_OFF: "slipped",
-    fk.TOO_DEEP: "deep",
-    fk.TOO_MANY: "too many contacts",
-    fk.ON_PATCH: "tips off the surface, or leaves a strip",
-    fk.PATH_FULL: "out of points",
-    fk.NO_MINIMUM: "a fall that does not end",
+    fs.REACHED: "turned",
+    fs.TORQUE_OVER: "jammed",
+    fs.SLIPPED_OFF: "slipped",
+    fs.TOO_DEEP: "deep",
+    fs.TOO_MANY: "too many contacts",
+    fs.ON_PATCH: "tips off the surface, or leaves a strip",
+    fs.PATH_FULL: "out of points",
+    fs.NO_MINIMUM: "a fall that does not end",
 }
 
 

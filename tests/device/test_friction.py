@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from threadstate.device import _friction_kernel as fk
+from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _strip_kernel as st
 from threadstate.device.assemble import assemble_pose
@@ -58,7 +59,7 @@ def course() -> Course:
     first = path.follow((start, start + 2.0 * math.pi), (PUSH, PUSH), stops_at_snap=True)
     snap = float(first.points[-1, fk.P_PHASE])
     second = path.follow((snap, snap - math.radians(35.0)), (PUSH, PUSH))
-    assert (first.status, second.status) == (fk.SNAP_REACHED, fk.REACHED)
+    assert (first.status, second.status) == (fs.SNAP_REACHED, fs.REACHED)
     points = [
         point_of(row, contacts, path.numbers, path.command)
         for leg in (first, second)

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, nnls
 
 from threadstate.device import _friction_kernel as fk
+from threadstate.device import _friction_rest_kernel as fr
+from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._modes_kernel import CONTACT_SIZE
 from threadstate.device.command import command_numbers, strip_numbers
@@ -179,7 +181,7 @@ def holds(path: FrictionPath, state: SettledState, mu: float, push: float) -> bo
     contacts = np.zeros((5, CONTACT_SIZE))
     for row, contact in zip(contacts, state.contacts, strict=False):
         row[:3], row[3:6] = contact.point, contact.normal
-    return bool(fk.rests(path.q, push, mu, len(state.contacts), contacts, path.numbers))
+    return bool(fr.rests(path.q, push, mu, len(state.contacts), contacts, path.numbers))
 
 
 def least_friction(path: FrictionPath, state: SettledState, push: float) -> float:
@@ -246,7 +248,7 @@ def followed(tilt_deg: float, mu: float) -> Floats:
     phase = math.radians(pose[2])
     path = begin_friction(PEG, numbers, command, strip_numbers(PEG), phase, mu)
     leg = path.follow((phase, phase), (0.0, PUSH))
-    assert leg.status == fk.REACHED
+    assert leg.status == fs.REACHED
     return leg.points
 
 

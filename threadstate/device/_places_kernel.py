@@ -101,7 +101,7 @@ forgotten."""
 
 # A maximum that is remembered: azimuth, height over the bolt's base, searches since it was last found, and its place in
 # the present one's list, -1 for none.
-K_THETA, K_Z, K_MISSED, K_PLACE = range(4)
+KNOWN_THETA, KNOWN_Z, KNOWN_MISSED, KNOWN_PLACE = range(4)
 KNOWN_SIZE = 4
 
 
@@ -380,9 +380,9 @@ def add_threads(
         samples[S_AZIMUTHS] = azimuths
     set_base(0.0, place, placement)
     for i in range(threads.known_count[0]):
-        theta, z = threads.known[i, K_THETA], threads.known[i, K_Z]
+        theta, z = threads.known[i, KNOWN_THETA], threads.known[i, KNOWN_Z]
         count, found = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
-        threads.known[i, K_PLACE] = found
+        threads.known[i, KNOWN_PLACE] = found
     # The first pitch comes last, so that its placement is left for the ridges that end at an edge.
     for turn in range(min(math.ceil(below / p), MAX_PITCHES) - 1, -1, -1):
         base = turn * p
@@ -421,21 +421,27 @@ def remember(edges: int, count: int, places: Array, threads: Threads) -> None:
     new = np.ones(MAX_PLACES)
     kept = 0
     for i in range(threads.known_count[0]):
-        j = int(known[i, K_PLACE])
-        missed = known[i, K_MISSED] + 1.0
+        j = int(known[i, KNOWN_PLACE])
+        missed = known[i, KNOWN_MISSED] + 1.0
         if missed > FORGOTTEN or (j >= 0 and new[j] == 0.0):
             continue
         if j < 0:
-            known[kept, K_THETA], known[kept, K_Z], known[kept, K_MISSED] = known[i, K_THETA], known[i, K_Z], missed
+            set_known(known[i, KNOWN_THETA], known[i, KNOWN_Z], missed, known[kept])
         else:
-            known[kept, K_THETA], known[kept, K_Z], known[kept, K_MISSED] = places[j, G_THETA], places[j, G_Z], 0.0
+            set_known(places[j, G_THETA], places[j, G_Z], 0.0, known[kept])
             new[j] = 0.0
         kept += 1
     for j in range(edges, count):
         if new[j] > 0.0 and kept < MAX_KNOWN:
-            known[kept, K_THETA], known[kept, K_Z], known[kept, K_MISSED] = places[j, G_THETA], places[j, G_Z], 0.0
+            set_known(places[j, G_THETA], places[j, G_Z], 0.0, known[kept])
             kept += 1
     threads.known_count[0] = kept
+
+
+@kernel()
+def set_known(theta: float, z: float, missed: float, row: Array) -> None:
+    """Sets a maximum that is remembered."""
+    row[KNOWN_THETA], row[KNOWN_Z], row[KNOWN_MISSED] = theta, z, missed
 
 
 @kernel()

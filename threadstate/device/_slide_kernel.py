@@ -49,14 +49,14 @@ WEIGHTED, NEARLY_WEIGHTED = 1e-12, 1e-6
 """How near (nominal radii) the centre of the weights is to that of pressure; from where on steps are whole, where
 round-off decides between values."""
 
-BALANCED, SAME_ROUND = 1e-13, 1e-10
+LATERAL_LEFT, SAME_ROUND = 1e-13, 1e-10
 """The lateral force (over the push) that is left; the change of force (over the push) and of place (nominal radii) in a
 round that is the last."""
 
 LEAST_SLIP = 1e-12
 """Added, in nominal radii, to slips in squares: the point about which the bolt turns has no direction."""
 
-LEVEL = 1e-9
+LEVEL_TILT = 1e-9
 """Tilt (rad) below which a bolt counts as level."""
 
 # How a bolt lies on the surface after a step: centre of pressure, force along z, friction along x and y, its moment
@@ -80,7 +80,7 @@ def is_level(q: Array, device: Array) -> bool:
     """Whether a bolt is level."""
     place = np.empty(PLACE_SIZE)
     set_place(q, device, place)
-    return math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) < LEVEL
+    return math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) < LEVEL_TILT
 
 
 @kernel()
@@ -203,7 +203,7 @@ def slide_to_balance(
     gx, gy = friction[0] - by_q[3], friction[1] - by_q[4]
     for _ in range(PLACE_STEPS):
         size = math.hypot(gx, gy)
-        if size <= BALANCED * unit:
+        if size <= LATERAL_LEFT * unit:
             return True, loss
         xx, xy, yx, yy = friction[3] - k[21], friction[4] - k[22], friction[5] - k[27], friction[6] - k[28]
         determinant = xx * yy - xy * yx
@@ -222,7 +222,7 @@ def slide_to_balance(
             part *= 0.5
         if not math.hypot(gx, gy) < size:
             # Round-off of the forces decides.
-            return size <= 1e3 * BALANCED * unit, loss
+            return size <= 1e3 * LATERAL_LEFT * unit, loss
     return False, loss
 
 

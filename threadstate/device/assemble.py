@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _friction_kernel as fk
+from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _rest_kernel as rest
 from threadstate.device import _settle_kernel as sk
 from threadstate.device import _strip_kernel as st
@@ -246,18 +247,18 @@ def _with_friction(
             for row, contacts in zip(leg.points, leg.contacts, strict=True)
         ]
         course.events += friction_events(points, leg.points)
-        course.add_leg(points, snapped=leg.status == fk.SNAP_REACHED)
+        course.add_leg(points, snapped=leg.status == fs.SNAP_REACHED)
         watch.end_turn(course.events)
         course.friction += float(leg.points[:, fk.P_FRICTION].sum())
         course.falls += float(leg.points[:, fk.P_FALL].sum())
         phase = float(leg.points[-1, fk.P_PHASE])
-        if leg.status == fk.TORQUE_OVER:
+        if leg.status == fs.TORQUE_OVER:
             course.ending = Ending.TORQUE
-        elif leg.status == fk.SLIPPED_OFF:
+        elif leg.status == fs.SLIPPED_OFF:
             course.ending = Ending.SLIPPED
-        elif leg.status not in (fk.REACHED, fk.SNAP_REACHED):
+        elif leg.status not in (fs.REACHED, fs.SNAP_REACHED):
             course.ending, course.reason = Ending.FAILED, FRICTION_REASONS[leg.status]
-        if leg.status != (fk.SNAP_REACHED if stops_at_snap else fk.REACHED):
+        if leg.status != (fs.SNAP_REACHED if stops_at_snap else fs.REACHED):
             break
     if any(point.solutions > 1 for leg in course.legs for point in leg) and course.ending is not Ending.FAILED:
         course.ending, course.reason = Ending.FAILED, SettledFlag.AMBIGUOUS

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _friction_kernel as fk
+from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _turn_kernel as tk
 from threadstate.device._certificate_kernel import FREE
@@ -45,11 +46,11 @@ LAID = {Held.SURFACE: PathEventKind.ON_SURFACE, Held.STRIP: PathEventKind.ON_STR
 MOTIONS = {mk.SLIPS: ContactMotion.SLIDES, mk.STICKS: ContactMotion.STICKS}
 
 REASONS = {
-    fk.TOO_DEEP: SettledFlag.DEEP,
-    fk.TOO_MANY: SettledFlag.MANY_CONTACTS,
-    fk.ON_PATCH: SettledFlag.FLUSH,
-    fk.PATH_FULL: SettledFlag.UNSETTLED,
-    fk.NO_MINIMUM: SettledFlag.UNSETTLED,
+    fs.TOO_DEEP: SettledFlag.DEEP,
+    fs.TOO_MANY: SettledFlag.MANY_CONTACTS,
+    fs.ON_PATCH: SettledFlag.FLUSH,
+    fs.PATH_FULL: SettledFlag.UNSETTLED,
+    fs.NO_MINIMUM: SettledFlag.UNSETTLED,
 }
 """Why a path with friction has no certain end. A bolt that a strip of flank does not hold any more is not followed with
 friction, nor one that a device whose twist is not rigid lays flush on the surface."""
@@ -238,9 +239,9 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) 
     residual = None
     flags: tuple[SettledFlag, ...] = ()
     outcome = Outcome.UNDECIDED
-    if leg.status == fk.SLIPPED_OFF:
+    if leg.status == fs.SLIPPED_OFF:
         outcome = Outcome.SLIPPED
-    elif leg.status != fk.REACHED:
+    elif leg.status != fs.REACHED:
         flags = (REASONS[leg.status],)
     elif (leg.points[:, fk.P_SOLUTIONS] > 1.0).any():
         flags = (SettledFlag.AMBIGUOUS,)

@@ -1,0 +1,423 @@
+"""A step of a held bolt on contacts with friction: which contacts it may have, and every solution of their modes.
+
+The path goes on with the solution whose contacts do what they did before, or else with the one nearest to where the
+hand carries the bolt. Where there is none the bolt falls, without friction.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.device._chart_kernel import (
+    COORDINATES,
+    D_SCALE,
+    PLACE_SIZE,
+    set_place,
+)
+from threadstate.device._friction_rest_kernel import rests
+from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, GAP_SIZE
+from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
+from threadstate.device._modes_kernel import (
+    K_FORCE,
+    K_MODE,
+    K_NORMAL,
+    K_PAIR,
+    K_POINT,
+    K_SLIP,
+    MOST_CANDIDATES,
+    MOST_CONTACTS,
+    OPENS,
+    OVERLAP,
+    REACH,
+    SLIPS,
+    SOLVED,
+    STICKS,
+    ModesWork,
+    cones_hold,
+    overlap_beside,
+    set_contact,
+    solve_mode,
+)
+from threadstate.device._places_kernel import Threads, find_places
+from threadstate.device._rest_kernel import (
+    AT_REST,
+    FLUSH,
+    SLIPPED,
+    Work,
+    descend,
+)
+from threadstate.device._settle_kernel import PATH_OVERLAP, PATH_TOLERANCE, distance
+from threadstate.device._turn_kernel import (
+    LOADED,
+    M_PUSH,
+    fall_down,
+)
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+MAX_SOLUTIONS = 8
+"""The most solutions of a step that are told apart."""
+
+DISTINCT = 1e-6
+"""How far apart (nominal radii) the bolt is in two solutions."""
+
+SAME_CONTACT = 0.03
+"""Points of two contacts (nominal radii) that are nearer to each other are one contact's."""
+
+STEP_REACH = 2e-2
+"""How far (nominal radii) the bolt may go in a step beside where the hand carries it."""
+
+# How a path ends.
+REACHED, SNAP_REACHED, TORQUE_OVER, SLIPPED_OFF, TOO_DEEP, TOO_MANY, ON_PATCH, PATH_FULL, NO_MINIMUM = range(9)
+GOES_ON, SHORTER = -1, -2
+"""Of a step: the path goes on, or the step has to have another length, as a rule a shorter one."""
+
+FREE_STEPS = 60
+"""Steps of the descent without friction that says which contacts a step may gain."""
+
+Solutions = tuple[Array, Array, Indices]
+"""Of a step: coordinates, contacts, and number of contacts of each solution."""
+
+Setting = tuple[Array, Array, Array, Array, Array, Threads, Work, ModesWork]
+"""Command, device, strip, bolt, nut, and the work of searches, descents and modes."""
+
+
+@kernel()
+def add_candidate(count: int, point: Array, normal: Array, pair: float, r: float, contacts: Array) -> int:
+    """Adds a contact to a step's, unless one is there already; their number then, one more than there is room for."""
+    for i in range(count):
+        apart = 0.0
+        for h in range(3):
+            apart += (contacts[i, K_POINT + h] - point[h]) ** 2
+        if math.sqrt(apart) < SAME_CONTACT * r:
+            return count
+    if count < MOST_CANDIDATES:
+        for h in range(K_SIZE):
+            contacts[count, h] = 0.0
+        for h in range(3):
+            contacts[count, K_POINT + h] = point[h]
+            contacts[count, K_NORMAL + h] = normal[h]
+        contacts[count, K_PAIR] = pair
+    return count + 1
+
+
+@kernel()
+def friction_of(contact: Array) -> float:
+    """The size of a contact's force across its normal."""
+    normal, square = 0.0, 0.0
+    for h in range(3):
+        normal += contact[K_FORCE + h] * contact[K_NORMAL + h]
+        square += contact[K_FORCE + h] ** 2
+    return math.sqrt(max(square - normal * normal, 0.0))
+
+
+@kernel()
+def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Array) -> float:
+    """The work that friction takes in a step: the mean of its sizes before and after, over the slip.
+
+    The first contacts of a step are those before it, in their order.
+    """
+    loss = 0.0
+    for i in range(count):
+        if contacts[i, K_MODE] != SLIPS:
+            continue
+        slip = math.sqrt(contacts[i, K_SLIP] ** 2 + contacts[i, K_SLIP + 1] ** 2 + contacts[i, K_SLIP + 2] ** 2)
+        now = friction_of(contacts[i])
+        was = friction_of(earlier[i]) if i < earlier_count and earlier[i, K_MODE] == SLIPS else now
+        loss += 0.5 * (now + was) * slip
+    return loss
+
+
+@kernel()
+def add_solution(total: int, q: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
+    """Adds a solution of a step unless the bolt is there in one already; their number then."""
+    places, all_contacts, counts = solutions
+    for i in range(total):
+        if distance(places[i], q, device) < DISTINCT * device[D_SCALE]:
+            return total
+    if total == MAX_SOLUTIONS:
+        return total
+    copy_numbers(q, places[total])
+    for c in range(count):
+        copy_numbers(contacts[c], all_contacts[total, c])
+    counts[total] = count
+    return total + 1
+
+
+@kernel()
+def enumerate_modes(
+    q: Array,
+    carried: Array,
+    free: Array,
+    before: Array,
+    push: float,
+    unit: float,
+    mu: float,
+    turns: bool,
+    count: int,
+    candidates: Array,
+    setting: Setting,
+    solutions: Solutions,
+    met: Array,
+) -> tuple[int, bool]:
+    """Sets every solution of a step: their number, and whether one that would be overlaps beside its contacts.
+
+    ``met`` is set to where the last such one does. ``q`` is the bolt before the step, ``carried`` where the hand
+    carries it, ``free`` where it would be without friction, ``before`` the pose before. A bolt that turns about a rigid
+    axis has no two contacts that stick.
+    """
+    _, device, _, bolt, nut, threads, _, modes_work = setting
+    places, search = modes_work[0], modes_work[1]
+    r = device[D_SCALE]
+    modes = np.empty(MOST_CANDIDATES, dtype=np.int64)
+    contacts = np.empty((MOST_CANDIDATES, K_SIZE))
+    trial, start = np.empty(COORDINATES), np.empty(COORDINATES)
+    place = np.empty(PLACE_SIZE)
+    for j in range(COORDINATES):
+        start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
+    total, has_met = 0, False
+    if not turns:
+        set_place(q, device, place)
+        touching = touching_contacts(
+            find_places(OVERLAP * r, place, device, bolt, nut, threads, search, places), places, contacts
+        )
+        if rests(q, push, mu, touching, contacts, device):
+            total = add_solution(total, q, touching, contacts, device, solutions)
+    set_place(start, device, place)
+    found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+    at_start = places[:found].copy()
+    for code in range(3**count):
+        rest, sticking, touching = code, 0, 0
+        for c in range(count):
+            modes[c] = rest % 3
+            rest //= 3
+            sticking += 1 if modes[c] == STICKS else 0
+            touching += 0 if modes[c] == OPENS else 1
+        if sticking > 1 or touching > MOST_CONTACTS:
+            continue
+        for c in range(count):
+            copy_numbers(candidates[c], contacts[c])
+            contacts[c, K_MODE] = modes[c]
+        copy_numbers(start, trial)
+        for j in range(found):
+            copy_numbers(at_start[j], places[j])
+        status = solve_mode(
+            modes, count, mu, found, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work
+        )
+        if (
+            status != SOLVED
+            or distance(carried, trial, device) > STEP_REACH * r
+            or not cones_hold(modes, count, mu, unit, r, contacts)
+        ):
+            continue
+        set_place(trial, device, place)
+        after = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+        beside = overlap_beside(modes, count, r, after, contacts, places)
+        if beside >= 0:
+            copy_numbers(places[beside], met)
+            has_met = True
+        else:
+            total = add_solution(total, trial, count, contacts, device, solutions)
+    return total, has_met
+
+
+@kernel()
+def touching_contacts(found: int, places: Array, contacts: Array) -> int:
+    """Sets contacts without forces at the ``found`` places, as many as there is room for; their number."""
+    count = min(found, MOST_CONTACTS)
+    for c in range(count):
+        for h in range(K_SIZE):
+            contacts[c, h] = 0.0
+        set_contact(places[c], contacts[c])
+    return count
+
+
+@kernel()
+def chosen(total: int, carried: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
+    """Which solution the path goes on with: that of the modes before, else the one nearest to ``carried``."""
+    places, all_contacts, counts = solutions
+    best, nearest = 0, math.inf
+    for i in range(total):
+        same = True
+        for c in range(int(counts[i])):
+            mode = contacts[c, K_MODE] if c < count else float(OPENS)
+            same = same and all_contacts[i, c, K_MODE] == mode
+        away = distance(carried, places[i], device)
+        if same:
+            return i
+        if away < nearest:
+            best, nearest = i, away
+    return best
+
+
+@kernel()
+def add_free_contacts(total: int, found: int, push: float, device: Array, work: Work, candidates: Array) -> int:
+    """Adds the contacts of a bolt without friction, as many as there is room for; the number of candidates then."""
+    places, multipliers = work[0], work[15]
+    for j in range(found):
+        if multipliers[j] * places[j, G_NORM] > LOADED * push:
+            total = min(add_candidate_at(total, places[j], device, candidates), MOST_CANDIDATES)
+    return total
+
+
+@kernel()
+def add_candidate_at(total: int, gap: Array, device: Array, candidates: Array) -> int:
+    """Adds a place of overlap to a step's contacts, as :func:`add_candidate`."""
+    return add_candidate(
+        total,
+        gap[G_POINT : G_POINT + 3],
+        gap[G_NORMAL : G_NORMAL + 3],
+        gap[G_PAIR],
+        device[D_SCALE],
+        candidates,
+    )
+
+
+@kernel()
+def frictionless_contacts(found: int, push: float, work: Work, contacts: Array) -> int:
+    """Sets the contacts of a bolt that rests without friction; their number, one more than there is room for."""
+    places, multipliers = work[0], work[15]
+    count = 0
+    for j in range(found):
+        force = multipliers[j] * places[j, G_NORM]
+        if force > LOADED * push:
+            if count == MOST_CONTACTS:
+                return count + 1
+            for h in range(3):
+                contacts[count, K_POINT + h] = places[j, G_POINT + h]
+                contacts[count, K_NORMAL + h] = places[j, G_NORMAL + h]
+                contacts[count, K_FORCE + h] = force * places[j, G_NORMAL + h]
+                contacts[count, K_SLIP + h] = 0.0
+            contacts[count, K_MODE], contacts[count, K_PAIR] = STICKS, places[j, G_PAIR]
+            count += 1
+    return count
+
+
+@kernel()
+def kept(count: int, contacts: Array, push: float) -> int:
+    """Moves the contacts that carry a force to the front; their number."""
+    used = 0
+    for c in range(count):
+        normal = 0.0
+        for h in range(3):
+            normal += contacts[c, K_FORCE + h] * contacts[c, K_NORMAL + h]
+        if contacts[c, K_MODE] != OPENS and normal > LOADED * push:
+            copy_numbers(contacts[c], contacts[used])
+            used += 1
+    return used
+
+
+@kernel()
+def fall_without_friction(q: Array, push: float, setting: Setting, contacts: Array) -> tuple[int, int]:
+    """Lets the bolt fall from ``q``, in place: how the path ends there, if it does, and its number of contacts."""
+    _, device, _, bolt, nut, threads, work, _ = setting
+    status, found = fall_down(q, push, device, bolt, nut, threads, work)
+    if status == SLIPPED:
+        return SLIPPED_OFF, 0
+    if status != AT_REST:
+        return (ON_PATCH if status == FLUSH else NO_MINIMUM), 0
+    count = frictionless_contacts(found, push, work, contacts)
+    return (TOO_MANY if count > MOST_CONTACTS else GOES_ON), count
+
+
+@kernel()
+def solve_step(
+    q: Array,
+    free: Array,
+    before: Array,
+    push: float,
+    mu: float,
+    turns: bool,
+    total: int,
+    candidates: Array,
+    setting: Setting,
+    solutions: Solutions,
+) -> tuple[int, int]:
+    """Sets every solution of a step, with what the bolt meets in it added to the candidates.
+
+    Returns how many there are, and the number of candidates: one more than there is room for where it meets too many.
+    """
+    command, device = setting[0], setting[1]
+    met = np.empty(GAP_SIZE)
+    while True:
+        number, has_met = enumerate_modes(
+            q, q, free, before, push, command[M_PUSH], mu, turns, total, candidates, setting, solutions, met
+        )
+        known = total
+        if has_met:
+            total = add_candidate_at(total, met, device, candidates)
+        if total == known or total > MOST_CANDIDATES:
+            return number, total
+
+
+@kernel()
+def step_with_friction(
+    q: Array,
+    push: float,
+    mu: float,
+    turns: bool,
+    falls: bool,
+    before: Array,
+    count: int,
+    contacts: Array,
+    setting: Setting,
+    solutions: Solutions,
+    losses: Array,
+) -> tuple[int, int]:
+    """A step from ``q`` to a new command, in place: how the path ends there, if it does, and its number of contacts.
+
+    Where there is no solution, or there are too many contacts, SHORTER, or if it ``falls`` where it falls to;
+    ``before`` is the pose before the step. The contacts are those before the step and what the bolt meets in it; where
+    they have no solution, and where the push grows, those that a bolt without friction would have are added.
+    """
+    command, device, _, bolt, nut, threads, work, _ = setting
+    free = q.copy()
+    candidates = np.empty((MOST_CANDIDATES, K_SIZE))
+    for c in range(count):
+        copy_numbers(contacts[c], candidates[c])
+    number, total = 0, count
+    if turns:
+        number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
+    if number == 0 and total <= MOST_CANDIDATES:
+        status, found = descend(
+            free,
+            push,
+            STEP_REACH * device[D_SCALE],
+            math.inf,
+            FREE_STEPS,
+            PATH_TOLERANCE,
+            PATH_OVERLAP,
+            device,
+            bolt,
+            nut,
+            threads,
+            work,
+        )
+        if status == FLUSH:
+            return ON_PATCH, 0
+        if status != AT_REST:
+            copy_numbers(q, free)
+            found = 0
+        known = total
+        total = add_free_contacts(total, found, push, device, work, candidates)
+        if total > known or not turns:
+            number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
+    if total > MOST_CANDIDATES:
+        return (TOO_MANY if falls else SHORTER), 0
+    losses[2] = number
+    if number == 0:
+        return fall_without_friction(q, push, setting, contacts) if falls else (SHORTER, 0)
+    best = chosen(number, q, count, contacts, device, solutions)
+    copy_numbers(solutions[0][best], q)
+    losses[0] = friction_loss(count, contacts, int(solutions[2][best]), solutions[1][best])
+    count = int(solutions[2][best])
+    used = kept(count, solutions[1][best], command[M_PUSH])
+    for c in range(used):
+        copy_numbers(solutions[1][best, c], contacts[c])
+    return GOES_ON, used
