@@ -82,9 +82,9 @@ def _story(path: AssemblyPath) -> str:
     if snap is None or path.travel is None or path.energy is None:
         return f"{how} the path ends `{path.outcome.value}`."
     falls = sum(event.kind is PathEventKind.FALL for event in path.events)
-    unsolved = sum(point.solutions == 0 for point in path.points)
+    unsolved = sum(point.solutions == 0 for point in path.points[1:])
     let_go = (
-        [f"After {unsolved} of its steps, which have no solution with friction, the bolt is let go without it", LET_GO]
+        [f"Steps without a solution with friction: {unsolved}; after such a step the bolt is let go without it", LET_GO]
         if unsolved
         else []
     )

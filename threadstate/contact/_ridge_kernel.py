@@ -149,24 +149,37 @@ def nearby_maximum(
 
 
 @kernel()
-def ridge_point(
+def ridge_bracket(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
-) -> tuple[float, bool]:
-    """Where phi has a ridge near z on an azimuth: B falls through zero, however narrow the ridge is.
+) -> tuple[float, float, float]:
+    """How far from z, up and down on an azimuth, B falls through zero between, and B at both; the distance 0: nowhere.
 
-    It is bracketed between z - w and z + w for a growing w, up to ``window``, and then by bisection, as at a corner B
-    falls within the width of its fillet. Also returns whether there is one.
+    The distance grows up to ``window``, so that the nearest ridge is found, however narrow it is.
     """
     w = window * FIRST_PART_OF_WINDOW
     while True:
         set_jet(theta, z - w, placement, bolt, nut, jet)
-        if jet[TJ_B] > 0.0:
+        below = jet[TJ_B]
+        if below > 0.0:
             set_jet(theta, z + w, placement, bolt, nut, jet)
             if jet[TJ_B] < 0.0:
-                break
+                return w, below, jet[TJ_B]
         if w >= window:
-            return z, False
+            return 0.0, 0.0, 0.0
         w *= 4.0
+
+
+@kernel()
+def ridge_point(
+    theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, bool]:
+    """Where phi has a ridge near z on an azimuth: B falls through zero. Also returns whether there is one.
+
+    It is bracketed, and then found by bisection, as at a corner B falls within the width of its fillet.
+    """
+    w, _, _ = ridge_bracket(theta, z, window, placement, bolt, nut, jet)
+    if w == 0.0:
+        return z, False
     low, high = z - w, z + w
     while True:
         middle = 0.5 * (low + high)

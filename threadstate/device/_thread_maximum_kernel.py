@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._ridge_kernel import (
-    FIRST_PART_OF_WINDOW,
     FIRST_RIDGE_STEP,
     FIRST_WINDOW,
     LATER_RIDGE_STEP,
     MAX_RIDGE_STEPS,
     NARROW_AZIMUTHS,
     nearby_maximum,
+    ridge_bracket,
 )
 from threadstate.contact._tangency_kernel import (
     TJ_A,
@@ -59,23 +59,14 @@ def reduced(slope: float, retained: float, before: float) -> float:
 def ridge_point(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, bool]:
-    """Where phi has a ridge near z on an azimuth: B falls through zero, however narrow the ridge is.
+    """Where phi has a ridge near z on an azimuth: B falls through zero. Also returns whether there is one.
 
-    It is bracketed between z - w and z + w for a growing w, up to ``window``, and then by regula falsi with every third
-    step a bisection. Also returns whether there is one.
+    It is bracketed, and then found by regula falsi with every third step a bisection.
     """
-    w = window * FIRST_PART_OF_WINDOW
-    while True:
-        set_jet(theta, z - w, placement, bolt, nut, jet)
-        b_low = jet[TJ_B]
-        if b_low > 0.0:
-            set_jet(theta, z + w, placement, bolt, nut, jet)
-            if jet[TJ_B] < 0.0:
-                break
-        if w >= window:
-            return z, False
-        w *= 4.0
-    low, high, b_high = z - w, z + w, jet[TJ_B]
+    w, b_low, b_high = ridge_bracket(theta, z, window, placement, bolt, nut, jet)
+    if w == 0.0:
+        return z, False
+    low, high = z - w, z + w
     side, i = 0, 0
     while True:
         middle = 0.5 * (low + high)
