@@ -1,7 +1,8 @@
 """The path of a held bolt with friction: push and phase of the command move in steps, whose length is what it takes.
 
-A step is halved where contacts change in it or the potential does as nothing explains; where no step has a solution
-longer ones are tried, and then the bolt falls (``_friction_step_kernel``, ``_friction_held_kernel``).
+A step is halved where contacts change in it, the potential does as nothing explains, or there are several solutions;
+where the shortest one has none the bolt falls (``_friction_step_kernel``, ``_friction_held_kernel``,
+``_friction_fall_kernel``).
 """
 
 from __future__ import annotations
@@ -20,15 +21,17 @@ from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
     D_ROTATION,
+    D_SCALE,
     PLACE_SIZE,
     elastic_energy,
     set_place,
 )
-from threadstate.device._friction_held_kernel import ENERGY_STEP, contacts_of_tip, lay_flush, step_held
+from threadstate.device._friction_fall_kernel import fall_with_friction
+from threadstate.device._friction_held_kernel import ENERGY_STEP, contacts_of_tip, step_held
 from threadstate.device._friction_step_kernel import (
+    DISTINCT,
     GOES_ON,
     MAX_SOLUTIONS,
-    ON_PATCH,
     PATH_FULL,
     REACHED,
     SHORTER,
@@ -37,6 +40,9 @@ from threadstate.device._friction_step_kernel import (
     TOO_DEEP,
     TORQUE_OVER,
     Setting,
+    Solutions,
+    friction_loss,
+    kept,
     step_with_friction,
 )
 from threadstate.device._gap_kernel import G_VALUE, GAP_SIZE
@@ -54,7 +60,7 @@ from threadstate.device._rest_kernel import (
     DEEPEST,
     new_work,
 )
-from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT
+from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, distance
 from threadstate.device._slide_kernel import (
     is_level,
 )
@@ -78,6 +84,7 @@ from threadstate.device._turn_kernel import (
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 LONGEST_TURN, LONGEST_PUSH = 1.0 * DEGREE, 1.0 / 16.0
 FIRST_PART, LEAST_PART = 0.25, 1.0 / 256.0
@@ -85,7 +92,8 @@ FIRST_PART, LEAST_PART = 0.25, 1.0 / 256.0
 shortest over the longest."""
 
 BRIDGING = 4.0
-"""How much longer the steps become that are tried where no step is short enough."""
+"""How much longer the steps of a growing push become that are tried where no step is short enough: contacts that have
+all but ceased to slide have no solution then."""
 
 MAX_POINTS = 2500
 
@@ -107,6 +115,13 @@ POINT_SIZE = 28
 
 Path = tuple[Array, Array]
 """Points, and their contacts."""
+
+MAX_BRANCHES = 64
+"""The most branches of a leg that are told."""
+
+Branches = tuple[Array, Array, Indices]
+"""Of other solutions of steps: the point each sets, its contacts, and the number of the path's point that it is instead
+of; as many as there is room for, the last -1 where there are no more."""
 
 
 @kernel()
@@ -189,13 +204,60 @@ def has_ended(i: int, stop_at_snap: bool, count: int, contacts: Array, setting: 
 
 
 @kernel()
-def unexplained(i: int, path: Path) -> float:
-    """The potential lost in the step to a point that neither torque, push nor friction explains."""
-    points, _ = path
-    lost = points[i - 1, P_POTENTIAL] - points[i, P_POTENTIAL] - points[i, P_FRICTION]
-    lost += 0.5 * (points[i - 1, P_TORQUE] + points[i, P_TORQUE]) * (points[i, P_PHASE] - points[i - 1, P_PHASE])
-    height = 0.5 * (points[i - 1, P_COORDINATES + 5] + points[i, P_COORDINATES + 5])
-    return lost + height * (points[i, P_PUSH] - points[i - 1, P_PUSH])
+def unexplained(before: Array, after: Array) -> float:
+    """The potential lost in the step from a point to the next that neither torque, push nor friction explains."""
+    lost = before[P_POTENTIAL] - after[P_POTENTIAL] - after[P_FRICTION]
+    lost += 0.5 * (before[P_TORQUE] + after[P_TORQUE]) * (after[P_PHASE] - before[P_PHASE])
+    height = 0.5 * (before[P_COORDINATES + 5] + after[P_COORDINATES + 5])
+    return lost + height * (after[P_PUSH] - before[P_PUSH])
+
+
+@kernel()
+def add_branches(
+    i: int, number: int, q: Array, setting: Setting, solutions: Solutions, path: Path, branches: Branches
+) -> int:
+    """Adds a branch for each of the step's other solutions that its work explains, to point i; how many there are.
+
+    One that it does not is a finite way off: no motion without a jump leads there.
+    """
+    command, device, bolt = setting[0], setting[1], setting[3]
+    places, all_contacts, counts = solutions
+    points, point_contacts = path
+    rows, row_contacts, indices = branches
+    losses = np.zeros(4)
+    before = points[i - 1]
+    total = 0
+    while total < MAX_BRANCHES and indices[total] >= 0:
+        total += 1
+    added = 0
+    for k in range(number):
+        if distance(q, places[k], device) < DISTINCT * device[D_SCALE]:
+            continue
+        b = min(total, MAX_BRANCHES - 1)
+        contacts = all_contacts[k]
+        losses[0] = friction_loss(int(before[P_COUNT]), point_contacts[i - 1], int(counts[k]), contacts)
+        losses[2] = number
+        count = kept(int(counts[k]), contacts, command[M_PUSH])
+        add_path_point(
+            b,
+            points[i, P_PHASE],
+            points[i, P_PUSH],
+            ON_CONTACTS,
+            places[k],
+            count,
+            contacts,
+            losses,
+            command,
+            device,
+            (rows, row_contacts),
+        )
+        if abs(unexplained(before, rows[b])) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR]:
+            continue
+        added += 1
+        if total < MAX_BRANCHES:
+            indices[total] = i
+            total += 1
+    return added
 
 
 @kernel()
@@ -239,30 +301,39 @@ def follow_friction(
     strip: Array,
     bolt: Array,
     nut: Array,
+    begun: int,
     path: Path,
+    branches: Branches,
 ) -> tuple[int, int, int]:
     """Follows a bolt from ``q``, in place, while phase and push go from the first to the second of theirs.
 
-    ``contacts`` are the ``count`` ones at the beginning, and are set to those of the end. Returns how it ended, the
-    number of points set, and that of contacts.
+    ``contacts`` are the ``count`` ones at the beginning, and are set to those of the end. Of a path that has ``begun``
+    so many points are there: it goes on from the last of them. Returns how it ended, the number of points set, and that
+    of contacts; ``branches`` are those of the points that are new.
     """
     setting = (command, device, strip, bolt, nut, new_threads(bolt), new_work(), new_modes_work())
     turn, growth = phases[1] - phases[0], pushes[1] - pushes[0]
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
-    step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
     bridging, falling = False, False
+    step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
         np.empty((MAX_SOLUTIONS, MOST_CANDIDATES, K_SIZE)),
         np.empty(MAX_SOLUTIONS, dtype=np.int64),
     )
     before, losses = np.empty(PLACE_SIZE), np.zeros(4)
+    branches[2][:] = -1
     set_phase(phases[0], command, device)
-    if count == 1 and contacts[0, K_PAIR] == FLUSH_PAIR and is_level(q, device):
-        kind = ON_SURFACE
-    add_path_point(0, phases[0], pushes[0], kind, q, count, contacts, losses, command, device, path)
+    if begun > 0:
+        i = begun - 1
+        count, kind = go_back(i, q, contacts, path), int(path[0][i, P_KIND])
+        reached = (path[0][i, P_PHASE] - phases[0]) / turn if turns else (path[0][i, P_PUSH] - pushes[0]) / growth
+    else:
+        if count == 1 and contacts[0, K_PAIR] == FLUSH_PAIR and is_level(q, device):
+            kind = ON_SURFACE
+        add_path_point(0, phases[0], pushes[0], kind, q, count, contacts, losses, command, device, path)
     while reached < 1.0:
         if i + 1 == MAX_POINTS:
             return PATH_FULL, i + 1, count
@@ -276,7 +347,7 @@ def follow_friction(
             kind, q, push, mu, (target - reached) * turn, before, contacts, setting, losses
         )
         tips = next_kind == ON_CONTACTS and kind == ON_SURFACE
-        if tips and size > least and size * abs(turn) > ABOVE * EVENT_WIDTH and not (bridging or falling):
+        if tips and size > least and size * abs(turn) > ABOVE * EVENT_WIDTH:
             # Where it tips is narrowed first.
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, EVENT_WIDTH / abs(turn), least)
@@ -285,50 +356,51 @@ def follow_friction(
             if tips:
                 count = contacts_of_tip(q, push, setting, contacts)
             ended, next_count = step_with_friction(
-                q, push, mu, turns, falling, before, count, contacts, setting, solutions, losses
+                q, push, mu, turns, before, count, contacts, setting, solutions, losses
             )
-            if ended == ON_PATCH and lay_flush(True, q, push, mu, turns, before, contacts, setting, losses):
-                next_kind, next_count, ended = ON_SURFACE, 1, GOES_ON
-        if ended == SHORTER or (ended == ON_PATCH and not falling and next_kind == ON_CONTACTS):
+        # Of solutions while it is turned those a finite way off end as steps get shorter.
+        has_several = turns and ended == GOES_ON and losses[2] > 1.0
+        if size > least and not bridging and (ended == SHORTER or has_several):
             count = go_back(i, q, contacts, path)
-            if size > least and not bridging:
-                step = max(0.5 * size, least)
-            elif size < min(longest, 1.0 - reached):
-                bridging, step = True, min(BRIDGING * size, longest)
-            else:
-                falling, step = True, least
+            step = max(0.5 * size, least)
             continue
+        if ended == SHORTER and not (turns or falling):
+            count = go_back(i, q, contacts, path)
+            bridging = size < min(longest, 1.0 - reached)
+            falling = not bridging
+            step = min(BRIDGING * size, longest) if bridging else least
+            continue
+        if ended == SHORTER:
+            next_kind, next_count, ended = fall_with_friction(
+                q, push, mu, before, count, contacts, setting, solutions, losses
+            )
         if ended != GOES_ON:
             return ended, i + 1, count
         count = next_count
         add_path_point(
             i + 1, phases[0] + target * turn, push, next_kind, q, count, contacts, losses, command, device, path
         )
-        lost = unexplained(i + 1, path)
+        lost = unexplained(path[0][i], path[0][i + 1])
         if abs(lost) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and next_kind != ON_STRIP:
-            if size > least and not (bridging or falling):
+            if size > least and not bridging:
                 count = go_back(i, q, contacts, path)
                 step = max(0.5 * size, least)
                 continue
             path[0][i + 1, P_FALL] = max(lost, 0.0)
         changed = next_kind != kind or (next_kind == ON_CONTACTS and not same_features(i, count, contacts, path))
-        if (
-            turns
-            and changed
-            and not (next_kind == ON_STRIP or bridging or falling)
-            and size * abs(turn) > ABOVE * EVENT_WIDTH
-        ):
+        if turns and changed and next_kind != ON_STRIP and size * abs(turn) > ABOVE * EVENT_WIDTH:
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, EVENT_WIDTH / abs(turn))
             continue
         i += 1
         reached, kind = target, next_kind
+        if losses[2] > 1.0:
+            path[0][i, P_SOLUTIONS] = 1.0 + add_branches(i, int(losses[2]), q, setting, solutions, path, branches)
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
         if ended != GOES_ON:
             return ended, i + 1, count
-        # After a fall no force of friction is known: they come up in the next step, which has to be long enough.
-        step = FIRST_PART * longest if losses[2] == 0.0 else min(2.0 * size, longest)
         bridging, falling = False, False
+        step = FIRST_PART * longest if losses[2] == 0.0 else min(2.0 * size, longest)
     return REACHED, i + 1, count
 
 

@@ -46,8 +46,6 @@ from threadstate.device._modes_kernel import (
 from threadstate.device._places_kernel import Threads, find_places
 from threadstate.device._rest_kernel import (
     AT_REST,
-    FLUSH,
-    SLIPPED,
     Work,
     descend,
 )
@@ -55,7 +53,6 @@ from threadstate.device._settle_kernel import PATH_OVERLAP, PATH_TOLERANCE, dist
 from threadstate.device._turn_kernel import (
     LOADED,
     M_PUSH,
-    fall_down,
 )
 
 Array = NDArray[np.float64]
@@ -170,10 +167,10 @@ def enumerate_modes(
 
     ``met`` is set to where the last such one does. ``q`` is the bolt before the step, ``carried`` where the hand
     carries it, ``free`` where it would be without friction, ``before`` the pose before. A bolt that turns about a rigid
-    axis has no two contacts that stick.
+    axis has no two contacts that stick, one that falls may have.
     """
     _, device, _, bolt, nut, threads, _, modes_work = setting
-    places, search = modes_work[0], modes_work[1]
+    places, search = modes_work.places, modes_work.search
     r = device[D_SCALE]
     modes = np.empty(MOST_CANDIDATES, dtype=np.int64)
     contacts = np.empty((MOST_CANDIDATES, K_SIZE))
@@ -182,6 +179,7 @@ def enumerate_modes(
     for j in range(COORDINATES):
         start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
     total, has_met = 0, False
+    most_sticking = MOST_CONTACTS if modes_work.drag[0, 0] > 0.0 else 1
     if not turns:
         set_place(q, device, place)
         touching = touching_contacts(
@@ -199,7 +197,7 @@ def enumerate_modes(
             rest //= 3
             sticking += 1 if modes[c] == STICKS else 0
             touching += 0 if modes[c] == OPENS else 1
-        if sticking > 1 or touching > MOST_CONTACTS:
+        if sticking > most_sticking or touching > MOST_CONTACTS:
             continue
         for c in range(count):
             copy_numbers(candidates[c], contacts[c])
@@ -280,26 +278,6 @@ def add_candidate_at(total: int, gap: Array, device: Array, candidates: Array) -
 
 
 @kernel()
-def frictionless_contacts(found: int, push: float, work: Work, contacts: Array) -> int:
-    """Sets the contacts of a bolt that rests without friction; their number, one more than there is room for."""
-    places, multipliers = work[0], work[15]
-    count = 0
-    for j in range(found):
-        force = multipliers[j] * places[j, G_NORM]
-        if force > LOADED * push:
-            if count == MOST_CONTACTS:
-                return count + 1
-            for h in range(3):
-                contacts[count, K_POINT + h] = places[j, G_POINT + h]
-                contacts[count, K_NORMAL + h] = places[j, G_NORMAL + h]
-                contacts[count, K_FORCE + h] = force * places[j, G_NORMAL + h]
-                contacts[count, K_SLIP + h] = 0.0
-            contacts[count, K_MODE], contacts[count, K_PAIR] = STICKS, places[j, G_PAIR]
-            count += 1
-    return count
-
-
-@kernel()
 def kept(count: int, contacts: Array, push: float) -> int:
     """Moves the contacts that carry a force to the front; their number."""
     used = 0
@@ -311,19 +289,6 @@ def kept(count: int, contacts: Array, push: float) -> int:
             copy_numbers(contacts[c], contacts[used])
             used += 1
     return used
-
-
-@kernel()
-def fall_without_friction(q: Array, push: float, setting: Setting, contacts: Array) -> tuple[int, int]:
-    """Lets the bolt fall from ``q``, in place: how the path ends there, if it does, and its number of contacts."""
-    _, device, _, bolt, nut, threads, work, _ = setting
-    status, found = fall_down(q, push, device, bolt, nut, threads, work)
-    if status == SLIPPED:
-        return SLIPPED_OFF, 0
-    if status != AT_REST:
-        return (ON_PATCH if status == FLUSH else NO_MINIMUM), 0
-    count = frictionless_contacts(found, push, work, contacts)
-    return (TOO_MANY if count > MOST_CONTACTS else GOES_ON), count
 
 
 @kernel()
@@ -362,7 +327,6 @@ def step_with_friction(
     push: float,
     mu: float,
     turns: bool,
-    falls: bool,
     before: Array,
     count: int,
     contacts: Array,
@@ -370,11 +334,11 @@ def step_with_friction(
     solutions: Solutions,
     losses: Array,
 ) -> tuple[int, int]:
-    """A step from ``q`` to a new command, in place: how the path ends there, if it does, and its number of contacts.
+    """A step from ``q`` to a new command, in place: GOES_ON, and its number of contacts; SHORTER where it is unsolved.
 
-    Where there is no solution, or there are too many contacts, SHORTER, or if it ``falls`` where it falls to;
-    ``before`` is the pose before the step. The contacts are those before the step and what the bolt meets in it; where
-    they have no solution, and where the push grows, those that a bolt without friction would have are added.
+    It is where there is no solution, or where there are too many contacts. ``before`` is the pose before the step.
+    The contacts are those before it and what the bolt meets in it; where they have no solution, and where the push
+    grows, those that a bolt without friction would have are added.
     """
     command, device, _, bolt, nut, threads, work, _ = setting
     free = q.copy()
@@ -399,8 +363,6 @@ def step_with_friction(
             threads,
             work,
         )
-        if status == FLUSH:
-            return ON_PATCH, 0
         if status != AT_REST:
             copy_numbers(q, free)
             found = 0
@@ -408,11 +370,9 @@ def step_with_friction(
         total = add_free_contacts(total, found, push, device, work, candidates)
         if total > known or not turns:
             number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
-    if total > MOST_CANDIDATES:
-        return (TOO_MANY if falls else SHORTER), 0
     losses[2] = number
-    if number == 0:
-        return fall_without_friction(q, push, setting, contacts) if falls else (SHORTER, 0)
+    if number == 0 or total > MOST_CANDIDATES:
+        return SHORTER, 0
     best = chosen(number, q, count, contacts, device, solutions)
     copy_numbers(solutions[0][best], q)
     losses[0] = friction_loss(count, contacts, int(solutions[2][best]), solutions[1][best])

@@ -11,6 +11,7 @@ and gaps. Lengths are over the nominal radius, forces over the push.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +70,12 @@ LONGEST = 0.02
 FARTHEST = 0.05
 """How far the coordinates may go in all iterations, in nominal radii: more than twice what a step may."""
 
-LEAST_SLIP = 1e-9
+SOFTNESS = 1e-8
+"""By how much (nominal radii) the bolt's point of a contact that sticks gives way, a change of the force across its
+normal by the unit. Two contacts that did not at all would fix their points on the line between them twice, and the
+forces along it would be anything; so they are what has come up while the contacts stick."""
+
+LEAST_SLIP = 1e-7
 """The least slip (nominal radii) that the numbers rho of a step are made for."""
 
 SAME_POINT = 0.1
@@ -80,6 +86,9 @@ SAME_PLACE = 1e-6
 
 TOUCHES = 1e-9
 """Gap (nominal radii) up to which a place touches."""
+
+SLIDES = 1e-12
+"""Slip (nominal radii) up to which a contact does not slide."""
 
 OVERLAP = 1e-8
 """Overlap (nominal radii) of a place that is no contact, from which on a mode is not consistent."""
@@ -92,20 +101,37 @@ REACH = 5e-3
 
 # A contact of a step: point in the nut's frame, unit normal into the bolt, force on the bolt (N), slip of the bolt's
 # point over the nut in the step, what it does, pair of features, the nut's axis (0: x, 1: y) that its tangents are made
-# of.
-K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_AXIS = 0, 3, 6, 9, 12, 13, 14
-CONTACT_SIZE = 15
+# of, and the force before the step.
+K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_AXIS, K_HELD = 0, 3, 6, 9, 12, 13, 14, 15
+CONTACT_SIZE = 18
 
-ModesWork = tuple[Array, Array, Array, Array, Array, Array, Array, Array]
-"""Places, search, matrix, spare matrix, residual, unknowns, velocities of points, indices of places."""
+
+class ModesWork(NamedTuple):
+    """The arrays of a step. ``drag`` (6, 6) and ``begun`` (6) are zero but for a bolt that falls.
+
+    ``drag`` is the force over the unit that resists the way from ``begun``, by free coordinates as lengths over the
+    nominal radius.
+    """
+
+    places: Array
+    search: Array
+    matrix: Array
+    spare: Array
+    residual: Array
+    unknowns: Array
+    velocities: Array
+    indices: Array
+    drag: Array
+    begun: Array
+
 
 SOLVED, UNSOLVED = range(2)
 
 
 @kernel()
 def new_modes_work() -> ModesWork:
-    """The arrays of a step."""
-    return (
+    """The arrays of a step of a bolt that does not fall."""
+    return ModesWork(
         np.empty((MAX_PLACES + 1, GAP_SIZE)),
         np.empty(PLACES_WORK),
         np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
@@ -114,6 +140,8 @@ def new_modes_work() -> ModesWork:
         np.empty(MOST_UNKNOWNS),
         np.empty((MOST_CANDIDATES, 3, COORDINATES)),
         np.empty(MOST_CANDIDATES),
+        np.zeros((COORDINATES, COORDINATES)),
+        np.zeros(COORDINATES),
     )
 
 
@@ -232,7 +260,7 @@ def follow_places(
     work: ModesWork,
 ) -> bool:
     """Sets the places of the contacts that stay anew, from where they were; False where one is not found near by."""
-    places, search, _, _, _, _, _, indices = work
+    places, search, indices = work.places, work.search, work.indices
     gap_work = search[W_GAP : W_GAP + GAP_WORK]
     for c in range(count):
         if modes[c] == OPENS:
@@ -265,7 +293,7 @@ def set_equations(
     The unknowns are the coordinates, then of each contact that stays the force along its normal and both tangents. Of
     the matrix the change of tangential forces with the pose is left out.
     """
-    places, _, matrix, _, residual, unknowns, velocities, indices = work
+    places, _, matrix, _, residual, unknowns, velocities, indices, drag, begun = work
     n = free_coordinates(device)
     r = device[D_SCALE]
     by_q = np.empty(COORDINATES)
@@ -285,7 +313,10 @@ def set_equations(
         residual[i] = by_q[a] / scale(a, device) / unit
         for j in range(n):
             b = coordinate(j, device)
-            matrix[i, j] = device[D_STIFFNESS + 6 * a + b] / (scale(a, device) * scale(b, device)) * r / unit
+            matrix[i, j] = (
+                device[D_STIFFNESS + 6 * a + b] / (scale(a, device) * scale(b, device)) * r / unit + drag[i, j]
+            )
+            residual[i] += drag[i, j] * (q[b] - begun[b]) * scale(b, device) / r
     row = n
     for c in range(count):
         if modes[c] == OPENS:
@@ -323,7 +354,11 @@ def set_equations(
             along[t] = 0.0
             for h in range(3):
                 along[t] += basis[1 + t, h] * contacts[c, K_SLIP + h] / r
-            residual[row + 1 + t] = along[t]
+            held = 0.0
+            for h in range(3):
+                held += basis[1 + t, h] * contacts[c, K_HELD + h] / unit
+            residual[row + 1 + t] = along[t] + SOFTNESS * (unknowns[row + 1 + t] - held)
+            matrix[row + 1 + t, row + 1 + t] = SOFTNESS
         if modes[c] == SLIPS:
             for t in range(2):
                 ahead[t] = unknowns[row + 1 + t] - rho * along[t]
@@ -376,7 +411,7 @@ def set_first_unknowns(
     """Sets the unknown forces to those before the step, of a contact that slips and had none across its normal against
     the slip with which the step begins; rho.
     """
-    places, _, _, _, _, unknowns, _, indices = work
+    places, unknowns, indices = work.places, work.unknowns, work.indices
     row = n
     longest = LEAST_SLIP * r
     for c in range(count):
@@ -386,6 +421,7 @@ def set_first_unknowns(
         normal = 0.0
         for h in range(3):
             normal += contact[K_FORCE + h] * contact[K_NORMAL + h]
+            contact[K_HELD + h] = contact[K_FORCE + h]
         set_contact(places[int(indices[c])], contact)
         set_slip(before, place, contact)
         contact[K_AXIS] = 0.0 if abs(contact[K_NORMAL]) < 0.8 else 1.0
@@ -437,7 +473,7 @@ def solve_mode(
     ``before`` is the pose before the step; ``unit`` the force that forces are counted in; ``found`` places are those
     at ``q``.
     """
-    places, _, matrix, spare, residual, unknowns, _, indices = work
+    places, _, matrix, spare, residual, unknowns, _, indices, _, _ = work
     n = free_coordinates(device)
     r = device[D_SCALE]
     place = np.empty(PLACE_SIZE)
@@ -518,7 +554,7 @@ def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, con
             across = math.sqrt(max(square - normal * normal, 0.0))
             if across > mu * normal + SLACK * unit:
                 return False
-        elif against > 0.0 or not math.sqrt(slip) > TOUCHES * r:
+        elif against > 0.0 or not math.sqrt(slip) > SLIDES * r:
             return False
     return True
 

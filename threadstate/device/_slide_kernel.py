@@ -49,6 +49,10 @@ WEIGHTED, NEARLY_WEIGHTED = 1e-12, 1e-6
 """How near (nominal radii) the centre of the weights is to that of pressure; from where on steps are whole, where
 round-off decides between values."""
 
+TURNED_BACK, INWARD = 3, 0.1
+"""In how many rounds the centre of pressure may be outside the patch's hull, and by which part of the way to the middle
+of the patch's points it is moved, and moved again, until it is inside."""
+
 LATERAL_LEFT, SAME_ROUND = 1e-13, 1e-10
 """The lateral force (over the push) that is left; the change of force (over the push) and of place (nominal radii) in a
 round that is the last."""
@@ -101,7 +105,8 @@ def set_weights(count: int, points: Array, x: float, y: float, r: float, weights
         if not determinant > 0.0:
             return False
         sx, sy = -(yy * mx - xy * my) / determinant, -(xx * my - xy * mx) / determinant
-        part = min(1.0, 10.0 / (r * math.hypot(sx, sy)))
+        # Beside the hull's outline the minimum is far away, as one over the distance to it.
+        part = min(1.0, (10.0 + r * math.hypot(ax, ay)) / (r * math.hypot(sx, sy)))
         value = math.log(total) + highest(count, points, x, y, ax, ay)
         for _ in range(SHORTENINGS if math.hypot(mx, my) > NEARLY_WEIGHTED * r else 0):
             bx, by = ax + part * sx, ay + part * sy
@@ -110,6 +115,21 @@ def set_weights(count: int, points: Array, x: float, y: float, r: float, weights
                 break
             part *= 0.5
         ax, ay = ax + part * sx, ay + part * sy
+    return False
+
+
+@kernel()
+def set_weights_inside(count: int, points: Array, x: float, y: float, r: float, weights: Array) -> bool:
+    """As :func:`set_weights`, of the first point inside on the way from (x, y) to the middle of the points."""
+    middle_x, middle_y = 0.0, 0.0
+    for i in range(count):
+        middle_x += points[i, H_X] / count
+        middle_y += points[i, H_Y] / count
+    for _ in range(SHORTENINGS):
+        x += INWARD * (middle_x - x)
+        y += INWARD * (middle_y - y)
+        if set_weights(count, points, x, y, r, weights):
+            return True
     return False
 
 
@@ -254,16 +274,19 @@ def lie_flush(
     strength = mu * (push + by_q[5])
     pull = math.hypot(by_q[3], by_q[4])
     sticks = not turns and pull <= strength
-    if sticks:
-        friction[0], friction[1] = by_q[3], by_q[4]
-    elif not turns:
+    if sticks or turns:
+        # Of a bolt that slides while it is turned: where the rounds begin.
+        part = min(1.0, strength / pull) if pull > 0.0 else 0.0
+        friction[0], friction[1] = part * by_q[3], part * by_q[4]
+    else:
         level[3], level[4] = free_x, free_y
     loss, x, y, force = 0.0, 0.0, 0.0, 0.0
-    is_balanced = False
+    is_balanced, turned_back = False, 0
     # The patch is that of the place before: which samples of the outlines are in it would change from round to round.
     set_place(level, device, place)
     count = patch_points(place, bolt, nut, points)
     for _ in range(ROUNDS):
+        is_inside = True
         was_x, was_y, was_fx, was_fy, was_moment = level[3], level[4], friction[0], friction[1], friction[2]
         set_place(level, device, place)
         x, y, force, _ = centre_of_pressure(level, push, place, device, friction)
@@ -273,7 +296,11 @@ def lie_flush(
             # One direction of slip: friction has a resultant at the centre of pressure.
             weights[0], points[0, H_X], points[0, H_Y], count = 1.0, x, y, 1
         elif not set_weights(count, points, x, y, r, weights):
-            break
+            # Friction as it was may have it outside where friction as it is does not.
+            if turned_back == TURNED_BACK or not set_weights_inside(count, points, x, y, r, weights):
+                break
+            turned_back += 1
+            is_inside = False
         if sticks:
             friction[2] = (x - place[N_CENTRE]) * friction[1] - (y - place[N_CENTRE + 1]) * friction[0]
         else:
@@ -284,7 +311,7 @@ def lie_flush(
                 return False, 0.0
         change = max(abs(level[3] - was_x), abs(level[4] - was_y)) / r
         change = max(change, abs(friction[0] - was_fx) / push, abs(friction[1] - was_fy) / push)
-        if max(change, abs(friction[2] - was_moment) / (push * r)) <= SAME_ROUND:
+        if is_inside and max(change, abs(friction[2] - was_moment) / (push * r)) <= SAME_ROUND:
             is_balanced = True
             break
     set_place(level, device, place)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -28,6 +28,7 @@ from threadstate.device.assembly_model import (
     PathEventKind,
 )
 from threadstate.device.assembly_outcome import Ending, outcome_of
+from threadstate.device.branches import all_paths
 from threadstate.device.command import (
     LONGEST_STEP_DEG,
     LONGEST_STEP_WITH_FRICTION_DEG,
@@ -36,7 +37,7 @@ from threadstate.device.command import (
 )
 from threadstate.device.flush import level_numbers
 from threadstate.device.friction import REASONS as FRICTION_REASONS
-from threadstate.device.friction import FrictionPath, friction_events, point_of
+from threadstate.device.friction import FrictionPath
 from threadstate.device.model import Device, LoadedContact, Outcome, SettledFlag, SettledState, default_device
 from threadstate.device.settle import (
     FEATURES,
@@ -124,11 +125,15 @@ def assemble_pose(
         outcome = AssemblyOutcome.SLIPPED if start.outcome is Outcome.SLIPPED else AssemblyOutcome.UNDECIDED
         return AssemblyPath(start, strategy, mu, outcome, start.flags, (), (), None, None, None)
     phase = math.radians(wanted[0, 2])
-    if path is not None:
-        course = _with_friction(path, phase, plan_of(pair, strategy), held.push, watch)
-    else:
+    if path is None:
         course = _without_friction(pair, numbers, command, row, phase, plan_of(pair, strategy), watch)
-    return _path(pair, held, start, strategy, mu, course)
+        return _path(pair, held, start, strategy, mu, course)
+    courses, is_whole = _with_friction(path, phase, plan_of(pair, strategy), held.push)
+    ends = [_path(pair, held, start, strategy, mu, course) for course in courses]
+    first = ends[0]
+    if is_whole and all(end.outcome is first.outcome for end in ends):
+        return first
+    return replace(first, outcome=AssemblyOutcome.UNDECIDED, flags=(SettledFlag.AMBIGUOUS,))
 
 
 def _checked_step(longest_step: float | None, mu: float) -> float:
@@ -235,35 +240,28 @@ def _without_friction(
 
 
 def _with_friction(
-    path: FrictionPath, phase: float, plan: list[tuple[float, bool]], push: float, watch: PathWatch
-) -> Course:
-    """The course of a plan with friction, on from a settled state's path."""
-    course = Course()
-    for turn, stops_at_snap in plan:
-        watch.begin_turn()
-        leg = path.follow((phase, phase + turn), (push, push), stops_at_snap=stops_at_snap)
-        points = [
-            point_of(row, contacts, path.numbers, path.command)
-            for row, contacts in zip(leg.points, leg.contacts, strict=True)
-        ]
-        course.events += friction_events(points, leg.points)
-        course.add_leg(points, snapped=leg.status == fs.SNAP_REACHED)
-        watch.end_turn(course.events)
-        course.friction += float(leg.points[:, fk.P_FRICTION].sum())
-        course.falls += float(leg.points[:, fk.P_FALL].sum())
-        phase = float(leg.points[-1, fk.P_PHASE])
-        if leg.status == fs.TORQUE_OVER:
+    path: FrictionPath, phase: float, plan: list[tuple[float, bool]], push: float
+) -> tuple[list[Course], bool]:
+    """The courses of a plan with friction, on from a settled state's path; whether these are all."""
+    paths, is_whole = all_paths(path, phase, plan, push)
+    courses = []
+    for followed in paths:
+        course = Course()
+        for leg in followed.legs:
+            course.events += leg.events
+            course.add_leg(leg.points, snapped=leg.rows.status == fs.SNAP_REACHED)
+            course.friction += float(leg.rows.points[:, fk.P_FRICTION].sum())
+            course.falls += float(leg.rows.points[:, fk.P_FALL].sum())
+        status = followed.legs[-1].rows.status
+        if status == fs.TORQUE_OVER:
             course.ending = Ending.TORQUE
-        elif leg.status == fs.SLIPPED_OFF:
+        elif status == fs.SLIPPED_OFF:
             course.ending = Ending.SLIPPED
-        elif leg.status not in (fs.REACHED, fs.SNAP_REACHED):
-            course.ending, course.reason = Ending.FAILED, FRICTION_REASONS[leg.status]
-        if leg.status != (fs.SNAP_REACHED if stops_at_snap else fs.REACHED):
-            break
-    if any(point.solutions > 1 for leg in course.legs for point in leg) and course.ending is not Ending.FAILED:
-        course.ending, course.reason = Ending.FAILED, SettledFlag.AMBIGUOUS
-    course.is_free = course.legs[-1][-1].held is not Held.CONTACTS or path.is_free()
-    return course
+        elif status not in (fs.REACHED, fs.SNAP_REACHED):
+            course.ending, course.reason = Ending.FAILED, FRICTION_REASONS[status]
+        course.is_free = followed.is_free or course.legs[-1][-1].held is not Held.CONTACTS
+        courses.append(course)
+    return courses, is_whole
 
 
 def new_leg() -> tk.Leg:

@@ -56,7 +56,9 @@ def compile_turning() -> None:
 def compile_friction() -> None:
     """Compile what follows a bolt with friction."""
     row, rows, path = np.empty(0), np.empty((0, 0)), (np.empty((0, 0)), np.empty((0, 0, 0)))
-    fk.follow_friction.compile(tuple(typeof(one) for one in (row, row, row, 0.0, False, 0, rows, *_setting(), path)))
+    branches = (*path, np.empty(0, dtype=np.int64))
+    arguments = (row, row, row, 0.0, False, 0, rows, *_setting(), 0, path, branches)
+    fk.follow_friction.compile(tuple(typeof(one) for one in arguments))
 
 
 def _setting() -> tuple[Floats, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,12 +57,25 @@ friction, nor one that a device whose twist is not rigid lays flush on the surfa
 
 
 @dataclass(frozen=True)
+class FrictionBranch:
+    """Another solution of a step: the leg up to the point that it sets, as the kernels' rows."""
+
+    points: Floats
+    contacts: Floats
+
+
+@dataclass(frozen=True)
 class FrictionLeg:
-    """A part of a path with friction: how it ended, its points, and their contacts, as the kernels' rows."""
+    """A part of a path with friction: how it ended, its points, and their contacts, as the kernels' rows.
+
+    ``branches`` are those of the points that were followed last; with ``has_more`` there were more.
+    """
 
     status: int
     points: Floats
     contacts: Floats
+    branches: tuple[FrictionBranch, ...]
+    has_more: bool
 
 
 @dataclass(frozen=True)
@@ -105,15 +118,27 @@ class FrictionPath:
     watch: PathWatch
 
     def follow(
-        self, phases: tuple[float, float], pushes: tuple[float, float], *, stops_at_snap: bool = False
+        self,
+        phases: tuple[float, float],
+        pushes: tuple[float, float],
+        *,
+        stops_at_snap: bool = False,
+        begun: FrictionBranch | None = None,
     ) -> FrictionLeg:
-        """Follows it while phase (rad) and push (N) go from the first to the second.
+        """Follows it while phase (rad) and push (N) go from the first to the second; a leg that has begun, to its end.
 
         Raises:
             PathStoppedError: the path was stopped.
         """
         points = np.zeros((fk.MAX_POINTS, fk.POINT_SIZE))
         contacts = np.zeros((fk.MAX_POINTS, ROOM, mk.CONTACT_SIZE))
+        first = 0
+        if begun is not None:
+            first = len(begun.points)
+            points[:first], contacts[:first] = begun.points, begun.contacts
+        rows = np.zeros((fk.MAX_BRANCHES, fk.POINT_SIZE))
+        row_contacts = np.zeros((fk.MAX_BRANCHES, ROOM, mk.CONTACT_SIZE))
+        indices = np.full(fk.MAX_BRANCHES, -1)
         self.watch.begin_leg(RunningFrictionLeg(points, self.command))
         status, length, self.count = fk.follow_friction(
             self.q,
@@ -128,10 +153,22 @@ class FrictionPath:
             self.strip,
             self.pair.bolt.packed,
             self.pair.nut.packed,
+            first,
             (points, contacts),
+            (rows, row_contacts, indices),
         )
         self.watch.end_leg()
-        return FrictionLeg(status, points[:length], contacts[:length])
+        branches = tuple(
+            FrictionBranch(np.vstack([points[:i], row[None]]), np.concatenate([contacts[:i], of_row[None]]))
+            for i, row, of_row in zip(indices, rows, row_contacts, strict=True)
+            if i >= 0
+        )
+        has_more = int((points[first:length, fk.P_SOLUTIONS] - 1.0).clip(0.0).sum()) > len(branches)
+        return FrictionLeg(status, points[:length], contacts[:length], branches, has_more)
+
+    def copy(self) -> FrictionPath:
+        """The same bolt, to be followed apart."""
+        return replace(self, q=self.q.copy(), contacts=self.contacts.copy(), numbers=self.numbers.copy())
 
     def is_free(self) -> bool:
         """Whether overlaps are excluded where the bolt is."""
