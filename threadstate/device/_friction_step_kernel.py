@@ -1,7 +1,7 @@
 """A step of a held bolt on contacts with friction: which contacts it may have, and every solution of their modes.
 
 The path goes on with the solution whose contacts do what they did before, or else with the one nearest to where the
-hand carries the bolt. Where there is none the bolt falls, without friction.
+hand carries the bolt. Where there is none the step has to be shorter, or the bolt falls (``_friction_fall_kernel``).
 """
 
 from __future__ import annotations
