@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device.command import LONGEST_STEP_WITH_FRICTION_DEG
-from threadstate.device.friction import FrictionLeg
-from threadstate.device.model import Outcome, default_device
-from threadstate.device.settle import device_numbers, settled_rows, state_with_friction
+from threadstate.device.friction import FrictionLeg, FrictionPath, settled_with_friction
+from threadstate.device.model import Outcome, SettledState, default_device
+from threadstate.device.settle import device_numbers, path_with_friction, settled_rows
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 Floats = NDArray[np.float64]
@@ -129,14 +129,23 @@ def followed(
     pose = np.array(pose_deg)
     _, rows = settled_rows(pair, device, numbers, pose[None])
     began = time.process_time()
-    state, path = state_with_friction(pair, device, numbers, pose, rows[0][0], mu, longest_step_deg=longest_step_deg)
-    start = ", ".join([state.outcome.value, *(flag.value for flag in state.flags)])
-    if path is None or state.outcome is not Outcome.SETTLED:
-        return start, None
+    path = path_with_friction(pair, device, numbers, pose, rows[0][0], mu, longest_step_deg=longest_step_deg)
+    if not isinstance(path, FrictionPath):
+        return named(path), None
     phase = math.radians(pose_deg[2])
+    grown = path.follow((phase, phase), (0.0, device.push))
+    state = settled_with_friction(device, pose, path, grown)
+    start = named(state) + (", of several" if grown.branches else "")
+    if state.outcome is not Outcome.SETTLED:
+        return start, None
     leg = path.follow((phase, phase - math.radians(turn_deg)), (device.push, device.push))
     unit = device.push * pair.nominal_diameter / 2.0
     return start, measured(leg, unit, pair.nominal_diameter / 2.0, time.process_time() - began)
+
+
+def named(state: SettledState) -> str:
+    """The outcome of a state and its flags."""
+    return ", ".join([state.outcome.value, *(flag.value for flag in state.flags)])
 
 
 def measured(leg: FrictionLeg, unit: float, r: float, seconds: float) -> Followed:

@@ -22,13 +22,13 @@ from threadstate.device import assemble
 from threadstate.device._places_kernel import new_threads
 from threadstate.device._rest_kernel import AT_REST, new_work
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, Held, PathEventKind
-from threadstate.device.branches import MOST_PATHS, SAME, FollowedPath, all_paths
+from threadstate.device.assembly_model import AssemblyOutcome, ContactMotion, Held, PathEventKind
+from threadstate.device.branches import MOST_PATHS, MOST_STARTS, SAME, Followed, FollowedLeg, PlannedLeg, all_paths
 from threadstate.device.command import command_numbers, strip_numbers
 from threadstate.device.equilibrium import BALANCED, balance
 from threadstate.device.friction import FrictionBranch, FrictionLeg, FrictionPath, contact_of
-from threadstate.device.model import SettledFlag, default_device
-from threadstate.device.settle import device_numbers, settled_rows, state_with_friction
+from threadstate.device.model import Outcome, SettledFlag, default_device
+from threadstate.device.settle import device_numbers, path_with_friction, settle_pose, settled_rows
 from threadstate.device.watch import PathWatch
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -163,8 +163,9 @@ def test_a_leg_that_has_begun_goes_on_as_it_did() -> None:
     pose = np.array([0.0, -4.0, 300.0])
     numbers = device_numbers(UNC, HELD)
     _, rows = settled_rows(UNC, HELD, numbers, pose[None])
-    _, path = state_with_friction(UNC, HELD, numbers, pose, rows[0][0], 0.1)
-    assert path is not None
+    path = path_with_friction(UNC, HELD, numbers, pose, rows[0][0], 0.1)
+    assert isinstance(path, FrictionPath)
+    assert path.follow((math.radians(300.0),) * 2, (0.0, PUSH)).status == fs.REACHED
     again = path.copy()
     phases = (math.radians(300.0), math.radians(330.0))
     whole = path.follow(phases, (PUSH, PUSH))
@@ -185,9 +186,6 @@ class Scripted:
 
     def copy(self) -> Scripted:
         return self
-
-    def is_free(self) -> bool:
-        return True
 
     def follow(
         self, _phases: tuple[float, float], _pushes: tuple[float, float], *, begun: FrictionBranch | None, **_: Any
@@ -217,11 +215,11 @@ def scripted(monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.setattr("threadstate.device.branches.point_of", lambda *_: None)
     monkeypatch.setattr("threadstate.device.branches.friction_events", lambda *_: [])
 
-    def run(script: dict[float, FrictionLeg]) -> tuple[list[FollowedPath], bool, list[float]]:
+    def run(script: dict[float, FrictionLeg]) -> tuple[list[list[FollowedLeg]], bool, list[float]]:
         begun_at: list[float] = []
         bolt = Scripted(script, device_numbers(UNC, HELD), begun_at)
-        paths, is_whole = all_paths(cast("FrictionPath", bolt), 0.0, [(1.0, False)], PUSH)
-        return paths, is_whole, begun_at
+        followed = all_paths(cast("FrictionPath", bolt), 0.0, [PlannedLeg(1.0, (PUSH, PUSH))])
+        return followed.paths, followed.is_whole, begun_at
 
     return run
 
@@ -229,7 +227,7 @@ def scripted(monkeypatch: pytest.MonkeyPatch) -> Any:
 def test_a_branch_is_followed_from_its_point_on(scripted: Any) -> None:
     other = 0.1 * R
     paths, is_whole, begun_at = scripted(
-        {0.0: leg_of([0, 0, 0, 0, 0], [0, 0, other]), other: leg_of([0, 0, other, 0, 0])}
+        {0.0: leg_of([0, 0, 0, 0, 0], [0, 0, other]), other: leg_of([0, 0, other, 0, other])}
     )
     assert (len(paths), is_whole) == (2, True)
     assert begun_at[1] == other
@@ -248,25 +246,70 @@ def test_a_branch_that_comes_back_to_a_path_is_not_followed(scripted: Any) -> No
     assert (len(paths), is_whole) == (2, True)
 
 
+def test_a_branch_that_has_come_back_at_the_end_of_a_leg_is_the_path_from_there_on(scripted: Any) -> None:
+    other = 0.1 * R
+    paths, is_whole, begun_at = scripted(
+        {0.0: leg_of([0, 0, 0, 0, 0], [0, 0, other]), other: leg_of([0, 0, other, 0, 0])}
+    )
+    assert (len(paths), is_whole) == (1, True)
+    assert begun_at[1:] == [other]
+
+
+def test_branches_that_come_back_again_and_again_leave_it_open(scripted: Any) -> None:
+    """Each branch has another one: they are followed up to a number of them."""
+    script = {0.0: leg_of([0, 0, 0, 0, 0], [0, 0, 0.1 * R])}
+    for i in range(1, MOST_STARTS + 2):
+        script[0.1 * R * i] = leg_of([0, 0, 0.1 * R * i, 0, 0], [0, 0, 0.1 * R * (i + 1)])
+    paths, is_whole, begun_at = scripted(script)
+    assert (len(paths), is_whole) == (1, False)
+    assert len(begun_at) == MOST_STARTS
+
+
 def test_more_branches_than_are_followed_leave_it_open(scripted: Any) -> None:
     script = {0.0: leg_of([0, 0, 0, 0, 0], *([0, 0, 0.1 * R * i] for i in range(1, MOST_PATHS + 2)))}
     for i in range(1, MOST_PATHS + 2):
-        script[0.1 * R * i] = leg_of([0, 0, 0.1 * R * i, 0, 0])
+        script[0.1 * R * i] = leg_of([0, 0, 0.1 * R * i, 0, 0.1 * R * i])
     paths, is_whole, _ = scripted(script)
     assert (len(paths), is_whole) == (MOST_PATHS, False)
     assert not scripted({0.0: leg_of([0, 0, 0, 0, 0], has_more=True)})[1]
+
+
+def test_a_bolt_that_settles_in_several_places_is_ambiguous_but_may_have_one_outcome() -> None:
+    """A contact may rest or slide as the push grows; the turn forgets which it was."""
+    state = settle_pose(UNC, 4.0, -3.0, 0.0, mu=0.2)
+    assert (state.outcome, state.flags) == (Outcome.UNDECIDED, (SettledFlag.AMBIGUOUS,))
+    assert (state.pose, state.shift, state.rotation_deg, state.elastic_energy) == (None, None, None, None)
+    assert state.contacts == ()
+    assert len(state.path) > 1
+    path = assemble_pose(UNC, 4.0, -3.0, 0.0, mu=0.2)
+    assert (path.start.outcome, path.start.flags) == (Outcome.SETTLED, (SettledFlag.AMBIGUOUS,))
+    assert path.outcome is AssemblyOutcome.ENGAGED
+    assert path.points[0].pose == path.start.pose
+
+
+def test_after_a_snap_contacts_slide_back_in_the_shortest_step() -> None:
+    """Their forces turn round at once: what the longer steps find begins the shorter ones."""
+    path = assemble_pose(UNC, -4.0, -4.0, 0.0, mu=0.2)
+    assert path.outcome is AssemblyOutcome.ENGAGED
+    snap = next(event for event in path.events if event.kind is PathEventKind.SNAP)
+    at = next(i for i, point in enumerate(path.points) if point.phase_deg == snap.phase_deg)
+    assert abs(path.points[at + 1].phase_deg - snap.phase_deg) < 0.01
+    assert path.points[at + 1].motions == (ContactMotion.SLIDES,) * 2
+    assert len(path.points) < 1000
+    assert path.points[at + 1].solutions == 1
 
 
 @pytest.mark.parametrize(("is_jammed", "is_whole"), [(False, True), (True, True), (False, False)])
 def test_a_path_is_ambiguous_where_its_branches_end_otherwise(
     monkeypatch: pytest.MonkeyPatch, *, is_jammed: bool, is_whole: bool
 ) -> None:
-    def branched(*arguments: Any) -> tuple[list[FollowedPath], bool]:
-        (path,), _ = all_paths(*arguments)
-        legs = list(path.legs)
+    def branched(*arguments: Any) -> Followed:
+        followed = all_paths(*arguments)
+        (path,) = followed.paths
+        legs = list(path)
         if is_jammed:
             legs[-1] = replace(legs[-1], rows=replace(legs[-1].rows, status=fs.TORQUE_OVER))
-        return [path, replace(path, legs=tuple(legs))], is_whole
+        return replace(followed, paths=[path, legs], is_whole=is_whole)
 
     monkeypatch.setattr(assemble, "all_paths", branched)
     path = assemble_pose(UNC, -4.0, 4.0, 300.0, mu=0.2)

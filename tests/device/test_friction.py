@@ -19,7 +19,7 @@ from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, Co
 from threadstate.device.command import command_numbers, strip_numbers
 from threadstate.device.friction import FrictionLeg, FrictionPath, begin_friction, point_of
 from threadstate.device.model import Outcome, SettledFlag, default_device
-from threadstate.device.settle import device_numbers, settle_pose, settled_rows, state_with_friction
+from threadstate.device.settle import device_numbers, path_with_friction, settle_pose, settled_rows
 from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
@@ -52,10 +52,10 @@ def course() -> Course:
     numbers = device_numbers(UNC, held)
     pose = np.array([0.0, -4.0, 300.0])
     _, rows = settled_rows(UNC, held, numbers, pose[None])
-    state, path = state_with_friction(UNC, held, numbers, pose, rows[0][0], MU)
-    assert state.outcome is Outcome.SETTLED
-    assert path is not None
+    path = path_with_friction(UNC, held, numbers, pose, rows[0][0], MU)
+    assert isinstance(path, FrictionPath)
     start = math.radians(300.0)
+    assert path.follow((start, start), (0.0, PUSH)).status == fs.REACHED
     first = path.follow((start, start + 2.0 * math.pi), (PUSH, PUSH), stops_at_snap=True)
     snap = float(first.points[-1, fk.P_PHASE])
     second = path.follow((snap, snap - math.radians(35.0)), (PUSH, PUSH))
@@ -77,7 +77,7 @@ def parts(force: tuple[float, float, float], normal: tuple[float, float, float])
 def test_the_snap_comes_a_little_later_than_without_friction(course: Course) -> None:
     """The friction of the contact on the surface delays it by 0.2 deg."""
     assert math.degrees(course.legs[0].points[-1, fk.P_PHASE]) - 357.67 == pytest.approx(0.19, abs=0.02)
-    assert course.path.is_free()
+    assert course.path.is_free(course.legs[0].points[-1])
 
 
 def test_forces_lie_in_their_cones_and_on_them_where_contacts_slide(course: Course) -> None:

@@ -16,15 +16,16 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import brentq, nnls
 
+from threadstate.device import _chart_kernel as ck
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_rest_kernel as fr
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._modes_kernel import CONTACT_SIZE
 from threadstate.device.command import command_numbers, strip_numbers
-from threadstate.device.friction import FrictionPath, begin_friction
+from threadstate.device.friction import FrictionPath, begin_friction, settled_with_friction
 from threadstate.device.model import Device, Outcome, SettledFlag, SettledState, diagonal_device
-from threadstate.device.settle import device_numbers, settle_pose, settled_rows, state_with_friction
+from threadstate.device.settle import device_numbers, path_with_friction, settle_pose, settled_rows
 from threadstate.thread.fit import Fit
 from threadstate.thread.form import Form
 from threadstate.thread.pair import Pair
@@ -155,9 +156,11 @@ def settled_path(tilt_deg: float, mu: float, device: Device = DEVICE) -> tuple[S
     pose = np.array(pose_of(tilt_deg))
     numbers = device_numbers(PEG, device)
     _, rows = settled_rows(PEG, device, numbers, pose[None])
-    state, path = state_with_friction(PEG, device, numbers, pose, rows[0][0], mu)
-    assert path is not None
-    return state, path
+    path = path_with_friction(PEG, device, numbers, pose, rows[0][0], mu)
+    assert isinstance(path, FrictionPath)
+    phase = math.radians(pose[2])
+    leg = path.follow((phase, phase), (0.0, device.push))
+    return settled_with_friction(device, pose, path, leg), path
 
 
 @pytest.mark.parametrize(("tilt_deg", "mu"), [(4.0, 0.05), (4.0, 0.1), (6.0, 0.1), (3.0, 0.2)])
@@ -210,18 +213,21 @@ def wedging_friction(state: SettledState) -> float:
 
 @pytest.mark.parametrize("tilt_deg", [4.0, 6.0, 8.0])
 def test_a_peg_wedges_where_the_line_between_its_contacts_is_in_both_cones(tilt_deg: float) -> None:
-    """No push, however large and from wherever, moves it then: here one that pulls it out, a thousand times its own."""
+    """Nothing that pulls it out moves it then, and anything that is more than the device does below: to 1e-6."""
     state = settle_pose(PEG, *pose_of(tilt_deg), DEVICE)
     _, path = settled_path(tilt_deg, 0.05)
     numbers = path.numbers
     assert state.shift is not None
     assert state.rotation_deg is not None
     path.q[:3] = np.radians(state.rotation_deg)
-    path.q[3:] = np.array(state.shift) + numbers[10:13]
+    path.q[3:] = np.array(state.shift) + numbers[ck.D_PLACE : ck.D_PLACE + 3]
     wedging = wedging_friction(state)
-    for push in (1e3 * PUSH, 1e6 * PUSH):
-        assert holds(path, state, wedging + 1e-6, push)
-    assert least_friction(path, state, 1e9 * PUSH) < wedging + 1e-6
+    # A spring along z pulls by the push, and by 1e-5 of it more: that is several times the load of the device.
+    push, stretch = 1e8, 2.0
+    numbers[ck.D_STIFFNESS + 35] = push * (1.0 + 1e-5) / stretch
+    numbers[ck.D_PLACE + 2] = path.q[5] + stretch
+    assert not holds(path, state, wedging - 1e-6, push)
+    assert holds(path, state, wedging + 1e-6, push)
 
 
 def planar_rests(tilt: float, commanded: float, mu: float, push: float) -> bool:

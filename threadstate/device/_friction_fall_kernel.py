@@ -123,6 +123,7 @@ def flow(
     for h in range(4):
         losses[h] = 0.0
     drag, friction = FIRST_DRAG, 0.0
+    modes_work.guessed[0] = 0
     for _ in range(MOST_STEPS):
         for c in range(count):
             copy_numbers(contacts[c], candidates[c])
@@ -170,8 +171,8 @@ def fall_with_friction(
     setting: Setting,
     solutions: Solutions,
     losses: Array,
-) -> tuple[int, int, int]:
-    """Lets the bolt fall from ``q``, in place; returns as :func:`flow`.
+) -> tuple[int, int, int, bool]:
+    """Lets the bolt fall from ``q``, in place; returns as :func:`flow`, and whether with friction.
 
     Where the flow does not come to an end it falls as a bolt without friction, of which no force is known then.
     """
@@ -180,11 +181,12 @@ def fall_with_friction(
     kind, found, ended = flow(q, push, mu, before.copy(), count, contacts, setting, solutions, losses)
     end_drag(modes_work)
     if ended != NO_MINIMUM:
-        return kind, found, ended
+        return kind, found, ended, True
     copy_numbers(start, q)
     for h in range(4):
         losses[h] = 0.0
-    return fall_without_friction(q, push, setting, contacts)
+    kind, found, ended = fall_without_friction(q, push, setting, contacts)
+    return kind, found, ended, False
 
 
 @kernel()

@@ -32,6 +32,7 @@ from threadstate.device._friction_step_kernel import (
     DISTINCT,
     GOES_ON,
     MAX_SOLUTIONS,
+    NO_MINIMUM,
     PATH_FULL,
     REACHED,
     SHORTER,
@@ -43,6 +44,7 @@ from threadstate.device._friction_step_kernel import (
     Solutions,
     friction_loss,
     kept,
+    set_guess,
     step_with_friction,
 )
 from threadstate.device._gap_kernel import G_VALUE, GAP_SIZE
@@ -94,6 +96,9 @@ shortest over the longest."""
 BRIDGING = 4.0
 """How much longer the steps of a growing push become that are tried where no step is short enough: contacts that have
 all but ceased to slide have no solution then."""
+
+MOST_BARE = 4
+"""The most falls without friction in a row: in more of them the path has not the friction that it is said to have."""
 
 MAX_POINTS = 2500
 
@@ -316,7 +321,7 @@ def follow_friction(
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
-    bridging, falling = False, False
+    bridging, falling, bare = False, False, 0
     step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
@@ -324,6 +329,8 @@ def follow_friction(
         np.empty(MAX_SOLUTIONS, dtype=np.int64),
     )
     before, losses = np.empty(PLACE_SIZE), np.zeros(4)
+    known_size, known_count, known_contacts = 0.0, 0, np.empty((MOST_CANDIDATES, K_SIZE))
+    known_begin, known_end = np.empty(COORDINATES), np.empty(COORDINATES)
     branches[2][:] = -1
     set_phase(phases[0], command, device)
     if begun > 0:
@@ -355,9 +362,18 @@ def follow_friction(
         if next_kind == ON_CONTACTS and ended == GOES_ON:
             if tips:
                 count = contacts_of_tip(q, push, setting, contacts)
+            guessed = known_count if known_size > 0.0 else 0
+            part = size / known_size if guessed > 0 else 0.0
+            set_guess(part, q, known_begin, known_end, guessed, known_contacts, setting[7])
             ended, next_count = step_with_friction(
                 q, push, mu, turns, before, count, contacts, setting, solutions, losses
             )
+            if ended == GOES_ON:
+                known_size, known_count = size, next_count
+                copy_numbers(path[0][i, P_COORDINATES : P_COORDINATES + COORDINATES], known_begin)
+                copy_numbers(q, known_end)
+                for c in range(next_count):
+                    copy_numbers(contacts[c], known_contacts[c])
         # Of solutions while it is turned those a finite way off end as steps get shorter.
         has_several = turns and ended == GOES_ON and losses[2] > 1.0
         if size > least and not bridging and (ended == SHORTER or has_several):
@@ -371,9 +387,13 @@ def follow_friction(
             step = min(BRIDGING * size, longest) if bridging else least
             continue
         if ended == SHORTER:
-            next_kind, next_count, ended = fall_with_friction(
+            known_size = 0.0
+            next_kind, next_count, ended, has_friction = fall_with_friction(
                 q, push, mu, before, count, contacts, setting, solutions, losses
             )
+            bare = 0 if has_friction else bare + 1
+            if bare > MOST_BARE:
+                return NO_MINIMUM, i + 1, count
         if ended != GOES_ON:
             return ended, i + 1, count
         count = next_count
@@ -394,6 +414,7 @@ def follow_friction(
             continue
         i += 1
         reached, kind = target, next_kind
+        bare = bare if losses[2] == 0.0 else 0
         if losses[2] > 1.0:
             path[0][i, P_SOLUTIONS] = 1.0 + add_branches(i, int(losses[2]), q, setting, solutions, path, branches)
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)

@@ -24,6 +24,7 @@ from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, GA
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
+    K_HELD,
     K_MODE,
     K_NORMAL,
     K_PAIR,
@@ -34,9 +35,11 @@ from threadstate.device._modes_kernel import (
     OPENS,
     OVERLAP,
     REACH,
+    SAME_POINT,
     SLIPS,
     SOLVED,
     STICKS,
+    UNSOLVED,
     ModesWork,
     cones_hold,
     overlap_beside,
@@ -166,20 +169,21 @@ def enumerate_modes(
     """Sets every solution of a step: their number, and whether one that would be overlaps beside its contacts.
 
     ``met`` is set to where the last such one does. ``q`` is the bolt before the step, ``carried`` where the hand
-    carries it, ``free`` where it would be without friction, ``before`` the pose before. A bolt that turns about a rigid
-    axis has no two contacts that stick, one that falls may have.
+    carries it, ``free`` where it would be without friction, ``before`` the pose before. A bolt that is turned has at
+    most two contacts that stick, and pivots about the line between them; one that falls may have more.
     """
     _, device, _, bolt, nut, threads, _, modes_work = setting
     places, search = modes_work.places, modes_work.search
     r = device[D_SCALE]
     modes = np.empty(MOST_CANDIDATES, dtype=np.int64)
+    matches = np.empty(MOST_CANDIDATES, dtype=np.int64)
     contacts = np.empty((MOST_CANDIDATES, K_SIZE))
     trial, start = np.empty(COORDINATES), np.empty(COORDINATES)
     place = np.empty(PLACE_SIZE)
     for j in range(COORDINATES):
         start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
     total, has_met = 0, False
-    most_sticking = MOST_CONTACTS if modes_work.drag[0, 0] > 0.0 else 1
+    most_sticking = MOST_CONTACTS if modes_work.drag[0, 0] > 0.0 else 2
     if not turns:
         set_place(q, device, place)
         touching = touching_contacts(
@@ -190,6 +194,7 @@ def enumerate_modes(
     set_place(start, device, place)
     found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
     at_start = places[:found].copy()
+    guessed_code = match_guess(count, candidates, r, modes_work, matches)
     for code in range(3**count):
         rest, sticking, touching = code, 0, 0
         for c in range(count):
@@ -199,20 +204,34 @@ def enumerate_modes(
             touching += 0 if modes[c] == OPENS else 1
         if sticking > most_sticking or touching > MOST_CONTACTS:
             continue
-        for c in range(count):
-            copy_numbers(candidates[c], contacts[c])
-            contacts[c, K_MODE] = modes[c]
-        copy_numbers(start, trial)
-        for j in range(found):
-            copy_numbers(at_start[j], places[j])
-        status = solve_mode(
-            modes, count, mu, found, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work
-        )
-        if (
-            status != SOLVED
-            or distance(carried, trial, device) > STEP_REACH * r
-            or not cones_hold(modes, count, mu, unit, r, contacts)
-        ):
+        status = UNSOLVED
+        for begins_at_guess in (True, False):
+            if status == SOLVED or (begins_at_guess and code != guessed_code):
+                continue
+            for c in range(count):
+                copy_numbers(candidates[c], contacts[c])
+                contacts[c, K_MODE] = modes[c]
+                copy_numbers(candidates[c, K_FORCE : K_FORCE + 3], contacts[c, K_HELD : K_HELD + 3])
+            if begins_at_guess:
+                copy_numbers(modes_work.guess, trial)
+                for c in range(count):
+                    if matches[c] >= 0:
+                        copy_numbers(modes_work.guessed_contacts[matches[c], 0:K_SLIP], contacts[c, 0:K_SLIP])
+                set_place(trial, device, place)
+                near = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+            else:
+                copy_numbers(start, trial)
+                near = found
+                for j in range(found):
+                    copy_numbers(at_start[j], places[j])
+            status = solve_mode(
+                modes, count, mu, near, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work
+            )
+            if status == SOLVED and (
+                distance(carried, trial, device) > STEP_REACH * r or not cones_hold(modes, count, mu, unit, r, contacts)
+            ):
+                status = UNSOLVED
+        if status != SOLVED:
             continue
         set_place(trial, device, place)
         after = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
@@ -223,6 +242,46 @@ def enumerate_modes(
         else:
             total = add_solution(total, trial, count, contacts, device, solutions)
     return total, has_met
+
+
+@kernel()
+def match_guess(count: int, candidates: Array, r: float, work: ModesWork, matches: Indices) -> int:
+    """Sets which contact of the guess each candidate is, -1 where none; the number of the guess's modes, -1 if it does
+    not fit.
+    """
+    code, matched, power = 0, 0, 1
+    for c in range(count):
+        matches[c] = -1
+        nearest = SAME_POINT * r
+        for g in range(int(work.guessed[0])):
+            taken = False
+            for h in range(c):
+                taken = taken or matches[h] == g
+            apart = 0.0
+            for h in range(3):
+                apart += (work.guessed_contacts[g, K_POINT + h] - candidates[c, K_POINT + h]) ** 2
+            if not taken and math.sqrt(apart) < nearest:
+                matches[c], nearest = g, math.sqrt(apart)
+        if matches[c] >= 0:
+            code += power * int(work.guessed_contacts[matches[c], K_MODE])
+            matched += 1
+        power *= 3
+    return code if matched > 0 and matched == int(work.guessed[0]) else -1
+
+
+@kernel()
+def set_guess(
+    part: float, q: Array, begun: Array, reached: Array, count: int, contacts: Array, work: ModesWork
+) -> None:
+    """Sets the guess of the next step: from ``q`` on as another one went, from begun to reached, a part as far.
+
+    ``contacts`` are the ``count`` ones of that step's end.
+    """
+    for j in range(COORDINATES):
+        work.guess[j] = q[j] + part * (reached[j] - begun[j])
+    work.guessed[0] = count
+    for c in range(count):
+        copy_numbers(contacts[c], work.guessed_contacts[c])
 
 
 @kernel()

@@ -110,7 +110,8 @@ class ModesWork(NamedTuple):
     """The arrays of a step. ``drag`` (6, 6) and ``begun`` (6) are zero but for a bolt that falls.
 
     ``drag`` is the force over the unit that resists the way from ``begun``, by free coordinates as lengths over the
-    nominal radius.
+    nominal radius. ``guess`` (6) is where a step may end whose contacts do what the ``guessed[0]`` first of
+    ``guessed_contacts`` do; their forces are those to begin with.
     """
 
     places: Array
@@ -123,6 +124,9 @@ class ModesWork(NamedTuple):
     indices: Array
     drag: Array
     begun: Array
+    guess: Array
+    guessed_contacts: Array
+    guessed: Indices
 
 
 SOLVED, UNSOLVED = range(2)
@@ -142,6 +146,9 @@ def new_modes_work() -> ModesWork:
         np.empty(MOST_CANDIDATES),
         np.zeros((COORDINATES, COORDINATES)),
         np.zeros(COORDINATES),
+        np.zeros(COORDINATES),
+        np.zeros((MOST_CANDIDATES, CONTACT_SIZE)),
+        np.zeros(1, dtype=np.int64),
     )
 
 
@@ -293,7 +300,8 @@ def set_equations(
     The unknowns are the coordinates, then of each contact that stays the force along its normal and both tangents. Of
     the matrix the change of tangential forces with the pose is left out.
     """
-    places, _, matrix, _, residual, unknowns, velocities, indices, drag, begun = work
+    places, indices, velocities, drag, begun = work.places, work.indices, work.velocities, work.drag, work.begun
+    matrix, residual, unknowns = work.matrix, work.residual, work.unknowns
     n = free_coordinates(device)
     r = device[D_SCALE]
     by_q = np.empty(COORDINATES)
@@ -408,8 +416,8 @@ def set_first_unknowns(
     contacts: Array,
     work: ModesWork,
 ) -> float:
-    """Sets the unknown forces to those before the step, of a contact that slips and had none across its normal against
-    the slip with which the step begins; rho.
+    """Sets the unknown forces to those of the contacts, of one that slips and has none across its normal against the
+    slip with which the step begins; rho.
     """
     places, unknowns, indices = work.places, work.unknowns, work.indices
     row = n
@@ -421,7 +429,6 @@ def set_first_unknowns(
         normal = 0.0
         for h in range(3):
             normal += contact[K_FORCE + h] * contact[K_NORMAL + h]
-            contact[K_HELD + h] = contact[K_FORCE + h]
         set_contact(places[int(indices[c])], contact)
         set_slip(before, place, contact)
         contact[K_AXIS] = 0.0 if abs(contact[K_NORMAL]) < 0.8 else 1.0
@@ -471,9 +478,10 @@ def solve_mode(
     """Solves a mode's equations from ``q``, in place; SOLVED where its residuals vanish. Contacts are set.
 
     ``before`` is the pose before the step; ``unit`` the force that forces are counted in; ``found`` places are those
-    at ``q``.
+    at ``q``. The contacts have the forces to begin with, and those before the step.
     """
-    places, _, matrix, spare, residual, unknowns, _, indices, _, _ = work
+    matrix, spare, residual, unknowns = work.matrix, work.spare, work.residual, work.unknowns
+    places, indices = work.places, work.indices
     n = free_coordinates(device)
     r = device[D_SCALE]
     place = np.empty(PLACE_SIZE)

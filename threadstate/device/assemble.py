@@ -28,7 +28,7 @@ from threadstate.device.assembly_model import (
     PathEventKind,
 )
 from threadstate.device.assembly_outcome import Ending, outcome_of
-from threadstate.device.branches import all_paths
+from threadstate.device.branches import FollowedLeg, PlannedLeg, all_paths
 from threadstate.device.command import (
     LONGEST_STEP_DEG,
     LONGEST_STEP_WITH_FRICTION_DEG,
@@ -37,7 +37,7 @@ from threadstate.device.command import (
 )
 from threadstate.device.flush import level_numbers
 from threadstate.device.friction import REASONS as FRICTION_REASONS
-from threadstate.device.friction import FrictionPath
+from threadstate.device.friction import FrictionPath, settled_with_friction
 from threadstate.device.model import Device, LoadedContact, Outcome, SettledFlag, SettledState, default_device
 from threadstate.device.settle import (
     FEATURES,
@@ -45,9 +45,10 @@ from threadstate.device.settle import (
     check_friction,
     check_pair,
     device_numbers,
+    growing_push,
+    path_with_friction,
     settled_rows,
     settled_state,
-    state_with_friction,
     vector_of,
 )
 from threadstate.device.strategy import Strategy
@@ -116,24 +117,38 @@ def assemble_pose(
     rotations, rows = settled_rows(pair, held, numbers, wanted)
     row = tuple(part[0] for part in rows)
     command = command_numbers(held, float(wanted[0, 0]), float(wanted[0, 1]), float(row[0][sk.R_HEIGHT]), longest)
-    path = None
-    if mu > 0.0:
-        start, path = state_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch, longest_step_deg=longest)
-    else:
-        start = settled_state(pair, held, numbers, wanted[0], rotations[0], row)
-    if start.outcome is not Outcome.SETTLED:
-        outcome = AssemblyOutcome.SLIPPED if start.outcome is Outcome.SLIPPED else AssemblyOutcome.UNDECIDED
-        return AssemblyPath(start, strategy, mu, outcome, start.flags, (), (), None, None, None)
+    plan = plan_of(pair, strategy, held.push)
     phase = math.radians(wanted[0, 2])
-    if path is None:
-        course = _without_friction(pair, numbers, command, row, phase, plan_of(pair, strategy), watch)
+    if mu == 0.0:
+        start = settled_state(pair, held, numbers, wanted[0], rotations[0], row)
+        if start.outcome is not Outcome.SETTLED:
+            return _unsettled(start, strategy, mu)
+        course = _without_friction(pair, numbers, command, row, phase, plan, watch)
         return _path(pair, held, start, strategy, mu, course)
-    courses, is_whole = _with_friction(path, phase, plan_of(pair, strategy), held.push)
-    ends = [_path(pair, held, start, strategy, mu, course) for course in courses]
+    path = path_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch, longest_step_deg=longest)
+    if isinstance(path, SettledState):
+        return _unsettled(path, strategy, mu)
+    followed = all_paths(path, phase, [growing_push(held), *plan])
+    ends = []
+    for legs in followed.paths:
+        start = settled_with_friction(held, wanted[0], path, legs[0].rows)
+        if start.outcome is Outcome.SETTLED:
+            ends.append(_path(pair, held, start, strategy, mu, _with_friction(path, legs[1:])))
+        else:
+            ends.append(_unsettled(start, strategy, mu))
     first = ends[0]
-    if is_whole and all(end.outcome is first.outcome for end in ends):
+    if followed.first_ends > 1:
+        flags = (*first.start.flags, SettledFlag.AMBIGUOUS)
+        first = replace(first, start=replace(first.start, flags=flags))
+    if followed.is_whole and all(end.outcome is first.outcome for end in ends):
         return first
     return replace(first, outcome=AssemblyOutcome.UNDECIDED, flags=(SettledFlag.AMBIGUOUS,))
+
+
+def _unsettled(start: SettledState, strategy: Strategy, mu: float) -> AssemblyPath:
+    """The path of a bolt that has not settled."""
+    outcome = AssemblyOutcome.SLIPPED if start.outcome is Outcome.SLIPPED else AssemblyOutcome.UNDECIDED
+    return AssemblyPath(start, strategy, mu, outcome, start.flags, (), (), None, None, None)
 
 
 def _checked_step(longest_step: float | None, mu: float) -> float:
@@ -181,12 +196,12 @@ class Course:
         )
 
 
-def plan_of(pair: Pair, strategy: Strategy) -> list[tuple[float, bool]]:
-    """The turns of a strategy (rad), and whether a snap ends each. A left-hand bolt is turned the other way round."""
+def plan_of(pair: Pair, strategy: Strategy, push: float) -> list[PlannedLeg]:
+    """The turns of a strategy. A left-hand bolt is turned the other way round."""
     hand = math.copysign(1.0, pair.lead)
-    plan = [(-math.radians(CLOCKWISE_DEG) * hand, False)]
+    plan = [PlannedLeg(-math.radians(CLOCKWISE_DEG) * hand, (push, push))]
     if strategy is Strategy.CCW_THEN_CW:
-        plan.insert(0, (math.radians(COUNTER_CLOCKWISE_DEG) * hand, True))
+        plan.insert(0, PlannedLeg(math.radians(COUNTER_CLOCKWISE_DEG) * hand, (push, push), stops_at_snap=True))
     return plan
 
 
@@ -196,7 +211,7 @@ def _without_friction(
     command: Floats,
     row: tuple[Floats, ...],
     phase: float,
-    plan: list[tuple[float, bool]],
+    plan: list[PlannedLeg],
     watch: PathWatch,
 ) -> Course:
     """The course of a plan, from the settled state's row on."""
@@ -209,9 +224,10 @@ def _without_friction(
         q, _ = level_numbers(numbers)
     kind = tk.ON_SURFACE if is_flush else tk.ON_CONTACTS
     strip = strip_numbers(pair)
-    for turn, stops_at_snap in plan:
+    for planned in plan:
         leg = new_leg()
-        ends = (phase, phase + turn)
+        ends = (phase, phase + planned.turn)
+        stops_at_snap = planned.stops_at_snap
         bolt, nut = pair.bolt.packed, pair.nut.packed
         watch.begin_turn()
         watch.begin_leg(RunningTurn(leg))
@@ -239,29 +255,24 @@ def _without_friction(
     return course
 
 
-def _with_friction(
-    path: FrictionPath, phase: float, plan: list[tuple[float, bool]], push: float
-) -> tuple[list[Course], bool]:
-    """The courses of a plan with friction, on from a settled state's path; whether these are all."""
-    paths, is_whole = all_paths(path, phase, plan, push)
-    courses = []
-    for followed in paths:
-        course = Course()
-        for leg in followed.legs:
-            course.events += leg.events
-            course.add_leg(leg.points, snapped=leg.rows.status == fs.SNAP_REACHED)
-            course.friction += float(leg.rows.points[:, fk.P_FRICTION].sum())
-            course.falls += float(leg.rows.points[:, fk.P_FALL].sum())
-        status = followed.legs[-1].rows.status
-        if status == fs.TORQUE_OVER:
-            course.ending = Ending.TORQUE
-        elif status == fs.SLIPPED_OFF:
-            course.ending = Ending.SLIPPED
-        elif status not in (fs.REACHED, fs.SNAP_REACHED):
-            course.ending, course.reason = Ending.FAILED, FRICTION_REASONS[status]
-        course.is_free = followed.is_free or course.legs[-1][-1].held is not Held.CONTACTS
-        courses.append(course)
-    return courses, is_whole
+def _with_friction(path: FrictionPath, legs: list[FollowedLeg]) -> Course:
+    """The course of the turns of a path with friction; ``path`` is the bolt that was followed."""
+    course = Course()
+    for leg in legs:
+        course.events += leg.events
+        course.add_leg(leg.points, snapped=leg.rows.status == fs.SNAP_REACHED)
+        course.friction += float(leg.rows.points[:, fk.P_FRICTION].sum())
+        course.falls += float(leg.rows.points[:, fk.P_FALL].sum())
+    last = legs[-1]
+    status = last.rows.status
+    if status == fs.TORQUE_OVER:
+        course.ending = Ending.TORQUE
+    elif status == fs.SLIPPED_OFF:
+        course.ending = Ending.SLIPPED
+    elif status not in (fs.REACHED, fs.SNAP_REACHED):
+        course.ending, course.reason = Ending.FAILED, FRICTION_REASONS[status]
+    course.is_free = last.points[-1].held is not Held.CONTACTS or path.is_free(last.rows.points[-1])
+    return course
 
 
 def new_leg() -> tk.Leg:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,27 @@ Floats = NDArray[np.float64]
 MOST_PATHS = 16
 """The most paths that are followed of one start."""
 
+MOST_STARTS = 64
+"""The most that are begun of one start: most of them come back to a path that is followed already."""
+
 SAME = 1e-4
-"""How near (nominal radii) to a path at the same phase a branch is that path."""
+"""How near (nominal radii) to a path at the same phase, and at the whole push, a branch is that path."""
+
+SAME_AS_IT_GROWS = 1e-6
+"""How near (nominal radii) to a path it is that path while the push grows: one that rests has moved by less than SAME
+from one that slides, step after step."""
+
+LOOKED_AFTER = math.radians(30.0)
+"""After which turn a branch is looked at whether it has come back to a path."""
+
+
+@dataclass(frozen=True)
+class PlannedLeg:
+    """A leg to be followed: by how much the phase turns (rad), the pushes (N) at its ends, whether a snap ends it."""
+
+    turn: float
+    pushes: tuple[float, float]
+    stops_at_snap: bool = False
 
 
 @dataclass(frozen=True)
@@ -38,58 +57,87 @@ class FollowedLeg:
 
 
 @dataclass(frozen=True)
-class FollowedPath:
-    """A path, leg by leg, and whether overlaps are excluded at its end."""
-
-    legs: tuple[FollowedLeg, ...]
-    is_free: bool
-
-
-@dataclass(frozen=True)
 class _Start:
     path: FrictionPath
     legs: tuple[FollowedLeg, ...]
     begun: FrictionBranch | None
 
 
-def all_paths(
-    path: FrictionPath, phase: float, plan: Sequence[tuple[float, bool]], push: float
-) -> tuple[list[FollowedPath], bool]:
-    """The paths of a plan (turns in rad, and whether a snap ends each) from a phase (rad) on; whether these are all.
+@dataclass(frozen=True)
+class Followed:
+    """The paths of a plan, leg by leg, whether these are all, and how many ends their first leg has.
 
-    The first one is that of the solutions that go on as before.
+    The first path has the solutions that go on as before.
+    """
+
+    paths: list[list[FollowedLeg]]
+    is_whole: bool
+    first_ends: int
+
+
+def all_paths(path: FrictionPath, phase: float, plan: Sequence[PlannedLeg]) -> Followed:
+    """The paths of a plan from a phase (rad) on; ``path`` is the bolt of the first one.
 
     Raises:
         PathStoppedError: the path was stopped.
     """
     to_do = [_Start(path, (), None)]
-    found: list[FollowedPath] = []
+    found: list[list[FollowedLeg]] = []
     is_whole = True
+    begun, first_ends = 0, 0
     while to_do:
         start = to_do.pop(0)
-        if start.begun is not None and any(_joins(start, other, path.numbers) for other in found):
-            continue
-        if len(found) == MOST_PATHS:
-            return found, False
+        number = len(start.legs)
+        if start.begun is not None:
+            same = SAME if plan[number].turn != 0.0 else SAME_AS_IT_GROWS
+            if _joins(start.begun.points, number, found, path.numbers, same):
+                continue
+        if len(found) == MOST_PATHS or begun == MOST_STARTS:
+            return Followed(found, False, first_ends)
+        begun += 1
         legs = list(start.legs)
-        begun = start.begun
-        bolt = start.path
-        for turn, stops_at_snap in plan[len(legs) :]:
+        for planned in plan[number:]:
             at = float(legs[-1].rows.points[-1, fk.P_PHASE]) if legs else phase
-            before = bolt.copy()
-            if not found:
-                bolt.watch.begin_turn()
-            leg = bolt.follow((at, at + turn), (push, push), stops_at_snap=stops_at_snap, begun=begun)
-            begun = None
+            before = start.path.copy()
+            leg, joins = _leg_of(start, planned, at, len(legs), found)
             to_do += [_Start(before.copy(), tuple(legs), branch) for branch in leg.branches]
             is_whole = is_whole and not leg.has_more
-            legs.append(_followed(leg, path))
-            if not found:
-                bolt.watch.end_turn([event for earlier in legs for event in earlier.events])
-            if leg.status != (fs.SNAP_REACHED if stops_at_snap else fs.REACHED):
+            if joins:
                 break
-        found.append(FollowedPath(tuple(legs), bolt.is_free()))
-    return found, is_whole
+            first_ends += 0 if legs else 1
+            legs.append(_followed(leg, path))
+            if planned.turn != 0.0 and not found:
+                path.watch.end_turn([event for earlier in legs for event in earlier.events])
+            if leg.status != (fs.SNAP_REACHED if planned.stops_at_snap else fs.REACHED):
+                found.append(legs)
+                break
+        else:
+            found.append(legs)
+    return Followed(found, is_whole, first_ends)
+
+
+def _leg_of(
+    start: _Start, planned: PlannedLeg, at: float, number: int, found: list[list[FollowedLeg]]
+) -> tuple[FrictionLeg, bool]:
+    """The leg of a start from a phase (rad) on, and whether it comes back to a path; the first path's as a whole."""
+    bolt, begun = start.path, start.begun if number == len(start.legs) else None
+    if planned.turn != 0.0 and not found:
+        bolt.watch.begin_turn()
+    parts = max(math.ceil(abs(planned.turn) / LOOKED_AFTER), 1) if found else 1
+    branches: list[FrictionBranch] = []
+    has_more = False
+    for part in range(1, parts + 1):
+        end = at + planned.turn * part / parts
+        if begun is not None and abs(float(begun.points[-1, fk.P_PHASE]) - at) > abs(end - at):
+            continue
+        leg = bolt.follow((at, end), planned.pushes, stops_at_snap=planned.stops_at_snap, begun=begun)
+        branches += leg.branches
+        has_more = has_more or leg.has_more
+        joins = _joins(leg.points, number, found, bolt.numbers, SAME)
+        if joins or leg.status != fs.REACHED:
+            break
+        begun = FrictionBranch(leg.points, leg.contacts)
+    return replace(leg, branches=tuple(branches), has_more=has_more), joins
 
 
 def _followed(leg: FrictionLeg, path: FrictionPath) -> FollowedLeg:
@@ -100,16 +148,23 @@ def _followed(leg: FrictionLeg, path: FrictionPath) -> FollowedLeg:
     return FollowedLeg(leg, points, friction_events(points, leg.points))
 
 
-def _joins(start: _Start, other: FollowedPath, numbers: Floats) -> bool:
-    """Whether a branch is, at its phase, where a path is."""
-    if start.begun is None or len(other.legs) <= len(start.legs):
-        return False
-    row = start.begun.points[-1]
-    rows = other.legs[len(start.legs)].rows.points
-    turned = np.abs(rows[:, fk.P_PHASE] - rows[0, fk.P_PHASE])
-    at = abs(row[fk.P_PHASE] - rows[0, fk.P_PHASE])
-    if not math.isclose(start.begun.points[0, fk.P_PHASE], rows[0, fk.P_PHASE]) or at > turned[-1]:
-        return False
+def _joins(rows: Floats, number: int, found: list[list[FollowedLeg]], numbers: Floats, same: float) -> bool:
+    """Whether the last of a leg's rows is, at its phase and push, where a path is in its leg of that number.
+
+    ``same`` is how far apart they are at most, in nominal radii.
+    """
     coordinates = slice(fk.P_COORDINATES, fk.P_COORDINATES + ck.COORDINATES)
-    there = np.array([np.interp(at, turned, column) for column in rows[:, coordinates].T])
-    return bool(distance(row[coordinates].copy(), there, numbers) < SAME * numbers[ck.D_SCALE])
+    column = fk.P_PHASE if (rows[:, fk.P_PHASE] != rows[0, fk.P_PHASE]).any() else fk.P_PUSH
+    sense = math.copysign(1.0, rows[-1, column] - rows[0, column])
+    at = sense * rows[-1, column]
+    for legs in found:
+        if len(legs) <= number:
+            continue
+        others = legs[number].rows.points
+        passed = sense * others[:, column]
+        if not passed[0] <= at <= passed[-1]:
+            continue
+        there = np.array([np.interp(at, passed, values) for values in others[:, coordinates].T])
+        if distance(rows[-1, coordinates].copy(), there, numbers) < same * numbers[ck.D_SCALE]:
+            return True
+    return False

@@ -170,10 +170,12 @@ class FrictionPath:
         """The same bolt, to be followed apart."""
         return replace(self, q=self.q.copy(), contacts=self.contacts.copy(), numbers=self.numbers.copy())
 
-    def is_free(self) -> bool:
-        """Whether overlaps are excluded where the bolt is."""
-        certified = fk.certified_pose(self.q, self.numbers, self.pair.bolt.packed, self.pair.nut.packed)
-        return int(certified) == FREE
+    def is_free(self, row: Floats) -> bool:
+        """Whether overlaps are excluded where the bolt is at a point, given as its row."""
+        numbers = self.numbers.copy()
+        tk.set_phase(row[fk.P_PHASE], self.command, numbers)
+        q = row[fk.P_COORDINATES : fk.P_COORDINATES + ck.COORDINATES].copy()
+        return int(fk.certified_pose(q, numbers, self.pair.bolt.packed, self.pair.nut.packed)) == FREE
 
 
 def begin_friction(
@@ -256,11 +258,9 @@ def contact_of(contact: Floats) -> LoadedContact:
     )
 
 
-def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) -> SettledState:
-    """The state that a growing push reaches with friction from the first contact, where ``path`` is; it goes on."""
+def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath, leg: FrictionLeg) -> SettledState:
+    """The state that a growing push reaches with friction, ``leg``; ``path`` is the bolt that was followed."""
     roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
-    phase = math.radians(phase_deg)
-    leg = path.follow((phase, phase), (0.0, device.push))
     points = tuple(
         PathPoint(
             float(row[fk.P_PUSH]),
@@ -273,6 +273,9 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) 
     )
     falls = tuple(_fall(leg.points, i) for i in range(1, len(leg.points)) if leg.points[i, fk.P_FALL] > 0.0)
     last = point_of(leg.points[-1], leg.contacts[-1], path.numbers, path.command)
+    numbers = path.numbers.copy()
+    tk.set_phase(leg.points[-1, fk.P_PHASE], path.command, numbers)
+    q = leg.points[-1, fk.P_COORDINATES : fk.P_COORDINATES + ck.COORDINATES].copy()
     residual = None
     flags: tuple[SettledFlag, ...] = ()
     outcome = Outcome.UNDECIDED
@@ -280,13 +283,11 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) 
         outcome = Outcome.SLIPPED
     elif leg.status != fs.REACHED:
         flags = (REASONS[leg.status],)
-    elif (leg.points[:, fk.P_SOLUTIONS] > 1.0).any():
-        flags = (SettledFlag.AMBIGUOUS,)
-    elif last.held is Held.CONTACTS and not path.is_free():
+    elif last.held is Held.CONTACTS and not path.is_free(leg.points[-1]):
         flags = (SettledFlag.OVERLAP,)
     else:
         pose = leg.points[-1, fk.P_POSE : fk.P_POSE + 12]
-        residual = balance(path.pair, device, path.q, pose, path.numbers, last.contacts)
+        residual = balance(path.pair, device, q, pose, numbers, last.contacts)
         outcome = Outcome.SETTLED if residual <= BALANCED else Outcome.UNDECIDED
         flags = (SettledFlag.FLUSH,) if last.held is Held.SURFACE else ()
         flags += () if residual <= BALANCED else (SettledFlag.UNBALANCED,)
@@ -294,7 +295,7 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath) 
     pressure = None
     if is_settled and last.held is Held.SURFACE:
         place = np.empty(ck.PLACE_SIZE)
-        ck.set_place(path.q, path.numbers, place)
+        ck.set_place(q, numbers, place)
         _, _, pressure, _ = patch_hull(path.pair, place, *last.contacts[0].point[:2])
     least = min((math.hypot(*contact.force) for contact in last.contacts), default=None)
     force = least / device.push if is_settled and least is not None else None

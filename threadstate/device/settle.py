@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +14,7 @@ from threadstate.device import _rest_kernel as rest
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device._places_kernel import FINE, MAX_PLACES
+from threadstate.device.branches import PlannedLeg, all_paths
 from threadstate.device.command import (
     LONGEST_STEP_WITH_FRICTION_DEG,
     command_numbers,
@@ -103,7 +105,7 @@ def settle_poses(pair: Pair, poses: ArrayLike, device: Device | None = None, *, 
     numbers = device_numbers(pair, held)
     rotations, rows = settled_rows(pair, held, numbers, wanted)
     if mu > 0.0:
-        return [state_with_friction(pair, held, numbers, wanted[i], rows[0][i], mu)[0] for i in range(len(wanted))]
+        return [state_with_friction(pair, held, numbers, wanted[i], rows[0][i], mu) for i in range(len(wanted))]
     return [
         settled_state(pair, held, numbers, wanted[i], rotations[i], tuple(row[i] for row in rows))
         for i in range(len(wanted))
@@ -144,7 +146,7 @@ def settled_rows(pair: Pair, device: Device, numbers: Floats, poses_deg: Floats)
     return rotations, rows
 
 
-def state_with_friction(
+def path_with_friction(
     pair: Pair,
     device: Device,
     numbers: Floats,
@@ -154,8 +156,8 @@ def state_with_friction(
     watch: PathWatch | None = None,
     *,
     longest_step_deg: float = LONGEST_STEP_WITH_FRICTION_DEG,
-) -> tuple[SettledState, FrictionPath | None]:
-    """The state of a pose that settles with friction, and the path that goes on from it; None where it has no start.
+) -> FrictionPath | SettledState:
+    """A bolt at its first contact, before the push grows with friction; its state where a path has no start.
 
     ``result`` is the kernels' of the same pose without friction: the height of its first contact is what counts.
     """
@@ -166,10 +168,38 @@ def state_with_friction(
         flag = SettledFlag.FLUSH if leaves else SettledFlag.FIRST_CONTACT
         outcome = Outcome.UNDECIDED
         nothing = (None, None, None, (), None, (), NO_MARGINS, ())
-        return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing), None
+        return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing)
     command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]), longest_step_deg)
-    path = begin_friction(pair, numbers, command, strip_numbers(pair), math.radians(phase_deg), mu, watch)
-    return settled_with_friction(device, pose_deg, path), path
+    return begin_friction(pair, numbers, command, strip_numbers(pair), math.radians(phase_deg), mu, watch)
+
+
+def state_with_friction(
+    pair: Pair, device: Device, numbers: Floats, pose_deg: Floats, result: Floats, mu: float
+) -> SettledState:
+    """The state of a pose that settles with friction: that in which every solution of the growing push ends."""
+    path = path_with_friction(pair, device, numbers, pose_deg, result, mu)
+    if isinstance(path, SettledState):
+        return path
+    followed = all_paths(path, math.radians(pose_deg[2]), [growing_push(device)])
+    state = settled_with_friction(device, pose_deg, path, followed.paths[0][0].rows)
+    if followed.is_whole and followed.first_ends == 1:
+        return state
+    return replace(
+        state,
+        outcome=Outcome.UNDECIDED,
+        flags=(SettledFlag.AMBIGUOUS,),
+        pose=None,
+        shift=None,
+        rotation_deg=None,
+        contacts=(),
+        elastic_energy=None,
+        margins=NO_MARGINS,
+    )
+
+
+def growing_push(device: Device) -> PlannedLeg:
+    """The leg in which a bolt settles."""
+    return PlannedLeg(0.0, (0.0, device.push))
 
 
 def check_friction(mu: float) -> None:
