@@ -26,13 +26,14 @@ from service.request_scope import ABORTED
 from service.settle.endpoints import device_of
 from service.solve import NOT_BOTH, PoseToSolve, RequestOfPair
 from service.strict_json import StrictJsonRoute
-from threadstate.device.assemble import assemble_pose
+from threadstate.device.assemble import LEAST_LONGEST_STEP_DEG, assemble_pose
 from threadstate.device.assembly_document import (
     AssemblyDocument,
     AssemblyProgressDocument,
     assembly_document,
     progress_document,
 )
+from threadstate.device.command import LONGEST_STEP_DEG
 from threadstate.device.document import DeviceDocument
 from threadstate.device.model import Device
 from threadstate.device.settle import LARGEST_FRICTION, check_pair
@@ -78,6 +79,9 @@ class AssemblyRequest(RequestOfPair):
     mu: Annotated[float, Field(ge=0.0, le=LARGEST_FRICTION, allow_inf_nan=False)] = Field(
         default=0.0, description="coefficient of friction of all contacts"
     )
+    longest_step: Annotated[
+        float | None, Field(ge=LEAST_LONGEST_STEP_DEG, le=LONGEST_STEP_DEG, allow_inf_nan=False)
+    ] = Field(default=None, description="longest step of the phase in degrees; by default 2, with friction 1")
     device: DeviceDocument | None = Field(
         default=None, description="the device; what it leaves out is as of the default one"
     )
@@ -158,7 +162,17 @@ def _document(
     pair: Pair, body: AssemblyRequest, device: Device | None, unit: LengthUnit, factor: float, watch: PathWatch
 ) -> str:
     pose = body.pose
-    path = assemble_pose(pair, pose.roll, pose.pitch, pose.phase, device, body.strategy, mu=body.mu, watch=watch)
+    path = assemble_pose(
+        pair,
+        pose.roll,
+        pose.pitch,
+        pose.phase,
+        device,
+        body.strategy,
+        mu=body.mu,
+        longest_step=body.longest_step,
+        watch=watch,
+    )
     return _text(assembly_document(path, unit, factor))
 
 

@@ -84,6 +84,8 @@ def test_what_is_not_valid_is_named(client: Client) -> None:
     for progress in (None, lambda _progress: None):
         with pytest.raises(InvalidRequestError, match=r"body mu is '-1\.0'"):
             client.assemble(*POSE, mu=-1.0, progress=progress)
+        with pytest.raises(InvalidRequestError, match="body longest_step"):
+            client.assemble(*POSE, longest_step=3.0, progress=progress)
         with pytest.raises(InvalidRequestError, match="body strategy"):
             client.assemble(*POSE, strategy="sideways", progress=progress)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx2
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 from prometheus_client.parser import text_string_to_metric_families
@@ -90,6 +91,15 @@ def test_a_path_is_answered_as_on_the_command_line(
     assert run_command_line(["assemble", *pose, f"--device={held}", f"--unit={unit}", "--json"]) == 0
     assert response.json() == json.loads(capsys.readouterr().out)
     assert (response.headers["Length-Unit"], response.headers["Cache-Control"]) == (unit, "no-store")
+
+
+def test_the_longest_step_is_taken(client: TestClient) -> None:
+    steps = [
+        np.abs(np.diff(client.post(POST, json={**ENGAGING, **step}).json()["path"]["phase"])).max()
+        for step in ({}, {"longest_step": 0.5})
+    ]
+    assert 0.5 < steps[0] <= 2.0 + 1e-9
+    assert steps[1] == pytest.approx(0.5, abs=1e-9)
 
 
 def test_friction_is_taken(client: TestClient) -> None:
@@ -184,6 +194,9 @@ def test_a_path_that_is_out_of_time_is_stopped(made_up: StoredLibrary, ends: lis
         ({"mu": 1.1}, "body mu"),
         ({"mu": "0.1"}, "body mu"),
         ({"mu": None}, "body mu"),
+        ({"longest_step": 0.2}, "body longest_step"),
+        ({"longest_step": 2.5}, "body longest_step"),
+        ({"longest_step": "1"}, "body longest_step"),
         ({"unit": "mm"}, "body unit"),
         ({"device": {"unit": "mm", "push": 0}}, "body device push"),
         ({"device": {}}, "body device unit"),

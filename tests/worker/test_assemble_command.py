@@ -43,9 +43,23 @@ def test_without_json_it_is_a_table(command_line: CommandLine) -> None:
         (("--strategy", "sideways"), "ccw_then_cw"),
         (("--mu", "-0.1"), "mu is -0.1"),
         (("--device", "nothing.toml"), "nothing.toml"),
+        (("--longest-step", "0.1"), "longest_step is 0.1; valid: 0.25 to 2 deg"),
+        (("--longest-step", "long"), "long"),
     ],
 )
 def test_bad_input_is_a_clear_error(command_line: CommandLine, arguments: tuple[str, ...], words: str) -> None:
     code, out, err = command_line.here("assemble", *POSE, *arguments)
     assert (code, out) == (2, "")
     assert words in err
+
+
+def test_shorter_steps_have_more_points_and_the_same_end(command_line: CommandLine) -> None:
+    found = [
+        json.loads(command_line.here("assemble", *POSE, "--strategy", "cw", *step, "--json")[1])
+        for step in ((), ("--longest-step", "2"), ("--longest-step", "0.5"))
+    ]
+    assert found[0] == found[1]
+    assert len(found[2]["path"]["phase"]) > 2 * len(found[0]["path"]["phase"])
+    assert found[2]["outcome"] == found[0]["outcome"]
+    ends = [one["path"]["pose"][-1]["translation"] for one in found]
+    assert ends[2] == pytest.approx(ends[0], abs=1e-6)

@@ -26,6 +26,14 @@ def assemble(
     mu: Annotated[
         float, number_option("--mu", metavar="M", help="Coefficient of friction of all contacts, 0 to 1.")
     ] = 0.0,
+    longest_step: Annotated[
+        float | None,
+        number_option(
+            "--longest-step",
+            metavar="DEG",
+            help="Longest step of the phase, 0.25 to 2; default 2, with friction 1.",
+        ),
+    ] = None,
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,
@@ -54,7 +62,8 @@ def assemble(
     factor = conversion_factor(threads.unit, shown)
     held = read_device(device) if device is not None else None
     for pose in wanted:
-        document = assembly_document(assemble_pose(threads, *pose, held, strategy, mu=mu), shown, factor)
+        path = assemble_pose(threads, *pose, held, strategy, mu=mu, longest_step=longest_step)
+        document = assembly_document(path, shown, factor)
         if as_json:
             print_json(document)
         else:

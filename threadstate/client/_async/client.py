@@ -196,6 +196,7 @@ class AsyncClient:
         *,
         strategy: str | None = None,
         mu: float | None = None,
+        longest_step: float | None = None,
         device: Mapping[str, Any] | None = None,
         designation: str | None = None,
         library: LibraryName | None = None,
@@ -204,8 +205,9 @@ class AsyncClient:
     ) -> Assembly:
         """The path of a bolt that a ``device`` settles at a pose and turns, and whether it engages.
 
-        ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0); the others are
-        as for :meth:`settle`. ``progress`` is called with how far the path is whenever that changes; what it raises
+        ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0),
+        ``longest_step`` that of the phase in degrees, 0.25 to 2 (None: 2, with friction 1); the others are as for
+        :meth:`settle`. ``progress`` is called with how far the path is whenever that changes; what it raises
         ends the request, and the service stops.
         """
         call = settled_calls.assemble(
@@ -214,6 +216,7 @@ class AsyncClient:
             phase,
             strategy=strategy,
             mu=mu,
+            longest_step=longest_step,
             device=device,
             designation=designation,
             library=library,

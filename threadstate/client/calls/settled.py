@@ -47,6 +47,7 @@ def assemble(
     *,
     strategy: str | None = None,
     mu: float | None = None,
+    longest_step: float | None = None,
     device: Mapping[str, Any] | None = None,
     designation: str | None = None,
     library: LibraryName | None = None,
@@ -54,8 +55,9 @@ def assemble(
 ) -> Call[Assembly]:
     """The path of a bolt that a ``device`` settles at a pose and turns, and whether it engages.
 
-    ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0); the others are as
-    for :func:`settle`.
+    ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0),
+    ``longest_step`` that of the phase in degrees, 0.25 to 2 (None: 2, with friction 1); the others are as for
+    :func:`settle`.
     """
     body = {
         "designation": designation,
@@ -63,6 +65,7 @@ def assemble(
         "pose": {"roll": float(roll), "pitch": float(pitch), "phase": float(phase)},
         "strategy": strategy,
         "mu": None if mu is None else float(mu),
+        "longest_step": None if longest_step is None else float(longest_step),
         "device": None if device is None else dict(device),
     }
     # Nothing is stored: repeatable.
