@@ -299,6 +299,32 @@ def test_after_a_snap_contacts_slide_back_in_the_shortest_step() -> None:
     assert path.points[at + 1].solutions == 1
 
 
+def test_after_a_fall_without_friction_it_grows_from_none() -> None:
+    """The bolt comes to rest on three contacts without friction, and slides on from there in long steps."""
+    path = assemble_pose(UNC, 3.0, -4.0, 0.0, mu=0.2)
+    assert path.outcome is AssemblyOutcome.ENGAGED
+    bare = [
+        i
+        for i, point in enumerate(path.points)
+        if point.solutions == 0 and all(np.allclose(np.cross(c.force, c.normal), 0.0) for c in point.contacts)
+    ]
+    assert all(path.points[i + 1].solutions == 1 for i in bare)
+    after = path.points[bare[0] + 1]
+    assert set(after.motions) == {ContactMotion.SLIDES}
+    for contact in after.contacts:
+        along = float(np.dot(contact.force, contact.normal))
+        assert np.linalg.norm(np.cross(contact.force, contact.normal)) == pytest.approx(0.2 * along, abs=1e-7 * PUSH)
+
+
+def test_a_path_that_falls_without_friction_again_and_again_is_undecided() -> None:
+    """Where a thread comes to lie along an edge no step has a solution: the friction of what follows is not known."""
+    path = assemble_pose(UNC, -3.0, -1.0, 0.0, mu=0.2)
+    assert (path.outcome, path.flags) == (AssemblyOutcome.UNDECIDED, (SettledFlag.UNSETTLED,))
+    last = [point.solutions for point in path.points[-fk.MOST_BARE :]]
+    assert last == [0] * fk.MOST_BARE
+    assert path.points[-fk.MOST_BARE - 1].solutions == 1
+
+
 @pytest.mark.parametrize(("is_jammed", "is_whole"), [(False, True), (True, True), (False, False)])
 def test_a_path_is_ambiguous_where_its_branches_end_otherwise(
     monkeypatch: pytest.MonkeyPatch, *, is_jammed: bool, is_whole: bool

@@ -78,6 +78,9 @@ REACHED, SNAP_REACHED, TORQUE_OVER, SLIPPED_OFF, TOO_DEEP, TOO_MANY, ON_PATCH, P
 GOES_ON, SHORTER = -1, -2
 """Of a step: the path goes on, or the step has to have another length, as a rule a shorter one."""
 
+FRICTION_PARTS = 8
+"""In how many parts friction grows where a step is begun without it."""
+
 FREE_STEPS = 60
 """Steps of the descent without friction that says which contacts a step may gain."""
 
@@ -381,6 +384,70 @@ def solve_step(
 
 
 @kernel()
+def ramp_friction(
+    free: Array,
+    found: int,
+    before: Array,
+    push: float,
+    unit: float,
+    mu: float,
+    total: int,
+    candidates: Array,
+    setting: Setting,
+) -> bool:
+    """Sets the guess to where the bolt slides on the contacts that it has without friction, as that grows from none.
+
+    ``free`` is its place without friction, whose ``found`` places are those of the last descent. False where a part of
+    the friction has no solution.
+    """
+    _, device, _, bolt, nut, threads, work, modes_work = setting
+    free_places, multipliers = work[0], work[15]
+    places, search = modes_work.places, modes_work.search
+    r = device[D_SCALE]
+    modes = np.zeros(MOST_CANDIDATES, dtype=np.int64)
+    contacts = np.empty((MOST_CANDIDATES, K_SIZE))
+    trial, place = free.copy(), np.empty(PLACE_SIZE)
+    for c in range(total):
+        copy_numbers(candidates[c], contacts[c])
+        modes[c] = OPENS
+        for j in range(found):
+            force = multipliers[j] * free_places[j, G_NORM]
+            apart = 0.0
+            for h in range(3):
+                apart += (free_places[j, G_POINT + h] - candidates[c, K_POINT + h]) ** 2
+            if force > LOADED * push and math.sqrt(apart) < SAME_CONTACT * r:
+                modes[c] = SLIPS
+                for h in range(3):
+                    contacts[c, K_POINT + h] = free_places[j, G_POINT + h]
+                    contacts[c, K_NORMAL + h] = free_places[j, G_NORMAL + h]
+                    contacts[c, K_FORCE + h] = force * free_places[j, G_NORMAL + h]
+        contacts[c, K_MODE] = modes[c]
+    for part in range(1, FRICTION_PARTS + 1):
+        set_place(trial, device, place)
+        near = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+        status = solve_mode(
+            modes,
+            total,
+            mu * part / FRICTION_PARTS,
+            near,
+            trial,
+            push,
+            unit,
+            before,
+            device,
+            bolt,
+            nut,
+            threads,
+            contacts,
+            modes_work,
+        )
+        if status != SOLVED:
+            return False
+    set_guess(0.0, trial, trial, trial, kept(total, contacts, push), contacts, modes_work)
+    return True
+
+
+@kernel()
 def step_with_friction(
     q: Array,
     push: float,
@@ -428,6 +495,9 @@ def step_with_friction(
         known = total
         total = add_free_contacts(total, found, push, device, work, candidates)
         if total > known or not turns:
+            number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
+        ramps = number == 0 and turns and found > 0 and total <= MOST_CANDIDATES
+        if ramps and ramp_friction(free, found, before, push, command[M_PUSH], mu, total, candidates, setting):
             number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
     losses[2] = number
     if number == 0 or total > MOST_CANDIDATES:
