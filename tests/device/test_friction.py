@@ -192,11 +192,25 @@ def test_after_a_fall_friction_comes_up_again() -> None:
     assert sum(point.solutions == 0 for point in path.points[1:]) <= 4
 
 
-def test_what_is_not_followed_with_friction_says_so() -> None:
-    level = settle_pose(UNC, 0.0, 0.0, 180.0, mu=0.1)
-    assert (level.outcome, level.flags) == (Outcome.UNDECIDED, (SettledFlag.FLUSH,))
+@pytest.mark.parametrize("phase_deg", [0.0, 60.0, 180.0, 350.0])
+def test_a_level_bolt_whose_patch_does_not_hold_it_tips_at_once(phase_deg: float) -> None:
+    """Next to no friction it settles where it does without; with more nearer to where it was."""
+    smooth, next_to_smooth, rough = (settle_pose(UNC, 0.0, 0.0, phase_deg, mu=mu) for mu in (0.0, 1e-6, 0.3))
+    assert {state.outcome for state in (smooth, next_to_smooth, rough)} == {Outcome.SETTLED}
+    assert SettledFlag.FLUSH not in smooth.flags + next_to_smooth.flags + rough.flags
+    assert smooth.pose is not None
+    assert next_to_smooth.pose is not None
+    assert rough.pose is not None
+    assert np.allclose(smooth.pose.translation, next_to_smooth.pose.translation, rtol=0.0, atol=1e-5 * R)
+    assert len(next_to_smooth.contacts) == len(smooth.contacts)
+    assert -rough.pose.translation[2] < -smooth.pose.translation[2]
+
+
+def test_a_level_bolt_that_tips_at_once_is_turned() -> None:
     path = assemble_pose(UNC, 0.0, 0.0, 180.0, mu=0.1)
-    assert (path.outcome, path.flags, path.points) == (AssemblyOutcome.UNDECIDED, (SettledFlag.FLUSH,), ())
+    assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
+    assert path.energy is not None
+    assert abs(path.energy.balance) < 1e-3 * path.energy.friction
 
 
 @pytest.mark.parametrize("mu", [-0.1, 1.5, math.nan, math.inf])

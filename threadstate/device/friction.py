@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
@@ -186,14 +187,22 @@ def begin_friction(
     phase: float,
     mu: float,
     watch: PathWatch | None = None,
+    *,
+    on_surface: bool = False,
 ) -> FrictionPath:
-    """A bolt at its first contact, before the push grows; ``phase`` in rad."""
+    """A bolt at its first contact, before the push grows; ``phase`` in rad.
+
+    One that is level and does not stay so has its contact ``on_surface``: its first step tips it.
+    """
     numbers = numbers.copy()
     tk.set_phase(phase, command, numbers)
     q = np.zeros(ck.COORDINATES)
     q[3:] = numbers[ck.D_PLACE : ck.D_PLACE + 3]
     contacts = np.zeros((ROOM, mk.CONTACT_SIZE))
-    return FrictionPath(pair, numbers, command, strip, mu, q, 0, contacts, watch or PathWatch())
+    if on_surface:
+        contacts[0, mk.K_NORMAL + 2] = 1.0
+        contacts[0, mk.K_MODE], contacts[0, mk.K_PAIR] = mk.STICKS, FLUSH_PAIR
+    return FrictionPath(pair, numbers, command, strip, mu, q, int(on_surface), contacts, watch or PathWatch())
 
 
 def point_of(row: Floats, contacts: Floats, numbers: Floats, command: Floats) -> AssemblyPoint:

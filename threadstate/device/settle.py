@@ -162,15 +162,16 @@ def path_with_friction(
     ``result`` is the kernels' of the same pose without friction: the height of its first contact is what counts.
     """
     roll_deg, pitch_deg, phase_deg = (float(angle) for angle in pose_deg)
-    is_level = abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG
-    leaves = is_level and result[sk.R_STATUS] != rest.FLUSH
-    if leaves or result[sk.R_STATUS] == sk.NO_FIRST_CONTACT:
-        flag = SettledFlag.FLUSH if leaves else SettledFlag.FIRST_CONTACT
+    if result[sk.R_STATUS] == sk.NO_FIRST_CONTACT:
         outcome = Outcome.UNDECIDED
         nothing = (None, None, None, (), None, (), NO_MARGINS, ())
-        return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (flag,), *nothing)
+        return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (SettledFlag.FIRST_CONTACT,), *nothing)
     command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]), longest_step_deg)
-    return begin_friction(pair, numbers, command, strip_numbers(pair), math.radians(phase_deg), mu, watch)
+    is_level = abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG
+    tips = is_level and result[sk.R_STATUS] != rest.FLUSH
+    return begin_friction(
+        pair, numbers, command, strip_numbers(pair), math.radians(phase_deg), mu, watch, on_surface=tips
+    )
 
 
 def state_with_friction(
