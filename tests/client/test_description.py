@@ -74,6 +74,7 @@ ARGUMENTS: dict[str, object] = {
     "ordered": True,
     "limit": 10,
     "mu": 0.1,
+    "longest_step": 0.5,
     "include": ["reaction", "forces_range"],
     "avoid": ["held", "wedged"],
     "force": (0.0, 0.0, -10.0),

@@ -100,8 +100,7 @@ def test_kernels_of_turning_are_compiled_when_they_are_asked_for(
     script = f"import pathlib; pathlib.Path({str(begun)!r}).touch()\n{COMPILING}"
     monkeypatch.setattr("service.kernels.COMPILE_ALL", (sys.executable, "-c", script, str(compiled), str(code)))
     monkeypatch.setattr("service.kernels.turning_is_compiled", lambda: False)
-    # A level start with friction: refused, but not for want of kernels.
-    body = {"pose": {"roll": 0, "pitch": 0, "phase": 10}, "mu": 0.1}
+    body = {"pose": {"roll": 1, "pitch": -2, "phase": 10}, "strategy": "cw"}
     settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
     with TestClient(service_app(settings, serving=True)) as client:
         _wait_until_ready(client)
@@ -118,7 +117,7 @@ def test_kernels_of_turning_are_compiled_when_they_are_asked_for(
         while (response := client.post("/v1/assemblies", json=body)).status_code != 200:
             assert time.monotonic() < until
             time.sleep(0.05)
-    assert response.json()["outcome"] == "undecided"
+    assert response.json()["outcome"] == "engaged"
 
 
 def test_a_client_tries_again_for_as_long_as_it_takes(compiling: TestClient) -> None:

@@ -170,7 +170,7 @@ class SettledFlag(StrEnum):
     """A named special case of a settled state, or the reason why there is none."""
 
     AMBIGUOUS = "ambiguous"
-    """With friction a step had several solutions."""
+    """With friction a step had several solutions, which end apart; of the start of a path: it is one of several."""
     FLUSH = "flush"
     """The base lies flush on the nut's surface; the contacts are extreme points of the patch that balance the push."""
     MARGINAL = "marginal"
