@@ -35,6 +35,7 @@ from worker.commands.path import path
 from worker.commands.profiles import profiles
 from worker.commands.rebuild import rebuild
 from worker.commands.rebuild_settled import rebuild_settled
+from worker.commands.report import report
 from worker.commands.run import run
 from worker.commands.serve import serve
 from worker.commands.settings import settings
@@ -70,6 +71,7 @@ COMMANDS = (
     settle,
     assemble,
     success,
+    report,
     rebuild,
     rebuild_settled,
     sweep,

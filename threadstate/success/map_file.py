@@ -13,8 +13,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from threadstate.device.document import device_document
+from threadstate.device.document import device_document, device_from_document
+from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
+from threadstate.library.grid import Grid
+from threadstate.library.identity import pair_of
 from threadstate.success.document import (
     document_text,
     orientation_document,
@@ -43,6 +46,39 @@ def inputs_document(inputs: SuccessInputs) -> dict[str, Any]:
         "mu_tolerance": inputs.mu_tolerance,
         "point_limit": inputs.point_limit,
     }
+
+
+def inputs_of_map(path: Path) -> SuccessInputs | None:
+    """What a file's map is computed from, by its first line; None where there is no file, or no line in it.
+
+    Code is no part of it: a map of other code has another hash than these inputs, and :func:`growing_map` refuses it.
+
+    Raises:
+        InvalidValueError: the file cannot be read, or its first line is not that of a map.
+    """
+    try:
+        with path.open("rb") as file:
+            line = file.readline()
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise InvalidValueError(NAME, str(path), f"a file that can be read ({error.strerror})") from None
+    if not line.endswith(b"\n"):
+        return None
+    try:
+        document = json.loads(line)
+        return SuccessInputs(
+            pair_of(json.dumps(document["pair"])),
+            device_from_document(document["device"]),
+            Strategy(document["strategy"]),
+            Grid(document["tilt_max"], document["tilt_step"], document["phase_step"]),
+            tuple(document["mu"]),
+            document["phase_tolerance"],
+            document["mu_tolerance"],
+            document["point_limit"],
+        )
+    except (ValueError, KeyError, TypeError):
+        raise InvalidValueError(NAME, str(path), "a success map, or a file that does not exist") from None
 
 
 def read_map(path: Path, inputs: SuccessInputs) -> list[OrientationMap]:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from threadstate.device.strategy import Strategy
-from threadstate.errors import InvalidValueError
 from threadstate.settings import read_settings
 from worker.options import (
     DeviceFile,
@@ -18,15 +17,12 @@ from worker.options import (
     PairName,
     TiltMax,
     TiltStep,
+    UnitName,
     Workers,
     integer_option,
     number_option,
 )
-
-if TYPE_CHECKING:
-    from threadstate.library.grid import Grid
-
-LARGEST_PHASES = 36_000
+from worker.success.grid import LARGEST_PHASES, grid_of_phases
 
 
 def success(
@@ -62,6 +58,7 @@ def success(
     ] = None,
     pair: PairName = None,
     dimension: Dimensions = None,
+    unit: UnitName = None,
     workers: Workers = None,
     as_json: Json = False,
 ) -> None:
@@ -77,7 +74,7 @@ def success(
       threadstate success --pair M6 --device examples/device.toml --phases 8 --json
     """
     began = time.perf_counter()
-    grid = _grid(tilt_max, tilt_step, phases)
+    grid = grid_of_phases(tilt_max, tilt_step, phases)
     from threadstate.device.model import default_device
     from threadstate.device.settle import check_pair
     from threadstate.responses.query import parse_frictions
@@ -94,16 +91,4 @@ def success(
     inputs = SuccessInputs(threads, held, strategy, grid, frictions, phase_tolerance, mu_tolerance, point_limit)
     result = computed_map_with_progress(inputs, workers or read_settings().workers, out)
     elapsed_s = time.perf_counter() - began
-    (print_map_json if as_json else print_map)(inputs, result, elapsed_s)
-
-
-def _grid(tilt_max: float, tilt_step: float, phases: int) -> Grid:
-    from threadstate.library.grid import Grid
-
-    # What remains of a number of phases without its twos, fives and two threes has no finite decimal.
-    rest = phases
-    for prime in (2, 2, 2, 2, 2, 2, 2, 2, 3, 3, 5, 5, 5):
-        rest = rest // prime if rest % prime == 0 else rest
-    if rest != 1:
-        raise InvalidValueError("phases", phases, "a number that divides 360 deg into decimals, as 4, 8, 12 or 36")
-    return Grid(tilt_max, tilt_step, 360.0 / phases)
+    (print_map_json if as_json else print_map)(inputs, result, elapsed_s, unit or threads.unit)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from threadstate.numbers import number_text
@@ -9,34 +10,37 @@ from threadstate.success.document import orientation_document
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.map_file import inputs_document
 from threadstate.success.model import CriticalFriction, OrientationMap
+from threadstate.success.scaled import scaled_orientation
 from threadstate.success.summary import map_counts, orientation_summary, tilt_area
+from threadstate.units import LengthUnit, conversion_factor
 from worker.output import print_json, print_line
 from worker.success.run import SuccessResult
 from worker.tables import table
 
 
-def print_map_json(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float) -> None:
-    """Print inputs, hashes, summaries and all orientations as one object."""
+def print_map_json(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float, unit: LengthUnit) -> None:
+    """Print inputs, hashes, summaries and all orientations as one object; what paths ask for is in ``unit``."""
+    orientations = _in_unit(inputs, result, unit)
     print_json(
         {
             **inputs_document(inputs),
             "content_sha256": result.content_sha256,
-            "unit": inputs.pair.unit,
+            "unit": unit,
             "computed": result.computed,
             "elapsed_s": round(elapsed_s, 3),
-            "summary": [_friction_document(inputs, result, mu) for mu in inputs.frictions],
-            "orientations": [_orientation(inputs, one) for one in result.orientations],
+            "summary": [_friction_document(inputs, orientations, mu) for mu in inputs.frictions],
+            "orientations": [_orientation(inputs, one) for one in orientations],
         }
     )
 
 
-def print_map(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float) -> None:
-    """Print how many orientations engage at each friction, and each orientation."""
-    unit = inputs.pair.unit
+def print_map(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float, unit: LengthUnit) -> None:
+    """Print how many orientations engage at each friction, and each orientation; lengths in ``unit``."""
+    orientations = _in_unit(inputs, result, unit)
     totals = table("mu", "orientations", "engaged", "around level", "largest", "outcomes", words_last=True)
     for mu in inputs.frictions:
-        area = tilt_area(result.orientations, inputs.grid, mu)
-        counts = map_counts(result.orientations, inputs.grid, mu)
+        area = tilt_area(orientations, inputs.grid, mu)
+        counts = map_counts(orientations, inputs.grid, mu)
         outcomes = [f"{count} {outcome.value}" for outcome, count in counts.outcomes]
         flags = [f"{count} {flag}" for flag, count in counts.flags]
         bounded = [f"{counts.bounded} bounded"] if counts.bounded else []
@@ -46,9 +50,17 @@ def print_map(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float) ->
     totals.print()
     print_line("")
     rows = table(
-        "roll", "pitch", "critical friction", "mu", "share", "worst phase", f"torque (N {unit})", "tilt", "shift"
+        "roll",
+        "pitch",
+        "critical friction",
+        "mu",
+        "share",
+        "worst phase",
+        f"torque (N {unit})",
+        "tilt",
+        f"shift ({unit})",
     )
-    for one in result.orientations:
+    for one in orientations:
         for mu in inputs.frictions:
             summary = orientation_summary(one, inputs.grid, mu)
             rows.add_row(
@@ -79,9 +91,14 @@ def critical_text(critical: CriticalFriction) -> str:
     return f"{last} to {critical.first:.4g} ({critical.outcome.value})"
 
 
-def _friction_document(inputs: SuccessInputs, result: SuccessResult, mu: float) -> dict[str, Any]:
-    area = tilt_area(result.orientations, inputs.grid, mu)
-    counts = map_counts(result.orientations, inputs.grid, mu)
+def _in_unit(inputs: SuccessInputs, result: SuccessResult, unit: LengthUnit) -> list[OrientationMap]:
+    factor = conversion_factor(inputs.pair.unit, unit)
+    return [scaled_orientation(one, factor) for one in result.orientations]
+
+
+def _friction_document(inputs: SuccessInputs, orientations: Sequence[OrientationMap], mu: float) -> dict[str, Any]:
+    area = tilt_area(orientations, inputs.grid, mu)
+    counts = map_counts(orientations, inputs.grid, mu)
     return {
         "mu": mu,
         "orientations": area.orientations,

@@ -1,0 +1,222 @@
+"""The success map of a report: pictures, tables, the worst approaches, every orientation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from threadstate.report.contents import FrictionPart, Report
+from threadstate.report.html import figure, figures, paragraph, table
+from threadstate.report.map_svg import Square, TiltMap, map_svg, shade_of
+from threadstate.report.words import (
+    NOTHING,
+    counted,
+    critical_words,
+    exact,
+    friction_words,
+    name_of,
+    pose_words,
+    rounded,
+)
+from threadstate.success.model import OrientationMap
+
+MOST_ROWS = 12
+"""Orientations of a list of the worst ones."""
+SHARES = ("none", "\N{LESS-THAN OR EQUAL TO} 1/4", "\N{LESS-THAN OR EQUAL TO} 1/2", "< all", "all")
+
+
+def map_section(report: Report) -> Iterator[str]:
+    """A map of the share of phases for each friction, that of the critical friction, and what they sum up to."""
+    grid = report.inputs.grid
+    yield paragraph(
+        f"{counted(len(report.orientations), 'orientation')}, {counted(grid.phase_count, 'starting phase')} each, "
+        f"{counted(len(report.parts), 'friction')}. An orientation engages where all its phases do."
+    )
+    yield _totals(report)
+    parts = [
+        figure(map_svg(share_map(report, part)), f"Starting phases that engage, {friction_words(part.mu)}.")
+        for part in report.parts
+    ]
+    if report.inputs.frictions[-1] > 0.0:
+        caption = (
+            "Critical friction: up to which friction an orientation engages from every phase. "
+            f"{NOTHING}: not even without friction. Hatched: a lower bound, as an undecided path ends it."
+        )
+        parts.append(figure(map_svg(critical_map(report)), caption))
+    yield figures(parts)
+
+
+def _totals(report: Report) -> str:
+    unit = report.unit
+    rows = []
+    for part in report.parts:
+        area = part.area
+        rows.append(
+            (
+                exact(part.mu),
+                f"{area.engaged} of {area.orientations}",
+                str(area.around_level),
+                str(area.largest),
+                rounded(area.largest * area.cell_deg2),
+                f"{part.engaged_paths} of {part.paths}",
+                str(part.undecided_paths),
+                *(rounded(value, 3) for value in (part.torque, part.tilt_deg, part.shift)),
+                ", ".join(f"{count} {name_of(outcome.value)}" for outcome, count in part.counts.outcomes),
+            )
+        )
+    headings = (
+        *("friction", "orientations that engage", "connected with level", "largest connected"),
+        *("its area (deg²)", "paths that engage", "undecided paths"),
+        *(f"torque (N {unit})", "tilt (deg)", f"shift ({unit})", "outcomes"),
+    )
+    caption = "What engages at each friction; torque, tilt and shift are the largest of the paths that engage"
+    return table(caption, headings, rows, words={10})
+
+
+def share_map(report: Report, part: FrictionPart) -> TiltMap:
+    """The map of the share of starting phases that engage."""
+    squares = []
+    for one, summary in zip(report.orientations, part.orientations, strict=True):
+        undecided = f", {summary.undecided} undecided" if summary.undecided else ""
+        meaning = f"{pose_words(one)}: {summary.engaged} of {counted(summary.phases, 'phase')} engage{undecided}"
+        squares.append(
+            Square(
+                one.roll_deg,
+                one.pitch_deg,
+                min(shade_of(summary.share), 4 if summary.all_engage else 3),
+                str(summary.engaged) + ("?" if summary.undecided else ""),
+                meaning,
+                summary.undecided > 0,
+                _is_chosen(report, one),
+            )
+        )
+    open_count = sum(square.undecided for square in squares)
+    alternative = (
+        f"Map over roll and pitch {friction_words(part.mu)}: {part.area.engaged} of {part.area.orientations} "
+        f"orientations "
+        f"engage from every phase; of {open_count} not all is decided. The table of every orientation has the numbers."
+    )
+    phases = report.inputs.grid.phase_count
+    title = f"Engaging phases of {phases}, {friction_words(part.mu)}"
+    name = f"share-{report.parts.index(part)}"
+    return TiltMap(name, title, alternative, report.inputs.grid.tilts_deg, tuple(squares), SHARES)
+
+
+def critical_map(report: Report) -> TiltMap:
+    """The map of the critical friction."""
+    largest = report.inputs.frictions[-1]
+    squares = []
+    for one in report.orientations:
+        last, first = one.critical.last, one.critical.first
+        text = rounded(last, 2) if first is not None else f"\N{GREATER-THAN OR EQUAL TO}{rounded(last, 2)}"
+        undecided = one in report.undecided_without_friction or _ends_undecided(one)
+        squares.append(
+            Square(
+                one.roll_deg,
+                one.pitch_deg,
+                0 if last is None else max(shade_of(last / largest), 1),
+                text + ("?" if undecided else ""),
+                f"{pose_words(one)}: {critical_words(one.critical)}",
+                undecided,
+                _is_chosen(report, one),
+            )
+        )
+    never = len(report.orientations) - len(report.without_friction)
+    throughout = sum(one.critical.first is None for one in report.orientations)
+    alternative = (
+        f"Map of the critical friction over roll and pitch: {throughout} orientations engage at every friction of "
+        f"the map, "
+        f"{never} do not without friction. The table of every orientation has the numbers."
+    )
+    shades = ("none", *(f"\N{LESS-THAN OR EQUAL TO} {rounded(largest * i / 4, 2)}" for i in range(1, 5)))
+    title = "Critical friction"
+    return TiltMap("critical", title, alternative, report.inputs.grid.tilts_deg, tuple(squares), shades)
+
+
+def worst_section(report: Report) -> Iterator[str]:
+    """The orientations that fail first as friction grows, and those that fail without any."""
+    worst = report.worst[:MOST_ROWS]
+    if worst:
+        yield table(
+            "The orientations that engage without friction and fail first as it grows"
+            + _of_all(len(worst), len(report.worst)),
+            ("roll (deg)", "pitch (deg)", "engages up to", "not at", "from phase (deg)", "outcome there"),
+            [
+                (
+                    exact(one.roll_deg),
+                    exact(one.pitch_deg),
+                    rounded(one.critical.last),
+                    *_failure(one),
+                )
+                for one in worst
+            ],
+            heads=2,
+            words={5},
+        )
+    elif report.without_friction:
+        yield paragraph("Every orientation that engages without friction engages at every friction of the map.")
+    failing = report.failing_without_friction
+    nearest = failing[:MOST_ROWS]
+    if nearest:
+        yield table(
+            "The orientations that fail even without friction, nearest to level first"
+            + _of_all(len(nearest), len(failing)),
+            ("roll (deg)", "pitch (deg)", "tilt (deg)", "at friction", "from phase (deg)", "outcome there"),
+            [
+                (
+                    exact(one.roll_deg),
+                    exact(one.pitch_deg),
+                    rounded(math.hypot(one.roll_deg, one.pitch_deg), 3),
+                    *_failure(one),
+                )
+                for one in nearest
+            ],
+            heads=2,
+            words={5},
+        )
+    if report.undecided_without_friction:
+        poses = "; ".join(map(pose_words, report.undecided_without_friction[:MOST_ROWS]))
+        count = counted(len(report.undecided_without_friction), "orientation")
+        yield paragraph(f"Nothing is known of {count}, as a path without friction is undecided: {poses}.")
+
+
+def _of_all(shown: int, count: int) -> str:
+    return "" if shown == count else f": {shown} of {count}"
+
+
+def _failure(one: OrientationMap) -> tuple[str, str, str]:
+    critical = one.critical
+    phase = NOTHING if critical.phase_deg is None else rounded(critical.phase_deg, 6)
+    return rounded(critical.first), phase, name_of(str(critical.outcome))
+
+
+def orientations_section(report: Report) -> Iterator[str]:
+    """A row for each orientation of the map."""
+    frictions = [exact(part.mu) for part in report.parts]
+    headings = ["roll (deg)", "pitch (deg)", "critical friction"]
+    headings += [f"phases that engage, {mu}" for mu in frictions]
+    headings += [f"undecided, {mu}" for mu in frictions]
+    headings += [f"largest torque (N {report.unit}), {mu}" for mu in frictions]
+    rows = []
+    for i, one in enumerate(report.orientations):
+        summaries = [part.orientations[i] for part in report.parts]
+        rows.append(
+            [
+                exact(one.roll_deg),
+                exact(one.pitch_deg),
+                critical_words(one.critical),
+                *(f"{summary.engaged} of {summary.phases}" for summary in summaries),
+                *(str(summary.undecided) for summary in summaries),
+                *(rounded(summary.torque, 3) for summary in summaries),
+            ]
+        )
+    caption = "Every orientation of the map; the number after a heading's comma is the friction"
+    yield table(caption, headings, rows, heads=2, words={2})
+
+
+def _ends_undecided(one: OrientationMap) -> bool:
+    return str(one.critical.outcome) == "undecided"
+
+
+def _is_chosen(report: Report, one: OrientationMap) -> bool:
+    return (one.roll_deg, one.pitch_deg) == (report.chosen.roll_deg, report.chosen.pitch_deg)

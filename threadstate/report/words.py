@@ -1,0 +1,161 @@
+"""Numbers and sentences of a report, as plain text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from threadstate.device.assembly_model import AssemblyOutcome
+from threadstate.device.strategy import Strategy
+from threadstate.numbers import number_text
+from threadstate.report.contents import FrictionPart, Report
+from threadstate.success.model import CriticalFriction, OrientationMap
+
+MINUS = "\N{MINUS SIGN}"
+NOTHING = "\N{EN DASH}"
+DIGITS = 4
+"""Significant digits of what is measured; angles and frictions of the grid have all of theirs."""
+
+STRATEGIES = {
+    Strategy.CCW_THEN_CW: "turns counter-clockwise until the bolt snaps in, or through 360 deg, then clockwise "
+    "through 270 deg",
+    Strategy.CW: "turns clockwise through 270 deg at once",
+}
+
+FAILURES = {
+    AssemblyOutcome.ENGAGED: "engages",
+    AssemblyOutcome.CROSS_THREADED: "cross-threads",
+    AssemblyOutcome.JAMMED: "jams",
+    AssemblyOutcome.NO_SNAP: "does not snap in",
+    AssemblyOutcome.IDLE: "turns idly, without following the thread",
+    AssemblyOutcome.SLIPPED: "slips off the nut",
+    AssemblyOutcome.UNDECIDED: "has no certain outcome",
+}
+
+
+def exact(value: float) -> str:
+    """A number with all its digits and a minus sign, as of a grid."""
+    return number_text(value).replace("-", MINUS)
+
+
+def rounded(value: float | None, digits: int = DIGITS) -> str:
+    """A number of some significant digits; a dash where there is none."""
+    return NOTHING if value is None else exact(float(f"{value:.{digits}g}"))
+
+
+def name_of(word: str) -> str:
+    """A name of the interface as words: no_snap is "no snap"."""
+    return word.replace("_", " ")
+
+
+def listed(texts: Sequence[str]) -> str:
+    """Texts with commas, "and" before the last one."""
+    return texts[0] if len(texts) == 1 else f"{', '.join(texts[:-1])} and {texts[-1]}"
+
+
+def counted(count: int, one: str, many: str | None = None) -> str:
+    """A number of things."""
+    return f"{count:,} {one if count == 1 else many or f'{one}s'}"
+
+
+def pose_words(one: OrientationMap) -> str:
+    """An orientation in words."""
+    return f"roll {exact(one.roll_deg)}°, pitch {exact(one.pitch_deg)}°"
+
+
+def critical_words(critical: CriticalFriction) -> str:
+    """The critical friction of an orientation, short."""
+    if critical.first is None:
+        return f"at least {exact(critical.last or 0.0)}"
+    why = name_of(str(critical.outcome))
+    if critical.last is None:
+        return (
+            f"none ({why} without friction)" if critical.first == 0.0 else f"none ({why} at {rounded(critical.first)})"
+        )
+    return f"{rounded(critical.last)} to {rounded(critical.first)} ({why})"
+
+
+def answer(report: Report) -> Iterator[str]:
+    """The answer, a sentence or two a paragraph."""
+    yield _engaging(report)
+    yield _failing(report)
+    yield _needs(report)
+    yield _undecided(report)
+
+
+def _engaging(report: Report) -> str:
+    """How many orientations engage."""
+    grid = report.inputs.grid
+    counts = [f"{part.area.engaged} {friction_words(part.mu)}" for part in report.parts]
+    if report.parts[0].mu > 0.0:
+        counts.insert(0, f"{len(report.without_friction)} without friction")
+    phases = (
+        "from the one starting phase" if grid.phase_count == 1 else f"from each of {grid.phase_count} starting phases"
+    )
+    return (
+        f"Of {counted(len(report.orientations), 'orientation')}, roll and pitch up to {exact(grid.tilt_max_deg)}°, "
+        f"those that engage {phases} are {listed(counts)}."
+    )
+
+
+def _failing(report: Report) -> str:
+    """Which orientation fails first."""
+    sentences = []
+    failing = report.failing_without_friction
+    if failing:
+        outcomes = {one.critical.outcome for one in failing}
+        kinds = [FAILURES[outcome] for outcome in AssemblyOutcome if outcome in outcomes]
+        nearest = failing[0]
+        count = counted(len(failing), "orientation fails", "orientations fail")
+        sentences.append(
+            f"{count} even without friction: the bolt {' or '.join(kinds)}; "
+            f"the nearest to level is {pose_words(nearest)}."
+        )
+    first = report.first_failure
+    if first is not None:
+        critical = first.critical
+        assert critical.first is not None and critical.phase_deg is not None and critical.outcome is not None
+        sentences.append(
+            f"As friction grows, the first certain failure is at {pose_words(first)}: it engages up to "
+            f"μ = {rounded(critical.last)}; at μ = {rounded(critical.first)} the bolt {FAILURES[critical.outcome]}, "
+            f"from phase {rounded(critical.phase_deg, 6)}°."
+        )
+    elif report.without_friction:
+        largest = report.inputs.frictions[-1]
+        beyond = f" up to μ = {exact(largest)}, the largest of this map" if largest else ""
+        sentences.append(f"No orientation that engages without friction is known to fail{beyond}.")
+    return " ".join(sentences)
+
+
+def _needs(report: Report) -> str:
+    """What the paths that engage ask for."""
+    most = [
+        f"{friction_words(part.mu)}, {rounded(part.torque, 3)} N {report.unit} of torque, "
+        f"{rounded(part.tilt_deg, 3)}° of tilt and {rounded(part.shift, 3)} {report.unit} of shift"
+        for part in report.parts
+        if part.engaged_paths
+    ]
+    if not most:
+        return "No path of the map engages, so nothing can be said of what assembly asks of the device."
+    return f"The paths that engage ask of the device, at most: {'; '.join(most)}."
+
+
+def _undecided(report: Report) -> str:
+    """What is not known, and why."""
+    unsure = [part for part in report.parts if part.undecided_paths]
+    if not unsure:
+        return "Every path of the map has a certain outcome."
+    texts = [
+        f"{part.undecided_paths} of {part.paths} paths {friction_words(part.mu)} ({reasons(part)})" for part in unsure
+    ]
+    return f"Undecided: {listed(texts)}. Such a path may engage or not; its orientation is not counted as engaging."
+
+
+def friction_words(mu: float) -> str:
+    """At which friction."""
+    return f"at μ = {exact(mu)}" if mu else "without friction"
+
+
+def reasons(part: FrictionPart) -> str:
+    """Why paths of a friction are undecided."""
+    texts = [f"{count} {name_of(reason)}" for reason, count in part.reasons]
+    return ", ".join(texts) or NOTHING
