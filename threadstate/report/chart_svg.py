@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from threadstate.device.assembly_model import PathEventKind
 from threadstate.report.curves import Chart, Course, Mark, Series
-from threadstate.report.words import MINUS, counted, exact, rounded
+from threadstate.report.words import MINUS, exact, rounded
 
 WIDTH, PLOT_HEIGHT = 460, 262
 LEFT, RIGHT, TOP, BOTTOM = 62, 12, 40, 44
@@ -68,7 +68,7 @@ def alternative(chart: Chart) -> str:
         name = f"{series.name} " if len(chart.series) > 1 else ""
         low, high, end = (rounded(value) for value in (min(series.values), max(series.values), series.values[-1]))
         texts.append(f"{name}from {low} to {high}, {end} at the end")
-    return f"{chart.title} over the phase, in {chart.unit}: {'; '.join(texts)}."
+    return f"{chart.title} ({chart.unit}) over the phase: {'; '.join(texts)}."
 
 
 def _view(chart: Chart, course: Course) -> _View:
@@ -158,8 +158,3 @@ def ticks(low: float, high: float) -> list[float]:
 
 def _tick(value: float) -> str:
     return f"{value:.6g}".replace("-", MINUS)
-
-
-def falls_words(marks: Sequence[Mark]) -> str:
-    """How often the bolt falls, in words."""
-    return counted(sum(mark.kind is PathEventKind.FALL for mark in marks), "fall")

@@ -26,6 +26,21 @@ from threadstate.success.summary import (
 )
 from threadstate.units import LengthUnit, conversion_factor
 
+_FIRST_TO_FAIL = (
+    "Of the orientations that engage from every starting phase this one is the first that is not known to engage as "
+    "friction grows. The path has its largest torque, at the largest friction of the map at which all its phases "
+    "engage."
+)
+_LARGEST_TORQUE = (
+    "The orientations that engage from every starting phase do so at every friction of the map. Of them this one "
+    "has the "
+    "largest torque; the path is at the largest friction."
+)
+_NOT_FROM_ALL = (
+    "No orientation engages from every starting phase. Of the paths that engage this has the largest torque."
+)
+_NONE_ENGAGES = "No path engages. This one is the worst of the orientation nearest to level."
+
 
 @dataclass(frozen=True, slots=True)
 class ChosenPath:
@@ -148,33 +163,26 @@ def default_path(inputs: SuccessInputs, orientations: Sequence[OrientationMap]) 
     """The worst path that engages.
 
     Of the orientations that engage from every phase at the least friction of the map it is that of the least critical
-    friction, at the largest friction of the map at which all its phases engage, from the phase of the largest torque.
-    Where there is none it is the path of the largest torque that engages; where none does, the worst phase of the
-    orientation nearest to level.
+    friction, or of the largest torque where several are alike, at the largest friction of the map at which all its
+    phases engage, from the phase of the largest torque. Where there is none it is the path of the largest torque that
+    engages; where none does, the worst phase of the orientation nearest to level.
     """
     grid, frictions = inputs.grid, inputs.frictions
-    engaging = [one for one in orientations if orientation_summary(one, grid, frictions[0]).all_engage]
+    summaries = [[orientation_summary(one, grid, mu) for mu in frictions] for one in orientations]
+    engaging = [(one, found) for one, found in zip(orientations, summaries, strict=True) if found[0].all_engage]
     if engaging:
-        one = min(engaging, key=_critical)
-        summaries = [orientation_summary(one, grid, mu) for mu in frictions]
-        summary = [found for found in summaries if found.all_engage][-1]
-        why = (
-            "Of the orientations that engage from every starting phase it is the first to fail as friction grows. "
-            "This is its path of the largest torque, at the largest friction of the map at which it engages."
-        )
+        ranks = [(*_critical(one)[:2], -(found[0].torque or 0.0), one.index) for one, found in engaging]
+        one, found = engaging[ranks.index(min(ranks))]
+        summary = [part for part in found if part.all_engage][-1]
+        why = _FIRST_TO_FAIL if one.critical.first is not None else _LARGEST_TORQUE
         return ChosenPath(one.roll_deg, one.pitch_deg, summary.worst_phase_deg, summary.mu, why)
     cells = [(one, cell) for one in orientations for cell in grid_cells(one, grid, frictions[0]) if cell.engages]
     if cells:
-        one, cell = max(cells, key=lambda found: found[1].torque or 0.0)
-        why = (
-            "No orientation engages from every starting phase. Of the paths that engage this one has the largest "
-            "torque."
-        )
-        return ChosenPath(one.roll_deg, one.pitch_deg, cell.phase_deg, cell.mu, why)
+        one, cell = max(cells, key=lambda pair: pair[1].torque or 0.0)
+        return ChosenPath(one.roll_deg, one.pitch_deg, cell.phase_deg, cell.mu, _NOT_FROM_ALL)
     one = min(orientations, key=lambda found: (math.hypot(found.roll_deg, found.pitch_deg), found.index))
-    summary = orientation_summary(one, grid, frictions[0])
-    why = "No path engages. This one is the worst of the orientation nearest to level."
-    return ChosenPath(one.roll_deg, one.pitch_deg, summary.worst_phase_deg, summary.mu, why)
+    worst_deg = orientation_summary(one, grid, frictions[0]).worst_phase_deg
+    return ChosenPath(one.roll_deg, one.pitch_deg, worst_deg, frictions[0], _NONE_ENGAGES)
 
 
 def _part(orientations: Sequence[OrientationMap], inputs: SuccessInputs, mu: float) -> FrictionPart:

@@ -20,6 +20,7 @@ STIFFNESSES = {
     "k_tilt": ("tilt stiffness", "N {unit}/rad"),
     "k_twist": ("twist stiffness", "N {unit}/rad"),
 }
+UNITS = {LengthUnit.INCH: "in inches", LengthUnit.MILLIMETRE: "in millimetres"}
 ABOUT = {
     About.NUT: "The hand turns about the nut's axis: the tilt goes round with the phase.",
     About.BOLT: "The hand turns about its own axis: the tilt stays in space.",
@@ -40,7 +41,7 @@ def device_section(report: Report) -> Iterator[str]:
     units = _units(pair.unit)
     yield table(
         f"The pair: {pair.designation}",
-        ("dimension", *(f"in {unit}" for unit in units)),
+        ("dimension", *(UNITS[unit] for unit in units)),
         _dimensions([pair.in_unit(unit) for unit in units]),
         words={0},
     )
@@ -59,11 +60,11 @@ def _device(device: Device) -> Iterator[str]:
     for key, (name, unit_of) in STIFFNESSES.items():
         if key in documents[0]:
             values = [_stiffness(document[key], unit_of, unit) for document, unit in zip(documents, units, strict=True)]
-            rows.append((f"{name}, {key}", *values))
+            rows.append((f"{name} ({key})", *values))
     centres = [f"{rounded(document['centre'])} {unit}" for document, unit in zip(documents, units, strict=True)]
-    rows.append(("height of the compliance centre, centre", *centres))
-    rows.append(("push, push", *[f"{rounded(device.push)} N"] * 2))
-    yield table("The device", ("quantity", *(f"in {unit}" for unit in units)), rows, words={0})
+    rows.append(("height of the compliance centre", *centres))
+    rows.append(("push", *[f"{rounded(device.push)} N"] * 2))
+    yield table("The device", ("quantity", *(UNITS[unit] for unit in units)), rows, words={0})
     for document, unit in zip(documents, units, strict=True):
         if "stiffness" in document:
             yield table(

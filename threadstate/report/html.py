@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from html import escape
 
+SHORT = 16
+"""A table of no more rows stays on one sheet of paper."""
+
 
 def paragraph(text: str, kind: str = "") -> str:
     """A paragraph."""
@@ -28,7 +31,13 @@ def section(name: str, heading: str, parts: Sequence[str]) -> str:
 
 
 def table(
-    caption: str, headings: Sequence[str], rows: Sequence[Sequence[str]], *, heads: int = 1, words: Collection[int] = ()
+    caption: str,
+    headings: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    *,
+    heads: int = 1,
+    words: Collection[int] = (),
+    sentences: Collection[int] = (),
 ) -> str:
     """A table in a box that scrolls.
 
@@ -37,12 +46,13 @@ def table(
         headings: of its columns.
         rows: texts, as many as there are columns.
         heads: so many first columns name the row.
-        words: the numbers of columns, from 0, that hold words; all others hold numbers.
+        words, sentences: the numbers of columns, from 0, that hold words, or more; all others hold numbers.
     """
-    kinds = ["" if i in words else "number" for i in range(len(headings))]
+    kinds = ["" if i in words else "sentence" if i in sentences else "number" for i in range(len(headings))]
+    size = " short" if len(rows) <= SHORT else ""
     lines = [
-        f'<div class="scroll" tabindex="0" role="region" aria-label="{escape(caption)}"><table>',
-        f"<caption>{escape(caption)}</caption>",
+        f'<div class="scroll{size}" tabindex="0" role="region" aria-label="{escape(caption)}"><table>',
+        f"<caption><span>{escape(caption)}</span></caption>",
         "<thead><tr>"
         + "".join(
             f'<th scope="col"{_class(kind)}>{escape(one)}</th>' for one, kind in zip(headings, kinds, strict=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.report.contents import FrictionPart, Report
 from threadstate.report.html import figure, figures, paragraph, table
 from threadstate.report.map_svg import Square, TiltMap, map_svg, shade_of
@@ -19,6 +20,7 @@ from threadstate.report.words import (
     rounded,
 )
 from threadstate.success.model import OrientationMap
+from threadstate.success.summary import OrientationSummary
 
 MOST_ROWS = 12
 """Orientations of a list of the worst ones."""
@@ -32,7 +34,7 @@ def map_section(report: Report) -> Iterator[str]:
         f"{counted(len(report.orientations), 'orientation')}, {counted(grid.phase_count, 'starting phase')} each, "
         f"{counted(len(report.parts), 'friction')}. An orientation engages where all its phases do."
     )
-    yield _totals(report)
+    yield from _totals(report)
     parts = [
         figure(map_svg(share_map(report, part)), f"Starting phases that engage, {friction_words(part.mu)}.")
         for part in report.parts
@@ -46,31 +48,38 @@ def map_section(report: Report) -> Iterator[str]:
     yield figures(parts)
 
 
-def _totals(report: Report) -> str:
+def _totals(report: Report) -> Iterator[str]:
+    """What engages and what that asks for, then how all paths end; a row for each friction."""
     unit = report.unit
-    rows = []
-    for part in report.parts:
-        area = part.area
-        rows.append(
+    yield table(
+        "What engages at each friction; torque, tilt and shift are the largest of the paths that engage",
+        (
+            *("friction", "orientations that engage", "connected with level", "largest connected", "its area (deg²)"),
+            *("paths that engage", f"torque (N {unit})", "tilt (deg)", f"shift ({unit})"),
+        ),
+        [
             (
                 exact(part.mu),
-                f"{area.engaged} of {area.orientations}",
-                str(area.around_level),
-                str(area.largest),
-                rounded(area.largest * area.cell_deg2),
+                f"{part.area.engaged} of {part.area.orientations}",
+                str(part.area.around_level),
+                str(part.area.largest),
+                rounded(part.area.largest * part.area.cell_deg2),
                 f"{part.engaged_paths} of {part.paths}",
-                str(part.undecided_paths),
                 *(rounded(value, 3) for value in (part.torque, part.tilt_deg, part.shift)),
-                ", ".join(f"{count} {name_of(outcome.value)}" for outcome, count in part.counts.outcomes),
             )
-        )
-    headings = (
-        *("friction", "orientations that engage", "connected with level", "largest connected"),
-        *("its area (deg²)", "paths that engage", "undecided paths"),
-        *(f"torque (N {unit})", "tilt (deg)", f"shift ({unit})", "outcomes"),
+            for part in report.parts
+        ],
     )
-    caption = "What engages at each friction; torque, tilt and shift are the largest of the paths that engage"
-    return table(caption, headings, rows, words={10})
+    counts = [dict(part.counts.outcomes) for part in report.parts]
+    outcomes = [outcome for outcome in AssemblyOutcome if any(outcome in found for found in counts)]
+    yield table(
+        "How the paths end at each friction",
+        ("friction", *(name_of(outcome.value) for outcome in outcomes)),
+        [
+            (exact(part.mu), *(str(found.get(outcome, 0)) for outcome in outcomes))
+            for part, found in zip(report.parts, counts, strict=True)
+        ],
+    )
 
 
 def share_map(report: Report, part: FrictionPart) -> TiltMap:
@@ -84,7 +93,7 @@ def share_map(report: Report, part: FrictionPart) -> TiltMap:
                 one.roll_deg,
                 one.pitch_deg,
                 min(shade_of(summary.share), 4 if summary.all_engage else 3),
-                str(summary.engaged) + ("?" if summary.undecided else ""),
+                _short(summary),
                 meaning,
                 summary.undecided > 0,
                 _is_chosen(report, one),
@@ -97,9 +106,17 @@ def share_map(report: Report, part: FrictionPart) -> TiltMap:
         f"engage from every phase; of {open_count} not all is decided. The table of every orientation has the numbers."
     )
     phases = report.inputs.grid.phase_count
-    title = f"Engaging phases of {phases}, {friction_words(part.mu)}"
+    what = "Whether the bolt engages" if phases == 1 else f"Phases that engage, of {phases}"
+    title = f"{what}, μ = {exact(part.mu)}"
     name = f"share-{report.parts.index(part)}"
     return TiltMap(name, title, alternative, report.inputs.grid.tilts_deg, tuple(squares), SHARES)
+
+
+def _short(summary: OrientationSummary) -> str:
+    """How many phases engage; of a single one, whether it does."""
+    if summary.phases == 1:
+        return "?" if summary.undecided else "yes" if summary.engaged else "no"
+    return f"{summary.engaged}{'?' if summary.undecided else ''}"
 
 
 def critical_map(report: Report) -> TiltMap:
@@ -153,6 +170,8 @@ def worst_section(report: Report) -> Iterator[str]:
             heads=2,
             words={5},
         )
+    elif report.inputs.frictions[-1] == 0.0:
+        yield paragraph("Which orientations fail as friction grows was not computed: the map has none.")
     elif report.without_friction:
         yield paragraph("Every orientation that engages without friction engages at every friction of the map.")
     failing = report.failing_without_friction
@@ -192,26 +211,25 @@ def _failure(one: OrientationMap) -> tuple[str, str, str]:
 
 def orientations_section(report: Report) -> Iterator[str]:
     """A row for each orientation of the map."""
-    frictions = [exact(part.mu) for part in report.parts]
-    headings = ["roll (deg)", "pitch (deg)", "critical friction"]
-    headings += [f"phases that engage, {mu}" for mu in frictions]
-    headings += [f"undecided, {mu}" for mu in frictions]
-    headings += [f"largest torque (N {report.unit}), {mu}" for mu in frictions]
+    headings = ["roll (deg)", "pitch (deg)", "engages up to", "not at", "outcome there"]
+    headings += [f"phases that engage, {friction_words(part.mu)}" for part in report.parts]
     rows = []
     for i, one in enumerate(report.orientations):
-        summaries = [part.orientations[i] for part in report.parts]
+        critical = one.critical
+        outcome = NOTHING if critical.outcome is None else name_of(critical.outcome.value)
         rows.append(
             [
-                exact(one.roll_deg),
-                exact(one.pitch_deg),
-                critical_words(one.critical),
-                *(f"{summary.engaged} of {summary.phases}" for summary in summaries),
-                *(str(summary.undecided) for summary in summaries),
-                *(rounded(summary.torque, 3) for summary in summaries),
+                *(exact(one.roll_deg), exact(one.pitch_deg), rounded(critical.last), rounded(critical.first), outcome),
+                *(_engaged(part.orientations[i]) for part in report.parts),
             ]
         )
-    caption = "Every orientation of the map; the number after a heading's comma is the friction"
-    yield table(caption, headings, rows, heads=2, words={2})
+    caption = f"Every orientation of the map; {NOTHING}: not even without friction, or at every friction of the map"
+    yield table(caption, headings, rows, heads=2, words={4})
+
+
+def _engaged(summary: OrientationSummary) -> str:
+    undecided = f", {summary.undecided} undecided" if summary.undecided else ""
+    return f"{summary.engaged} of {summary.phases}{undecided}"
 
 
 def _ends_undecided(one: OrientationMap) -> bool:

@@ -58,9 +58,9 @@ def map_svg(tilt_map: TiltMap) -> str:
     return "\n".join(
         [
             f'<svg class="map" viewBox="0 0 {WIDTH} {height}" role="img" aria-label="{escape(tilt_map.alternative)}">',
-            f'<defs><pattern id="{hatch}" width="7" height="7" patternUnits="userSpaceOnUse" '
-            'patternTransform="rotate(45)"><path class="hatch" d="M1.5 0V7"/></pattern></defs>',
-            f'<text class="title" x="{LEFT}" y="22">{escape(tilt_map.title)}</text>',
+            f'<defs><pattern id="{hatch}" width="9" height="9" patternUnits="userSpaceOnUse" '
+            'patternTransform="rotate(45)"><path class="hatch" d="M2 0V9"/></pattern></defs>',
+            f'<text class="title" x="{LEFT / 2}" y="22">{escape(tilt_map.title)}</text>',
             *(line for square in tilt_map.squares for line in _square(tilt_map, square, hatch)),
             *(_border(tilt_map, square) for square in tilt_map.squares if square.chosen),
             *_axes(tilt_map),
@@ -115,12 +115,14 @@ def _axes(tilt_map: TiltMap) -> Iterator[str]:
 
 
 def _legend(tilt_map: TiltMap, hatch: str) -> Iterator[str]:
-    """The shades with their meanings; below them hatching and border."""
+    """The shades that there are with their meanings; below them hatching and border."""
     y = TOP + SIDE + BOTTOM
-    width = SIDE / len(tilt_map.shades)
-    for i, meaning in enumerate(tilt_map.shades):
-        yield _swatch(LEFT + i * width, y, f'class="square shade-{i}"', meaning)
-    x, y = float(LEFT), y + LEGEND_ROW
+    left = LEFT / 2
+    shades = {square.shade for square in tilt_map.squares}
+    width = (WIDTH - left) / len(tilt_map.shades)
+    for place, i in enumerate(sorted(shades)):
+        yield _swatch(left + place * width, y, f'class="square shade-{i}"', tilt_map.shades[i])
+    x, y = left, y + LEGEND_ROW
     if any(square.undecided for square in tilt_map.squares):
         yield _swatch(x, y, f'class="undecided" fill="url(#{hatch})"', "not all is decided")
         x += 0.5 * SIDE

@@ -116,7 +116,7 @@ def _sure(report: Report) -> Iterator[str]:
             )
             for part in report.parts
         ],
-        words={3},
+        sentences={3},
     )
     yield paragraph(
         "The documentation of threadstate has the rest: docs/success.md (maps), docs/device.md (the device, "

@@ -45,15 +45,16 @@ def path_section(report: Report) -> Iterator[str]:
     if not path["path"]["phase"]:
         return
     margins = [
-        (name, rounded(None if value is None else 100.0 * value if name == "lead" else value), *_margin(name, unit))
+        _margin(name, value, unit)
         for name, value in (path["margins"] or {}).items()
         if value is None or isinstance(value, float)
     ]
     yield table(
         "Margins of the outcome; positive where a rule holds, a dash where it was not asked",
-        ("margin", "value", "unit", "meaning"),
+        ("margin", "value", "meaning"),
         margins,
-        words={0, 2, 3},
+        words={0},
+        sentences={2},
     )
     travel = path["travel"]
     if travel is not None:
@@ -69,9 +70,11 @@ def path_section(report: Report) -> Iterator[str]:
     yield table("Where the energy of the path went", ("part", f"energy (N {unit})"), energies, words={0})
 
 
-def _margin(name: str, unit: str) -> tuple[str, str]:
+def _margin(name: str, value: float | None, unit: str) -> tuple[str, str, str]:
     of, meaning = MARGINS[name]
-    return of.format(unit=unit), meaning
+    if value is None:
+        return name, rounded(None), meaning
+    return name, f"{rounded(100.0 * value if of == '%' else value)} {of.format(unit=unit)}", meaning
 
 
 def _outcome(path: AssemblyDocument) -> str:

@@ -43,6 +43,7 @@ nav ul {{ list-style: none; margin: 1rem 0 0; padding: 0; display: flex; flex-wr
   gap: 0.25rem 1.25rem; max-width: none; }}
 .faint, figcaption, caption {{ color: var(--faint); }}
 .answer {{ font-size: 1.1rem; }}
+caption span {{ display: block; position: sticky; left: 0; max-width: min(46rem, calc(100vw - 2rem)); }}
 .scroll {{ overflow-x: auto; margin: 1rem 0 1.5rem; }}
 table {{ border-collapse: collapse; font-size: 0.92rem; font-variant-numeric: tabular-nums; }}
 caption {{ text-align: left; padding-bottom: 0.4rem; font-size: 0.92rem; }}
@@ -50,8 +51,11 @@ th, td {{ padding: 0.3rem 0.8rem 0.3rem 0; text-align: left; vertical-align: top
   border-bottom: 1px solid var(--grid); }}
 thead th {{ border-bottom: 1px solid var(--rule); vertical-align: bottom; }}
 tbody th {{ font-weight: 500; }}
-.number {{ text-align: right; white-space: nowrap; }}
-th:not(:first-child).number, td.number {{ padding-left: 0.8rem; }}
+th:not(:first-child), td {{ padding-left: 0.8rem; }}
+thead th {{ max-width: 9rem; }}
+.number {{ text-align: right; }}
+td.sentence {{ min-width: 15rem; }}
+td.number, tbody th.number {{ white-space: nowrap; }}
 pre {{ background: var(--ground); border: 1px solid var(--grid); padding: 0.75rem 1rem; overflow-x: auto;
   font-size: 0.85rem; }}
 .figures {{ display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 1.5rem 2rem;
@@ -66,10 +70,11 @@ svg .soft {{ fill: var(--faint); }} svg .middle {{ text-anchor: middle; }} svg .
 .back {{ fill: var(--back); }} .square {{ stroke: var(--paper); }}
 .line {{ fill: none; stroke-width: 2; stroke-linejoin: round; }}
 .fall {{ stroke: var(--fall); stroke-width: 0.8; stroke-dasharray: 3 3; }} svg .event {{ fill: var(--fall); }}
-.hatch {{ stroke: var(--hatch); stroke-width: 1.6; }} .undecided {{ stroke: var(--rule); }}
+.hatch {{ stroke: var(--hatch); stroke-width: 1.2; }} .undecided {{ stroke: var(--rule); }}
 .chosen {{ fill: none; stroke: var(--fall); stroke-width: 3; }}
 {_LINES}
 {_SHADES}
+svg .halo-0 {{ fill: var(--ink); }}
 :focus-visible {{ outline: 2px solid var(--accent); outline-offset: 2px; }}
 @media print {{
   @page {{ size: A4; margin: 16mm 15mm; }}
@@ -80,14 +85,15 @@ svg .soft {{ fill: var(--faint); }} svg .middle {{ text-anchor: middle; }} svg .
   h1 {{ font-size: 17pt; }} h2 {{ font-size: 13pt; margin-top: 1.5rem; }} h3 {{ font-size: 11pt; }}
   h2, h3, caption {{ break-after: avoid; }}
   p, li {{ orphans: 3; widows: 3; }}
-  figure, tr {{ break-inside: avoid; }}
+  figure, tr, .short {{ break-inside: avoid; }}
   thead {{ display: table-header-group; }}
   .scroll, pre {{ overflow: visible; }}
   pre {{ white-space: pre-wrap; break-inside: avoid; }}
   .figures {{ display: block; }}
   figure {{ display: inline-block; width: 48%; margin: 0 1% 1rem 0; vertical-align: top; }}
-  th, td {{ padding: 0.15rem 0.5rem 0.15rem 0; }}
-  .square, .back, .shade {{ print-color-adjust: exact; }}
-  * {{ -webkit-print-color-adjust: exact; }}
+  table {{ font-size: 8.5pt; max-width: 100%; }}
+  th, td {{ padding: 0.12rem 0.4rem 0.12rem 0; }} th:not(:first-child), td {{ padding-left: 0.4rem; }}
+  figcaption, caption {{ font-size: 8.5pt; }} .answer {{ font-size: 11pt; }}
+  svg {{ print-color-adjust: exact; }}
 }}
 """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from decimal import Decimal
 
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.device.strategy import Strategy
@@ -14,6 +15,8 @@ MINUS = "\N{MINUS SIGN}"
 NOTHING = "\N{EN DASH}"
 DIGITS = 4
 """Significant digits of what is measured; angles and frictions of the grid have all of theirs."""
+
+LEAST_WITHOUT_EXPONENT = 1e-7
 
 STRATEGIES = {
     Strategy.CCW_THEN_CW: "turns counter-clockwise until the bolt snaps in, or through 360 deg, then clockwise "
@@ -38,8 +41,12 @@ def exact(value: float) -> str:
 
 
 def rounded(value: float | None, digits: int = DIGITS) -> str:
-    """A number of some significant digits; a dash where there is none."""
-    return NOTHING if value is None else exact(float(f"{value:.{digits}g}"))
+    """A number of some significant digits, without an exponent unless it is tiny; a dash where there is none."""
+    if value is None:
+        return NOTHING
+    shortest = number_text(float(f"{value:.{digits}g}"))
+    text = format(Decimal(shortest), "f") if abs(value) >= LEAST_WITHOUT_EXPONENT else shortest
+    return text.replace("-", MINUS)
 
 
 def name_of(word: str) -> str:
@@ -88,12 +95,11 @@ def _engaging(report: Report) -> str:
     counts = [f"{part.area.engaged} {friction_words(part.mu)}" for part in report.parts]
     if report.parts[0].mu > 0.0:
         counts.insert(0, f"{len(report.without_friction)} without friction")
-    phases = (
-        "from the one starting phase" if grid.phase_count == 1 else f"from each of {grid.phase_count} starting phases"
-    )
+    few = {1: "the one starting phase", 2: "both starting phases"}
+    phases = few.get(grid.phase_count, f"all {grid.phase_count} starting phases")
     return (
         f"Of {counted(len(report.orientations), 'orientation')}, roll and pitch up to {exact(grid.tilt_max_deg)}°, "
-        f"those that engage {phases} are {listed(counts)}."
+        f"the bolt engages from {phases} in {listed(counts)}."
     )
 
 
@@ -115,14 +121,18 @@ def _failing(report: Report) -> str:
         critical = first.critical
         assert critical.first is not None and critical.phase_deg is not None and critical.outcome is not None
         sentences.append(
-            f"As friction grows, the first certain failure is at {pose_words(first)}: it engages up to "
-            f"μ = {rounded(critical.last)}; at μ = {rounded(critical.first)} the bolt {FAILURES[critical.outcome]}, "
+            f"As friction grows, the first certain failure is at {pose_words(first)}: it engages "
+            f"{upto_words(critical.last)}; at μ = {rounded(critical.first)} the bolt {FAILURES[critical.outcome]}, "
             f"from phase {rounded(critical.phase_deg, 6)}°."
         )
+    elif report.inputs.frictions[-1] == 0.0:
+        sentences.append("How it is with friction was not computed.")
     elif report.without_friction:
-        largest = report.inputs.frictions[-1]
-        beyond = f" up to μ = {exact(largest)}, the largest of this map" if largest else ""
-        sentences.append(f"No orientation that engages without friction is known to fail{beyond}.")
+        largest = exact(report.inputs.frictions[-1])
+        sentences.append(
+            f"No orientation that engages without friction is known to fail up to μ = {largest}, the largest of "
+            f"this map."
+        )
     return " ".join(sentences)
 
 
@@ -153,6 +163,11 @@ def _undecided(report: Report) -> str:
 def friction_words(mu: float) -> str:
     """At which friction."""
     return f"at μ = {exact(mu)}" if mu else "without friction"
+
+
+def upto_words(mu: float | None) -> str:
+    """Up to which friction."""
+    return f"up to μ = {rounded(mu)}" if mu else "without friction"
 
 
 def reasons(part: FrictionPart) -> str:
