@@ -27,30 +27,32 @@ from threadstate.success.summary import (
 from threadstate.units import LengthUnit, conversion_factor
 
 _FIRST_TO_FAIL = (
-    "Of the orientations that engage from every starting phase this one is the first that is not known to engage as "
-    "friction grows. The path has its largest torque, at the largest friction of the map at which all its phases "
-    "engage."
+    "Of the orientations that engage from every starting phase none has a lower critical friction than this one. The "
+    "path has its largest torque, at the largest friction of the map at which all its phases engage."
 )
 _LARGEST_TORQUE = (
-    "The orientations that engage from every starting phase do so at every friction of the map. Of them this one "
-    "has the "
-    "largest torque; the path is at the largest friction."
+    "The orientations that engage from every starting phase do so at every friction of the map. Of them this one has "
+    "the largest torque; the path is at the largest friction."
 )
 _NOT_FROM_ALL = (
-    "No orientation engages from every starting phase. Of the paths that engage this has the largest torque."
+    "No orientation engages from every starting phase. Of the paths that engage this one has the largest torque."
 )
 _NONE_ENGAGES = "No path engages. This one is the worst of the orientation nearest to level."
 
 
 @dataclass(frozen=True, slots=True)
 class ChosenPath:
-    """The path that a report shows in detail: its commanded pose in degrees, its friction, and why this one."""
+    """The path that a report shows in detail: its commanded pose in degrees, its friction, and why this one.
+
+    ``is_default`` says that it is the one that :func:`default_path` finds.
+    """
 
     roll_deg: float
     pitch_deg: float
     phase_deg: float
     mu: float
     why: str
+    is_default: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,14 +177,14 @@ def default_path(inputs: SuccessInputs, orientations: Sequence[OrientationMap]) 
         one, found = engaging[ranks.index(min(ranks))]
         summary = [part for part in found if part.all_engage][-1]
         why = _FIRST_TO_FAIL if one.critical.first is not None else _LARGEST_TORQUE
-        return ChosenPath(one.roll_deg, one.pitch_deg, summary.worst_phase_deg, summary.mu, why)
+        return ChosenPath(one.roll_deg, one.pitch_deg, summary.worst_phase_deg, summary.mu, why, is_default=True)
     cells = [(one, cell) for one in orientations for cell in grid_cells(one, grid, frictions[0]) if cell.engages]
     if cells:
         one, cell = max(cells, key=lambda pair: pair[1].torque or 0.0)
-        return ChosenPath(one.roll_deg, one.pitch_deg, cell.phase_deg, cell.mu, _NOT_FROM_ALL)
+        return ChosenPath(one.roll_deg, one.pitch_deg, cell.phase_deg, cell.mu, _NOT_FROM_ALL, is_default=True)
     one = min(orientations, key=lambda found: (math.hypot(found.roll_deg, found.pitch_deg), found.index))
     worst_deg = orientation_summary(one, grid, frictions[0]).worst_phase_deg
-    return ChosenPath(one.roll_deg, one.pitch_deg, worst_deg, frictions[0], _NONE_ENGAGES)
+    return ChosenPath(one.roll_deg, one.pitch_deg, worst_deg, frictions[0], _NONE_ENGAGES, is_default=True)
 
 
 def _part(orientations: Sequence[OrientationMap], inputs: SuccessInputs, mu: float) -> FrictionPart:

@@ -35,8 +35,7 @@ def device_section(report: Report) -> Iterator[str]:
     yield from _device(device)
     yield paragraph(
         f"{ABOUT[device.about]} The compliance centre lies on the bolt's axis at that height over its base; below "
-        f"zero it "
-        "is projected beyond the tip."
+        "zero it is projected beyond the tip."
     )
     units = _units(pair.unit)
     yield table(
@@ -124,7 +123,6 @@ def _form(pair: Pair) -> str:
     starts = "one start" if pair.starts == 1 else f"{pair.starts} starts"
     return (
         f"Form {form.name}, fit {pair.fit.name}, {pair.hand.value}-hand, {starts}; flanks at {flanks} to the normal "
-        f"of the "
-        f"axis; fillets in thread pitches: {', '.join(fillets)}. The diameters are those that were computed with, "
-        f"not a range."
+        f"of the axis; fillets in thread pitches: {', '.join(fillets)}. The diameters are those that were computed "
+        "with, not a range."
     )

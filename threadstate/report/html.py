@@ -46,7 +46,8 @@ def table(
         headings: of its columns.
         rows: texts, as many as there are columns.
         heads: so many first columns name the row.
-        words, sentences: the numbers of columns, from 0, that hold words, or more; all others hold numbers.
+        words: the numbers of columns, from 0, that hold words; all that are not named hold numbers.
+        sentences: those of columns that hold more than a word or two, and are wider.
     """
     kinds = ["" if i in words else "sentence" if i in sentences else "number" for i in range(len(headings))]
     size = " short" if len(rows) <= SHORT else ""

@@ -41,8 +41,8 @@ def map_section(report: Report) -> Iterator[str]:
     ]
     if report.inputs.frictions[-1] > 0.0:
         caption = (
-            "Critical friction: up to which friction an orientation engages from every phase. "
-            f"{NOTHING}: not even without friction. Hatched: a lower bound, as an undecided path ends it."
+            f"Critical friction: up to which friction an orientation engages from every phase. {NOTHING}: not even "
+            "without friction. Hatched: a lower bound, as an undecided path ends it."
         )
         parts.append(figure(map_svg(critical_map(report)), caption))
     yield figures(parts)
@@ -102,8 +102,8 @@ def share_map(report: Report, part: FrictionPart) -> TiltMap:
     open_count = sum(square.undecided for square in squares)
     alternative = (
         f"Map over roll and pitch {friction_words(part.mu)}: {part.area.engaged} of {part.area.orientations} "
-        f"orientations "
-        f"engage from every phase; of {open_count} not all is decided. The table of every orientation has the numbers."
+        f"orientations engage from every phase; of {open_count} not all is decided. The table of every orientation "
+        "has the numbers."
     )
     phases = report.inputs.grid.phase_count
     what = "Whether the bolt engages" if phases == 1 else f"Phases that engage, of {phases}"
@@ -141,9 +141,8 @@ def critical_map(report: Report) -> TiltMap:
     never = len(report.orientations) - len(report.without_friction)
     throughout = sum(one.critical.first is None for one in report.orientations)
     alternative = (
-        f"Map of the critical friction over roll and pitch: {throughout} orientations engage at every friction of "
-        f"the map, "
-        f"{never} do not without friction. The table of every orientation has the numbers."
+        f"Map of the critical friction over roll and pitch: {throughout} orientations engage at every friction of the "
+        f"map, {never} do not without friction. The table of every orientation has the numbers."
     )
     shades = ("none", *(f"\N{LESS-THAN OR EQUAL TO} {rounded(largest * i / 4, 2)}" for i in range(1, 5)))
     title = "Critical friction"

@@ -74,33 +74,26 @@ def _sure(report: Report) -> Iterator[str]:
     inputs = report.inputs
     yield paragraph(
         "Everything here is computed from the geometry of rigid parts, the stiffness of the device and one "
-        "coefficient of "
-        "friction for all contacts. Nothing was measured on a machine."
+        "coefficient of friction for all contacts. Nothing was measured on a machine."
     )
     yield items(
         [
             "Certified at the end of each path with an outcome: no overlap of the parts above 1e-8 of the nominal "
-            "radius "
-            "along both edges, by bounds; contact forces that push, lie in their friction cones and balance device and "
-            "push to 1e-9 of the push. Overlaps of thread with thread are searched for, densely, not excluded by "
-            "bounds.",
+            "radius along both edges, by bounds; contact forces that push, lie in their friction cones and balance "
+            "device and push to 1e-9 of the push. Overlaps of thread with thread are searched for, densely, not "
+            "excluded by bounds.",
             "Followed, not certified: the way to that end. Its equilibria are at most 2° of phase apart, with "
-            "friction 1°, "
-            "and a step that energy does not explain is halved.",
+            "friction 1°, and a step that energy does not explain is halved.",
             "Declared: where a bolt comes to rest after a fall. No law of slow motion fixes it; it is the steepest "
-            "descent, "
-            "and with friction a flow against the forces that nothing balances.",
-            f"Boundaries along the starting phase are narrowed to {exact(inputs.phase_tolerance_deg)}°, the "
-            f"critical friction "
-            f"to {exact(inputs.mu_tolerance)}, where both ends have a certain outcome. Two starting phases that end "
-            f"alike "
-            "are not looked between, nor are two orientations: a window narrower than the grid can be missed.",
+            "descent, and with friction a flow against the forces that nothing balances.",
+            f"Boundaries along the starting phase are narrowed to {exact(inputs.phase_tolerance_deg)}°, the critical "
+            f"friction to {exact(inputs.mu_tolerance)}, where both ends have a certain outcome. Two starting phases "
+            "that end alike are not looked between, nor are two orientations: a window narrower than the grid can be "
+            "missed.",
             "That the bolt engages at every friction below a critical one is not proved: only those that were "
-            "computed are "
-            f"known.{_reentering(report)}",
+            f"computed are known.{_reentering(report)}",
             f"A path with more than {inputs.point_limit:,} points in one turn is not followed to its end. It is "
-            f"undecided, and "
-            "bounded.",
+            "undecided, and bounded.",
         ]
     )
     yield table(
@@ -120,10 +113,8 @@ def _sure(report: Report) -> Iterator[str]:
     )
     yield paragraph(
         "The documentation of threadstate has the rest: docs/success.md (maps), docs/device.md (the device, "
-        "outcomes, flags), "
-        "docs/forces.md (the model), docs/certificate.md (the contact search), docs/paths-checked.md (paths with "
-        "friction "
-        "beside half the step).",
+        "outcomes, flags), docs/forces.md (the model), docs/certificate.md (the contact search), "
+        "docs/paths-checked.md (paths with friction beside half the step).",
         "faint",
     )
 
@@ -165,7 +156,7 @@ def _repeat(report: Report) -> Iterator[str]:
         words={0, 1},
     )
     yield paragraph(
-        "The same inputs, code and date give the same page, byte for byte. "
-        f"The path in detail was computed {friction_words(report.chosen.mu)}, apart from the map; the map holds "
+        "The same inputs, code and date give the same page, byte for byte. The path in detail was computed "
+        f"{friction_words(report.chosen.mu)}, apart from the map; the map holds "
         f"{listed([friction_words(mu) for mu in inputs.frictions])}."
     )

@@ -92,8 +92,7 @@ def _curves(path: AssemblyDocument) -> Iterator[str]:
     shaded = " Shaded: the hand turns back, clockwise in a right-hand thread." if course.legs[-1] else ""
     yield paragraph(
         f"The curves follow the phase of the hand from left to right as it turns.{shaded} A triangle with a broken "
-        f"line is "
-        f"a fall, of which there {'is' if falls == 1 else 'are'} {falls}."
+        f"line is a fall, of which there {'is' if falls == 1 else 'are'} {falls}."
     )
     yield figures([figure(chart_svg(chart, course, marks), alternative(chart)) for chart in charts_of(path)])
 

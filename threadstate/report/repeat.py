@@ -10,7 +10,7 @@ from typing import Any
 from threadstate.device.document import device_document
 from threadstate.device.model import Device, default_device
 from threadstate.numbers import number_text
-from threadstate.report.contents import Report
+from threadstate.report.contents import ChosenPath, Report
 from threadstate.thread.catalogue import is_known, pair_by_designation
 from threadstate.thread.pair import Pair
 
@@ -50,11 +50,17 @@ def command(report: Report) -> str:
         ["--tilt-max", number_text(grid.tilt_max_deg), "--tilt-step", number_text(grid.tilt_step_deg)],
         ["--phase-tolerance", number_text(inputs.phase_tolerance_deg)],
         ["--mu-tolerance", number_text(inputs.mu_tolerance), "--point-limit", str(inputs.point_limit)],
-        ["--roll", number_text(chosen.roll_deg), "--pitch", number_text(chosen.pitch_deg)],
-        ["--phase", number_text(chosen.phase_deg), "--path-mu", number_text(chosen.mu)],
+        *([] if chosen.is_default else _pose(chosen)),
         ["--unit", report.unit.value, "--date", report.date.isoformat(), "--title", report.title],
     ]
     return " \\\n  ".join(shlex.join(line) for line in lines)
+
+
+def _pose(chosen: ChosenPath) -> list[list[str]]:
+    return [
+        ["--roll", number_text(chosen.roll_deg), "--pitch", number_text(chosen.pitch_deg)],
+        ["--phase", number_text(chosen.phase_deg), "--path-mu", number_text(chosen.mu)],
+    ]
 
 
 def _toml(values: Mapping[str, Any]) -> Iterator[str]:

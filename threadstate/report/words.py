@@ -113,8 +113,8 @@ def _failing(report: Report) -> str:
         nearest = failing[0]
         count = counted(len(failing), "orientation fails", "orientations fail")
         sentences.append(
-            f"{count} even without friction: the bolt {' or '.join(kinds)}; "
-            f"the nearest to level is {pose_words(nearest)}."
+            f"{count} even without friction: the bolt {' or '.join(kinds)}; the nearest to level is "
+            f"{pose_words(nearest)}."
         )
     first = report.first_failure
     if first is not None:
@@ -130,8 +130,8 @@ def _failing(report: Report) -> str:
     elif report.without_friction:
         largest = exact(report.inputs.frictions[-1])
         sentences.append(
-            f"No orientation that engages without friction is known to fail up to μ = {largest}, the largest of "
-            f"this map."
+            f"No orientation that engages without friction is known to fail up to μ = {largest}, the largest of this "
+            "map."
         )
     return " ".join(sentences)
 

@@ -130,6 +130,7 @@ def report(
       threadstate report --out report.html --map device.map --roll 3 --pitch -2 --phase 0 --path-mu 0.1 --unit mm
     """
     _check_files(out, map_file)
+    _check_title(title)
     on = datetime.datetime.now(datetime.UTC).date() if date is None else _date(date)
     from threadstate.device.settle import check_pair
     from threadstate.success.inputs import SuccessInputs
@@ -163,6 +164,14 @@ def _check_files(out: Path, map_file: Path | None) -> None:
         raise InvalidValueError("--out", str(out), "a file in a folder that exists")
     if map_file is not None and map_file.absolute() == out.absolute():
         raise InvalidValueError("--map", str(map_file), "another file than --out")
+
+
+def _check_title(title: str | None) -> None:
+    """Check that a title is text: what a shell passes need not be."""
+    try:
+        (title or "").encode()
+    except UnicodeEncodeError:
+        raise InvalidValueError("--title", title, "text in UTF-8") from None
 
 
 def _date(text: str) -> datetime.date:
@@ -228,7 +237,7 @@ def _pose(
     checked_poses([(roll, pitch, phase)])
     mu = inputs.frictions[0] if path_mu is None else path_mu
     check_friction(mu)
-    return ChosenPath(roll, pitch, phase, mu, "This path was asked for.")
+    return ChosenPath(roll, pitch, phase, mu, "This path was asked for.", is_default=False)
 
 
 def _page(
