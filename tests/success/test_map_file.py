@@ -13,7 +13,7 @@ from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.success.inputs import SuccessInputs
-from threadstate.success.map_file import growing_map, read_map
+from threadstate.success.map_file import growing_map, inputs_of_map, read_map
 from threadstate.success.model import Cell, CriticalFriction, OrientationMap
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -107,3 +107,29 @@ def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
         pass
     with pytest.raises(InvalidValueError, match="a file that can be read"):
         read_map(tmp_path / "none", INPUTS)
+
+
+def test_a_file_says_what_its_map_is_computed_from(path: Path) -> None:
+    found = inputs_of_map(path)
+    assert found == INPUTS
+    assert found is not None
+    assert found.sha256 == INPUTS.sha256
+
+
+def test_without_a_first_line_nothing_is_known_of_a_map(path: Path, tmp_path: Path) -> None:
+    assert inputs_of_map(tmp_path / "missing.map") is None
+    path.write_bytes(path.read_bytes().splitlines()[0][:-1])
+    assert inputs_of_map(path) is None
+
+
+@pytest.mark.parametrize("line", [b"# Notes\n", b"[]\n", b'{"pair": {}}\n', b"\xff\n"])
+def test_a_file_that_is_no_map_has_no_inputs(tmp_path: Path, line: bytes) -> None:
+    path = tmp_path / "notes.txt"
+    path.write_bytes(line)
+    with pytest.raises(InvalidValueError, match="a success map, or a file that does not exist"):
+        inputs_of_map(path)
+
+
+def test_a_folder_has_no_inputs(tmp_path: Path) -> None:
+    with pytest.raises(InvalidValueError, match="a file that can be read"):
+        inputs_of_map(tmp_path)

@@ -60,6 +60,14 @@ def test_the_content_does_not_depend_on_the_number_of_workers(
             alone = assemble_pose(INPUTS.pair, one.roll_deg, one.pitch_deg, cell.phase_deg, strategy=Strategy.CW)
             assert (cell.outcome, cell.flags) == (alone.outcome, alone.flags)
             assert cell.torque == (None if alone.travel is None else alone.travel.torque)
+    in_mm = json.loads(command_line.out(*COMMAND, "--out", str(path), "--unit", "mm", "--json"))
+    assert (in_mm["unit"], in_mm["content_sha256"]) == ("mm", expected_content)
+    for own, other in zip(result["orientations"], in_mm["orientations"], strict=True):
+        for name in ("torque", "shift"):
+            before, after = (one["summary"][0][name] for one in (own, other))
+            assert after == (None if before is None else pytest.approx(25.4 * before, rel=1e-15))
+        assert [cell["tilt"] for cell in own["cells"]] == [cell["tilt"] for cell in other["cells"]]
+    assert "shift (mm)" in command_line.out(*COMMAND, "--out", str(path), "--unit", "mm")
     again = command_line.out(*COMMAND, "--out", str(path))
     assert f"content {expected_content[:12]}: 0 orientations computed" in again
     assert "9 read from the file" in again

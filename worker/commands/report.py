@@ -63,7 +63,7 @@ def report(
         str | None, typer.Option("--title", metavar="TEXT", help="The title.", show_default="the pair's designation")
     ] = None,
     date: Annotated[
-        str | None, typer.Option("--date", metavar="YYYY-MM-DD", help="The date on it.", show_default="today")
+        str | None, typer.Option("--date", metavar="DATE", help="The date on it, as 2026-01-31.", show_default="today")
     ] = None,
     unit: UnitName = None,
     pair: PairName = None,
