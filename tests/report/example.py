@@ -135,7 +135,8 @@ class Page(HTMLParser):
         assert self._open.pop() == tag
 
     def handle_data(self, text: str) -> None:
-        """Text of the innermost element."""
+        """Text of the innermost element; a space that does not break is a space."""
+        text = text.replace("\N{NO-BREAK SPACE}", " ")
         if "caption" in self._open:
             self.tables[-1].caption += text
         elif "th" in self._open or "td" in self._open:

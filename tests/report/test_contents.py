@@ -11,7 +11,7 @@ from tests.report.example import DATE, FIRST_TO_FAIL, FRICTIONS, GRID, INPUTS, c
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath
 from threadstate.device.model import Outcome, SettledMargins, SettledState
 from threadstate.report.contents import ChosenPath, Report, default_path, made_report
-from threadstate.report.words import MINUS, NOTHING, answer, counted, critical_words, listed, rounded
+from threadstate.report.words import MINUS, NEWTON, NOTHING, answer, counted, critical_words, listed, rounded
 from threadstate.success.model import CriticalFriction, OrientationMap
 from threadstate.success.scaled import scaled_orientation
 from threadstate.units import LengthUnit
@@ -88,6 +88,25 @@ def test_the_path_shown_is_the_worst_that_engages() -> None:
     assert (chosen.roll_deg, chosen.pitch_deg, chosen.phase_deg, chosen.mu) == (*FIRST_TO_FAIL[:3], 0.1)
 
 
+def test_of_orientations_that_engage_at_every_friction_the_one_of_the_largest_torque_is_shown() -> None:
+    throughout = tuple(one for one in orientations() if one.critical.last is not None and one.critical.first is None)
+    torques = {(one.roll_deg, one.pitch_deg): abs(one.roll_deg) for one in throughout}
+    chosen = default_path(INPUTS, throughout)
+    assert len(set(torques.values())) == 3
+    assert torques[chosen.roll_deg, chosen.pitch_deg] == max(torques.values())
+    assert (chosen.phase_deg, chosen.mu) == (180.0, FRICTIONS[-1])
+    assert chosen.why.startswith("The orientations that engage from every starting phase do so at every friction")
+
+
+def test_an_orientation_that_no_friction_leaves_engaging_still_engages_without() -> None:
+    critical = CriticalFriction(0.0, 0.005, 0.0, AssemblyOutcome.IDLE, reenters=False)
+    slick = replace(orientations()[0], critical=critical, cells=(*orientations()[0].cells, cell(0.0, 0.0, 0.0, 0.005)))
+    report = report_of((slick, *orientations()[1:]))
+    assert slick in report.without_friction
+    assert report.worst[0] is slick
+    assert critical_words(critical) == "0 to 0.005 (idle)"
+
+
 def test_where_no_orientation_engages_the_path_shown_is_said_to_be_another() -> None:
     failing = tuple(one for one in orientations() if one.pitch_deg > 0.0)
     chosen = default_path(INPUTS, failing)
@@ -120,7 +139,7 @@ def test_the_answer_has_the_numbers_of_the_map() -> None:
     assert "10 orientations fail even without friction: the bolt does not snap in" in fails
     assert f"first certain failure is at roll 1°, pitch {MINUS}1°: it engages up to μ = 0.125" in fails
     assert "the bolt turns idly, without following the thread, from phase 180°" in fails
-    assert "without friction, 0.121 N in of torque, 0.242° of tilt and 0.00121 in of shift" in asks
+    assert f"without friction, 0.121 {NEWTON}in of torque, 0.242° of tilt and 0.00121 in of shift" in asks
     assert "2 of 50 paths at μ = 0.1 (2 ambiguous)" in undecided
     assert "3 of 50 paths at μ = 0.2 (2 ambiguous, 1 bounded)" in undecided
 

@@ -17,9 +17,12 @@ from threadstate.report.curves import charts_of, course_of, marks_of, points_of_
 from threadstate.report.map_section import critical_map, share_map
 from threadstate.report.map_svg import map_svg, shade_of
 from threadstate.report.style import DARK, LIGHT
+from threadstate.report.words import MINUS
 from threadstate.units import LengthUnit
 
 SVG = "{http://www.w3.org/2000/svg}"
+HALF_LABEL_PX = 14.0
+"""Half the width of a label of three digits."""
 READABLE = 4.5
 """The contrast that the guidelines for accessible pages ask of text (WCAG 2.2, 1.4.3)."""
 
@@ -54,6 +57,17 @@ def test_the_curves_end_with_the_energies_of_the_path(turned: AssemblyDocument) 
     assert max(map(abs, curves["torque"])) == pytest.approx(travel["torque"], rel=1e-12)
     assert max(curves["shift"]) == pytest.approx(travel["shift"], rel=1e-12)
     assert max(curves["of the device"]) == pytest.approx(travel["tilt"], rel=1e-12)
+
+
+@pytest.mark.slow
+def test_what_friction_takes_is_what_the_other_energies_leave() -> None:
+    document = assembly_document(path(3.0, -2.0, 0.0, 0.1), LengthUnit.MILLIMETRE, 25.4)
+    energy = document["energy"]
+    assert energy is not None
+    assert energy["friction"] > 0.0
+    (chart,) = [chart for chart in charts_of(document) if chart.name == "energy"]
+    assert chart.series[-1].name == "lost by friction"
+    assert chart.series[-1].values[-1] == pytest.approx(energy["friction"] + energy["balance"], abs=1e-10)
 
 
 @pytest.mark.slow
@@ -103,6 +117,9 @@ def test_a_chart_has_a_line_for_each_series_within_its_frame(turned: AssemblyDoc
         for x, y in re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", " ".join(one.get("d") or "" for one in lines)):
             assert 0.0 <= float(x) <= width
             assert 0.0 <= float(y) <= height
+        labels = [one for one in tree.iter(f"{SVG}text") if re.fullmatch(rf"{MINUS}?\d+", one.text or "")]
+        middle = [float(one.get("x") or 0.0) for one in labels if one.get("class") == "soft middle"]
+        assert max(middle) <= width - HALF_LABEL_PX
         assert svg == chart_svg(chart, course, marks)
 
 

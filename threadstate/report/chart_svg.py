@@ -101,7 +101,9 @@ def _axes(view: _View, course: Course) -> Iterator[str]:
         x = view.x(turned_deg)
         yield f'<path class="grid" d="M{x:.2f} {TOP}V{bottom}"/>'
         if x - last >= LEAST_LABEL_PX:
-            yield f'<text class="soft middle" x="{x:.2f}" y="{bottom + 18}">{exact(phase_deg)}</text>'
+            # At the right border a label in the middle would be cut off.
+            place = f'end" x="{WIDTH - 1}' if x > right - RIGHT else f'middle" x="{x:.2f}'
+            yield f'<text class="soft {place}" y="{bottom + 18}">{exact(phase_deg)}</text>'
             last = x
     yield f'<text class="soft middle" x="{0.5 * (LEFT + right):.1f}" y="{bottom + 37}">phase of the hand (deg)</text>'
 

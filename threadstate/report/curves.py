@@ -9,6 +9,7 @@ from itertools import accumulate, pairwise
 
 from threadstate.device.assembly_document import AssemblyDocument, AssemblyEventDocument, AssemblyPathDocument
 from threadstate.device.assembly_model import PathEventKind
+from threadstate.report.words import NEWTON
 
 TURNING_DEG = 1e-6
 """The hand turns where its phase changes by more than that."""
@@ -100,7 +101,7 @@ def charts_of(document: AssemblyDocument) -> tuple[Chart, ...]:
     shifts = [math.hypot(*deviation["shift"][:2]) for deviation in path["deviation"]]
     return (
         _chart("height", "Height of the bolt", unit, ("origin", [pose["translation"][2] for pose in path["pose"]])),
-        _chart("torque", "Torque of the hand", f"N {unit}", ("torque", path["torque"])),
+        _chart("torque", "Torque of the hand", f"{NEWTON}{unit}", ("torque", path["torque"])),
         _chart(
             *("forces", "Contact forces", "N"),
             ("largest", [max(sizes, default=0.0) for sizes in forces]),
@@ -108,7 +109,7 @@ def charts_of(document: AssemblyDocument) -> tuple[Chart, ...]:
         ),
         _chart("tilt", "Tilt", "deg", ("bolt against nut", tilts), ("of the device", device_tilts)),
         _chart("shift", "Shift of the compliance centre", unit, ("shift", shifts)),
-        _chart("energy", "Energy since the start", f"N {unit}", *_energies(document)),
+        _chart("energy", "Energy since the start", f"{NEWTON}{unit}", *_energies(document)),
     )
 
 

@@ -9,7 +9,7 @@ from threadstate.device.model import About, Device
 from threadstate.report import repeat
 from threadstate.report.contents import Report
 from threadstate.report.html import paragraph, table
-from threadstate.report.words import exact, rounded
+from threadstate.report.words import NEWTON, exact, rounded
 from threadstate.thread.pair import Pair
 from threadstate.thread.play import play_of
 from threadstate.units import LengthUnit
@@ -17,8 +17,8 @@ from threadstate.units import LengthUnit
 STIFFNESSES = {
     "k_lateral": ("lateral stiffness", "N/{unit}"),
     "k_axial": ("axial stiffness", "N/{unit}"),
-    "k_tilt": ("tilt stiffness", "N {unit}/rad"),
-    "k_twist": ("twist stiffness", "N {unit}/rad"),
+    "k_tilt": ("tilt stiffness", NEWTON + "{unit}/rad"),
+    "k_twist": ("twist stiffness", NEWTON + "{unit}/rad"),
 }
 UNITS = {LengthUnit.INCH: "in inches", LengthUnit.MILLIMETRE: "in millimetres"}
 ABOUT = {

@@ -10,6 +10,7 @@ from threadstate.report.contents import FrictionPart, Report
 from threadstate.report.html import figure, figures, paragraph, table
 from threadstate.report.map_svg import Square, TiltMap, map_svg, shade_of
 from threadstate.report.words import (
+    NEWTON,
     NOTHING,
     counted,
     critical_words,
@@ -55,7 +56,7 @@ def _totals(report: Report) -> Iterator[str]:
         "What engages at each friction; torque, tilt and shift are the largest of the paths that engage",
         (
             *("friction", "orientations that engage", "connected with level", "largest connected", "its area (deg²)"),
-            *("paths that engage", f"torque (N {unit})", "tilt (deg)", f"shift ({unit})"),
+            *("paths that engage", f"torque ({NEWTON}{unit})", "tilt (deg)", f"shift ({unit})"),
         ),
         [
             (
@@ -109,7 +110,8 @@ def share_map(report: Report, part: FrictionPart) -> TiltMap:
     what = "Whether the bolt engages" if phases == 1 else f"Phases that engage, of {phases}"
     title = f"{what}, μ = {exact(part.mu)}"
     name = f"share-{report.parts.index(part)}"
-    return TiltMap(name, title, alternative, report.inputs.grid.tilts_deg, tuple(squares), SHARES)
+    shades = ("no", *SHARES[1:-1], "yes") if phases == 1 else SHARES
+    return TiltMap(name, title, alternative, report.inputs.grid.tilts_deg, tuple(squares), shades)
 
 
 def _short(summary: OrientationSummary) -> str:

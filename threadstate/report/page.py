@@ -13,7 +13,7 @@ from threadstate.report.html import code_block, items, paragraph, section, table
 from threadstate.report.map_section import map_section, orientations_section, worst_section
 from threadstate.report.path_section import path_section
 from threadstate.report.style import STYLE
-from threadstate.report.words import STRATEGIES, answer, counted, exact, friction_words, listed, reasons
+from threadstate.report.words import STRATEGIES, answer, counted, exact, friction_words, reasons
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 
@@ -157,6 +157,5 @@ def _repeat(report: Report) -> Iterator[str]:
     )
     yield paragraph(
         "The same inputs, code and date give the same page, byte for byte. The path in detail was computed "
-        f"{friction_words(report.chosen.mu)}, apart from the map; the map holds "
-        f"{listed([friction_words(mu) for mu in inputs.frictions])}."
+        f"{friction_words(report.chosen.mu)}, apart from the map."
     )

@@ -11,7 +11,7 @@ from threadstate.report.chart_svg import alternative, chart_svg
 from threadstate.report.contents import Report
 from threadstate.report.curves import charts_of, course_of, marks_of
 from threadstate.report.html import figure, figures, paragraph, table
-from threadstate.report.words import FAILURES, counted, exact, friction_words, listed, name_of, rounded
+from threadstate.report.words import FAILURES, NEWTON, counted, exact, friction_words, listed, name_of, rounded
 
 CONTACT_CHANGES = (PathEventKind.GAINED, PathEventKind.LOST, PathEventKind.MOVED)
 MOST_EVENTS = 30
@@ -59,7 +59,7 @@ def path_section(report: Report) -> Iterator[str]:
     travel = path["travel"]
     if travel is not None:
         yield paragraph(
-            f"Along the way the path asks of the device at most {rounded(travel['torque'])} N {unit} of torque, "
+            f"Along the way the path asks of the device at most {rounded(travel['torque'])} {NEWTON}{unit} of torque, "
             f"{rounded(travel['tilt'])}° of tilt and {rounded(travel['shift'])} {unit} of shift."
         )
     yield from _curves(path)
@@ -67,7 +67,7 @@ def path_section(report: Report) -> Iterator[str]:
     energies = [
         (ENERGIES[name], rounded(value)) for name, value in (path["energy"] or {}).items() if isinstance(value, float)
     ]
-    yield table("Where the energy of the path went", ("part", f"energy (N {unit})"), energies, words={0})
+    yield table("Where the energy of the path went", ("part", f"energy ({NEWTON}{unit})"), energies, words={0})
 
 
 def _margin(name: str, value: float | None, unit: str) -> tuple[str, str, str]:
@@ -107,7 +107,14 @@ def _events(path: AssemblyDocument, unit: str) -> Iterator[str]:
         yield table(
             "Falls and other events, in their order"
             + ("" if len(shown) == len(events) else f": {len(shown)} of {len(events)}"),
-            ("event", "between phase (deg)", "and (deg)", f"drop ({unit})", f"way ({unit})", f"energy lost (N {unit})"),
+            (
+                "event",
+                "between phase (deg)",
+                "and (deg)",
+                f"drop ({unit})",
+                f"way ({unit})",
+                f"energy lost ({NEWTON}{unit})",
+            ),
             [
                 (
                     name_of(event["kind"].value),

@@ -37,7 +37,6 @@ p, ul {{ max-width: 46rem; }}
 h1 {{ font-size: 1.7rem; line-height: 1.25; margin: 0 0 0.25rem; }}
 h2 {{ font-size: 1.3rem; line-height: 1.3; margin: 2.75rem 0 0.75rem; padding-top: 0.75rem;
   border-top: 1px solid var(--rule); }}
-h3 {{ font-size: 1.05rem; margin: 1.75rem 0 0.5rem; }}
 a {{ color: var(--accent); }}
 nav ul {{ list-style: none; margin: 1rem 0 0; padding: 0; display: flex; flex-wrap: wrap;
   gap: 0.25rem 1.25rem; max-width: none; }}
@@ -54,7 +53,7 @@ tbody th {{ font-weight: 500; }}
 th:not(:first-child), td {{ padding-left: 0.8rem; }}
 thead th {{ max-width: 9rem; }}
 .number {{ text-align: right; }}
-td.sentence {{ min-width: 15rem; }}
+td.sentence {{ min-width: 12rem; }}
 td.number, tbody th.number {{ white-space: nowrap; }}
 pre {{ background: var(--ground); border: 1px solid var(--grid); padding: 0.75rem 1rem; overflow-x: auto;
   font-size: 0.85rem; }}
@@ -82,8 +81,8 @@ svg .halo-0 {{ fill: var(--ink); }}
   body {{ font-size: 10pt; line-height: 1.4; }}
   main {{ max-width: none; padding: 0; }}
   nav {{ display: none; }}
-  h1 {{ font-size: 17pt; }} h2 {{ font-size: 13pt; margin-top: 1.5rem; }} h3 {{ font-size: 11pt; }}
-  h2, h3, caption {{ break-after: avoid; }}
+  h1 {{ font-size: 17pt; }} h2 {{ font-size: 13pt; margin-top: 1.5rem; }}
+  h2, caption, h2 + p, p:has(+ pre) {{ break-after: avoid; }}
   p, li {{ orphans: 3; widows: 3; }}
   figure, tr, .short {{ break-inside: avoid; }}
   thead {{ display: table-header-group; }}

@@ -18,6 +18,9 @@ DIGITS = 4
 
 LEAST_WITHOUT_EXPONENT = 1e-7
 
+NEWTON = "N\N{NO-BREAK SPACE}"
+"""Before a unit of length, from which no line breaks it off: a torque or an energy."""
+
 STRATEGIES = {
     Strategy.CCW_THEN_CW: "turns counter-clockwise until the bolt snaps in, or through 360 deg, then clockwise "
     "through 270 deg",
@@ -126,7 +129,7 @@ def _failing(report: Report) -> str:
             f"from phase {rounded(critical.phase_deg, 6)}°."
         )
     elif report.inputs.frictions[-1] == 0.0:
-        sentences.append("How it is with friction was not computed.")
+        sentences.append("What friction changes was not computed.")
     elif report.without_friction:
         largest = exact(report.inputs.frictions[-1])
         sentences.append(
@@ -139,7 +142,7 @@ def _failing(report: Report) -> str:
 def _needs(report: Report) -> str:
     """What the paths that engage ask for."""
     most = [
-        f"{friction_words(part.mu)}, {rounded(part.torque, 3)} N {report.unit} of torque, "
+        f"{friction_words(part.mu)}, {rounded(part.torque, 3)} {NEWTON}{report.unit} of torque, "
         f"{rounded(part.tilt_deg, 3)}° of tilt and {rounded(part.shift, 3)} {report.unit} of shift"
         for part in report.parts
         if part.engaged_paths
