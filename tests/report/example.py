@@ -146,7 +146,7 @@ class Page(HTMLParser):
             self.captions[-1] += text
         elif "pre" in self._open:
             self.code[-1] += text
-        elif self._open[-1:] in (["p"], ["li"]):
+        elif self._open[-1:] in (["p"], ["li"], ["a"]):
             self.paragraphs[-1] += text
         elif self._open[-2:] == ["head", "title"]:
             self.title += text

@@ -10,10 +10,12 @@ import pytest
 from tests.report.example import DATE, FRICTIONS, INPUTS, Page, example_report, number_of, orientations, path
 from tests.report.test_contents import report_of
 from threadstate.device.assembly_document import assembly_document
+from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.report.contents import ChosenPath
 from threadstate.report.page import report_page
 from threadstate.report.words import exact, rounded
 from threadstate.success.document import map_sha256
+from threadstate.success.model import CriticalFriction
 from threadstate.success.summary import orientation_summary
 from threadstate.units import LengthUnit
 
@@ -82,11 +84,33 @@ def test_boundaries_that_are_not_narrowed_are_counted(page: Page) -> None:
 
 
 def test_the_worst_come_first(page: Page) -> None:
-    table = page.table("The orientations that engage without friction and fail first")
+    table = page.table("The lowest critical frictions")
     lasts = [number_of(text) for text in table.column("engages up to")]
     assert lasts == sorted(lasts)
     assert table.rows[0][:2] == ["2", "\N{MINUS SIGN}2"]
     assert table.rows[0][5] == "undecided"
+    failing = page.table("The orientations that fail even without friction")
+    assert len(failing.rows) == 10
+    assert failing.rows[0] == ["0", "1", "1", "0", "no snap"]
+
+
+def test_orientations_of_which_nothing_is_known_are_named() -> None:
+    none = CriticalFriction(None, 0.0, 0.0, AssemblyOutcome.UNDECIDED, reenters=False)
+    unknown = tuple(
+        replace(
+            one,
+            critical=none,
+            cells=tuple(
+                replace(found, outcome=AssemblyOutcome.UNDECIDED) if found.mu == 0.0 else found for found in one.cells
+            ),
+        )
+        for one in orientations()
+    )
+    page = Page(report_page(report_of(unknown)))
+    (said,) = [text for text in page.paragraphs if text.startswith("Of 25 orientations nothing is known")]
+    assert said.count("roll") == 12
+    assert "undecided, the first 12 of which are: roll" in said
+    assert all(text for text in page.paragraphs)
 
 
 def test_the_path_in_detail_is_that_of_the_pose() -> None:

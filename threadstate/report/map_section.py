@@ -152,22 +152,14 @@ def critical_map(report: Report) -> TiltMap:
 
 
 def worst_section(report: Report) -> Iterator[str]:
-    """The orientations that fail first as friction grows, and those that fail without any."""
+    """The orientations of the lowest critical friction, and those that fail without any."""
     worst = report.worst[:MOST_ROWS]
     if worst:
         yield table(
-            "The orientations that engage without friction and fail first as it grows"
+            "The lowest critical frictions of orientations that engage without friction"
             + _of_all(len(worst), len(report.worst)),
             ("roll (deg)", "pitch (deg)", "engages up to", "not at", "from phase (deg)", "outcome there"),
-            [
-                (
-                    exact(one.roll_deg),
-                    exact(one.pitch_deg),
-                    rounded(one.critical.last),
-                    *_failure(one),
-                )
-                for one in worst
-            ],
+            [(*_pose(one), rounded(one.critical.last), rounded(one.critical.first), *_failure(one)) for one in worst],
             heads=2,
             words={5},
         )
@@ -181,33 +173,32 @@ def worst_section(report: Report) -> Iterator[str]:
         yield table(
             "The orientations that fail even without friction, nearest to level first"
             + _of_all(len(nearest), len(failing)),
-            ("roll (deg)", "pitch (deg)", "tilt (deg)", "at friction", "from phase (deg)", "outcome there"),
-            [
-                (
-                    exact(one.roll_deg),
-                    exact(one.pitch_deg),
-                    rounded(math.hypot(one.roll_deg, one.pitch_deg), 3),
-                    *_failure(one),
-                )
-                for one in nearest
-            ],
+            ("roll (deg)", "pitch (deg)", "tilt (deg)", "from phase (deg)", "outcome there"),
+            [(*_pose(one), rounded(math.hypot(one.roll_deg, one.pitch_deg), 3), *_failure(one)) for one in nearest],
             heads=2,
-            words={5},
+            words={4},
         )
-    if report.undecided_without_friction:
-        poses = "; ".join(map(pose_words, report.undecided_without_friction[:MOST_ROWS]))
-        count = counted(len(report.undecided_without_friction), "orientation")
-        yield paragraph(f"Nothing is known of {count}, as a path without friction is undecided: {poses}.")
+    unknown = report.undecided_without_friction
+    if unknown:
+        poses = "; ".join(map(pose_words, unknown[:MOST_ROWS]))
+        count = counted(len(unknown), "orientation")
+        shown = "" if len(unknown) <= MOST_ROWS else f", the first {MOST_ROWS} of which are"
+        yield paragraph(f"Of {count} nothing is known, as a path without friction is undecided{shown}: {poses}.")
 
 
 def _of_all(shown: int, count: int) -> str:
     return "" if shown == count else f": {shown} of {count}"
 
 
-def _failure(one: OrientationMap) -> tuple[str, str, str]:
+def _pose(one: OrientationMap) -> tuple[str, str]:
+    return exact(one.roll_deg), exact(one.pitch_deg)
+
+
+def _failure(one: OrientationMap) -> tuple[str, str]:
+    """The phase and the outcome that end the critical friction."""
     critical = one.critical
     phase = NOTHING if critical.phase_deg is None else rounded(critical.phase_deg, 6)
-    return rounded(critical.first), phase, name_of(str(critical.outcome))
+    return phase, name_of(str(critical.outcome))
 
 
 def orientations_section(report: Report) -> Iterator[str]:
@@ -220,7 +211,7 @@ def orientations_section(report: Report) -> Iterator[str]:
         outcome = NOTHING if critical.outcome is None else name_of(critical.outcome.value)
         rows.append(
             [
-                *(exact(one.roll_deg), exact(one.pitch_deg), rounded(critical.last), rounded(critical.first), outcome),
+                *(*_pose(one), rounded(critical.last), rounded(critical.first), outcome),
                 *(_engaged(part.orientations[i]) for part in report.parts),
             ]
         )

@@ -78,16 +78,15 @@ def critical_words(critical: CriticalFriction) -> str:
         return f"at least {exact(critical.last or 0.0)}"
     why = name_of(str(critical.outcome))
     if critical.last is None:
-        return (
-            f"none ({why} without friction)" if critical.first == 0.0 else f"none ({why} at {rounded(critical.first)})"
-        )
+        return f"none ({why} without friction)"
     return f"{rounded(critical.last)} to {rounded(critical.first)} ({why})"
 
 
 def answer(report: Report) -> Iterator[str]:
     """The answer, a sentence or two a paragraph."""
     yield _engaging(report)
-    yield _failing(report)
+    if failing := _failing(report):
+        yield failing
     yield _needs(report)
     yield _undecided(report)
 
@@ -107,7 +106,7 @@ def _engaging(report: Report) -> str:
 
 
 def _failing(report: Report) -> str:
-    """Which orientation fails first."""
+    """Which orientations fail, and which first; nothing where all are undecided without friction."""
     sentences = []
     failing = report.failing_without_friction
     if failing:
