@@ -33,6 +33,7 @@ import service.settled.endpoints
 import service.solve
 import service.states.endpoints
 import service.statics.endpoints
+import service.success.endpoints
 import service.threads
 import service.undecided
 import threadstate
@@ -157,6 +158,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.settle.endpoints,
         service.assemblies.endpoints,
         service.settled.endpoints,
+        service.success.endpoints,
         service.threads,
         service.jobs.endpoints,
         service.health,

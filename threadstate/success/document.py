@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from typing_extensions import TypedDict
@@ -153,7 +153,12 @@ def orientation_sha256(found: OrientationMap) -> str:
 def map_sha256(orientations: Sequence[OrientationMap]) -> str:
     """SHA-256, in hexadecimal, of a whole map: of its orientations' hashes in the order of the grid."""
     ordered = sorted(orientations, key=lambda one: one.index)
-    return hashlib.sha256("\n".join(map(orientation_sha256, ordered)).encode()).hexdigest()
+    return map_sha256_of(map(orientation_sha256, ordered))
+
+
+def map_sha256_of(orientation_hashes: Iterable[str]) -> str:
+    """The hash of a whole map from its orientations' hashes, in the order of the grid."""
+    return hashlib.sha256("\n".join(orientation_hashes).encode()).hexdigest()
 
 
 def document_text(document: Any) -> str:

@@ -16,9 +16,11 @@ from worker.options import (
     Dimensions,
     Json,
     PairName,
+    Scheduler,
     TiltMax,
     TiltStep,
     Workers,
+    chosen_scheduler,
     integer_option,
     number_option,
 )
@@ -63,6 +65,7 @@ def success(
     pair: PairName = None,
     dimension: Dimensions = None,
     workers: Workers = None,
+    scheduler: Scheduler = None,
     as_json: Json = False,
 ) -> None:
     r"""Say from which orientations, starting phases and frictions a device and a strategy assemble a pair.
@@ -92,7 +95,9 @@ def success(
     check_pair(threads)
     held = default_device() if device is None else read_device(device)
     inputs = SuccessInputs(threads, held, strategy, grid, frictions, phase_tolerance, mu_tolerance, point_limit)
-    result = computed_map_with_progress(inputs, workers or read_settings().workers, out)
+    settings = read_settings()
+    computing = chosen_scheduler(settings, scheduler, workers)
+    result = computed_map_with_progress(inputs, workers or settings.workers, out, computing)
     elapsed_s = time.perf_counter() - began
     (print_map_json if as_json else print_map)(inputs, result, elapsed_s)
 
