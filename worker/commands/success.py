@@ -80,7 +80,7 @@ def success(
       threadstate success --pair M6 --device examples/device.toml --phases 8 --json
     """
     began = time.perf_counter()
-    grid = _grid(tilt_max, tilt_step, phases)
+    grid = grid_of(tilt_max, tilt_step, phases)
     from threadstate.device.model import default_device
     from threadstate.device.settle import check_pair
     from threadstate.responses.query import parse_frictions
@@ -102,7 +102,12 @@ def success(
     (print_map_json if as_json else print_map)(inputs, result, elapsed_s)
 
 
-def _grid(tilt_max: float, tilt_step: float, phases: int) -> Grid:
+def grid_of(tilt_max: float, tilt_step: float, phases: int) -> Grid:
+    """The grid of a number of starting phases.
+
+    Raises:
+        InvalidValueError: the phases are no decimals, or the grid is not valid.
+    """
     from threadstate.library.grid import Grid
 
     # What remains of a number of phases without its twos, fives and two threes has no finite decimal.
