@@ -14,6 +14,7 @@ from prometheus_client import CollectorRegistry
 from starlette.middleware.cors import CORSMiddleware
 
 import service.assemblies.endpoints
+import service.assemblies.outcomes
 import service.builds
 import service.compare
 import service.docs.endpoints
@@ -157,6 +158,7 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.solve,
         service.settle.endpoints,
         service.assemblies.endpoints,
+        service.assemblies.outcomes,
         service.settled.endpoints,
         service.success.endpoints,
         service.threads,

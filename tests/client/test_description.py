@@ -48,7 +48,12 @@ RENAMED = {
         "SuccessMap",
         *("Twist", "LoadedContact", "Piece", "Jamming", "ComputedJamming", "ContactWrench", "Limits", "StandardThread"),
     )
-} | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
+} | {
+    "LibraryState": "ChosenFields",
+    "Statics": "RequestedStaticsDocument",
+    "ContactMode": "ModeDocument",
+    "PathOutcome": "OutcomeDocument",
+}
 """Models that go by a shorter name than the service's."""
 
 ARGUMENTS: dict[str, object] = {
@@ -173,6 +178,7 @@ def test_requests_that_write_are_those_that_may_be_repeated(openapi: dict[str, A
         ("/v1/statics", "post"),
         ("/v1/settle", "post"),
         ("/v1/assemblies", "post"),
+        ("/v1/outcomes", "post"),
     }
 
 

@@ -66,20 +66,7 @@ def orientation_document(found: OrientationMap) -> OrientationDocument:
         "index": found.index,
         "roll": found.roll_deg + 0.0,
         "pitch": found.pitch_deg + 0.0,
-        "cells": [
-            {
-                "phase": cell.phase_deg + 0.0,
-                "mu": cell.mu + 0.0,
-                "outcome": cell.outcome,
-                "flags": list(cell.flags),
-                "bounded": cell.is_bounded,
-                "torque": _plain(cell.torque),
-                "tilt": _plain(cell.tilt_deg),
-                "shift": _plain(cell.shift),
-                "end": _plain(cell.end_deg),
-            }
-            for cell in found.cells
-        ],
+        "cells": [cell_document(cell) for cell in found.cells],
         "boundaries": [
             {
                 "mu": boundary.mu + 0.0,
@@ -97,6 +84,21 @@ def orientation_document(found: OrientationMap) -> OrientationDocument:
             "outcome": critical.outcome,
             "reenters": critical.reenters,
         },
+    }
+
+
+def cell_document(cell: Cell) -> CellDocument:
+    """The document of a path of a map, in the pair's unit."""
+    return {
+        "phase": cell.phase_deg + 0.0,
+        "mu": cell.mu + 0.0,
+        "outcome": cell.outcome,
+        "flags": list(cell.flags),
+        "bounded": cell.is_bounded,
+        "torque": _plain(cell.torque),
+        "tilt": _plain(cell.tilt_deg),
+        "shift": _plain(cell.shift),
+        "end": _plain(cell.end_deg),
     }
 
 

@@ -9,7 +9,7 @@ from typing_extensions import TypedDict
 
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.library.grid import Grid
-from threadstate.success.document import OrientationDocument, orientation_document
+from threadstate.success.document import CellDocument, OrientationDocument, cell_document, orientation_document
 from threadstate.success.model import Cell, OrientationMap
 from threadstate.success.summary import map_counts, orientation_summary, tilt_area
 
@@ -45,6 +45,18 @@ class SummarisedOrientationDocument(OrientationDocument):
     """The map of an orientation with its summary at each friction."""
 
     summary: list[PhaseSummaryDocument]
+
+
+class OutcomeDocument(CellDocument):
+    """How a path ends, with the orientation at which it starts, in degrees."""
+
+    roll: float
+    pitch: float
+
+
+def outcome_document(roll_deg: float, pitch_deg: float, cell: Cell, factor: float = 1.0) -> OutcomeDocument:
+    """The document of a path that ends so, in a unit of which the pair's has ``factor``."""
+    return {"roll": roll_deg + 0.0, "pitch": pitch_deg + 0.0, **cell_document(_scaled(cell, factor))}
 
 
 def totals_documents(

@@ -163,6 +163,7 @@ class AsyncClient:
     settled_states = _listed(settled_calls.settled_states)
     settled_state = _answered(settled_calls.settled_state)
 
+    outcomes = _answered(success_calls.outcomes)
     ask_success_map = _watched(success_calls.ask_success_map)
     success_maps = _answered(success_calls.success_maps)
     success_map = _answered(success_calls.success_map)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, get, path_of, post
 from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.success import (
     GrowingMap,
+    OutcomesAnswer,
     SuccessMapDetail,
     SuccessMapList,
     SuccessOrientationPage,
@@ -16,6 +17,35 @@ from threadstate.client.models.success import (
 )
 
 LARGEST_PAGE = 1000
+
+
+def outcomes(
+    poses: Iterable[tuple[float, float, float]],
+    *,
+    strategy: str | None = None,
+    mu: float | None = None,
+    point_limit: int | None = None,
+    device: Mapping[str, Any] | None = None,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+    unit: str | None = None,
+) -> Call[OutcomesAnswer]:
+    """How the paths end that start at 1 to 100 poses (roll, pitch, phase), without the paths themselves.
+
+    The arguments are those of :func:`assemble`; a path with more points in a turn than ``point_limit`` (None: 1,000) is
+    undecided.
+    """
+    body = {
+        "designation": designation,
+        "library": library,
+        "poses": [{"roll": float(roll), "pitch": float(pitch), "phase": float(phase)} for roll, pitch, phase in poses],
+        "strategy": strategy,
+        "mu": None if mu is None else float(mu),
+        "point_limit": point_limit,
+        "device": None if device is None else dict(device),
+    }
+    # Nothing is stored: repeatable.
+    return post(path_of("v1", "outcomes"), OutcomesAnswer, body, repeatable=True, unit=unit)
 
 
 def ask_success_map(

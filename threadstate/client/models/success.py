@@ -28,6 +28,23 @@ class Cell(Answer):
     end: float | None
 
 
+class PathOutcome(Cell):
+    """How a path ends, with the orientation at which it starts, in degrees."""
+
+    roll: float
+    pitch: float
+
+
+class OutcomesAnswer(Answer):
+    """How the paths of several commanded poses end, in their order."""
+
+    designation: str
+    source: str | None
+    library: int | None
+    unit: LengthUnit
+    outcomes: tuple[PathOutcome, ...]
+
+
 class PhaseBoundary(Answer):
     """Two starting phases of unlike outcomes at one friction, between which no other was computed."""
 
