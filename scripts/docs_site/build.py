@@ -1,0 +1,67 @@
+"""Builds the site in a temporary folder, from where it is moved to its own once it is whole."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from scripts.docs_site.staging import stage
+
+HERE = Path(__file__).parent
+CONFIGURATION, STYLES, WORKER = "mkdocs.yml", "site.css", "frame_worker.js"
+REMOTE_WORKER = re.compile(r'<script src="https?://[^"]*/iframe-worker/[^"]*"[^>]*></script>')
+"""What the generator would have a browser fetch from elsewhere, so that it can search from files."""
+REMOTE = re.compile(r"https?://(?!www\.w3\.org/)[\w.-]+/[^\s\"'`$]*")
+"""Addresses in the theme's scripts, of what its pages can load besides: editors, diagrams, counts of stars."""
+CELL = re.compile(r"<td>(?P<content>.*?)</td>", re.DOTALL)
+LONG = 60
+"""Characters from which on a table's cell is a text, which wants some width on a phone."""
+
+
+class SiteError(Exception):
+    """The site cannot be built: what its generator said."""
+
+
+def build_site(root: Path, folder: Path) -> None:
+    """Build the site of the repository at ``root`` into ``folder``, which is replaced.
+
+    Raises:
+        SiteError: a link or an anchor is broken, or the generator failed otherwise.
+        FileNotFoundError: a page links to a file that is not there.
+    """
+    with tempfile.TemporaryDirectory(prefix="threadstate-site-") as name:
+        project = Path(name).resolve()
+        navigation = stage(root, project / "docs")
+        shutil.copy(HERE / STYLES, project / "docs" / STYLES)
+        # JSON is YAML.
+        configuration = f"{(HERE / CONFIGURATION).read_text()}\nnav: {json.dumps(navigation)}\n"
+        (project / CONFIGURATION).write_text(configuration)
+        command = [sys.executable, "-m", "zensical", "build", "--strict", "--config-file", CONFIGURATION]
+        run = subprocess.run(command, cwd=project, check=False, capture_output=True, text=True)
+        if run.returncode != 0:
+            raise SiteError((run.stdout + run.stderr).partition("Traceback")[0])
+        _keep_local(project / "site")
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.move(project / "site", folder)
+
+
+def _keep_local(site: Path) -> None:
+    """Have the pages load nothing from elsewhere."""
+    shutil.copy(HERE / WORKER, site / WORKER)
+    for path in site.rglob("*.html"):
+        script = f'<script src="{os.path.relpath(site / WORKER, path.parent)}"></script>'
+        path.write_text(CELL.sub(_marked, REMOTE_WORKER.sub(script, path.read_text())))
+    for path in (site / "assets").rglob("*.js"):
+        path.write_text(REMOTE.sub("about:blank", path.read_text()))
+
+
+def _marked(cell: re.Match[str]) -> str:
+    """A cell of a table, with a class if its text is long."""
+    is_long = len(re.sub(r"<[^>]*>", "", cell["content"])) > LONG
+    return f'<td class="long">{cell["content"]}</td>' if is_long else cell[0]
