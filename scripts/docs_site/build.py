@@ -20,8 +20,10 @@ REMOTE_WORKER = re.compile(r'<script src="https?://[^"]*/iframe-worker/[^"]*"[^>
 REMOTE = re.compile(r"https?://(?!www\.w3\.org/)[\w.-]+/[^\s\"'`$]*")
 """Addresses in the theme's scripts, of what its pages can load besides: editors, diagrams, counts of stars."""
 CELL = re.compile(r"<td>(?P<content>.*?)</td>", re.DOTALL)
-LONG = 60
-"""Characters from which on a table's cell is a text, which wants some width on a phone."""
+NAME = re.compile(r"<code>([^<\n]{1,24})</code>")
+"""Code that is short enough to stay on one line."""
+SHORT, LONG = 14, 60
+"""Characters up to which a table's cell stays on one line, and from which on it is a text that wants some width."""
 
 
 class SiteError(Exception):
@@ -46,22 +48,24 @@ def build_site(root: Path, folder: Path) -> None:
         run = subprocess.run(command, cwd=project, check=False, capture_output=True, text=True)
         if run.returncode != 0:
             raise SiteError((run.stdout + run.stderr).partition("Traceback")[0])
-        _keep_local(project / "site")
+        _finish(project / "site")
         shutil.rmtree(folder, ignore_errors=True)
         shutil.move(project / "site", folder)
 
 
-def _keep_local(site: Path) -> None:
-    """Have the pages load nothing from elsewhere."""
+def _finish(site: Path) -> None:
+    """Have the pages load nothing from elsewhere, and mark what is styled by its length."""
     shutil.copy(HERE / WORKER, site / WORKER)
     for path in site.rglob("*.html"):
         script = f'<script src="{os.path.relpath(site / WORKER, path.parent)}"></script>'
-        path.write_text(CELL.sub(_marked, REMOTE_WORKER.sub(script, path.read_text())))
+        local = REMOTE_WORKER.sub(script, path.read_text())
+        path.write_text(CELL.sub(_marked, NAME.sub(r'<code class="name">\1</code>', local)))
     for path in (site / "assets").rglob("*.js"):
         path.write_text(REMOTE.sub("about:blank", path.read_text()))
 
 
 def _marked(cell: re.Match[str]) -> str:
-    """A cell of a table, with a class if its text is long."""
-    is_long = len(re.sub(r"<[^>]*>", "", cell["content"])) > LONG
-    return f'<td class="long">{cell["content"]}</td>' if is_long else cell[0]
+    """A cell of a table, with a class if its text is short or long."""
+    length = len(re.sub(r"<[^>]*>", "", cell["content"]))
+    kind = "short" if length <= SHORT else "long" if length > LONG else None
+    return f'<td class="{kind}">{cell["content"]}</td>' if kind else cell[0]

@@ -32,6 +32,9 @@ FILES = PurePosixPath("files")
 """Where the site has pages of files that pages link to."""
 LANGUAGES = {".py": "python", ".toml": "toml", ".cff": "yaml", ".json": "json"}
 
+DARK = "(prefers-color-scheme: dark)"
+"""Where drawings are dark. Those of the site are on a light ground, as a page's colours are chosen on it."""
+
 BLOCK_OF_CODE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"(?P<mark>!?)\[(?P<text>(?:[^\]\[]|\[[^\]]*\])*)\]\((?P<target>[^)\s]+)\)")
 HEADING = re.compile(r"^(?P<level>#+) (?P<title>.*)$", re.MULTILINE)
@@ -54,6 +57,8 @@ def stage(root: Path, folder: Path) -> Navigation:
         FileNotFoundError: a page links to a file that is not there.
     """
     shutil.copytree(root / DOCS, folder, ignore=shutil.ignore_patterns("*.md"))
+    for path in folder.rglob("*.svg"):
+        path.write_text(path.read_text().replace(DARK, "not all"))
     pages = list(_pages(root))
     addresses = {page.source: page.address for page in pages}
     headings: dict[PurePosixPath, str] = {}
