@@ -6,6 +6,7 @@ docs/python.md lists the modules; of each what ``__all__`` names is shown, or al
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -21,6 +22,7 @@ PAGE_NAME = re.compile(r"`{0,2}\bdocs/(?P<page>[\w-]+\.md)`{0,2}")
 ROLE = re.compile(r":\w+:`~?([\w.]+)`")
 SENDERS = {"_answered": "{}", "_listed": "Items[{}]", "_watched": "Job"}
 """How the client's methods are made of the calls that describe them, and what they return of a call's result."""
+TYPE = re.compile(r"\b[A-Z]\w*[a-z]\w*")
 RESULT = re.compile(r"^(?:Paged)?Call\[(?P<result>.*)\]$")
 WIDTH = 88
 """Of a signature on one line, in characters."""
@@ -96,7 +98,8 @@ class _Writer:
     def __init__(self, module: str, places: Mapping[str, str]) -> None:
         self._module_name = module
         self._places = places
-        self._by_name = {path.rpartition(".")[2]: path for path in places}
+        names = Counter(path.rpartition(".")[2] for path in places)
+        self._unique = {name: path for path in places if names[name := path.rpartition(".")[2]] == 1}
 
     def module(self, module: griffe.Module, objects: list[griffe.Object]) -> str:
         """The page."""
@@ -106,7 +109,7 @@ class _Writer:
             if isinstance(one, griffe.Class):
                 parts += self._class(one)
             elif isinstance(one, griffe.Function):
-                parts += [_code(_signature(one.name, one, str(one.returns))), *self._docstring(one)]
+                parts += [*self._signed(one.name, one, str(one.returns)), *self._docstring(one)]
             else:
                 parts += [_code(f"{one.name}"), *self._docstring(one)]
         return "\n\n".join(parts) + "\n"
@@ -136,11 +139,11 @@ class _Writer:
             if member.name in calls:
                 function, returned = calls[member.name]
                 yield self._heading(one, member)
-                yield _code(_signature(member.name, function, returned))
+                yield from self._signed(member.name, function, returned)
                 yield from self._docstring(function)
             elif isinstance(member, griffe.Function):
                 yield self._heading(one, member)
-                yield _code(_signature(member.name, member, str(member.returns)))
+                yield from self._signed(member.name, member, str(member.returns))
                 yield from self._docstring(member)
 
     def _heading(self, one: griffe.Class, member: griffe.Object) -> str:
@@ -150,39 +153,60 @@ class _Writer:
         rows = ["| name | type or value | meaning |", "|---|---|---|"]
         for one in fields:
             kind = " = ".join(str(part) for part in (one.annotation, one.value) if part is not None)
-            meaning = " ".join(self._text(one.docstring.value).split()) if one.docstring else ""
+            meaning = " ".join(self._text(one, one.docstring.value).split()) if one.docstring else ""
             cells = (f"`{one.name}`", f"`{kind}`" if kind else "", meaning)
             rows.append(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |")
         return "\n".join(rows)
+
+    def _signed(self, name: str, function: griffe.Function, returned: str) -> Iterator[str]:
+        """A signature, and below it the types in it that are shown."""
+        text = _signature(name, function, returned)
+        yield _code(text)
+        types = dict.fromkeys(TYPE.findall(text.partition("(")[2]))
+        if links := [link for one in types if "]" in (link := self._name(function, one))]:
+            yield f"Types: {', '.join(links)}"
 
     def _docstring(self, one: griffe.Object) -> Iterator[str]:
         if one.docstring is None:
             raise UndocumentedError(f"{one.path}: no docstring")
         for section in one.docstring.parsed:
             if isinstance(section, griffe.DocstringSectionText):
-                yield self._text(section.value)
+                yield self._text(one, section.value)
             elif isinstance(section, griffe.DocstringSectionReturns):
-                yield f"**Returns** {' '.join(self._text(it.description) for it in section.value)}"
+                yield f"**Returns** {' '.join(self._text(one, it.description) for it in section.value)}"
             elif isinstance(section, griffe.DocstringSectionRaises):
                 yield "**Raises**"
-                yield _list((self._name(str(it.annotation)), self._text(it.description)) for it in section.value)
+                yield _list(
+                    (self._name(one, str(it.annotation)), self._text(one, it.description)) for it in section.value
+                )
             elif isinstance(section, griffe.DocstringSectionParameters | griffe.DocstringSectionAttributes):
                 yield f"**{section.kind.value.capitalize()}**"
-                yield _list((f"`{it.name}`", self._text(it.description)) for it in section.value)
+                yield _list((f"`{it.name}`", self._text(one, it.description)) for it in section.value)
             else:
                 raise UndocumentedError(f"{one.path}: a section {section.kind.value}, which is not shown")
 
-    def _text(self, text: str) -> str:
-        return PAGE_NAME.sub(r"[\g<page>](../\g<page>)", ROLE.sub(lambda found: self._name(found[1]), text))
+    def _text(self, one: griffe.Object, text: str) -> str:
+        """A text of an object's docstring, the names and pages in it linked."""
+        named = ROLE.sub(lambda found: self._name(one, found[1]), text)
+        return PAGE_NAME.sub(r"[\g<page>](../\g<page>)", named)
 
-    def _name(self, name: str) -> str:
-        """A name, linked to where it is shown."""
-        path = name if name in self._places else self._by_name.get(name.rpartition(".")[2])
+    def _name(self, one: griffe.Object, name: str) -> str:
+        """A name as an object's module means it, linked to where it is shown."""
+        path = self._path(one, name)
         if path is None:
             return f"`{name}`"
         module = self._places[path]
         page = "" if module == self._module_name else f"{module}.md"
         return f"[`{name}`]({page}#{path.rpartition('.')[2]})"
+
+    def _path(self, one: griffe.Object, name: str) -> str | None:
+        if name in self._places:
+            return name
+        try:
+            resolved = one.resolve(name)
+        except griffe.NameResolutionError:
+            return self._unique.get(name.rpartition(".")[2])
+        return resolved if resolved in self._places else None
 
 
 def _described(member: griffe.Object) -> tuple[griffe.Function, str] | None:

@@ -57,8 +57,8 @@ def stage(root: Path, folder: Path) -> Navigation:
         FileNotFoundError: a page links to a file that is not there.
     """
     shutil.copytree(root / DOCS, folder, ignore=shutil.ignore_patterns("*.md"))
-    for path in folder.rglob("*.svg"):
-        path.write_text(path.read_text().replace(DARK, "not all"))
+    for drawing in folder.rglob("*.svg"):
+        drawing.write_text(drawing.read_text().replace(DARK, "not all"))
     pages = list(_pages(root))
     addresses = {page.source: page.address for page in pages}
     headings: dict[PurePosixPath, str] = {}

@@ -20,6 +20,7 @@ from harness.browser import start_chromium
 from scripts.docs_site.build import SiteError, build_site
 from scripts.docs_site.navigation import sections_of
 from scripts.docs_site.python_reference import UndocumentedError, reference_pages
+from tests.explorer.test_accessibility import AXE, GRAVE
 from threadstate import client
 
 pytestmark = pytest.mark.slow
@@ -34,6 +35,8 @@ IN_SCRIPT = re.compile(r"https?://(?!www\.w3\.org/)[\w.-]+\.\w+", re.IGNORECASE)
 """An address in a script, but for the names of XML's namespaces."""
 IN_DRAWING = re.compile(r"(?:href|src)\s*=\s*[\"'](?:https?:)?//[^\"']+", re.IGNORECASE)
 WAIT_S = 20.0
+AXE_OPTIONS = {"preload": False, "rules": {"scrollable-region-focusable": {"enabled": False}}}
+"""axe-core asks for style sheets that a page from a file may not read, and for a focus of boxes that browsers give."""
 
 SMALL = {
     "README.md": "# Home\n",
@@ -169,6 +172,7 @@ def test_every_link_leads_somewhere(site: Path) -> None:
 def test_nothing_is_fetched_from_elsewhere(site: Path) -> None:
     files = [path for path in site.rglob("*") if path.is_file()]
     assert {".html", ".css", ".js", ".svg"} <= {path.suffix for path in files}
+    # The search's index is the text of the pages, with the addresses that they name.
     asked = {path.relative_to(site).as_posix(): asked_elsewhere(path) for path in files if path.name != "search.js"}
     assert {name: found for name, found in asked.items() if found} == {}
 
@@ -197,8 +201,10 @@ def test_a_link_to_a_source_is_not_fetched(tmp_path: Path) -> None:
     assert asked_elsewhere(tmp_path / "a.html") == []
 
 
-def test_a_table_wants_no_more_width_than_its_box(site: Path) -> None:
-    assert 'class="long"' in (site / "glossary.html").read_text()
+def test_cells_are_marked_by_their_length(site: Path) -> None:
+    glossary = (site / "glossary.html").read_text()
+    assert '<td class="long">What a device turns the bolt about' in glossary
+    assert '<td class="short"><code class="name">about</code></td>' in glossary
 
 
 def test_bars_in_code_of_tables_are_bare(site: Path) -> None:
@@ -214,6 +220,16 @@ def test_the_client_is_documented_as_it_is(site: Path) -> None:
         assert sorted(methods - anchors) == []
 
 
+def test_names_lead_to_their_own_module(site: Path) -> None:
+    settle, client_page = (
+        (site / "python" / f"{name}.html").read_text() for name in ("threadstate.device.settle", "threadstate.client")
+    )
+    assert 'href="threadstate.thread.pair.html#Pair"' in settle
+    assert 'href="threadstate.errors.html#InvalidValueError"' in settle
+    assert 'href="threadstate.client.models.states.html#State"' in client_page
+    assert "threadstate.state.model.html#Contact" not in client_page
+
+
 def test_a_small_site_has_pages_files_and_modules(small: Path, tmp_path: Path) -> None:
     build_site(small, tmp_path / "site")
     assert list(broken_links(tmp_path / "site")) == []
@@ -225,7 +241,7 @@ def test_a_small_site_has_pages_files_and_modules(small: Path, tmp_path: Path) -
     assert 'id="a-b-c"' in one
     assert ">folder<" not in one
     assert "<li>an item</li>" in two
-    assert "<code>|V|</code>" in two
+    assert '<code class="name">|V|</code>' in two
     assert "2. Two" in read_navigation(one)
     assert 'href="../one.html"' in made
     assert "double" in made
@@ -284,6 +300,19 @@ def test_a_page_is_no_wider_than_a_phone_and_complains_of_nothing(
     chromium.get((site / f"{name}.html").as_uri())
     assert chromium.execute_script("return document.documentElement.scrollWidth") <= 390
     assert chromium.get_log("browser") == []
+
+
+@pytest.mark.parametrize("scheme", ["default", "slate"])
+def test_axe_finds_nothing_serious(repository_root: Path, site: Path, chromium: webdriver.Chrome, scheme: str) -> None:
+    chromium.get((site / "success.html").as_uri())
+    chromium.execute_script(
+        "document.querySelector(`[data-md-color-scheme=${arguments[0]}].md-option`).click()", scheme
+    )
+    assert chromium.execute_script("return document.body.dataset.mdColorScheme") == scheme
+    chromium.execute_cdp_cmd("Runtime.evaluate", {"expression": (repository_root / AXE).read_text()})
+    found = chromium.execute_async_script("axe.run(arguments[0]).then(arguments[1])", AXE_OPTIONS)
+    assert len(found["passes"]) > 10
+    assert [one["help"] for one in found["violations"] if one["impact"] in GRAVE] == []
 
 
 def test_the_search_finds_a_page(site: Path, chromium: webdriver.Chrome) -> None:
