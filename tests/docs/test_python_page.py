@@ -30,3 +30,10 @@ def test_every_module_that_is_imported_for_readers_is_listed(repository_root: Pa
     imported = {module for path in shown for module in IMPORTED.findall(path.read_text())}
     assert {"threadstate.client", "threadstate.state.solve"} <= imported
     assert sorted(imported - set(listed)) == []
+
+
+def test_every_answer_of_the_client_is_listed(repository_root: Path, listed: list[str]) -> None:
+    models = {path.stem for path in (repository_root / "threadstate" / "client" / "models").glob("[!_]*.py")}
+    assert sorted(f"threadstate.client.models.{name}" for name in models - {"answer"}) == sorted(
+        name for name in listed if name.startswith("threadstate.client.models.")
+    )
