@@ -98,8 +98,9 @@ class _Writer:
     def __init__(self, module: str, places: Mapping[str, str]) -> None:
         self._module_name = module
         self._places = places
-        names = Counter(path.rpartition(".")[2] for path in places)
-        self._unique = {name: path for path in places if names[name := path.rpartition(".")[2]] == 1}
+        named = [(path.rpartition(".")[2], path) for path in places]
+        times = Counter(name for name, _ in named)
+        self._unique = {name: path for name, path in named if times[name] == 1}
 
     def module(self, module: griffe.Module, objects: list[griffe.Object]) -> str:
         """The page."""
