@@ -26,6 +26,7 @@
 # make client     make the blocking client of the asynchronous one
 # make designer   write the answers in docs/tutorial.md and the page of falls and windows; pins 1/4-20 UNC
 # make screenshots take the pictures of the explorer, docs/explorer, from the latest library
+# make site       build the site of the documentation, site/index.html
 # make docs       compute the answers shown in the documentation anew, write the tables of columns
 # make kills      kill workers of jobs a hundred times, and check what is left
 # make containers build the image, start the composed containers, lose a worker, use the cluster, stop (needs Docker)
@@ -43,7 +44,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success paths
+.PHONY: site setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success paths
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -137,6 +138,9 @@ chamfer: setup $(VENV)/.oracle
 histories: setup
 	$(BIN)/python -m studies.history
 	$(BIN)/python -m studies.history --times 10
+
+site: $(VENV)/.dependencies
+	$(BIN)/python -m scripts.docs_site
 
 docs: setup
 	$(BIN)/python scripts/write_answers.py

@@ -2,7 +2,7 @@ import js from "@eslint/js";
 import globals from "globals";
 
 export default [
-  { ignores: ["node_modules/", ".venv/", "build/", "dist/"] },
+  { ignores: ["node_modules/", ".venv/", "build/", "dist/", "site/"] },
   js.configs.recommended,
   {
     files: ["service/explorer/page/js/*.js"],
@@ -12,6 +12,7 @@ export default [
     files: ["service/docs/*.js"],
     languageOptions: { sourceType: "script", globals: { ...globals.browser, SwaggerUIBundle: "readonly" } },
   },
+  { files: ["scripts/docs_site/*.js"], languageOptions: { sourceType: "script", globals: globals.browser } },
   { files: ["tests/page/*.js", "eslint.config.js"], languageOptions: { sourceType: "module", globals: globals.node } },
   {
     rules: {

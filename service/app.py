@@ -14,6 +14,7 @@ from prometheus_client import CollectorRegistry
 from starlette.middleware.cors import CORSMiddleware
 
 import service.assemblies.endpoints
+import service.assemblies.outcomes
 import service.builds
 import service.compare
 import service.docs.endpoints
@@ -33,6 +34,7 @@ import service.settled.endpoints
 import service.solve
 import service.states.endpoints
 import service.statics.endpoints
+import service.success.endpoints
 import service.threads
 import service.undecided
 import threadstate
@@ -156,7 +158,9 @@ def create_app(settings: Settings | None = None, *, serving: bool = False) -> Fa
         service.solve,
         service.settle.endpoints,
         service.assemblies.endpoints,
+        service.assemblies.outcomes,
         service.settled.endpoints,
+        service.success.endpoints,
         service.threads,
         service.jobs.endpoints,
         service.health,

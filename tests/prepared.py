@@ -17,7 +17,7 @@ from threadstate.library.rows import chunk_rows
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import solve_poses
 from threadstate.statics.rows import statics_by_ordinal
-from worker.messages import Chunk
+from worker.messages import LibraryChunk
 
 
 class PreparedChunks:
@@ -26,7 +26,7 @@ class PreparedChunks:
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
 
-    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
+    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[LibraryChunk]:
         """The chunks of these orientations, in their order."""
         on_ready()
         for index in orientations:
@@ -34,11 +34,11 @@ class PreparedChunks:
 
 
 @cache
-def prepared_chunk(grid: Grid, index: int) -> Chunk:
+def prepared_chunk(grid: Grid, index: int) -> LibraryChunk:
     """The chunk of an orientation of the 1/4-20 UNC library of a grid."""
     states, first = solve_poses(PAIR, grid.poses(index)), grid.first_ordinal(index)
     rows = chunk_rows(grid.orientation(index), first, states, statics_by_ordinal(PAIR, first, states))
-    return Chunk(rows, rows_of(histories_of_grid(grid)[index]))
+    return LibraryChunk(rows, rows_of(histories_of_grid(grid)[index]))
 
 
 def use_prepared_chunks(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,7 +18,7 @@ from service.problems import INVALID_VALUE, Kind
 from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.libraries import GridDocument
 from threadstate.client.models.service import Problem
-from threadstate.jobs.names import JobState
+from threadstate.jobs.names import JobKind, JobState
 from threadstate.library.solver_method import SolverMethod
 
 ROOMS = ("threadstate", "worker", "service", "migrations")
@@ -27,10 +27,12 @@ ROOT = Path(__file__).parents[1]
 _NOW = datetime(2026, 1, 2, tzinfo=UTC)
 _JOB = JobDocument(
     id=1,
+    kind=JobKind.LIBRARY,
     state=JobState.FAILED,
     reason="a failure",
     designation="1/4-20 UNC",
     method=SolverMethod.EXACT,
+    device=None,
     grid=GridDocument(tilt_max=0.0, tilt_step=1.0, phase_step=1.0, orientations=1),
     options={},
     input_sha256="0",
@@ -39,6 +41,7 @@ _JOB = JobDocument(
     committed=0,
     at_work=0,
     library=None,
+    result=None,
     asked_at=_NOW,
     ended_at=_NOW,
 )

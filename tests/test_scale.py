@@ -21,7 +21,7 @@ from threadstate.library.read import published_libraries
 from threadstate.library.tables import chunk, contact, state
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.compute import compute_chunk
+from worker.compute import compute_library_chunk
 from worker.rebuild import rebuild
 from worker.sweep.estimate import POSTGRESQL_BYTES_A_ROW, POSTGRESQL_S_A_ROW, SQLITE_BYTES_A_ROW, SQLITE_S_A_ROW
 
@@ -108,7 +108,7 @@ def test_a_database_grows_by_whole_libraries(databases: Databases, monkeypatch: 
 
 def test_chunks_are_committed_to_a_library_of_their_own(databases: Databases) -> None:
     with databases.lent() as database, writing(database) as engine:
-        found = committed(engine, "this", Grid(1.0, 1.0, 90.0), [compute_chunk(INPUTS, 0)])
+        found = committed(engine, "this", Grid(1.0, 1.0, 90.0), [compute_library_chunk(INPUTS, 0)])
         with engine.connect() as connection:
             counts = [connection.scalar(select(func.count()).select_from(table)) for table in (chunk, state)]
     assert counts == [1, GRID.pose_count]

@@ -19,6 +19,7 @@ from threadstate.errors import ThreadstateError
 from worker.commands.assemble import assemble
 from worker.commands.compare import compare
 from worker.commands.copy import copy
+from worker.commands.design import design
 from worker.commands.export import export
 from worker.commands.formation import formation
 from worker.commands.heights import heights
@@ -71,6 +72,7 @@ COMMANDS = (
     settle,
     assemble,
     success,
+    design,
     report,
     rebuild,
     rebuild_settled,

@@ -1,6 +1,4 @@
-"""Computing the chunks of a library: the states of an orientation and its history, in a process that its parent
-controls.
-"""
+"""Computing chunks, all that is stored of an orientation, in a process that its parent controls."""
 
 from __future__ import annotations
 
@@ -10,42 +8,65 @@ from contextlib import suppress
 from functools import partial
 from multiprocessing.connection import Connection
 
+from threadstate.jobs.model import JobInputs
 from threadstate.library.identity import LibraryInputs
+from threadstate.settled.inputs import SettledInputs
 from threadstate.stored_histories.compute import computed_rows, exact_answers
-from worker.messages import Chunk, Failure, Ready
+from worker.messages import Chunk, Failure, LibraryChunk, Ready
 
 
-def compute_chunk(inputs: LibraryInputs, index: int) -> Chunk:
-    """The answers for all poses of an orientation and, by the exact method, its history, as rows."""
-    return Chunk(*computed_rows(inputs, index))
+def compute_library_chunk(inputs: LibraryInputs, index: int) -> LibraryChunk:
+    """The contact states of an orientation and, by the exact method, its history, as rows."""
+    return LibraryChunk(*computed_rows(inputs, index))
 
 
-def serve_chunks(connection: Connection, inputs: LibraryInputs) -> None:
-    """Reply to each orientation number received with its chunk, until the other end of the pipe is closed."""
-    serve(connection, partial(_prepare, inputs), partial(compute_chunk, inputs))
+def compute_chunk(inputs: JobInputs, index: int) -> Chunk:
+    """All that is stored of the orientation with this number."""
+    if isinstance(inputs, LibraryInputs):
+        return compute_library_chunk(inputs, index)
+    # What a library of contact states does not need takes a second to import.
+    if isinstance(inputs, SettledInputs):
+        from threadstate.settled.compute import computed_rows as settled_rows
+
+        return settled_rows(inputs.pair, inputs.grid, inputs.device, index)
+    from threadstate.success.compute import computed_orientation
+
+    return computed_orientation(
+        inputs.pair,
+        inputs.device,
+        inputs.strategy,
+        inputs.grid,
+        inputs.frictions,
+        inputs.phase_tolerance_deg,
+        inputs.mu_tolerance,
+        inputs.point_limit,
+        index,
+    )
 
 
-def serve(connection: Connection, prepare: Callable[[], None], compute: Callable[[int], object]) -> None:
-    """Reply to each number received with what is computed of it, until the other end of the pipe is closed.
+def serve_chunks(connection: Connection, inputs: JobInputs) -> None:
+    """Reply to each orientation number received with its chunk, until the other end of the pipe is closed.
 
-    First ``prepare`` loads what is needed. A parent that dies closes its end, and the process ends.
+    A parent that dies closes its end, and the process ends.
     """
     # SIGINT reaches the whole process group; the parent alone handles it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with suppress(EOFError, ConnectionError):  # the parent has ended
-        message = _tried(partial(_ready, prepare))
+        message = _tried(partial(_ready, inputs))
         connection.send(message)
         while not isinstance(message, Failure):
-            message = _tried(partial(compute, connection.recv()))
+            message = _tried(partial(compute_chunk, inputs, connection.recv()))
             connection.send(message)
 
 
-def _prepare(inputs: LibraryInputs) -> None:
-    exact_answers(inputs.pair, inputs.options, inputs.grid.poses(0)[:1])
+def _ready(inputs: JobInputs) -> Ready:
+    first = inputs.grid.poses(0)[:1]
+    if isinstance(inputs, LibraryInputs):
+        exact_answers(inputs.pair, inputs.options, first)
+    else:
+        from threadstate.device.settle import settle_poses
 
-
-def _ready(prepare: Callable[[], None]) -> Ready:
-    prepare()
+        settle_poses(inputs.pair, first, inputs.device)
     return Ready()
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from threadstate.library.rows import ChunkRows, HistoryRows
+from threadstate.settled.rows import SettledRows
+from threadstate.success.model import OrientationMap
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,11 +15,15 @@ class Ready:
 
 
 @dataclass(frozen=True, slots=True)
-class Chunk:
-    """An orientation is computed; meshes give no history."""
+class LibraryChunk:
+    """The contact states of an orientation are computed; meshes give no history."""
 
     rows: ChunkRows
     history: HistoryRows | None
+
+
+Chunk = LibraryChunk | SettledRows | OrientationMap
+"""An orientation is computed, for each kind of job."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,15 +11,14 @@ import multiprocessing
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerContext
 from multiprocessing.process import BaseProcess
-from typing import Generic, TypeVar
+from typing import get_args
 
 from threadstate.errors import ThreadstateError
-from threadstate.library.identity import LibraryInputs
+from threadstate.jobs.model import JobInputs
 from worker.interruption import waiting
 from worker.messages import Chunk, Failure, Ready
 
@@ -27,8 +26,6 @@ QUEUED_PER_PROCESS = 2
 """Chunks queued per process, so that it computes while a chunk waits to be written."""
 
 _JOIN_TIMEOUT_S = 5.0
-
-Result = TypeVar("Result")
 
 
 class ComputeError(ThreadstateError):
@@ -57,16 +54,15 @@ class _Computer:
         return ComputeError(f"a computing process died (exit code {self.process.exitcode})")
 
 
-class ComputingProcesses(Generic[Result]):
-    """Processes that compute chunks of one library; made by :func:`running_processes`."""
+class ComputingProcesses:
+    """Processes that compute chunks of one job; made by :func:`computing_processes`."""
 
-    def __init__(self, serve: Callable[[Connection], None], result: type[Result], count: int) -> None:
+    def __init__(self, inputs: JobInputs, count: int) -> None:
         self._context = running_forkserver()
-        self._serve = serve
-        self._result = result
+        self._inputs = inputs
         self._computers = [self._start() for _ in range(count)]
 
-    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Result]:
+    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
         """The chunks of these orientations, in the order in which they are finished.
 
         Args:
@@ -99,7 +95,7 @@ class ComputingProcesses(Generic[Result]):
                 while queued[connection] < QUEUED_PER_PROCESS and (index := next(remaining, None)) is not None:
                     by_connection[connection].submit(index)
                     queued[connection] += 1
-                if isinstance(message, self._result):
+                if isinstance(message, get_args(Chunk)):
                     yield message
 
     @property
@@ -117,13 +113,13 @@ class ComputingProcesses(Generic[Result]):
 
     def _start(self) -> _Computer:
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=self._serve, args=(theirs,), daemon=True)
+        process = self._context.Process(target=_compute, args=(theirs, self._inputs), daemon=True)
         process.start()
         theirs.close()
         return _Computer(process, ours)
 
 
-def _compute(inputs: LibraryInputs, connection: Connection) -> None:
+def _compute(connection: Connection, inputs: JobInputs) -> None:
     # Imported in the computing process alone: the writing one does not need numba, which is slow to load.
     from worker.compute import serve_chunks
 
@@ -131,25 +127,13 @@ def _compute(inputs: LibraryInputs, connection: Connection) -> None:
 
 
 @contextmanager
-def running_processes(
-    serve: Callable[[Connection], None], result: type[Result], count: int
-) -> Iterator[ComputingProcesses[Result]]:
-    """``count`` processes that reply with ``result`` to orientation numbers, ended on leaving.
-
-    Each calls ``serve`` with its end of a pipe: it sends ``Ready``, then for each number a result or a ``Failure``.
-    """
-    processes = ComputingProcesses(serve, result, count)
+def computing_processes(inputs: JobInputs, count: int) -> Iterator[ComputingProcesses]:
+    """``count`` processes that compute chunks, ended on leaving."""
+    processes = ComputingProcesses(inputs, count)
     try:
         yield processes
     finally:
         processes.close()
-
-
-@contextmanager
-def computing_processes(inputs: LibraryInputs, count: int) -> Iterator[ComputingProcesses[Chunk]]:
-    """``count`` processes that compute chunks of a library of contact states, ended on leaving."""
-    with running_processes(partial(_compute, inputs), Chunk, count) as processes:
-        yield processes
 
 
 PRELOADED = ["worker.preload", "worker.cli", "__main__"]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,13 +12,14 @@ from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import LibraryRecord, library_by_input
 from threadstate.library.schema import check_schema, stored_revision
-from threadstate.library.write import committed_orientations, open_library, publish, write_chunk
+from threadstate.library.write import committed_orientations, open_library, publish
 from threadstate.mesh.options import MeshOptions
 from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
-from worker.messages import Chunk
+from worker.chunk_source import chunk_source
+from worker.commit import commit_chunk
 from worker.migrate import migrate
-from worker.processes import computing_processes, running_forkserver
+from worker.processes import running_forkserver
 from worker.progress import progress_bar
 
 
@@ -86,9 +85,9 @@ def rebuild(
     if missing:
         with chunk_source(inputs, min(workers, len(missing)), scheduler) as computing:
             for chunk in computing.chunks(missing, progress.ready):
-                if write_chunk(engine, library_id, chunk.rows, chunk.history):
-                    computed += chunk.rows.pose_count
-                progress.advance(chunk.rows.pose_count)
+                if commit_chunk(engine, library_id, chunk):
+                    computed += grid.phase_count
+                progress.advance(grid.phase_count)
     publish(engine, library_id, grid)
     made = _published(engine, inputs)
     assert made is not None
@@ -142,32 +141,3 @@ def rebuild_library(
         check_schema(engine)
         with progress_bar() as progress:
             return rebuild(engine, inputs, workers, progress, scheduler)
-
-
-class ChunkSource(Protocol):
-    """Computes chunks of one library."""
-
-    def chunks(self, orientations: Iterable[int], on_ready: Callable[[], None]) -> Iterator[Chunk]:
-        """The chunks of these orientations, in the order in which they are finished.
-
-        Orientations are taken when they can be computed; ``on_ready`` is called once, when the computation begins.
-        """
-
-
-@contextmanager
-def chunk_source(inputs: LibraryInputs, processes: int, scheduler: str | None) -> Iterator[ChunkSource]:
-    """The workers of the cluster at ``scheduler``, or without one ``processes`` local processes, terminated on leaving.
-
-    Raises:
-        InvalidValueError: ``scheduler`` is not the address of a scheduler.
-        ClusterError: the cluster cannot be used.
-    """
-    if scheduler is None:
-        with computing_processes(inputs, processes) as local:
-            yield local
-    else:
-        # Dask takes a second to import, and is an extra.
-        from worker.cluster.chunks import computing_cluster
-
-        with computing_cluster(inputs, scheduler) as cluster:
-            yield cluster

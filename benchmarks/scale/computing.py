@@ -17,8 +17,8 @@ from threadstate.library.write import open_library, write_chunk
 from threadstate.state.options import SolveOptions
 from threadstate.stored_histories.compute import exact_answers
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.compute import compute_chunk
-from worker.messages import Chunk
+from worker.compute import compute_library_chunk
+from worker.messages import LibraryChunk
 
 SEED = 20060128
 GRIDS = (Grid(4.0, 1.0, 1.0), Grid(4.0, 1.0, 0.5), Grid(4.0, 0.1, 0.1))
@@ -31,7 +31,7 @@ def inputs_on(grid: Grid) -> LibraryInputs:
     return LibraryInputs(quarter_twenty_unc(), grid, SolveOptions())
 
 
-def computed(grid: Grid) -> tuple[Computed, list[Chunk]]:
+def computed(grid: Grid) -> tuple[Computed, list[LibraryChunk]]:
     """Random orientations of a grid, and what they took."""
     inputs = inputs_on(grid)
     indices = random.Random(SEED).sample(range(grid.orientation_count), ORIENTATIONS)
@@ -39,7 +39,7 @@ def computed(grid: Grid) -> tuple[Computed, list[Chunk]]:
     for index in indices:
         exact_answers(inputs.pair, inputs.options, grid.poses(index))
     answered = time.process_time()
-    chunks = [compute_chunk(inputs, index) for index in indices]
+    chunks = [compute_library_chunk(inputs, index) for index in indices]
     whole_s = time.process_time() - answered
     histories = [chunk.history for chunk in chunks if chunk.history is not None]
     count = len(chunks)
@@ -61,7 +61,7 @@ def computed(grid: Grid) -> tuple[Computed, list[Chunk]]:
     ), chunks
 
 
-def committed(engine: Engine, database: str, grid: Grid, chunks: Sequence[Chunk]) -> Committed:
+def committed(engine: Engine, database: str, grid: Grid, chunks: Sequence[LibraryChunk]) -> Committed:
     """Commit chunks to a library of their own, and what that took each."""
     library_id = open_library(engine, inputs_on(grid))
     stopwatch = Stopwatch.on(engine)

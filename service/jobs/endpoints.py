@@ -79,8 +79,8 @@ LastEventHeader = Annotated[
     Header(alias="Last-Event-ID", description="number of the last event that was received"),
 ]
 
-_ACCEPTED: dict[int | str, dict[str, Any]] = {
-    200: {"description": "The library exists already"},
+ACCEPTED: dict[int | str, dict[str, Any]] = {
+    200: {"description": "It is published already"},
     202: {"model": JobDocument, "description": "It is queued or running; `Location` is its address"},
 }
 _ALL_SENT: dict[int | str, dict[str, Any]] = {
@@ -103,13 +103,13 @@ _EVENT_DESCRIPTION = {"responses": {"200": {"content": {EventStream.media_type: 
     "",
     summary="Request a library",
     response_model=JobDocument,
-    responses=_ACCEPTED,
+    responses=ACCEPTED,
     dependencies=[Depends(require_write_key)],
 )
 def post_job(engine: RequestedControl, body: JobRequest) -> Response:
     """Have a library computed. The same inputs are the same job; one that failed or was cancelled is queued again."""
     job = submit_job(engine, body.inputs())
-    return _job_response(job, 200 if job.state.ended else 202)
+    return job_response(job, 200 if job.state.ended else 202)
 
 
 @router.get("", summary="All jobs", response_model=JobPage, responses=NOT_MODIFIED)
@@ -129,7 +129,7 @@ def list_jobs(
 
 @router.get("/{id}", summary="One job", response_model=JobDocument, responses=NOT_MODIFIED)
 def get_job(request: Request, connection: ReadConnection, job_id: JobId) -> Response:
-    """The progress of a job, and the number of its library once that is published."""
+    """The progress of a job, and the address of its result once that is published."""
     return json_response(request, job_document(job_by_id(connection, job_id)).model_dump(mode="json"))
 
 
@@ -162,9 +162,10 @@ def delete_job(engine: RequestedControl, job_id: JobId) -> Response:
     """Cancel a job that has not ended. Its computed chunks stay, unpublished, for the next request of the same
     inputs.
     """
-    return _job_response(cancel(engine, job_id), 200)
+    return job_response(cancel(engine, job_id), 200)
 
 
-def _job_response(job: JobRecord, status: int) -> Response:
+def job_response(job: JobRecord, status: int) -> Response:
+    """The response with the document of a job; ``Location`` is its address."""
     headers = {"Location": f"/v1/jobs/{job.id}", "Cache-Control": "no-store"}
     return Response(job_document(job).model_dump_json(), status, headers, JSON)

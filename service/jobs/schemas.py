@@ -9,14 +9,16 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 from service.libraries.endpoints import GridDocument
+from threadstate.device.document import DeviceDocument, device_document
 from threadstate.errors import InvalidValueError
-from threadstate.jobs.model import JobEvent, JobRecord
-from threadstate.jobs.names import EventKind, JobState
+from threadstate.jobs.model import JobEvent, JobInputs, JobRecord
+from threadstate.jobs.names import EventKind, JobKind, JobState
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.solver_method import SolverMethod
 from threadstate.mesh.options import DEFAULT_SCENE, Descent, FinalStep, MeshOptions, Scene, Tangent
 from threadstate.mesh.presets import Preset
+from threadstate.settled.inputs import SettledInputs
 from threadstate.state.options import SolveOptions
 from threadstate.thread.catalogue import DEFAULT_DESIGNATION, pair_by_designation
 
@@ -94,22 +96,34 @@ class JobRequest(BaseModel):
         )
 
 
+RESULT_PATHS = {
+    JobKind.LIBRARY: "/v1/libraries",
+    JobKind.SETTLED: "/v1/settled",
+    JobKind.SUCCESS: "/v1/success-maps",
+}
+
+
 class JobDocument(BaseModel):
     """A job."""
 
     id: int
+    kind: JobKind = Field(description="what it computes")
     state: JobState
     reason: str | None = Field(description="why it failed")
     designation: str
-    method: SolverMethod
+    method: SolverMethod | None = Field(description="of a library of contact states")
+    device: DeviceDocument | None = Field(description="of a library of settled states or a success map")
     grid: GridDocument
-    options: dict[str, float | str | bool] = Field(description="limits and tolerances of the solver")
+    options: dict[str, float | str | bool | list[float]] = Field(
+        description="limits and tolerances of the solver; of a success map strategy, frictions, tolerances and limit"
+    )
     input_sha256: str = Field(description="hash of all of these; equal hashes are the same job")
     code_version: str = Field(description="workers of another version do not take it")
     chunks: int = Field(description="number of orientations")
     committed: int = Field(description="number of computed orientations")
     at_work: int = Field(description="number of orientations that workers are computing")
-    library: int | None = Field(description="number of the published library")
+    library: int | None = Field(description="number of the published library of contact states")
+    result: str | None = Field(description="address of what is published")
     asked_at: datetime
     ended_at: datetime | None
 
@@ -134,29 +148,48 @@ class EventDocument(BaseModel):
 
 def job_document(job: JobRecord) -> JobDocument:
     """The document of a job."""
-    grid = job.inputs.grid
+    inputs, grid = job.inputs, job.inputs.grid
+    is_library = isinstance(inputs, LibraryInputs)
     return JobDocument(
         id=job.id,
+        kind=job.kind,
         state=job.state,
         reason=job.reason,
         designation=job.inputs.pair.designation,
-        method=job.inputs.method,
+        method=inputs.method if isinstance(inputs, LibraryInputs) else None,
+        device=None if isinstance(inputs, LibraryInputs) else DeviceDocument(**device_document(inputs.device)),
         grid=GridDocument(
             tilt_max=grid.tilt_max_deg,
             tilt_step=grid.tilt_step_deg,
             phase_step=grid.phase_step_deg,
             orientations=grid.orientation_count,
         ),
-        options=json.loads(job.inputs.options_json),
+        options=_options(inputs),
         input_sha256=job.input_sha256,
         code_version=job.code_version,
         chunks=job.chunk_count,
         committed=job.done_count,
         at_work=job.lease_count,
-        library=job.library_id,
+        library=job.published_id if is_library else None,
+        result=None if job.published_id is None else f"{RESULT_PATHS[job.kind]}/{job.published_id}",
         asked_at=job.asked_at,
         ended_at=job.ended_at,
     )
+
+
+def _options(inputs: JobInputs) -> dict[str, float | str | bool | list[float]]:
+    if isinstance(inputs, LibraryInputs):
+        options: dict[str, float | str | bool | list[float]] = json.loads(inputs.options_json)
+        return options
+    if isinstance(inputs, SettledInputs):
+        return {}
+    return {
+        "strategy": inputs.strategy.value,
+        "mu": list(inputs.frictions),
+        "phase_tolerance": inputs.phase_tolerance_deg,
+        "mu_tolerance": inputs.mu_tolerance,
+        "point_limit": inputs.point_limit,
+    }
 
 
 def event_document(job: JobRecord, event: JobEvent) -> EventDocument:

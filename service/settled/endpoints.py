@@ -5,19 +5,30 @@ from __future__ import annotations
 from datetime import datetime
 from urllib.parse import urlencode
 
-from fastapi import APIRouter, Request, Response
-from pydantic import BaseModel, Field
+from fastapi import APIRouter, Depends, Request, Response
+from pydantic import BaseModel, ConfigDict, Field
 
-from service.database import ReadConnection
+from service.database import ReadConnection, RequestedControl
+from service.jobs.endpoints import ACCEPTED, job_response
+from service.jobs.schemas import GridToCompute, JobDocument
+from service.keys import require_write_key
 from service.libraries.endpoints import GridDocument
+from service.libraries.requested import solved_pair
 from service.quantities import UNIT_HEADER, PhasePath, PitchPath, RollPath, UnitQuery
 from service.representation import NOT_MODIFIED, json_response
+from service.settle.endpoints import device_of
 from service.settled.parameters import AfterQuery, IdentifiedSettled, SettledFilterQuery
+from service.solve import NOT_BOTH, RequestOfPair
 from service.states.parameters import LimitQuery
+from service.strict_json import StrictJsonRoute
 from threadstate.device.document import DeviceDocument, SettledDocument, device_document, settled_document
-from threadstate.device.model import Outcome, SettledFlag
+from threadstate.device.model import Outcome, SettledFlag, default_device
+from threadstate.device.settle import check_pair
+from threadstate.jobs.queue import submit_job
+from threadstate.library.grid import Grid
 from threadstate.library.identity import pair_of
 from threadstate.numbers import number_text
+from threadstate.settled.inputs import SettledInputs
 from threadstate.settled.read import (
     SettledCounts,
     SettledLibrary,
@@ -79,7 +90,42 @@ class SettledPage(BaseModel):
     next: str | None = Field(description="address of the next page, null on the last; also as `Link: rel=next`")
 
 
-router = APIRouter(prefix="/v1/settled", tags=["settle"])
+class SettledRequest(RequestOfPair):
+    """A library of settled states to compute."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"device": {"unit": "mm", "push": 10}, "grid": {"phase_step": 5.0}}],
+            **NOT_BOTH,
+        },
+    )
+
+    device: DeviceDocument | None = Field(
+        default=None, description="the device; what it leaves out is as of the default one"
+    )
+    grid: GridToCompute = GridToCompute()
+
+
+router = APIRouter(prefix="/v1/settled", tags=["settle"], route_class=StrictJsonRoute)
+
+
+@router.post(
+    "",
+    summary="Request a library of settled states",
+    response_model=JobDocument,
+    responses=ACCEPTED,
+    dependencies=[Depends(require_write_key)],
+)
+def post_settled_library(request: Request, engine: RequestedControl, body: SettledRequest) -> Response:
+    """Have a library of settled states computed, as a job. The same inputs are the same job.
+
+    Lengths of the device are in its own unit.
+    """
+    pair = solved_pair(request, body.designation, body.library).pair
+    check_pair(pair)
+    grid = Grid(body.grid.tilt_max, body.grid.tilt_step, body.grid.phase_step)
+    job = submit_job(engine, SettledInputs(pair, grid, device_of(body.device) or default_device()))
+    return job_response(job, 200 if job.state.ended else 202)
 
 
 @router.get("", summary="All libraries of settled states", response_model=SettledLibraryList, responses=NOT_MODIFIED)

@@ -9,6 +9,7 @@ from service.app import create_app
 from tests.service.conftest import store_library
 from tests.service.made_up_states import made_up_states
 from tests.service.settled_library import store_settled
+from tests.service.success_map import store_success_map
 from tests.service_thread import service_thread
 from tests.stored_histories.history_library import SMALL_GRID, store_histories
 from threadstate.client import Client
@@ -28,12 +29,15 @@ def made_up_id() -> int:
 
 @pytest.fixture(scope="session")
 def database(sqlite_databases: Databases, small_histories: list[SolvedHistory], made_up_id: int) -> str:
-    """A database with a library of made-up states, the latest one of real histories, and one of settled states."""
+    """A database with a library of made-up states, the latest one of real histories, one of settled states, and a
+    success map.
+    """
     database = sqlite_databases.migrated()
     made_up = store_library(database, quarter_twenty_unc(), MADE_UP_GRID, made_up_states)
     assert made_up.id == made_up_id
     store_histories(database, SMALL_GRID, small_histories)
     store_settled(database)
+    store_success_map(database)
     return database
 
 

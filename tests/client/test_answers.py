@@ -117,6 +117,10 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "settled_libraries": {},
         "settled_library": {"settled_library": 1},
         "settled_state": {"roll": 0, "pitch": 0, "phase": 90, "unit": "mm"},
+        "outcomes": {"poses": [(1, -2, 10)], "strategy": "cw", "unit": "mm"},
+        "success_maps": {},
+        "success_map": {},
+        "success_orientation": {"roll": 1, "pitch": -1, "unit": "mm"},
         "intervals": {"roll": 0, "pitch": -3},
         "heights": {"roll": 0, "pitch": -3},
         "computed_intervals": {"roll": 1.5, "pitch": 0},
@@ -143,9 +147,11 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "transitions": {"move": "roll+", "roll": 0, "limit": 40},
         "jobs": {},
         "settled_states": {"limit": 3, "outcome": "settled"},
+        "success_orientations": {"limit": 4},
     }
     public = {name for name in vars(Client) if not name.startswith("_")}
-    assert public - {*asked, *lists} == {"ask", "job", "export", "close"}
+    of_jobs = {"ask", "ask_settled", "ask_success_map", "growing_map", "job"}
+    assert public - {*asked, *lists} == {*of_jobs, "export", "close"}
 
     async def all_of_them(other: AsyncClient) -> dict[str, Any]:
         found = {name: await getattr(other, name)(**arguments) for name, arguments in asked.items()}

@@ -16,7 +16,7 @@ from service.jobs.schemas import EventDocument
 from tests.test_architecture import modules_loaded_by
 from threadstate.client import AsyncClient, Client
 from threadstate.client.call import Call, PagedCall
-from threadstate.client.calls import jobs, libraries, network, settled, states, statics, threads
+from threadstate.client.calls import jobs, libraries, network, settled, states, statics, success, threads
 from threadstate.client.loads import LoadToBear
 from threadstate.client.models import assemblies as assembly_models
 from threadstate.client.models import jobs as job_models
@@ -26,14 +26,15 @@ from threadstate.client.models import service as service_models
 from threadstate.client.models import settled as settled_models
 from threadstate.client.models import states as state_models
 from threadstate.client.models import statics as statics_models
+from threadstate.client.models import success as success_models
 from threadstate.client.models import threads as thread_models
 from threadstate.client.models.answer import Answer
 from threadstate.device.assembly_document import AssemblyProgressDocument
 
-CALLS = (jobs, libraries, network, settled, states, statics, threads)
+CALLS = (jobs, libraries, network, settled, states, statics, success, threads)
 MODELS = (
     *(job_models, library_models, network_models, service_models),
-    *(assembly_models, settled_models, state_models, statics_models, thread_models),
+    *(assembly_models, settled_models, state_models, statics_models, success_models, thread_models),
 )
 RENAMED = {
     name: f"{name}Document"
@@ -43,9 +44,16 @@ RENAMED = {
         "SettledLibrary",
         *("Assembly", "AssemblyEvent", "AssemblyPath", "AssemblyEnergy", "AssemblyMargins", "AssemblyTravel"),
         "AssemblyProgress",
+        *("Cell", "PhaseBoundary", "CriticalFriction", "PhaseSummary", "SummarisedOrientation", "FrictionTotals"),
+        "SuccessMap",
         *("Twist", "LoadedContact", "Piece", "Jamming", "ComputedJamming", "ContactWrench", "Limits", "StandardThread"),
     )
-} | {"LibraryState": "ChosenFields", "Statics": "RequestedStaticsDocument", "ContactMode": "ModeDocument"}
+} | {
+    "LibraryState": "ChosenFields",
+    "Statics": "RequestedStaticsDocument",
+    "ContactMode": "ModeDocument",
+    "PathOutcome": "OutcomeDocument",
+}
 """Models that go by a shorter name than the service's."""
 
 ARGUMENTS: dict[str, object] = {
@@ -54,6 +62,10 @@ ARGUMENTS: dict[str, object] = {
     "phase": 3.0,
     "library": 7,
     "settled_library": 7,
+    "success_map": 7,
+    "phase_tolerance": 2.0,
+    "mu_tolerance": 0.01,
+    "point_limit": 500,
     "falls": 1,
     "libraries": [7, "m6"],
     "part": "bolt",
@@ -160,10 +172,13 @@ def test_requests_that_write_are_those_that_may_be_repeated(openapi: dict[str, A
     assert writing == {
         ("/v1/jobs", "post"),
         ("/v1/jobs/{id}", "delete"),
+        ("/v1/settled", "post"),
+        ("/v1/success-maps", "post"),
         ("/v1/solve", "post"),
         ("/v1/statics", "post"),
         ("/v1/settle", "post"),
         ("/v1/assemblies", "post"),
+        ("/v1/outcomes", "post"),
     }
 
 

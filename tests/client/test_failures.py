@@ -45,10 +45,12 @@ KEY = "ts_0123_thisisasecret"
 OK = answer(200, '{"status":"ok"}')
 JOB = {
     "id": 3,
+    "kind": "library",
     "state": "queued",
     "reason": None,
     "designation": "1/4-20 UNC",
     "method": "exact",
+    "device": None,
     "grid": {"tilt_max": 1, "tilt_step": 1, "phase_step": 90, "orientations": 9},
     "options": {},
     "input_sha256": "0",
@@ -57,6 +59,7 @@ JOB = {
     "committed": 0,
     "at_work": 0,
     "library": None,
+    "result": None,
     "asked_at": "2026-01-01T00:00:00Z",
     "ended_at": None,
 }

@@ -60,7 +60,7 @@ def test_nothing_is_a_frame_with_the_same_columns(kind: type[object]) -> None:
 
 def test_lists_know_what_they_hold_without_anything_in_them(client: Client) -> None:
     assert "reason" in client.undecided().to_pandas().columns
-    assert client.jobs().to_polars().columns[:2] == ["id", "state"]
+    assert client.jobs().to_polars().columns[:3] == ["id", "kind", "state"]
     assert columns_and_sources(JobDocument, [])[0]
 
 

@@ -1,10 +1,13 @@
-"""A small library of plain states as a job, for tests of what happens to jobs."""
+"""Small jobs of each kind with made-up chunks, for tests of what happens to jobs."""
 
 from __future__ import annotations
 
 from sqlalchemy import Engine
 
 from tests.library.states import plain_state
+from threadstate.device.assembly_model import AssemblyOutcome
+from threadstate.device.model import default_device
+from threadstate.device.strategy import Strategy
 from threadstate.jobs.model import JobEvent, JobRecord
 from threadstate.jobs.queue import events_after, job_by_id
 from threadstate.jobs.work import complete_chunk, lease_chunks, open_job
@@ -13,11 +16,32 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
 from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, write_chunk
+from threadstate.settled.inputs import SettledInputs
 from threadstate.state.options import SolveOptions
+from threadstate.success.inputs import SuccessInputs
+from threadstate.success.model import Cell, OrientationMap
+from threadstate.success.search import mapped_cells
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 GRID = Grid(1.0, 1.0, 180.0)
 INPUTS = LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions())
+SETTLED_INPUTS = SettledInputs(quarter_twenty_unc(), GRID, default_device())
+SUCCESS_INPUTS = SuccessInputs(quarter_twenty_unc(), default_device(), Strategy.CCW_THEN_CW, GRID, (0.0, 0.2))
+
+
+def made_up_orientation(inputs: SuccessInputs, index: int) -> OrientationMap:
+    """An orientation of a map in which every frictionless path engages and no other one does."""
+    orientation = inputs.grid.orientation(index)
+
+    def made_up(phase_deg: float, mu: float) -> Cell:
+        if mu > 0.0:
+            return Cell(phase_deg, mu, AssemblyOutcome.NO_SNAP, (), False, 0.5, 2.0, 0.002, 360.0)
+        return Cell(phase_deg, mu, AssemblyOutcome.ENGAGED, (), False, 0.25 + index, 3.0, 0.001, -90.0)
+
+    found = mapped_cells(
+        made_up, inputs.grid.phases_deg, inputs.frictions, inputs.phase_tolerance_deg, inputs.mu_tolerance
+    )
+    return OrientationMap(index, orientation.roll_deg, orientation.pitch_deg, *found)
 
 
 def read_job(engine: Engine, job_id: int) -> JobRecord:

@@ -6,9 +6,21 @@ from dataclasses import replace
 import pytest
 from sqlalchemy import Engine, delete
 
-from tests.jobs.jobs import GRID, INPUTS, events, opened, published_count, read_job, work_off
+from tests.jobs.jobs import (
+    GRID,
+    INPUTS,
+    SETTLED_INPUTS,
+    SUCCESS_INPUTS,
+    events,
+    opened,
+    published_count,
+    read_job,
+    work_off,
+)
+from threadstate.device.model import About, default_device
+from threadstate.device.strategy import Strategy
 from threadstate.errors import NotFoundError
-from threadstate.jobs.model import JobEndedError, inputs_from_json, inputs_json
+from threadstate.jobs.model import JobEndedError, JobInputs, inputs_from_json, inputs_json, kind_of
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.queue import cancel, jobs_before, submit_job
 from threadstate.jobs.work import complete_chunk, lease_chunks, publish_job
@@ -17,7 +29,9 @@ from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.tables import library
 from threadstate.mesh.options import MeshOptions
+from threadstate.settled.inputs import SettledInputs
 from threadstate.state.options import SolveOptions
+from threadstate.success.inputs import SuccessInputs
 from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 
 
@@ -27,10 +41,16 @@ from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
         INPUTS,
         LibraryInputs(quarter_twenty_unc(RootForm.NEWER), Grid(0.3, 0.1, 0.25), SolveOptions(tie_tolerance=3e-11)),
         LibraryInputs(quarter_twenty_unc(), GRID, SolveOptions(), MeshOptions(checked=False)),
+        SETTLED_INPUTS,
+        SettledInputs(quarter_twenty_unc(), GRID, replace(default_device(), centre=-0.1, about=About.BOLT)),
+        SUCCESS_INPUTS,
+        SuccessInputs(
+            quarter_twenty_unc(), default_device(), Strategy.CW, Grid(0.3, 0.1, 0.25), (0.0, 0.07), 0.3, 1e-3, 700
+        ),
     ],
 )
-def test_inputs_are_the_same_after_the_database(inputs: LibraryInputs) -> None:
-    again = inputs_from_json(inputs_json(inputs))
+def test_inputs_are_the_same_after_the_database(inputs: JobInputs) -> None:
+    again = inputs_from_json(kind_of(inputs), inputs_json(inputs))
     assert again == inputs
     assert again.sha256 == inputs.sha256
 
@@ -97,7 +117,7 @@ def test_a_job_that_is_done_stays_done_while_its_library_is_there(engine: Engine
     work_off(engine, worker, job.id, library_id)
     publish_job(engine, worker, job.id, library_id, GRID)
     done = submit_job(engine, INPUTS)
-    assert (done.state, done.library_id) == (JobState.DONE, library_id)
+    assert (done.state, done.published_id) == (JobState.DONE, library_id)
     with pytest.raises(JobEndedError):
         cancel(engine, job.id)
     with engine.begin() as connection:

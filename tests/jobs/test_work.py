@@ -7,6 +7,7 @@ import pytest
 from sqlalchemy import Engine, delete, select
 
 from tests.jobs.jobs import GRID, INPUTS, commit, events, opened, published_count, read_job, work_off
+from threadstate.jobs.model import code_versions
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.queue import cancel, submit_job
 from threadstate.jobs.tables import job_chunk
@@ -24,7 +25,6 @@ from threadstate.jobs.work import (
 from threadstate.jobs.workers import LostLeaseError, beat, beats, join, leave, remove_dead_worker
 from threadstate.library.fingerprint import library_sha256
 from threadstate.library.grid import Grid
-from threadstate.library.identity import code_versions
 from threadstate.library.read import library_by_id
 from threadstate.library.tables import chunk, library
 from threadstate.library.write import IncompleteLibraryError
@@ -39,7 +39,7 @@ def test_a_job_from_the_question_to_the_library(engine: Engine) -> None:
     assert publish_job(engine, worker, job.id, library_id, GRID)
     assert not publish_job(engine, worker, job.id, library_id, GRID)
     done = read_job(engine, job.id)
-    assert (done.state, done.library_id, done.done_count, done.lease_count) == (JobState.DONE, library_id, 9, 0)
+    assert (done.state, done.published_id, done.done_count, done.lease_count) == (JobState.DONE, library_id, 9, 0)
     assert done.ended_at is not None
     assert [(event.kind, event.done_count) for event in events(engine, job.id)] == [
         (EventKind.QUEUED, 0),

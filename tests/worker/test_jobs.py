@@ -112,8 +112,8 @@ def _check_whole(jobs: Jobs, expected_content: str) -> None:
     done = jobs.job()
     assert (done.state, done.done_count) == (JobState.DONE, GRID.orientation_count)
     with jobs.engine.connect() as connection:
-        assert done.library_id is not None
-        assert library_by_id(connection, done.library_id).state_count == GRID.pose_count
+        assert done.published_id is not None
+        assert library_by_id(connection, done.published_id).state_count == GRID.pose_count
         assert len(connection.execute(select(state.c.ordinal)).all()) == GRID.pose_count
         told = events_after(connection, done.id, 0)
     assert [event.number for event in told] == list(range(1, done.event_count + 1))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -23,10 +22,8 @@ from threadstate.library.settled_tables import settled_chunk
 from threadstate.settled.compute import computed_rows
 from threadstate.settled.inputs import SettledInputs
 from threadstate.settled.read import named_settled_library, settled_libraries, settled_states_between
-from threadstate.settled.rows import SettledRows
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.processes import ComputeError, running_processes
-from worker.settled.rebuild import _settle
+from worker.processes import ComputeError, computing_processes
 
 pytestmark = [pytest.mark.slow, pytest.mark.sqlite_alone]
 
@@ -113,7 +110,7 @@ def test_what_is_not_valid_is_a_clear_error(command_line: CommandLine, options: 
 def test_a_process_that_fails_says_why() -> None:
     inputs = SettledInputs(quarter_twenty_unc(), GRID, default_device())
     with (
-        running_processes(partial(_settle, inputs), SettledRows, 1) as processes,
+        computing_processes(inputs, 1) as processes,
         pytest.raises(ComputeError, match="failed: IndexError"),
     ):
         list(processes.chunks([GRID.orientation_count], lambda: None))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -19,8 +18,7 @@ from threadstate.success.inputs import SuccessInputs
 from threadstate.success.map_file import read_map
 from threadstate.success.model import OrientationMap
 from threadstate.thread.catalogue import quarter_twenty_unc
-from worker.processes import ComputeError, running_processes
-from worker.success.run import _serve
+from worker.processes import ComputeError, computing_processes
 
 pytestmark = [pytest.mark.slow, pytest.mark.sqlite_alone]
 
@@ -36,9 +34,9 @@ COMMAND = (
 @pytest.fixture(scope="module")
 def expected_content() -> str:
     """The content hash of the small map, computed by one process."""
-    with running_processes(partial(_serve, INPUTS), OrientationMap, 1) as processes:
-        found = list(processes.chunks(range(INPUTS.grid.orientation_count), lambda: None))
-    return map_sha256(found)
+    with computing_processes(INPUTS, 1) as processes:
+        found = processes.chunks(range(INPUTS.grid.orientation_count), lambda: None)
+        return map_sha256([one for one in found if isinstance(one, OrientationMap)])
 
 
 def test_the_content_does_not_depend_on_the_number_of_workers(
@@ -110,7 +108,7 @@ def test_what_is_not_valid_is_a_clear_error(command_line: CommandLine, options: 
 
 def test_a_process_that_fails_says_why() -> None:
     with (
-        running_processes(partial(_serve, INPUTS), OrientationMap, 1) as processes,
+        computing_processes(INPUTS, 1) as processes,
         pytest.raises(ComputeError, match="failed: IndexError"),
     ):
         list(processes.chunks([INPUTS.grid.orientation_count], lambda: None))

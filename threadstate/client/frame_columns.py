@@ -10,6 +10,7 @@ from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.libraries import OrientationDocument
 from threadstate.client.models.settled import Settled
 from threadstate.client.models.states import State, UndecidedDocument
+from threadstate.client.models.success import SummarisedOrientation
 from threadstate.errors import InvalidValueError
 from threadstate.export.column import Cell, Column, degrees, integer, length, number, truth, words
 from threadstate.export.states import LEAST_CONTACTS, state_columns
@@ -178,19 +179,47 @@ _TRANSITIONS: tuple[Column[TransitionDocument], ...] = (
     words("text", "what changes, in words", lambda one: one.text),
 )
 
+
+def _least_share(one: SummarisedOrientation) -> float:
+    return min(summary.share for summary in one.summary)
+
+
+def _undecided_phases(one: SummarisedOrientation) -> int:
+    return sum(summary.undecided for summary in one.summary)
+
+
+_ORIENTATIONS_OF_MAPS: tuple[Column[SummarisedOrientation], ...] = (
+    degrees("roll", "roll of the orientation", lambda one: one.roll),
+    degrees("pitch", "pitch of the orientation", lambda one: one.pitch),
+    number("critical_last", "friction up to which every phase engages", lambda one: one.critical.last),
+    number("critical_first", "friction at which one does not", lambda one: one.critical.first),
+    degrees("critical_phase", "starting phase that ends it", lambda one: one.critical.phase),
+    words(
+        "critical_outcome",
+        "how the path from there ends",
+        lambda one: None if one.critical.outcome is None else one.critical.outcome.value,
+    ),
+    number("least_share", "least share of the phases that engages, over the frictions", _least_share),
+    integer("undecided", "phases without a certain outcome, over all frictions", _undecided_phases),
+    integer("cells", "how many paths were computed", lambda one: len(one.cells)),
+    integer("boundaries", "how many boundaries of outcome there are", lambda one: len(one.boundaries)),
+)
+
 _JOBS: tuple[Column[JobDocument], ...] = (
     integer("id", "number of the job", lambda one: one.id),
+    words("kind", "what it computes", lambda one: one.kind.value),
     words("state", "how far it is", lambda one: one.state.value),
     words("reason", "why it failed", lambda one: one.reason),
     words("designation", "the thread", lambda one: one.designation),
-    words("method", "how states are found", lambda one: one.method.value),
+    words("method", "how contact states are found", lambda one: None if one.method is None else one.method.value),
     degrees("tilt_max", "largest roll and pitch", lambda one: one.grid.tilt_max),
     degrees("tilt_step", "step of roll and pitch", lambda one: one.grid.tilt_step),
     degrees("phase_step", "step of phase", lambda one: one.grid.phase_step),
     integer("chunks", "how many orientations there are", lambda one: one.chunks),
     integer("committed", "how many of them are computed", lambda one: one.committed),
     number("share", "the part that is computed, 0 to 1", lambda one: one.committed / one.chunks),
-    integer("library", "number of the library, once published", lambda one: one.library),
+    integer("library", "number of the library of contact states, once published", lambda one: one.library),
+    words("result", "address of what is published", lambda one: one.result),
 )
 
 COLUMNS: Mapping[type[object], Columns] = MappingProxyType(
@@ -203,6 +232,7 @@ COLUMNS: Mapping[type[object], Columns] = MappingProxyType(
         IntervalDocument: _INTERVALS,
         StretchDocument: _STRETCHES,
         TransitionDocument: _TRANSITIONS,
+        SummarisedOrientation: _ORIENTATIONS_OF_MAPS,
         JobDocument: _JOBS,
     }
 )

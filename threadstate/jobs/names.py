@@ -1,8 +1,24 @@
-"""The states of a job and the kinds of its events."""
+"""What a job computes, the states of a job and the kinds of its events."""
 
 from __future__ import annotations
 
 from enum import StrEnum
+
+
+class JobKind(StrEnum):
+    """What a job computes."""
+
+    LIBRARY = "library"
+    """A library of contact states."""
+    SETTLED = "settled"
+    """A library of settled states."""
+    SUCCESS = "success"
+    """A success map."""
+
+    @property
+    def words(self) -> str:
+        """What is computed, in words."""
+        return _WORDS[self]
 
 
 class JobState(StrEnum):
@@ -29,3 +45,10 @@ class EventKind(StrEnum):
     PUBLISHED = "published"
     FAILED = "failed"
     CANCELLED = "cancelled"
+
+
+_WORDS = {
+    JobKind.LIBRARY: "library of contact states",
+    JobKind.SETTLED: "library of settled states",
+    JobKind.SUCCESS: "success map",
+}

@@ -8,23 +8,27 @@ from typing import Any
 from sqlalchemy import Connection, Engine, RowMapping, Select, delete, func, insert, select, update
 
 from threadstate.errors import NotFoundError
-from threadstate.jobs.model import JobEndedError, JobEvent, JobRecord, inputs_from_json, inputs_json
-from threadstate.jobs.names import EventKind, JobState
+from threadstate.jobs.model import JobEndedError, JobEvent, JobInputs, JobRecord, inputs_from_json, inputs_json, kind_of
+from threadstate.jobs.names import EventKind, JobKind, JobState
 from threadstate.jobs.tables import job, job_chunk, job_event
 from threadstate.library.advisory_locks import WriterLock, take_lock
-from threadstate.library.identity import LibraryInputs
-from threadstate.library.read import LARGEST_ID, library_by_input
+from threadstate.library.read import LARGEST_ID
+from threadstate.library.settled_tables import settled_library
+from threadstate.library.success_tables import success_map
 from threadstate.library.tables import library
 
+_PUBLISHED = (library, settled_library, success_map)
+"""The tables of what jobs publish; a hash of inputs is in one of them at most."""
 
-def submit_job(engine: Engine, inputs: LibraryInputs) -> JobRecord:
-    """The job of these inputs: the existing one, queued again if it ended without a library, or a new one."""
+
+def submit_job(engine: Engine, inputs: JobInputs) -> JobRecord:
+    """The job of these inputs: the existing one, queued again if it ended unpublished, or a new one."""
     with engine.begin() as connection:
         take_lock(connection, WriterLock.SUBMIT_JOB)
         job_id = connection.scalar(select(job.c.id).where(job.c.input_sha256 == inputs.sha256))
         if job_id is None:
             job_id = _insert_job(connection, inputs)
-        elif _must_requeue(connection, job_id, inputs):
+        elif _must_requeue(connection, job_id):
             change_job(
                 connection,
                 job_id,
@@ -56,11 +60,12 @@ def cancel(engine: Engine, job_id: int) -> JobRecord:
         return job_by_id(connection, job_id)
 
 
-def _insert_job(connection: Connection, inputs: LibraryInputs) -> int:
+def _insert_job(connection: Connection, inputs: JobInputs) -> int:
     now = datetime.now(UTC)
     made = connection.execute(
         insert(job)
         .values(
+            kind=kind_of(inputs).value,
             input_sha256=inputs.sha256,
             inputs=inputs_json(inputs),
             code_version=inputs.code_version,
@@ -80,10 +85,10 @@ def _insert_job(connection: Connection, inputs: LibraryInputs) -> int:
     return job_id
 
 
-def _must_requeue(connection: Connection, job_id: int, inputs: LibraryInputs) -> bool:
+def _must_requeue(connection: Connection, job_id: int) -> bool:
     state = locked_state(connection, job_id)
     if state is JobState.DONE:
-        return library_by_input(connection, inputs.sha256) is None
+        return job_by_id(connection, job_id).published_id is None
     return state in (JobState.FAILED, JobState.CANCELLED)
 
 
@@ -133,12 +138,14 @@ def _jobs() -> Select[tuple[object, ...]]:
         .scalar_subquery()
         .label("lease_count")
     )
-    published = (
-        select(library.c.id)
-        .where(library.c.input_sha256 == job.c.input_sha256, library.c.published_at.is_not(None))
-        .scalar_subquery()
-        .label("library_id")
-    )
+    published = func.coalesce(
+        *(
+            select(table.c.id)
+            .where(table.c.input_sha256 == job.c.input_sha256, table.c.published_at.is_not(None))
+            .scalar_subquery()
+            for table in _PUBLISHED
+        )
+    ).label("published_id")
     return select(*job.c, leases, published)
 
 
@@ -147,13 +154,13 @@ def _record(row: RowMapping) -> JobRecord:
         id=row["id"],
         state=JobState(row["state"]),
         reason=row["reason"],
-        inputs=inputs_from_json(row["inputs"]),
+        inputs=inputs_from_json(JobKind(row["kind"]), row["inputs"]),
         input_sha256=row["input_sha256"],
         code_version=row["code_version"],
         chunk_count=row["chunk_count"],
         done_count=row["done_count"],
         lease_count=row["lease_count"],
-        library_id=row["library_id"],
+        published_id=row["published_id"],
         event_count=row["event_count"],
         asked_at=row["asked_at"],
         ended_at=row["ended_at"],

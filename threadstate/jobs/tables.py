@@ -13,7 +13,7 @@ from sqlalchemy import (
     UniqueConstraint,
 )
 
-from threadstate.jobs.names import EventKind, JobState
+from threadstate.jobs.names import EventKind, JobKind, JobState
 from threadstate.library.column_types import UtcDateTime, bytewise_string, bytewise_text
 from threadstate.library.tables import NAME_LENGTH, SHA256_LENGTH, metadata, one_of
 
@@ -24,7 +24,7 @@ job = Table(
     "job",
     metadata,
     Column("id", Integer, nullable=False),
-    # The requested library: its inputs as JSON, and their hash by the code that accepted the job.
+    # What is computed: its inputs as JSON, and their hash by the code that accepted the job.
     Column("input_sha256", bytewise_string(SHA256_LENGTH), nullable=False),
     Column("inputs", bytewise_text(), nullable=False),
     Column("code_version", bytewise_string(NAME_LENGTH), nullable=False),
@@ -37,6 +37,8 @@ job = Table(
     Column("event_count", Integer, nullable=False),
     Column("asked_at", UtcDateTime, nullable=False),
     Column("ended_at", UtcDateTime),
+    # What is computed, which says what the inputs are.
+    Column("kind", bytewise_string(NAME_LENGTH), server_default=JobKind.LIBRARY.value, nullable=False),
     PrimaryKeyConstraint("id"),
     # Serves: the same job requested twice.
     UniqueConstraint("input_sha256"),
@@ -44,7 +46,7 @@ job = Table(
     # Serves: the jobs that workers may take.
     Index(None, "state", "id"),
 )
-"""A requested library."""
+"""A requested library or map."""
 
 job_worker = Table(
     "job_worker",

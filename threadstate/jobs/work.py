@@ -10,15 +10,13 @@ from dataclasses import dataclass
 
 from sqlalchemy import ColumnElement, Connection, Engine, Select, delete, exists, func, insert, or_, select, update
 
-from threadstate.jobs.model import inputs_from_json
-from threadstate.jobs.names import EventKind, JobState
+from threadstate.jobs.model import JobInputs, inputs_from_json
+from threadstate.jobs.names import EventKind, JobKind, JobState
 from threadstate.jobs.queue import change_job, locked_state
+from threadstate.jobs.stores import STORES
 from threadstate.jobs.tables import job, job_chunk, job_worker
 from threadstate.jobs.workers import require_alive
 from threadstate.library.grid import Grid
-from threadstate.library.identity import LibraryInputs
-from threadstate.library.tables import chunk
-from threadstate.library.write import publish_in
 
 MAX_FAILURES = 5
 """After this many failures (a computing process died, the library was removed) the job itself has failed."""
@@ -47,7 +45,7 @@ class NextJob:
     """A job that a worker can work on."""
 
     job_id: int
-    inputs: LibraryInputs
+    inputs: JobInputs
 
 
 def next_job(engine: Engine, code_versions: Collection[str]) -> NextJob | None:
@@ -58,14 +56,14 @@ def next_job(engine: Engine, code_versions: Collection[str]) -> NextJob | None:
     """
     with engine.connect() as connection:
         row = connection.execute(next_job_query(code_versions)).first()
-    return None if row is None else NextJob(row.id, inputs_from_json(row.inputs))
+    return None if row is None else NextJob(row.id, inputs_from_json(JobKind(row.kind), row.inputs))
 
 
-def next_job_query(code_versions: Collection[str]) -> Select[tuple[int, str]]:
+def next_job_query(code_versions: Collection[str]) -> Select[tuple[int, str, str]]:
     """The statement of :func:`next_job`."""
     whole = (job.c.state == JobState.RUNNING.value) & ~exists().where(job_chunk.c.job_id == job.c.id)
     return (
-        select(job.c.id, job.c.inputs)
+        select(job.c.id, job.c.kind, job.c.inputs)
         .where(job.c.code_version.in_(code_versions), or_(_HAS_FREE_CHUNKS, whole))
         .order_by(_WORKER_COUNT, job.c.id)
         .limit(1)
@@ -100,13 +98,13 @@ def all_jobs_ended(engine: Engine, code_versions: Collection[str]) -> bool:
         return connection.scalar(query) is None
 
 
-def open_job(engine: Engine, job_id: int, library_id: int) -> None:
-    """Start a queued job with the chunks that its library lacks; has no effect on other jobs."""
+def open_job(engine: Engine, job_id: int, store_id: int) -> None:
+    """Start a queued job with the chunks that its library or map lacks; has no effect on other jobs."""
     with engine.begin() as connection:
         if locked_state(connection, job_id) is not JobState.QUEUED:
             return
-        count = connection.scalar(select(job.c.chunk_count).where(job.c.id == job_id)) or 0
-        committed = set(connection.scalars(select(chunk.c.orientation).where(chunk.c.library_id == library_id)))
+        row = connection.execute(select(job.c.kind, job.c.chunk_count).where(job.c.id == job_id)).one()
+        count, committed = row.chunk_count, STORES[JobKind(row.kind)].committed(connection, store_id)
         missing = [index for index in range(count) if index not in committed]
         connection.execute(delete(job_chunk).where(job_chunk.c.job_id == job_id))
         if missing:
@@ -180,16 +178,16 @@ def complete_chunk(engine: Engine, worker_id: str, job_id: int, orientation: int
         return True
 
 
-def publish_job(engine: Engine, worker_id: str, job_id: int, library_id: int, grid: Grid) -> bool:
-    """Publish a running job's library if no chunk is missing, in one transaction with the check that the worker is
-    alive.
+def publish_job(engine: Engine, worker_id: str, job_id: int, store_id: int, grid: Grid) -> bool:
+    """Publish what a running job has computed if no chunk is missing, in one transaction with the check that the worker
+    is alive.
 
     Returns:
         Whether this call finished the job.
 
     Raises:
         LostLeaseError: the worker was considered dead.
-        IncompleteLibraryError: the library lacks chunks that the job has counted as committed.
+        IncompleteLibraryError: chunks are missing that the job has counted as committed.
     """
     with engine.begin() as connection:
         if locked_state(connection, job_id) is not JobState.RUNNING:
@@ -197,7 +195,8 @@ def publish_job(engine: Engine, worker_id: str, job_id: int, library_id: int, gr
         require_alive(connection, worker_id)
         if _has_chunks(connection, job_id):
             return False
-        publish_in(connection, library_id, grid)
+        kind = JobKind(connection.execute(select(job.c.kind).where(job.c.id == job_id)).scalar_one())
+        STORES[kind].publish(connection, store_id, grid)
         change_job(connection, job_id, EventKind.PUBLISHED, state=JobState.DONE)
         return True
 

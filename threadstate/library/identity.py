@@ -190,11 +190,6 @@ def _plain(value: object, name: str) -> object:
     raise InvalidValueError(name, value, "a number, a name or a dataclass of them")
 
 
-def code_versions() -> frozenset[str]:
-    """The code versions of the libraries that this code computes, one for each solver method."""
-    return frozenset(version_of_code(*code) for code in (EXACT_CODE, MESH_CODE))
-
-
 @cache
 def version_of_code(patterns: tuple[str, ...], libraries: tuple[str, ...]) -> str:
     """The project's version and the first 12 digits of the hash of these sources, and of these libraries' versions."""

@@ -12,7 +12,7 @@ from threadstate.errors import SchemaError, UnreadableDatabaseError
 from threadstate.library.address import is_sqlite, masked_url
 from threadstate.settings import DATABASE
 
-SCHEMA_REVISION = "0011"
+SCHEMA_REVISION = "0012"
 """The newest migration; the tables of ``threadstate.library.tables`` match it."""
 
 MIGRATE_COMMAND = "threadstate migrate"

@@ -189,19 +189,26 @@ def publish_in(connection: Connection, library_id: int, grid: Grid) -> str:
             f"{answers} of {grid.pose_count} poses"
         )
     content_sha256 = library_sha256([row.content_sha256 for row in chunks])
-    latest = connection.scalar(select(func.max(library.c.published_at)))
-    now = datetime.now(UTC)
     connection.execute(
         update(library)
         .where(library.c.id == library_id)
         .values(
             content_sha256=content_sha256,
-            # The library published last is the latest, even if the clock was set back.
-            published_at=now if latest is None or latest < now else latest + timedelta(microseconds=1),
+            published_at=next_published_at(connection, library),
             undecided_count=left_undecided,
         )
     )
     return content_sha256
+
+
+def next_published_at(connection: Connection, table: Table) -> datetime:
+    """The time at which what is published next is published.
+
+    What was published last is the latest, even if the clock was set back.
+    """
+    latest = connection.scalar(select(func.max(table.c.published_at)))
+    now = datetime.now(UTC)
+    return now if latest is None or latest < now else latest + timedelta(microseconds=1)
 
 
 def pin_library(engine: Engine, library_id: int | None) -> None:

@@ -27,6 +27,7 @@ PHYSICS = (
     "settled/rows.py",
 )
 """The sources that decide what is stored."""
+SETTLED_CODE = (PHYSICS, COMPUTING)
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class SettledInputs:
     @property
     def code_version(self) -> str:
         """The project's version and the first 12 digits of the hash of the code that computes what is stored."""
-        return version_of_code(PHYSICS, COMPUTING)
+        return version_of_code(*SETTLED_CODE)
 
     @cached_property
     def sha256(self) -> str:

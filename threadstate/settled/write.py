@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime
 
-from sqlalchemy import Engine, func, insert, select, update
+from sqlalchemy import Connection, Engine, insert, select, update
 
 from threadstate.library.advisory_locks import WriterLock, take_lock
 from threadstate.library.fingerprint import library_sha256
@@ -17,7 +17,7 @@ from threadstate.library.settled_tables import (
     settled_library,
     settled_state,
 )
-from threadstate.library.write import IncompleteLibraryError, insert_rows
+from threadstate.library.write import IncompleteLibraryError, insert_rows, next_published_at
 from threadstate.settled.inputs import SettledInputs
 from threadstate.settled.rows import SettledRows
 
@@ -89,28 +89,30 @@ def publish_settled(engine: Engine, library_id: int, grid: Grid) -> str:
     Raises:
         IncompleteLibraryError: chunks are missing.
     """
-    which = settled_library.c.id == library_id
     with engine.begin() as connection:
-        known = connection.scalar(select(settled_library.c.content_sha256).where(which).with_for_update())
-        if known is not None:
-            return str(known)
-        chunks = connection.execute(
-            select(settled_chunk.c.orientation, settled_chunk.c.state_count, settled_chunk.c.content_sha256)
-            .where(settled_chunk.c.library_id == library_id)
-            .order_by(settled_chunk.c.orientation)
-        ).all()
-        states = sum(row.state_count for row in chunks)
-        if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or states != grid.pose_count:
-            raise IncompleteLibraryError(
-                f"library {library_id} of settled states has {len(chunks)} of {grid.orientation_count} orientations "
-                f"and {states} of {grid.pose_count} poses"
-            )
-        content_sha256 = library_sha256([row.content_sha256 for row in chunks])
-        latest = connection.scalar(select(func.max(settled_library.c.published_at)))
-        now = datetime.now(UTC)
-        # The library published last is the latest, even if the clock was set back.
-        published_at = now if latest is None or latest < now else latest + timedelta(microseconds=1)
-        connection.execute(
-            update(settled_library).where(which).values(content_sha256=content_sha256, published_at=published_at)
+        return publish_settled_in(connection, library_id, grid)
+
+
+def publish_settled_in(connection: Connection, library_id: int, grid: Grid) -> str:
+    """As :func:`publish_settled`, in a transaction that has begun."""
+    which = settled_library.c.id == library_id
+    known = connection.scalar(select(settled_library.c.content_sha256).where(which).with_for_update())
+    if known is not None:
+        return str(known)
+    chunks = connection.execute(
+        select(settled_chunk.c.orientation, settled_chunk.c.state_count, settled_chunk.c.content_sha256)
+        .where(settled_chunk.c.library_id == library_id)
+        .order_by(settled_chunk.c.orientation)
+    ).all()
+    states = sum(row.state_count for row in chunks)
+    if [row.orientation for row in chunks] != list(range(grid.orientation_count)) or states != grid.pose_count:
+        raise IncompleteLibraryError(
+            f"library {library_id} of settled states has {len(chunks)} of {grid.orientation_count} orientations "
+            f"and {states} of {grid.pose_count} poses"
         )
+    content_sha256 = library_sha256([row.content_sha256 for row in chunks])
+    published_at = next_published_at(connection, settled_library)
+    connection.execute(
+        update(settled_library).where(which).values(content_sha256=content_sha256, published_at=published_at)
+    )
     return content_sha256

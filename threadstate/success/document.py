@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from typing_extensions import TypedDict
@@ -66,20 +66,7 @@ def orientation_document(found: OrientationMap) -> OrientationDocument:
         "index": found.index,
         "roll": found.roll_deg + 0.0,
         "pitch": found.pitch_deg + 0.0,
-        "cells": [
-            {
-                "phase": cell.phase_deg + 0.0,
-                "mu": cell.mu + 0.0,
-                "outcome": cell.outcome,
-                "flags": list(cell.flags),
-                "bounded": cell.is_bounded,
-                "torque": _plain(cell.torque),
-                "tilt": _plain(cell.tilt_deg),
-                "shift": _plain(cell.shift),
-                "end": _plain(cell.end_deg),
-            }
-            for cell in found.cells
-        ],
+        "cells": [cell_document(cell) for cell in found.cells],
         "boundaries": [
             {
                 "mu": boundary.mu + 0.0,
@@ -97,6 +84,21 @@ def orientation_document(found: OrientationMap) -> OrientationDocument:
             "outcome": critical.outcome,
             "reenters": critical.reenters,
         },
+    }
+
+
+def cell_document(cell: Cell) -> CellDocument:
+    """The document of a path of a map, in the pair's unit."""
+    return {
+        "phase": cell.phase_deg + 0.0,
+        "mu": cell.mu + 0.0,
+        "outcome": cell.outcome,
+        "flags": list(cell.flags),
+        "bounded": cell.is_bounded,
+        "torque": _plain(cell.torque),
+        "tilt": _plain(cell.tilt_deg),
+        "shift": _plain(cell.shift),
+        "end": _plain(cell.end_deg),
     }
 
 
@@ -153,7 +155,12 @@ def orientation_sha256(found: OrientationMap) -> str:
 def map_sha256(orientations: Sequence[OrientationMap]) -> str:
     """SHA-256, in hexadecimal, of a whole map: of its orientations' hashes in the order of the grid."""
     ordered = sorted(orientations, key=lambda one: one.index)
-    return hashlib.sha256("\n".join(map(orientation_sha256, ordered)).encode()).hexdigest()
+    return map_sha256_of(map(orientation_sha256, ordered))
+
+
+def map_sha256_of(orientation_hashes: Iterable[str]) -> str:
+    """The hash of a whole map from its orientations' hashes, in the order of the grid."""
+    return hashlib.sha256("\n".join(orientation_hashes).encode()).hexdigest()
 
 
 def document_text(document: Any) -> str:

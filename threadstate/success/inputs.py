@@ -34,6 +34,7 @@ PHYSICS = (
     "success/search.py",
 )
 """The sources that decide what a map holds."""
+SUCCESS_CODE = (PHYSICS, COMPUTING)
 
 FRICTIONS = (0.1, 0.2, 0.3)
 PHASE_TOLERANCE_DEG = 2.0
@@ -93,7 +94,7 @@ class SuccessInputs:
     @property
     def code_version(self) -> str:
         """The project's version and the first 12 digits of the hash of the code that computes a map."""
-        return version_of_code(PHYSICS, COMPUTING)
+        return version_of_code(*SUCCESS_CODE)
 
     @cached_property
     def sha256(self) -> str:

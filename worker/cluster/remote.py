@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from threadstate.library.identity import LibraryInputs
+from threadstate.jobs.model import JobInputs
 from threadstate.warm_up import load_kernels_exclusively
 from worker.cluster.errors import VersionSkewError
 from worker.cluster.versions import Versions, own_versions
@@ -13,7 +13,7 @@ from worker.garbage import collect_rarely
 from worker.messages import Chunk
 
 
-def remote_chunk(inputs: LibraryInputs, index: int, wanted: Versions) -> Chunk:
+def remote_chunk(inputs: JobInputs, index: int, wanted: Versions) -> Chunk:
     """Compute the chunk of an orientation in a process that must have the ``wanted`` versions.
 
     Raises:

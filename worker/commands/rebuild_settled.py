@@ -12,9 +12,11 @@ from worker.options import (
     Json,
     PairName,
     PhaseStep,
+    Scheduler,
     TiltMax,
     TiltStep,
     Workers,
+    chosen_scheduler,
 )
 from worker.output import print_json, print_line
 
@@ -28,6 +30,7 @@ def rebuild_settled(
     tilt_max: TiltMax = 4.0,
     tilt_step: TiltStep = 1.0,
     workers: Workers = None,
+    scheduler: Scheduler = None,
     as_json: Json = False,
 ) -> None:
     r"""Compute the library of settled states of a pair and a device, and publish it.
@@ -56,7 +59,8 @@ def rebuild_settled(
     check_pair(threads)
     held = default_device() if device is None else read_device(device)
     inputs = SettledInputs(threads, Grid(tilt_max, tilt_step, phase_step), held)
-    result = rebuild_settled_library(database or settings.database, inputs, workers or settings.workers)
+    computing = chosen_scheduler(settings, scheduler, workers)
+    result = rebuild_settled_library(database or settings.database, inputs, workers or settings.workers, computing)
     elapsed_s = time.perf_counter() - began
     library = result.library
     outcomes = {name.value: count for name, count in result.counts.of_outcome}

@@ -15,6 +15,7 @@ from threadstate.atomic_file import replaced_file
 from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
 from threadstate.settings import read_settings
+from worker.commands.success import LARGEST_PHASES, grid_of
 from worker.options import (
     DeviceFile,
     Dimensions,
@@ -22,13 +23,14 @@ from worker.options import (
     Phase,
     Pitch,
     Roll,
+    Scheduler,
     UnitName,
     Workers,
+    chosen_scheduler,
     integer_option,
     number_option,
 )
 from worker.output import print_line
-from worker.success.grid import LARGEST_PHASES, grid_of_phases
 
 if TYPE_CHECKING:
     from threadstate.library.grid import Grid
@@ -117,6 +119,7 @@ def report(
         ),
     ] = None,
     workers: Workers = None,
+    scheduler: Scheduler = None,
 ) -> None:
     r"""Write a report of a device to one HTML file: its success map and one path, in words, figures and tables.
 
@@ -149,7 +152,9 @@ def report(
     inputs = SuccessInputs(**given) if known is None else replace(known, **given)
     check_pair(inputs.pair)
     pose = _pose(roll, pitch, phase, path_mu, inputs)
-    result = computed_map_with_progress(inputs, workers or read_settings().workers, map_file)
+    settings = read_settings()
+    computing = chosen_scheduler(settings, scheduler, workers)
+    result = computed_map_with_progress(inputs, workers or settings.workers, map_file, computing)
     written = _page(inputs, result.orientations, pose, unit=unit, title=title, date=on)
     with replaced_file(out) as file:
         file.write(written.encode())
@@ -210,8 +215,8 @@ def _given(
 
 def _grid(known: SuccessInputs | None, tilt_max: float | None, tilt_step: float | None, phases: int | None) -> Grid:
     """The grid of the options, and of the map's file, or the default one, where they say nothing."""
-    base = grid_of_phases(4.0, 1.0, 12) if known is None else known.grid
-    return grid_of_phases(
+    base = grid_of(4.0, 1.0, 12) if known is None else known.grid
+    return grid_of(
         base.tilt_max_deg if tilt_max is None else tilt_max,
         base.tilt_step_deg if tilt_step is None else tilt_step,
         phases or base.phase_count,

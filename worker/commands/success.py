@@ -4,25 +4,32 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from threadstate.device.strategy import Strategy
+from threadstate.errors import InvalidValueError
 from threadstate.settings import read_settings
 from worker.options import (
     DeviceFile,
     Dimensions,
     Json,
     PairName,
+    Scheduler,
     TiltMax,
     TiltStep,
     UnitName,
     Workers,
+    chosen_scheduler,
     integer_option,
     number_option,
 )
-from worker.success.grid import LARGEST_PHASES, grid_of_phases
+
+if TYPE_CHECKING:
+    from threadstate.library.grid import Grid
+
+LARGEST_PHASES = 36_000
 
 
 def success(
@@ -60,6 +67,7 @@ def success(
     dimension: Dimensions = None,
     unit: UnitName = None,
     workers: Workers = None,
+    scheduler: Scheduler = None,
     as_json: Json = False,
 ) -> None:
     r"""Say from which orientations, starting phases and frictions a device and a strategy assemble a pair.
@@ -74,7 +82,7 @@ def success(
       threadstate success --pair M6 --device examples/device.toml --phases 8 --json
     """
     began = time.perf_counter()
-    grid = grid_of_phases(tilt_max, tilt_step, phases)
+    grid = grid_of(tilt_max, tilt_step, phases)
     from threadstate.device.model import default_device
     from threadstate.device.settle import check_pair
     from threadstate.responses.query import parse_frictions
@@ -89,6 +97,25 @@ def success(
     check_pair(threads)
     held = default_device() if device is None else read_device(device)
     inputs = SuccessInputs(threads, held, strategy, grid, frictions, phase_tolerance, mu_tolerance, point_limit)
-    result = computed_map_with_progress(inputs, workers or read_settings().workers, out)
+    settings = read_settings()
+    computing = chosen_scheduler(settings, scheduler, workers)
+    result = computed_map_with_progress(inputs, workers or settings.workers, out, computing)
     elapsed_s = time.perf_counter() - began
     (print_map_json if as_json else print_map)(inputs, result, elapsed_s, unit or threads.unit)
+
+
+def grid_of(tilt_max: float, tilt_step: float, phases: int) -> Grid:
+    """The grid of a number of starting phases.
+
+    Raises:
+        InvalidValueError: the phases are no decimals, or the grid is not valid.
+    """
+    from threadstate.library.grid import Grid
+
+    # What remains of a number of phases without its twos, fives and two threes has no finite decimal.
+    rest = phases
+    for prime in (2, 2, 2, 2, 2, 2, 2, 2, 3, 3, 5, 5, 5):
+        rest = rest // prime if rest % prime == 0 else rest
+    if rest != 1:
+        raise InvalidValueError("phases", phases, "a number that divides 360 deg into decimals, as 4, 8, 12 or 36")
+    return Grid(tilt_max, tilt_step, 360.0 / phases)

@@ -18,7 +18,7 @@ def worker(
         bool, typer.Option("--until-idle", help="End when every job has ended.", show_default=False)
     ] = False,
 ) -> None:
-    r"""Compute the libraries that were requested as jobs, until stopped.
+    r"""Compute the libraries and success maps that were requested as jobs, until stopped.
 
     Any number may run at once, on several machines where the database is PostgreSQL's. SIGTERM and Ctrl-C end it as
     soon as what it is writing is written; its chunks are then free for others. One that is killed is detected by its

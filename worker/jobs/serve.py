@@ -14,6 +14,8 @@ from pathlib import Path
 from sqlalchemy import Engine
 from sqlalchemy.exc import IntegrityError, SQLAlchemyError
 
+from threadstate.jobs.model import code_versions, kind_of
+from threadstate.jobs.stores import STORES
 from threadstate.jobs.work import (
     NextJob,
     all_jobs_ended,
@@ -27,14 +29,14 @@ from threadstate.jobs.work import (
     should_switch_job,
 )
 from threadstate.jobs.workers import LostLeaseError, join, leave
-from threadstate.library.identity import code_versions
-from threadstate.library.write import IncompleteLibraryError, open_library, write_chunk
+from threadstate.library.write import IncompleteLibraryError
+from worker.chunk_source import chunk_source
 from worker.cluster.errors import ClusterError
+from worker.commit import commit_chunk, orientation_of
 from worker.interruption import waiting
 from worker.jobs.heartbeat import Heartbeat, heartbeat
 from worker.output import print_status
 from worker.processes import ComputeError
-from worker.rebuild import chunk_source
 
 POLL_S = 1.0
 RETRY_S = 2.0
@@ -119,19 +121,20 @@ def _wait(seconds: float) -> None:
 
 def _work_on(session: _Session, job: NextJob) -> None:
     engine, job_id, grid = session.engine, job.job_id, job.inputs.grid
-    library_id = open_library(engine, job.inputs)
-    open_job(engine, job_id, library_id)
+    store = STORES[kind_of(job.inputs)]
+    store_id = store.open(engine, job.inputs)
+    open_job(engine, job_id, store_id)
     try:
-        _compute(session, job, library_id)
-        if publish_job(engine, session.worker_id, job_id, library_id, grid):
-            print_status(f"job {job_id}: library {library_id} is published")
+        _compute(session, job, store_id)
+        if publish_job(engine, session.worker_id, job_id, store_id, grid):
+            print_status(f"job {job_id}: {kind_of(job.inputs).words} {store_id} is published")
     except (ComputeError, IncompleteLibraryError, IntegrityError) as error:
         reason = " ".join(str(getattr(error, "orig", None) or error).split())
         state = requeue_job(engine, session.worker_id, job_id, reason)
         print_status(f"job {job_id} is {state} after a failure: {reason}")
 
 
-def _compute(session: _Session, job: NextJob, library_id: int) -> None:
+def _compute(session: _Session, job: NextJob, store_id: int) -> None:
     """Compute chunks of a job until none is free, the job is not running, or the worker should switch to another
     job.
     """
@@ -139,12 +142,12 @@ def _compute(session: _Session, job: NextJob, library_id: int) -> None:
     first = next(taken, None)
     if first is None:
         return
-    print_status(f"job {job.job_id}: chunks of library {library_id}")
+    print_status(f"job {job.job_id}: chunks of {kind_of(job.inputs).words} {store_id}")
     processes = min(session.options.processes, job.inputs.grid.orientation_count)
     with chunk_source(job.inputs, processes, session.options.scheduler) as computing:
         for chunk in computing.chunks(chain([first], taken), lambda: None):
-            write_chunk(session.engine, library_id, chunk.rows, chunk.history)
-            if not complete_chunk(session.engine, session.worker_id, job.job_id, chunk.rows.orientation.index):
+            commit_chunk(session.engine, store_id, chunk)
+            if not complete_chunk(session.engine, session.worker_id, job.job_id, orientation_of(chunk)):
                 return
             session.heartbeat.check()
 

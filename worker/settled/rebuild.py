@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
-from multiprocessing.connection import Connection
 
 from sqlalchemy import Engine
 
@@ -16,10 +14,10 @@ from threadstate.settled.read import (
     settled_counts,
     settled_library_by_input,
 )
-from threadstate.settled.rows import SettledRows
-from threadstate.settled.write import committed_settled, open_settled, publish_settled, write_settled
+from threadstate.settled.write import committed_settled, open_settled, publish_settled
+from worker.chunk_source import chunk_source
+from worker.commit import commit_chunk
 from worker.migrate import migrate_empty
-from worker.processes import running_processes
 from worker.progress import progress_bar
 from worker.rebuild import Progress
 
@@ -41,15 +39,18 @@ class SettledResult:
     was_published: bool
 
 
-def rebuild_settled(engine: Engine, inputs: SettledInputs, workers: int, progress: Progress) -> SettledResult:
+def rebuild_settled(
+    engine: Engine, inputs: SettledInputs, workers: int, progress: Progress, scheduler: str | None = None
+) -> SettledResult:
     """Compute the missing chunks of a library of settled states and publish it.
 
     May be killed at any moment: each chunk is committed in one transaction, and the library is published only when all
-    are. The content depends on the inputs alone, neither on earlier runs nor on how many processes compute. This
-    process alone writes.
+    are. The content depends on the inputs alone, not on earlier runs or on who computes: ``workers`` processes, or the
+    workers of the Dask cluster at ``scheduler``. This process alone writes.
 
     Raises:
         ComputeError: a computing process failed.
+        ClusterError: the cluster cannot be used, or becomes unreachable.
     """
     known = _published(engine, inputs, 0, was_published=True)
     if known is not None:
@@ -61,35 +62,31 @@ def rebuild_settled(engine: Engine, inputs: SettledInputs, workers: int, progres
     progress.begin(len(committed) * grid.phase_count, grid.pose_count)
     computed = 0
     if missing:
-        with running_processes(partial(_settle, inputs), SettledRows, min(workers, len(missing))) as processes:
-            for rows in processes.chunks(missing, progress.ready):
-                if write_settled(engine, library_id, rows):
-                    computed += len(rows.states)
-                progress.advance(len(rows.states))
+        with chunk_source(inputs, min(workers, len(missing)), scheduler) as computing:
+            for chunk in computing.chunks(missing, progress.ready):
+                if commit_chunk(engine, library_id, chunk):
+                    computed += grid.phase_count
+                progress.advance(grid.phase_count)
     publish_settled(engine, library_id, grid)
     made = _published(engine, inputs, computed, was_published=False)
     assert made is not None
     return made
 
 
-def rebuild_settled_library(database: str, inputs: SettledInputs, workers: int) -> SettledResult:
+def rebuild_settled_library(
+    database: str, inputs: SettledInputs, workers: int, scheduler: str | None = None
+) -> SettledResult:
     """As :func:`rebuild_settled`, with a progress bar; an empty database is migrated first.
 
     Raises:
         SchemaError: the database is at another revision.
         ComputeError: a computing process failed.
+        ClusterError: the cluster cannot be used, or becomes unreachable.
     """
     with writing(database) as engine:
         migrate_empty(engine)
         with progress_bar() as progress:
-            return rebuild_settled(engine, inputs, workers, progress)
-
-
-def _settle(inputs: SettledInputs, connection: Connection) -> None:
-    # Imported in the computing process alone: the writing one does not need numba, which is slow to load.
-    from worker.settled.compute import serve_settled
-
-    serve_settled(connection, inputs)
+            return rebuild_settled(engine, inputs, workers, progress, scheduler)
 
 
 def _published(engine: Engine, inputs: SettledInputs, computed: int, *, was_published: bool) -> SettledResult | None:

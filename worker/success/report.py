@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from threadstate.numbers import number_text
-from threadstate.success.document import orientation_document
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.map_file import inputs_document
 from threadstate.success.model import CriticalFriction, OrientationMap
 from threadstate.success.scaled import scaled_orientation
 from threadstate.success.summary import map_counts, orientation_summary, tilt_area
+from threadstate.success.summary_document import summarised_document, totals_documents
 from threadstate.units import LengthUnit, conversion_factor
 from worker.output import print_json, print_line
 from worker.success.run import SuccessResult
@@ -28,8 +25,8 @@ def print_map_json(inputs: SuccessInputs, result: SuccessResult, elapsed_s: floa
             "unit": unit,
             "computed": result.computed,
             "elapsed_s": round(elapsed_s, 3),
-            "summary": [_friction_document(inputs, orientations, mu) for mu in inputs.frictions],
-            "orientations": [_orientation(inputs, one) for one in orientations],
+            "summary": totals_documents(orientations, inputs.grid, inputs.frictions),
+            "orientations": [summarised_document(one, inputs.grid, inputs.frictions) for one in orientations],
         }
     )
 
@@ -94,39 +91,3 @@ def critical_text(critical: CriticalFriction) -> str:
 def _in_unit(inputs: SuccessInputs, result: SuccessResult, unit: LengthUnit) -> list[OrientationMap]:
     factor = conversion_factor(inputs.pair.unit, unit)
     return [scaled_orientation(one, factor) for one in result.orientations]
-
-
-def _friction_document(inputs: SuccessInputs, orientations: Sequence[OrientationMap], mu: float) -> dict[str, Any]:
-    area = tilt_area(orientations, inputs.grid, mu)
-    counts = map_counts(orientations, inputs.grid, mu)
-    return {
-        "mu": mu,
-        "orientations": area.orientations,
-        "engaged": area.engaged,
-        "around_level": area.around_level,
-        "largest": area.largest,
-        "area": area.largest * area.cell_deg2,
-        "outcomes": {outcome.value: count for outcome, count in counts.outcomes},
-        "flags": dict(counts.flags),
-        "bounded": counts.bounded,
-    }
-
-
-def _orientation(inputs: SuccessInputs, one: OrientationMap) -> dict[str, Any]:
-    summaries = [orientation_summary(one, inputs.grid, mu) for mu in inputs.frictions]
-    return {
-        **orientation_document(one),
-        "summary": [
-            {
-                "mu": summary.mu,
-                "share": summary.share,
-                "engaged": summary.engaged,
-                "undecided": summary.undecided,
-                "worst_phase": summary.worst_phase_deg,
-                "torque": summary.torque,
-                "tilt": summary.tilt_deg,
-                "shift": summary.shift,
-            }
-            for summary in summaries
-        ],
-    }

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
-from multiprocessing.connection import Connection
 from pathlib import Path
 
 from threadstate.success.document import map_sha256
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.map_file import growing_map
 from threadstate.success.model import OrientationMap
-from worker.processes import running_processes
+from worker.chunk_source import chunk_source
 from worker.progress import progress_bar
 from worker.rebuild import Progress
 
@@ -27,15 +25,18 @@ class SuccessResult:
     computed: int
 
 
-def computed_map(inputs: SuccessInputs, workers: int, path: Path | None, progress: Progress) -> SuccessResult:
+def computed_map(
+    inputs: SuccessInputs, workers: int, path: Path | None, progress: Progress, scheduler: str | None = None
+) -> SuccessResult:
     """The map of these inputs; with a file what is missing there is computed and appended.
 
     May be killed at any moment: a file loses the orientations in progress. The content depends on the inputs alone,
-    neither on earlier runs nor on how many processes compute.
+    not on earlier runs or on who computes: ``workers`` processes, or the workers of the Dask cluster at ``scheduler``.
 
     Raises:
         InvalidValueError: the file is not of this map, or cannot be written.
         ComputeError: a computing process failed.
+        ClusterError: the cluster cannot be used, or becomes unreachable.
     """
     grid = inputs.grid
     with _growing(path, inputs) as (known, append):
@@ -43,8 +44,9 @@ def computed_map(inputs: SuccessInputs, workers: int, path: Path | None, progres
         missing = [index for index in range(grid.orientation_count) if index not in found]
         progress.begin(len(found) * grid.phase_count, grid.pose_count)
         if missing:
-            with running_processes(partial(_serve, inputs), OrientationMap, min(workers, len(missing))) as processes:
-                for one in processes.chunks(missing, progress.ready):
+            with chunk_source(inputs, min(workers, len(missing)), scheduler) as computing:
+                for one in computing.chunks(missing, progress.ready):
+                    assert isinstance(one, OrientationMap)
                     append(one)
                     found[one.index] = one
                     progress.advance(grid.phase_count)
@@ -52,10 +54,12 @@ def computed_map(inputs: SuccessInputs, workers: int, path: Path | None, progres
     return SuccessResult(orientations, map_sha256(orientations), len(missing))
 
 
-def computed_map_with_progress(inputs: SuccessInputs, workers: int, path: Path | None) -> SuccessResult:
+def computed_map_with_progress(
+    inputs: SuccessInputs, workers: int, path: Path | None, scheduler: str | None = None
+) -> SuccessResult:
     """As :func:`computed_map`, with a progress bar."""
     with progress_bar() as progress:
-        return computed_map(inputs, workers, path, progress)
+        return computed_map(inputs, workers, path, progress, scheduler)
 
 
 @contextmanager
@@ -67,10 +71,3 @@ def _growing(
         return
     with growing_map(path, inputs) as (known, append):
         yield known, append
-
-
-def _serve(inputs: SuccessInputs, connection: Connection) -> None:
-    # Imported in the computing process alone: the writing one does not need numba, which is slow to load.
-    from worker.success.compute import serve_success
-
-    serve_success(connection, inputs)

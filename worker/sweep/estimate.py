@@ -14,8 +14,8 @@ from threadstate.library.rows import ChunkRows, chunk_rows
 from threadstate.library.tables import chunk, library
 from threadstate.stored_histories.compute import mesh_answers
 from threadstate.warm_up import load_kernels_exclusively
-from worker.compute import compute_chunk
-from worker.messages import Chunk
+from worker.compute import compute_library_chunk
+from worker.messages import LibraryChunk
 
 SQLITE_BYTES_A_ROW, POSTGRESQL_BYTES_A_ROW = 150, 295
 """Table and indexes, of a full library (docs/scale.md)."""
@@ -107,12 +107,12 @@ def _sample(inputs: LibraryInputs) -> _Sample:
         return _Sample(_row_count(rows) / len(poses) * phases, a_pose_s * phases)
     indices = sorted({count // 4, 3 * count // 4})
     began = time.process_time()
-    chunks = [compute_chunk(inputs, index) for index in indices]
+    chunks = [compute_library_chunk(inputs, index) for index in indices]
     seconds = time.process_time() - began
     return _Sample(sum(_rows_of(one) for one in chunks) / len(chunks), seconds / len(chunks))
 
 
-def _rows_of(one: Chunk) -> int:
+def _rows_of(one: LibraryChunk) -> int:
     history = 0 if one.history is None else sum(len(rows) for _, rows in one.history.of_orientation())
     return _row_count(one.rows) + history
 

@@ -17,20 +17,26 @@ from tests.prepared import use_prepared_chunks
 from tests.stored_histories.history_library import rows_of
 from tests.worker.cluster.clusters import Cluster, running_cluster
 from tests.worker.conftest import GRID, SHORT_TURNS, SMALL_GRID, CommandLine
+from threadstate.device.model import default_device
 from threadstate.history.build import histories_of
 from threadstate.jobs.names import EventKind, JobState
 from threadstate.jobs.queue import events_after, job_by_id, submit_job
 from threadstate.library.engine import reading, writing
+from threadstate.library.fingerprint import library_sha256
+from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import published_libraries
 from threadstate.library.rows import chunk_rows
 from threadstate.library.tables import chunk, state, undecided
 from threadstate.settings import LEASE_S, SCHEDULER
+from threadstate.settled.compute import computed_rows
+from threadstate.settled.inputs import SettledInputs
 from threadstate.state.solve import solve_poses
 from threadstate.statics.rows import statics_by_ordinal
 from threadstate.thread.catalogue import quarter_twenty_unc
 from worker.cluster.chunks import computing_cluster
-from worker.messages import Chunk
+from worker.commit import orientation_of
+from worker.messages import LibraryChunk
 from worker.processes import QUEUED_PER_PROCESS
 
 pytestmark = pytest.mark.slow
@@ -92,7 +98,7 @@ def _check_whole(database: str, expected_content: str) -> None:
     assert sum(count or 0 for count in counts) == GRID.pose_count
 
 
-def _chunk(index: int) -> Chunk:
+def _chunk(index: int) -> LibraryChunk:
     """A chunk of the inputs, computed here."""
     grid, pair = INPUTS.grid, INPUTS.pair
     orientation = grid.orientation(index)
@@ -100,7 +106,7 @@ def _chunk(index: int) -> Chunk:
     (history,) = histories_of(pair, [(orientation.roll_deg, orientation.pitch_deg)], SHORT_TURNS)
     first = grid.first_ordinal(index)
     rows = chunk_rows(orientation, first, states, statics_by_ordinal(pair, first, states))
-    return Chunk(rows, rows_of(history, pair, SHORT_TURNS))
+    return LibraryChunk(rows, rows_of(history, pair, SHORT_TURNS))
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
@@ -169,7 +175,7 @@ def test_chunks_are_those_computed_here_and_no_more_are_asked_for_than_there_is_
     with computing_cluster(INPUTS, cluster.address) as computing:
         received = {}
         for one in computing.chunks(orientations(), lambda: None):
-            received[one.rows.orientation.index] = one
+            received[orientation_of(one)] = one
             assert taken - len(received) < QUEUED_PER_PROCESS * WORKERS
     assert received == {index: _chunk(index) for index in range(GRID.orientation_count)}
 
@@ -197,6 +203,30 @@ def test_a_job_is_computed_by_a_cluster_that_loses_a_worker(
         # No failure of the job: it was queued once.
         assert [kinds.count(kind) for kind in (EventKind.QUEUED, EventKind.PUBLISHED)] == [1, 1]
         _check_whole(database, content_with_short_turns)
+
+
+@pytest.mark.sqlite_alone
+def test_a_success_map_is_the_same_from_the_cluster(
+    command_line: CommandLine, cluster: Cluster, tmp_path: Path
+) -> None:
+    command = ("success", "--strategy", "cw", "--mu", "0", "--phases", "1", "--phase-tolerance", "360")
+    options = ("--tilt-max", "4", "--tilt-step", "4", "--json")
+    there, here = (
+        json.loads(command_line.out(*command, *options, *where))
+        for where in (("--scheduler", cluster.address, "--out", str(tmp_path / "there.map")), ("--workers", "1"))
+    )
+    assert there["computed"] == here["computed"] == 9
+    assert there["content_sha256"] == here["content_sha256"]
+    assert there["orientations"] == here["orientations"]
+
+
+@pytest.mark.sqlite_alone
+def test_a_library_of_settled_states_is_the_same_from_the_cluster(command_line: CommandLine, cluster: Cluster) -> None:
+    command = ("rebuild-settled", "--tilt-max", "2", "--tilt-step", "1", "--phase-step", "120", "--json")
+    there = json.loads(command_line.out(*command, "--scheduler", cluster.address))
+    inputs = SettledInputs(quarter_twenty_unc(), Grid(2.0, 1.0, 120.0), default_device())
+    rows = [computed_rows(inputs.pair, inputs.grid, inputs.device, i) for i in range(inputs.grid.orientation_count)]
+    assert there["content_sha256"] == library_sha256([one.content_sha256 for one in rows])
 
 
 @pytest.mark.sqlite_alone

@@ -17,6 +17,7 @@ from threadstate.client.calls import network as network_calls
 from threadstate.client.calls import settled as settled_calls
 from threadstate.client.calls import states as state_calls
 from threadstate.client.calls import statics as statics_calls
+from threadstate.client.calls import success as success_calls
 from threadstate.client.calls import threads as thread_calls
 from threadstate.client.frames import to_pandas, to_polars
 from threadstate.client.models.answer import Page
@@ -157,10 +158,19 @@ class Client:
     computed_held = _answered(statics_calls.computed_held)
 
     settle = _answered(settled_calls.settle)
+    ask_settled = _watched(settled_calls.ask_settled)
     settled_libraries = _answered(settled_calls.settled_libraries)
     settled_library = _answered(settled_calls.settled_library)
     settled_states = _listed(settled_calls.settled_states)
     settled_state = _answered(settled_calls.settled_state)
+
+    outcomes = _answered(success_calls.outcomes)
+    ask_success_map = _watched(success_calls.ask_success_map)
+    success_maps = _answered(success_calls.success_maps)
+    success_map = _answered(success_calls.success_map)
+    success_orientations = _listed(success_calls.success_orientations)
+    success_orientation = _answered(success_calls.success_orientation)
+    growing_map = _answered(success_calls.growing_map)
 
     intervals = _answered(network_calls.intervals)
     heights = _answered(network_calls.heights)

@@ -8,6 +8,7 @@ from typing import Any
 from threadstate.client.call import LATEST, Call, LibraryName, PagedCall, get, path_of, post
 from threadstate.client.calls.states import LARGEST_PAGE
 from threadstate.client.models.assemblies import Assembly
+from threadstate.client.models.jobs import JobDocument
 from threadstate.client.models.settled import (
     SettleAnswer,
     Settled,
@@ -70,6 +71,28 @@ def assemble(
     }
     # Nothing is stored: repeatable.
     return post(path_of("v1", "assemblies"), Assembly, body, repeatable=True, unit=unit)
+
+
+def ask_settled(
+    *,
+    device: Mapping[str, Any] | None = None,
+    grid: Mapping[str, float] | None = None,
+    designation: str | None = None,
+    library: LibraryName | None = None,
+) -> Call[JobDocument]:
+    """Request a library of settled states; omitted values are the defaults of ``threadstate rebuild-settled``.
+
+    Needs a key for writing. ``grid`` has ``tilt_max``, ``tilt_step`` and ``phase_step`` in degrees, ``device`` the keys
+    of its document.
+    """
+    body = {
+        "designation": designation,
+        "library": library,
+        "device": None if device is None else dict(device),
+        "grid": None if grid is None else dict(grid),
+    }
+    # The same inputs are the same job: repeatable.
+    return post(path_of("v1", "settled"), JobDocument, body, repeatable=True)
 
 
 def settled_libraries() -> Call[SettledLibraryList]:

@@ -1,4 +1,4 @@
-"""Jobs: requested libraries."""
+"""Jobs: requested libraries and success maps."""
 
 from __future__ import annotations
 
@@ -6,29 +6,34 @@ from datetime import datetime
 
 from threadstate.client.models.answer import Answer
 from threadstate.client.models.libraries import GridDocument
-from threadstate.jobs.names import EventKind, JobState
+from threadstate.client.models.settled import Device
+from threadstate.jobs.names import EventKind, JobKind, JobState
 from threadstate.library.solver_method import SolverMethod
 
 
 class JobDocument(Answer):
     """A job: ``committed`` of its ``chunks`` (orientations) are computed, workers are computing ``at_work`` others.
 
-    ``reason`` says why it failed, ``library`` is the number of the library once that is published.
+    ``reason`` says why it failed, ``result`` is the address of what it computes once that is published, and ``library``
+    its number where that is a library of contact states.
     """
 
     id: int
+    kind: JobKind
     state: JobState
     reason: str | None
     designation: str
-    method: SolverMethod
+    method: SolverMethod | None
+    device: Device | None
     grid: GridDocument
-    options: dict[str, float | str | bool]
+    options: dict[str, float | str | bool | list[float]]
     input_sha256: str
     code_version: str
     chunks: int
     committed: int
     at_work: int
     library: int | None
+    result: str | None
     asked_at: datetime
     ended_at: datetime | None
 

@@ -104,6 +104,17 @@ export class Api {
     throw new UnreachableError("the answer of the service broke off");
   }
 
+  /** How the paths of held bolts end that start at several poses; nothing is computed any further once `signal` is aborted. */
+  async outcomes(body, unit, signal) {
+    const answer = await this.#fetchJson(addressOf("/v1/outcomes", { unit }), {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify(body),
+      signal,
+    });
+    return answer.outcomes;
+  }
+
   /** The text at a path with these parameters. */
   async text(path, parameters) {
     return (await this.#fetch(addressOf(path, parameters))).text();

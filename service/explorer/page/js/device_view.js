@@ -46,6 +46,11 @@ export class DeviceView {
     this.#showUnit(unit);
   }
 
+  /** What the fields say, texts by name. */
+  get request() {
+    return this.#read();
+  }
+
   /** Takes over the pose of a view. */
   takePose(view) {
     for (const name of POSE) field(name).value = String(view[name]);

@@ -9,6 +9,7 @@ import { LOAD_FIELDS, loadOf } from "./load.js";
 import { observationQuery } from "./observation.js";
 import { posesOfView } from "./poses.js";
 import { needsSummaries } from "./quantities.js";
+import { SuccessMap } from "./success_map.js";
 import { Throttle } from "./throttle.js";
 import { turnPath } from "./turn_path.js";
 
@@ -56,6 +57,9 @@ export class Model {
   /** The path of a held bolt that the view asks for, or its `problem` with the values that were refused; how far it is until then. */
   assembly = null;
   progress = null;
+  /** The success map that the view asks for, and the one that is kept beside it. */
+  success;
+  keptSuccess;
   /** Figures of libraries side by side, and the sections of the library's thread and of the view's: with `problem` where that has none. */
   comparison = null;
   profiles = null;
@@ -83,6 +87,8 @@ export class Model {
     this.#busy = busy;
     this.#onPart = onPart;
     this.#onError = onError;
+    this.success = new SuccessMap(api, () => onPart("success"));
+    this.keptSuccess = new SuccessMap(api, () => onPart("success"));
   }
 
   /** Heights along the phase; null until they have arrived. */
@@ -199,6 +205,13 @@ export class Model {
     if (this.#requested.get("assembly") === key) return;
     this.#endAssembly();
     this.#request("assembly", key, () => (assembly === "" ? null : this.#assembled(bodyOf(assembly, library), unit)));
+  }
+
+  /** Computes the success maps that the view asks for. */
+  followSuccess({ library, unit, success, kept_success: kept }) {
+    if (this.library.id !== library) return;
+    this.success.follow(success, library, this.library.grid, unit);
+    this.keptSuccess.follow(kept, library, this.library.grid, unit);
   }
 
   /** Has the path computed again when it is requested next, also the same one. */

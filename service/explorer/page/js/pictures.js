@@ -22,7 +22,7 @@ import { followSize } from "./size.js";
 import { showState } from "./state_panel.js";
 import { stateLine } from "./terms.js";
 import { pointText } from "./turned_path.js";
-import { unitFactor } from "./units.js";
+import { unitFactor, wrapAngle } from "./units.js";
 import { DEFAULTS } from "./view.js";
 import { WHOLE_TURN, aroundEvent, middleOf, rangeOf, zoomed } from "./zoom.js";
 
@@ -34,7 +34,7 @@ const TILT_FIELDS = ["roll", "pitch"];
 const NO_NETWORK = "No network: the library was computed by meshes, or the phase is undecided.";
 const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not have it. The way below is by turning alone.";
 /** Parts of the model that are seen in the tabs behind the first one alone. */
-const TAB_PARTS = ["statics", "jamming", "assembly", "progress", "node", "path", "formations", "located", "measured", "comparison", "profiles"];
+const TAB_PARTS = ["statics", "jamming", "assembly", "progress", "success", "node", "path", "formations", "located", "measured", "comparison", "profiles"];
 const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
 
 /** The pictures, and what is played in them. */
@@ -49,6 +49,8 @@ export class Pictures {
   /** The views of the tabs behind the first one, null until they have been fetched, and what arrived meanwhile. */
   #tabs = null;
   #tabsRequested = false;
+  /** Whether the path that arrives next is played. */
+  #playsNext = false;
   #missed = new Set();
   /** What the scene has the solids of: a library's number. */
   #solids = null;
@@ -105,6 +107,20 @@ export class Pictures {
         cancel: () => view.set({ assembly: "", point: 0 }),
         goTo: (point) => view.set({ point }),
       },
+      success: {
+        map: (success) => {
+          view.set({ success }, "entry");
+          this.#followSuccess();
+        },
+        cancel: () => this.#model.success.cancel(),
+        keep: (text) => view.set({ kept_success: text }),
+        play: (assembly, { roll, pitch, phase }) => {
+          view.set({ roll, pitch, phase: wrapAngle(phase) });
+          this.#playsNext = true;
+          this.#compute(assembly);
+        },
+        findCritical: (place) => this.#model.success.findCritical(place),
+      },
       player: this.#player,
       chooseLibrary: (library) => view.set({ library }),
       chooseThread: (thread) => view.set({ thread }),
@@ -149,6 +165,8 @@ export class Pictures {
     if (["comparison", "profiles"].includes(part)) this.#drawThreads();
     if (part === "statics") this.#drawLoad();
     if (["assembly", "progress", "library"].includes(part)) this.#showAssembly();
+    if (part === "assembly") this.#playAnswer();
+    if (part === "success") this.#showSuccess();
     if (part === "jamming") this.#tabs.load.showJamming(this.#model.jamming);
     if (part === "node") this.#drawFollowing();
     if (part === "path") this.#drawPath();
@@ -171,6 +189,7 @@ export class Pictures {
     if (has(...TILT_FIELDS, "phase")) this.#tabs?.device.takePose(this.#view.value);
     if (has("tab")) this.#showTab();
     if (has("assembly", "library", "unit")) this.#followAssembly();
+    if (has("success", "kept_success", "library", "unit")) this.#followSuccess();
     if (has("assembly", "unit")) this.#showAssembly();
     if (has("point")) this.#showPoint();
     if (has("thread", "library", "unit")) this.#followThreads();
@@ -233,7 +252,31 @@ export class Pictures {
   #followAssembly() {
     const { value } = this.#view;
     this.#tabs?.device.show(value);
-    if (this.#isSeen("device") || value.assembly === "") this.#model.followAssembly(value);
+    if (this.#seesDevice || value.assembly === "") this.#model.followAssembly(value);
+  }
+
+  /** Whether the tab of the device is seen, or that of its success maps. */
+  get #seesDevice() {
+    return this.#isSeen("device") || this.#isSeen("success");
+  }
+
+  /** Requests the success maps where they are seen, or none is asked for. */
+  #followSuccess() {
+    const { value } = this.#view;
+    this.#tabs?.success.show(value);
+    if (this.#isSeen("success") || value.success === "") this.#model.followSuccess(value);
+    this.#showSuccess();
+  }
+
+  #showSuccess() {
+    this.#tabs?.success.draw(this.#model, this.#view.value);
+  }
+
+  /** Plays a path that a cell of a success map has asked for. */
+  #playAnswer() {
+    if (!this.#playsNext || this.#turned() === null) return;
+    this.#playsNext = false;
+    this.#tabs.turned.play();
   }
 
   #compute(assembly) {
@@ -246,7 +289,7 @@ export class Pictures {
   /** The path that is shown below the solids while the tab of the device is. */
   #turned() {
     const path = this.#model.assembly?.path ?? null;
-    return this.#isSeen("device") && path?.path.phase.length > 0 ? path : null;
+    return this.#seesDevice && path?.path.phase.length > 0 ? path : null;
   }
 
   #showAssembly() {
@@ -303,6 +346,7 @@ export class Pictures {
     this.#followLoad();
     this.#followAssembly();
     this.#showAssembly();
+    this.#followSuccess();
     this.#followThreads();
     if (this.#isSeen("network")) this.#model.followNetwork();
     this.#drawCurves();

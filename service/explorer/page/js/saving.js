@@ -5,9 +5,9 @@ import { html } from "./html.js";
 import { showToast } from "./messages.js";
 import { lastStage } from "./resting.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
-import { comparisonTable, depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable, turnedTable } from "./tables.js";
+import { comparisonTable, depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable, successTable, turnedTable } from "./tables.js";
 
-const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg", jamming: "#jamming svg", turned: "#turned-chart svg" };
+const PICTURES = { map: "#map svg", phase: "#depth svg", disks: "#disks svg", follows: "#follows svg", path: "#path svg", network: "#network svg", jamming: "#jamming svg", turned: "#turned-chart svg", success: "#success svg" };
 const TABLES = {
   map: mapTable,
   phase: depthTable,
@@ -17,6 +17,7 @@ const TABLES = {
   network: formationTable,
   jamming: jammingTable,
   turned: turnedTable,
+  success: successTable,
   state: stateTable,
   poses: poseTable,
   compared: comparisonTable,
@@ -30,6 +31,7 @@ const NAMES = {
   network: "formations",
   jamming: "jamming-diagram",
   turned: "path-of-the-held-bolt",
+  success: "success-map",
   scene: "bolt-and-nut",
   state: "state",
   poses: "measured-poses",

@@ -10,13 +10,16 @@ import { NetworkView } from "./network_view.js";
 import { drawPath, pathText } from "./path_view.js";
 import { PosesView } from "./poses_view.js";
 import { ThreadsView } from "./threads_view.js";
+import { SuccessView } from "./success_view.js";
 import { TurnedPathView } from "./turned_path_view.js";
 
-/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, poses, a load, a device and a point of its path, a library or a thread. */
-export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure, load, device, player, chooseLibrary, chooseThread }) {
+/** The views, which report what was chosen: a phase, a pose, a formation and the move to it, an observation, poses, a load, a device and a point of its path, a success map, a library or a thread. */
+export function tabViews({ choosePhase, choosePose, chooseFormation, observe, measure, load, device, success, player, chooseLibrary, chooseThread }) {
+  const deviceView = new DeviceView(device);
   return {
     load: new LoadView(load),
-    device: new DeviceView(device),
+    device: deviceView,
+    success: new SuccessView({ ...success, requestOfDevice: () => deviceView.request }),
     turned: new TurnedPathView(device.goTo, player),
     disks: new DisksView(byId("disks"), choosePhase),
     follows: new FollowsView(byId("follows"), chooseFormation),

@@ -5,6 +5,7 @@ import { mapValues } from "./map_view.js";
 import { QUANTITIES } from "./quantities.js";
 import { restHeight } from "./resting.js";
 import { curvesOf } from "./turned_path.js";
+import { mapRequestOf } from "./success_map.js";
 
 /** The map's cells. */
 export function mapTable(model, view) {
@@ -110,6 +111,16 @@ function poseRows(name, { rotation, translation }, unit) {
     ...rotation.flatMap((row, i) => row.map((value, j) => [name, `r${i + 1}${j + 1}`, value, ""])),
     ...translation.map((value, k) => [name, `t${AXES[k]}`, value, unit]),
   ];
+}
+
+/** The paths of a success map: lengths and torques in the unit of the map. */
+export function successTable({ success: { value } }) {
+  const { request } = mapRequestOf(value.text);
+  const names = ["outcome", "flags", "bounded", "torque", "tilt", "shift", "end"];
+  const rows = [...value.cells.values()].flat().map((one) => [
+    one.roll, one.pitch, one.phase, one.mu, ...names.map((name) => (name === "flags" ? one.flags.join(" ") : one[name])), value.unit, request.strategy,
+  ]);
+  return [["roll", "pitch", "phase", "mu", ...names, "unit", "strategy"], ...rows];
 }
 
 /** The figures of libraries side by side. */

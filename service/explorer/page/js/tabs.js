@@ -2,7 +2,7 @@
 
 import { byId } from "./html.js";
 
-export const TABS = ["state", "load", "device", "regions", "follows", "network", "locate", "poses", "threads"];
+export const TABS = ["state", "load", "device", "success", "regions", "follows", "network", "locate", "poses", "threads"];
 
 /** Lets the tabs set the view: by a click, and by arrows, Home and End. */
 export function wireTabs(view) {

@@ -24,7 +24,7 @@ export class TurnedPathView {
     byId("turned-point").addEventListener("input", () => this.#stopAt(Number(byId("turned-point").value)));
     byId("turned-back").addEventListener("click", () => this.#stopAt(this.#at - 1));
     byId("turned-on").addEventListener("click", () => this.#stopAt(this.#at + 1));
-    byId("turned-play").addEventListener("click", () => (player.playing === PLAYS ? player.stop() : this.#play()));
+    byId("turned-play").addEventListener("click", () => (player.playing === PLAYS ? player.stop() : this.play()));
     followSize([byId("turned-chart")], () => this.#redraw());
   }
 
@@ -62,7 +62,7 @@ export class TurnedPathView {
   }
 
   /** Plays from the point that is shown, or from the start where that is the last one. */
-  #play() {
+  play() {
     const { path, events } = this.#answer;
     const times = playTimes(path, events, pointsOfEvents(path, events));
     const last = times.length - 1;

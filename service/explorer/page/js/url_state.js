@@ -5,6 +5,7 @@ import { PLANES } from "./load.js";
 import { checkedObservation } from "./observation.js";
 import { checkedPoses } from "./poses.js";
 import { QUANTITIES } from "./quantities.js";
+import { checkedMap } from "./success_map.js";
 import { TABS } from "./tabs.js";
 import { TILT_LIMIT, TOLERANCE_LIMIT } from "./grid.js";
 import { wrapAngle, parseDecimal } from "./units.js";
@@ -48,6 +49,8 @@ const READERS = {
   plane: among(...Object.keys(PLANES)),
   assembly: { read: checkedAssembly, valid: "a pose and a device as the page writes them" },
   point: { read: (text) => (/^[0-9]{1,6}$/.test(text) ? Number(text) : undefined), valid: "the number of a point" },
+  success: { read: checkedMap, valid: "a success map as the page writes it" },
+  kept_success: { read: checkedMap, valid: "a success map as the page writes it" },
   thread: {
     read: (text) => (text.trim() !== "" && text.length <= THREAD_LENGTH ? text.trim() : undefined),
     valid: `the designation of a thread, of up to ${THREAD_LENGTH} characters`,

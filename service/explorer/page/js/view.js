@@ -39,6 +39,9 @@ export const DEFAULTS = Object.freeze({
   /** The path of a held bolt that is asked for, as `assembly.js` writes it, and which of its points is shown. */
   assembly: "",
   point: 0,
+  /** The success map that is asked for, as `success_map.js` writes it, and the one that is kept beside it. */
+  success: "",
+  kept_success: "",
   /** Designation of a thread whose section is shown beside the library's. */
   thread: "",
 });

@@ -1,0 +1,190 @@
+// Success maps of the page: how the paths of a device end over the orientations of the grid, computed a few at a time.
+
+import { assemblyText, bodyOf, checkedAssembly, requestOf } from "./assembly.js";
+import { ProblemError } from "./api.js";
+import { tilts } from "./grid.js";
+
+/** How many starting phases an orientation can have, evenly spaced from 0. */
+export const PHASE_COUNTS = [1, 2, 3, 4, 6, 8, 12];
+export const OUTCOMES = {
+  engaged: { name: "engages", letter: "✓" },
+  cross_threaded: { name: "cross-threads", letter: "×" },
+  jammed: { name: "jams", letter: "j" },
+  no_snap: { name: "does not snap", letter: "–" },
+  idle: { name: "turns idly", letter: "–" },
+  slipped: { name: "slips off", letter: "s" },
+  undecided: { name: "undecided", letter: "?" },
+};
+/** Requests at once: as many as the least machine has processors. */
+const LANES = 2;
+/** Frictions at which a critical one is bracketed before it is bisected, and how far. */
+const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8];
+const TOLERANCE = 0.01;
+const UNAUTHORIZED = 401;
+
+/** The text of a map's request: how many phases, and the device, strategy and friction as `assembly.js` writes them. */
+export function mapText(phases, request) {
+  return `phases=${phases}&${assemblyText({ ...request, roll: "0", pitch: "0", phase: "0" })}`;
+}
+
+/** A map's request: {phases, request}. */
+export function mapRequestOf(text) {
+  return { phases: Number(new URLSearchParams(text).get("phases")), request: requestOf(assemblyOf(text)) };
+}
+
+/** The text where it is one as the page writes it, else undefined. */
+export function checkedMap(text) {
+  const phases = new URLSearchParams(text).getAll("phases");
+  const isKnown = phases.length === 1 && PHASE_COUNTS.includes(Number(phases[0]));
+  return isKnown && checkedAssembly(assemblyOf(text)) !== undefined ? text : undefined;
+}
+
+/** The text of the path of a map that starts at an orientation and phase. */
+export function pathText(text, { roll, pitch, phase }) {
+  const { request } = mapRequestOf(text);
+  return assemblyText({ ...request, roll: String(roll), pitch: String(pitch), phase: String(phase) });
+}
+
+export function keyOf({ roll, pitch }) {
+  return `${roll} ${pitch}`;
+}
+
+/** The orientations of a grid, those nearest to level first. */
+export function orientationsOf(grid) {
+  const angles = tilts(grid);
+  const all = angles.flatMap((roll) => angles.map((pitch) => ({ roll, pitch })));
+  return all.sort((a, b) => Math.hypot(a.roll, a.pitch) - Math.hypot(b.roll, b.pitch) || a.roll - b.roll || a.pitch - b.pitch);
+}
+
+/** What the paths of an orientation say: how many engage, how many are undecided, and the one that is worst. */
+export function cellOf(outcomes) {
+  const engaged = outcomes.filter(({ outcome }) => outcome === "engaged");
+  const undecided = outcomes.filter(({ outcome }) => outcome === "undecided");
+  const failed = outcomes.filter((one) => !engaged.includes(one) && !undecided.includes(one));
+  const hardest = [...engaged].sort((a, b) => (b.torque ?? 0) - (a.torque ?? 0));
+  return { count: outcomes.length, engaged: engaged.length, undecided: undecided.length, worst: failed[0] ?? undecided[0] ?? hardest[0] };
+}
+
+/** What a map says as far as it is there: {orientations, done, engaged, undecided, failure, torque, tilt, shift}. */
+export function totalsOf({ grid, cells }) {
+  const done = orientationsOf(grid).filter((one) => cells.has(keyOf(one)));
+  const found = done.map((one) => ({ ...one, ...cellOf(cells.get(keyOf(one))) }));
+  const whole = found.filter(({ engaged, count }) => engaged === count);
+  const paths = [...cells.values()].flat().filter(({ outcome }) => outcome === "engaged");
+  const most = (name) => Math.max(0, ...paths.map((one) => one[name] ?? 0));
+  return {
+    orientations: tilts(grid).length ** 2,
+    done: done.length,
+    engaged: whole.length,
+    undecided: found.filter(({ engaged, undecided, count }) => engaged < count && engaged + undecided === count).length,
+    failure: found.find(({ engaged, undecided, count }) => engaged + undecided < count) ?? null,
+    torque: most("torque"),
+    tilt: most("tilt"),
+    shift: most("shift"),
+  };
+}
+
+/** One map: requested, filled in while it is computed, ended where it is no longer wanted. */
+export class SuccessMap {
+  /** Null where nothing is asked for: {text, unit, grid, cells, isRunning, problem, errors}. */
+  value = null;
+  /** The critical friction of an orientation: {roll, pitch, last, first, outcome, isRunning}; null: not asked for. */
+  critical = null;
+  #api;
+  #changed;
+  #key = "";
+  #running = new AbortController();
+  #bracketing = new AbortController();
+
+  constructor(api, changed) {
+    this.#api = api;
+    this.#changed = changed;
+  }
+
+  /** Computes the map of a text with the pair of a library; the one before is ended. An empty text: none. */
+  follow(text, library, grid, unit) {
+    const key = text === "" ? "" : `${library} ${text}`;
+    if (key === this.#key) return;
+    this.cancel();
+    this.#key = key;
+    this.critical = null;
+    this.value = text === "" ? null : { text, unit, library, grid, cells: new Map(), isRunning: true, problem: null, errors: [] };
+    this.#changed();
+    if (this.value !== null) this.#compute(this.value, this.#running.signal);
+  }
+
+  /** Computes no further; what is there stays. */
+  cancel() {
+    this.#running.abort();
+    this.#bracketing.abort();
+    this.#running = new AbortController();
+    if (this.value?.isRunning) {
+      this.value.isRunning = false;
+      this.#changed();
+    }
+  }
+
+  async #compute(map, signal) {
+    const left = orientationsOf(map.grid);
+    const take = async (next) => {
+      map.cells.set(keyOf(next), await this.#outcomes(map, next, null, signal));
+      if (!signal.aborted) this.#changed();
+    };
+    const lane = async () => {
+      for (let next = left.shift(); next !== undefined && !signal.aborted; next = left.shift()) await take(next);
+    };
+    try {
+      // Alone: what is refused is refused once.
+      await take(left.shift());
+      await Promise.all(Array.from({ length: LANES }, lane));
+    } catch (error) {
+      if (signal.aborted) return;
+      this.#running.abort();
+      if (!(error instanceof ProblemError) || error.status === UNAUTHORIZED) map.problem = error.message;
+      else [map.problem, map.errors] = [error.message, error.errors];
+    }
+    if (this.value !== map || map.isRunning === false) return;
+    map.isRunning = false;
+    this.#changed();
+  }
+
+  /** Narrows down the friction up to which all starting phases of an orientation engage. */
+  async findCritical(place) {
+    this.#bracketing.abort();
+    const bracketing = (this.#bracketing = new AbortController());
+    const map = this.value;
+    const found = (this.critical = { ...place, last: null, first: null, outcome: null, isRunning: true });
+    this.#changed();
+    const engagesAt = async (mu) => {
+      const { engaged, count, worst } = cellOf(await this.#outcomes(map, place, mu, bracketing.signal));
+      if (engaged === count) found.last = mu;
+      else [found.first, found.outcome] = [mu, worst.outcome];
+      this.#changed();
+      return engaged === count;
+    };
+    try {
+      if (await engagesAt(0)) {
+        for (const mu of BRACKET) if (!(await engagesAt(mu))) break;
+        while (found.first !== null && found.first - found.last > TOLERANCE + 1e-9) {
+          await engagesAt(Number((0.5 * (found.last + found.first)).toFixed(4)));
+        }
+      }
+    } catch (error) {
+      if (!bracketing.signal.aborted) found.problem = error.message;
+    }
+    found.isRunning = false;
+    if (this.critical === found) this.#changed();
+  }
+
+  #outcomes({ text, library, unit }, { roll, pitch }, mu, signal) {
+    const { phases } = mapRequestOf(text);
+    const body = { ...bodyOf(assemblyOf(text), library), ...(mu !== null && { mu }) };
+    delete body.pose;
+    const poses = Array.from({ length: phases }, (_, k) => ({ roll, pitch, phase: (360 * k) / phases }));
+    return this.#api.outcomes({ ...body, poses }, unit, signal);
+  }
+}
+
+function assemblyOf(text) {
+  return text.replace(/^phases=[^&]*&/, "");
+}

@@ -1,0 +1,1 @@
+"""Success maps: requested as jobs, and read."""

@@ -1,0 +1,112 @@
+"""The explorer's tab of success maps: filled in while it is computed, its paths played, two maps side by side."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from selenium.webdriver.common.keys import Keys
+
+from harness.browser import Explorer
+from tests.explorer.test_device import choose_device, value_of
+from threadstate.device.assemble import assemble_pose
+from threadstate.device.strategy import Strategy
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+pytestmark = pytest.mark.slow
+
+CELLS = 9
+"""Orientations of the library's grid."""
+COMPUTED = "tab=success&nut=off&success=phases%3D1%26roll%3D0%26pitch%3D0%26phase%3D0%26strategy%3Dcw%26unit%3Din"
+
+
+def filled(explorer: Explorer, frame: str = "#success") -> int:
+    """How many cells of a map are computed."""
+    return len(explorer.all(f"{frame} .cell rect:first-child:not(.none)"))
+
+
+def whole(explorer: Explorer) -> None:
+    """Wait until the map is computed."""
+    explorer.wait(lambda: filled(explorer) == CELLS, "the map is not filled in")
+    explorer.wait(lambda: not explorer.one("#success-cancel").is_enabled(), "the map does not end")
+
+
+def saved(explorer: Explorer, kind: str, folder: Path) -> str:
+    """The text of the file that a button of the tab saves."""
+    explorer.chromium.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
+    explorer.click(f'[data-save="success"] button[data-kind="{kind}"]')
+    pattern = f"1-4-20-unc_success-map_*.{kind.lower()}"
+    # The browser reserves the name by an empty file.
+    explorer.wait(lambda: any(path.stat().st_size for path in folder.glob(pattern)), f"no {kind} was saved")
+    (path,) = folder.glob(pattern)
+    return path.read_text()
+
+
+def test_from_an_empty_device_to_a_critical_friction(explorer: Explorer) -> None:
+    explorer.click("#tab-device")
+    choose_device(explorer, strategy="cw", k_tilt="15")
+    explorer.click("#tab-success")
+    explorer.click("#success-compute")
+    explorer.wait(lambda: filled(explorer) > 0, "no cell is filled in")
+    whole(explorer)
+    words = explorer.text("#success-text")
+    found = re.match(r"Of 9 orientations (\d) engage at", words)
+    assert found is not None, words
+    assert explorer.text("#success-device").startswith("k tilt (N in/rad) 15")
+    engaging = explorer.all('#success .cell[aria-label*=": engages"]')
+    assert len(engaging) == int(found[1])
+    roll, pitch = (float(engaging[0].get_attribute(f"data-{name}") or "nan") for name in ("roll", "pitch"))
+    explorer.run("arguments[0].dispatchEvent(new MouseEvent('click', {bubbles: true}))", engaging[0])
+    explorer.wait_for_text("#turned-readout", "point ")
+    explorer.wait(lambda: int(value_of(explorer, "#turned-point")) > 3, "the path does not play")
+    assert explorer.text("#success-cell").startswith("paths from roll")
+    explorer.click("#success-critical-find")
+    explorer.wait(lambda: "so far" in explorer.text("#success-critical"), "nothing is narrowed down")
+    explorer.wait(lambda: "so far" not in explorer.text("#success-critical"), "no critical friction")
+    last = re.search(r"engages up to μ = ([0-9.]+)", explorer.text("#success-critical"))
+    assert last is not None
+    assert "success=phases%3D1" in explorer.chromium.current_url
+    assert (roll, pitch) in {(r, p) for r in (-4, 0, 4) for p in (-4, 0, 4)}
+
+
+def test_a_link_restores_the_map_and_what_it_says_is_what_is_computed(explorer: Explorer, tmp_path: Path) -> None:
+    explorer.open(f"/#{COMPUTED}")
+    whole(explorer)
+    outcome = assemble_pose(quarter_twenty_unc(), 0.0, -4.0, 0.0, strategy=Strategy.CW).outcome
+    cell = explorer.one('#success .cell[data-roll="0"][data-pitch="-4"]')
+    assert ("engages" in (cell.get_attribute("aria-label") or "")) == (outcome.value == "engaged")
+    rows = saved(explorer, "CSV", tmp_path).splitlines()
+    assert rows[0].startswith("roll,pitch,phase,mu,outcome,flags,bounded,torque,tilt,shift,end,unit,strategy")
+    assert len(rows) == 1 + CELLS
+    assert any(row.startswith(f"0,-4,0,0,{outcome.value},") for row in rows[1:])
+    assert saved(explorer, "SVG", tmp_path).count("<rect") > CELLS
+
+
+def test_by_keys_alone_a_cell_is_chosen_and_a_map_kept_beside_another(explorer: Explorer) -> None:
+    explorer.open(f"/#{COMPUTED}")
+    whole(explorer)
+    explorer.press('#success .cell[tabindex="0"]', Keys.ARROW_DOWN)
+    focused = explorer.chromium.switch_to.active_element
+    assert (focused.get_attribute("data-roll"), focused.get_attribute("data-pitch")) == ("0", "-4")
+    focused.send_keys(Keys.ENTER)
+    explorer.wait_for_text("#success-cell", "paths from roll 0")
+    explorer.press("#success-keep", Keys.ENTER)
+    explorer.wait(lambda: filled(explorer, "#success-kept") == CELLS, "the kept map is not there")
+    explorer.choose("#success-mu", "0.4")
+    explorer.press("#success-compute", Keys.ENTER)
+    explorer.wait_for_text("#success-text", "μ = 0.4")
+    assert "kept_success=" in explorer.chromium.current_url
+    explorer.press("#success-cancel", Keys.ENTER)
+    explorer.wait(lambda: not explorer.one("#success-cancel").is_enabled(), "the map is not cancelled")
+    explorer.press("#success-drop", Keys.ENTER)
+    explorer.wait(lambda: filled(explorer, "#success-kept") == 0, "the kept map is not dropped")
+
+
+def test_what_is_not_valid_is_said(explorer: Explorer) -> None:
+    explorer.click("#tab-success")
+    explorer.choose("#success-mu", "2")
+    explorer.click("#success-compute")
+    explorer.wait_for_text("#success-problem", "mu")
+    assert filled(explorer) == 0
+    assert ["400" in one for one in explorer.complaints()] == [True]

@@ -1,0 +1,119 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { ProblemError } from "../../service/explorer/page/js/api.js";
+import { requestOf } from "../../service/explorer/page/js/assembly.js";
+import { SuccessMap, cellOf, checkedMap, mapRequestOf, mapText, orientationsOf, pathText, totalsOf } from "../../service/explorer/page/js/success_map.js";
+import { criticalWords, mapWords } from "../../service/explorer/page/js/success_view.js";
+
+const GRID = { tilt_max: 4, tilt_step: 4 };
+const REQUEST = { ...requestOf(""), mu: "0.1", k_tilt: "250", strategy: "cw", unit: "mm" };
+const TEXT = mapText(2, REQUEST);
+
+/** A service at which the paths of a roll above 0 do not snap above a friction. */
+class Service {
+  asked = [];
+
+  constructor(critical) {
+    this.critical = critical;
+  }
+
+  outcomes(body, unit, signal) {
+    this.asked.push({ body, unit, signal });
+    if (signal.aborted) return Promise.reject(new Error("aborted"));
+    const mu = body.mu ?? 0;
+    return Promise.resolve(body.poses.map((pose) => ({
+      ...pose, mu, outcome: pose.roll > 0 && mu > this.critical ? "no_snap" : "engaged", flags: [], bounded: false, torque: 1 + pose.pitch / 8, tilt: 3, shift: 0.01, end: -90,
+    })));
+  }
+}
+
+function computed(map) {
+  return new Promise((done) => {
+    const look = () => (map.value !== null && !map.value.isRunning ? done() : setTimeout(look, 1));
+    look();
+  });
+}
+
+test("a map's request goes into the link and comes back the same", () => {
+  assert.equal(TEXT, "phases=2&roll=0&pitch=0&phase=0&mu=0.1&k_tilt=250&strategy=cw&unit=mm");
+  assert.deepEqual(mapRequestOf(TEXT), { phases: 2, request: { ...REQUEST, roll: "0", pitch: "0", phase: "0" } });
+  assert.equal(checkedMap(TEXT), TEXT);
+  for (const text of ["", "phases=5&roll=0&pitch=0&phase=0&unit=mm", "phases=2", TEXT.replace("cw", "sideways"), `${TEXT}&phases=1`]) assert.equal(checkedMap(text), undefined, text);
+  assert.equal(pathText(TEXT, { roll: 3, pitch: -2, phase: 180 }), "roll=3&pitch=-2&phase=180&mu=0.1&k_tilt=250&strategy=cw&unit=mm");
+});
+
+test("orientations near level come first, each once", () => {
+  const found = orientationsOf(GRID);
+  assert.equal(found.length, 9);
+  assert.deepEqual(found[0], { roll: 0, pitch: 0 });
+  assert.deepEqual(new Set(found.slice(5).map(({ roll, pitch }) => Math.abs(roll) + Math.abs(pitch))), new Set([8]));
+});
+
+test("the worst path of a cell is one that certainly fails, else an undecided one, else the hardest", () => {
+  const path = (outcome, torque, phase) => ({ outcome, torque, phase });
+  const all = [path("engaged", 1, 0), path("engaged", 2, 90), path("undecided", null, 180), path("no_snap", 0.1, 270)];
+  assert.equal(cellOf(all).worst.phase, 270);
+  assert.equal(cellOf(all.slice(0, 3)).worst.phase, 180);
+  assert.equal(cellOf(all.slice(0, 2)).worst.phase, 90);
+  assert.deepEqual([cellOf(all).count, cellOf(all).engaged, cellOf(all).undecided], [4, 2, 1]);
+});
+
+test("a map is computed with every phase of every orientation, and says where it fails", async () => {
+  const service = new Service(0.05);
+  let changes = 0;
+  const map = new SuccessMap(service, () => (changes += 1));
+  map.follow(TEXT, 7, GRID, "in");
+  await computed(map);
+  assert.equal(service.asked.length, 9);
+  assert.ok(changes >= 9);
+  const [{ body, unit }] = service.asked;
+  assert.deepEqual(body.poses, [{ roll: 0, pitch: 0, phase: 0 }, { roll: 0, pitch: 0, phase: 180 }]);
+  assert.deepEqual([body.library, body.mu, body.strategy, body.device, unit], [7, 0.1, "cw", { unit: "mm", k_tilt: 250, about: "nut" }, "in"]);
+  assert.equal(body.pose, undefined);
+  const totals = totalsOf(map.value);
+  assert.deepEqual([totals.done, totals.engaged, totals.undecided, totals.orientations], [9, 6, 0, 9]);
+  assert.deepEqual([totals.failure.roll, totals.failure.pitch], [4, 0]);
+  assert.equal(
+    mapWords(map.value, "in"),
+    "Of 9 orientations 6 engage from each of 2 phases at μ = 0.1. The least tilt that fails: roll 4 deg, pitch 0 deg, which does not snap. " +
+      "Paths that engage ask for up to 1.500 N in of torque, 3.00 deg of tilt and 0.0100 in of shift.",
+  );
+  map.follow(TEXT, 7, GRID, "mm");
+  assert.equal(service.asked.length, 9, "another unit is no other map");
+});
+
+test("a map that is cancelled or replaced is not computed any further", async () => {
+  const service = new Service(1);
+  const map = new SuccessMap(service, () => {});
+  map.follow(TEXT, 7, GRID, "in");
+  map.cancel();
+  assert.equal(map.value.isRunning, false);
+  await new Promise((done) => setTimeout(done, 5));
+  assert.ok(service.asked.length < 9);
+  map.follow("", 7, GRID, "in");
+  assert.equal(map.value, null);
+});
+
+test("what is refused is said", async () => {
+  const refused = new ProblemError(400, { detail: "Invalid value", errors: [{ location: "body mu", value: "2", valid: "0 to 1" }] });
+  const map = new SuccessMap({ outcomes: () => Promise.reject(refused) }, () => {});
+  map.follow(TEXT, 7, GRID, "in");
+  await computed(map);
+  assert.equal(map.value.problem, "Invalid value");
+  assert.deepEqual(map.value.errors, refused.errors);
+});
+
+test("the critical friction of an orientation is bracketed to 0.01", async () => {
+  for (const [critical, place, words] of [
+    [0.17, { roll: 4, pitch: 0 }, /engages up to μ = 0\.1[67]\d*, does not snap at μ = 0\.1[78]/],
+    [-1, { roll: 4, pitch: 0 }, /does not snap even without friction/],
+    [0, { roll: 0, pitch: 0 }, /engages up to μ = 0\.8, the largest that is tried/],
+  ]) {
+    const map = new SuccessMap(new Service(critical), () => {});
+    map.follow(TEXT, 7, GRID, "in");
+    await map.findCritical(place);
+    assert.match(criticalWords(map.critical), words);
+    if (critical > 0) assert.ok(map.critical.last <= critical && critical < map.critical.first && map.critical.first - map.critical.last < 0.0101);
+  }
+});

@@ -1,0 +1,150 @@
+"""Reading success maps from the database; unpublished ones by the hash of their inputs alone."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from sqlalchemy import ColumnElement, Connection, RowMapping, Select, select
+
+from threadstate.device.document import device_from_document
+from threadstate.device.model import Device
+from threadstate.device.strategy import Strategy
+from threadstate.errors import NotFoundError
+from threadstate.library.grid import Grid
+from threadstate.library.read import LARGEST_ID
+from threadstate.library.success_tables import success_map, success_orientation
+from threadstate.numbers import number_text
+from threadstate.success.document import orientation_from_document
+from threadstate.success.model import OrientationMap
+from threadstate.units import LengthUnit
+
+LATEST = "latest"
+_NUMBER = re.compile(r"[0-9]{1,18}")
+
+
+@dataclass(frozen=True)
+class SuccessMap:
+    """A published success map: what it was computed from, and its hashes. ``pair`` is JSON.
+
+    Frictions ascend; tolerances and limit are those of ``threadstate.success.inputs.SuccessInputs``.
+    """
+
+    id: int
+    designation: str
+    length_unit: LengthUnit
+    input_sha256: str
+    content_sha256: str
+    code_version: str
+    pair: str
+    device: Device
+    strategy: Strategy
+    grid: Grid
+    frictions: tuple[float, ...]
+    phase_tolerance_deg: float
+    mu_tolerance: float
+    point_limit: int
+    created_at: datetime
+    published_at: datetime
+
+
+def success_maps(connection: Connection) -> list[SuccessMap]:
+    """All published maps, the latest first."""
+    return [_record(row) for row in connection.execute(_published()).mappings()]
+
+
+def named_success_map(connection: Connection, name: str) -> SuccessMap:
+    """The published map of a name: ``latest``, the one published last, or a number.
+
+    Raises:
+        NotFoundError: it does not exist; the message says which do.
+    """
+    row = None
+    if name == LATEST:
+        row = connection.execute(_published().limit(1)).mappings().first()
+    elif _NUMBER.fullmatch(name) and int(name) <= LARGEST_ID:
+        row = connection.execute(_published(success_map.c.id == int(name))).mappings().first()
+    if row is not None:
+        return _record(row)
+    numbers = ", ".join(str(one.id) for one in success_maps(connection)[:20])
+    raise NotFoundError(
+        f"no success map {name!r} is published; published are: {numbers or 'none yet'}; "
+        "`POST /v1/success-maps` requests one"
+    )
+
+
+def orientations_of_map(
+    connection: Connection, map_id: int, after: int = -1, limit: int | None = None
+) -> Sequence[OrientationMap]:
+    """The orientations of a map with numbers above ``after``, in the order of the grid, ``limit`` at most."""
+    query = (
+        select(success_orientation.c.document)
+        .where(success_orientation.c.map_id == map_id, success_orientation.c.orientation > after)
+        .order_by(success_orientation.c.orientation)
+        .limit(limit)
+    )
+    return [_orientation(document) for document in connection.scalars(query)]
+
+
+def orientation_of_map(connection: Connection, found: SuccessMap, roll_deg: float, pitch_deg: float) -> OrientationMap:
+    """An orientation of a map.
+
+    Raises:
+        NotFoundError: the grid does not contain it.
+    """
+    document = connection.scalar(
+        select(success_orientation.c.document).where(
+            success_orientation.c.map_id == found.id,
+            success_orientation.c.roll_deg == roll_deg,
+            success_orientation.c.pitch_deg == pitch_deg,
+        )
+    )
+    if document is None:
+        raise NotFoundError(
+            f"success map {found.id} has no orientation at roll {number_text(roll_deg)}, pitch "
+            f"{number_text(pitch_deg)} deg; its grid: {found.grid}"
+        )
+    return _orientation(document)
+
+
+def committed_orientations(connection: Connection, input_sha256: str) -> Sequence[OrientationMap]:
+    """What is there of the map of these inputs, published or not, in the order of the grid."""
+    map_id = connection.scalar(select(success_map.c.id).where(success_map.c.input_sha256 == input_sha256))
+    return [] if map_id is None else orientations_of_map(connection, map_id)
+
+
+def _orientation(document: str) -> OrientationMap:
+    return orientation_from_document(json.loads(document))
+
+
+def _published(which: ColumnElement[bool] | None = None) -> Select[Any]:
+    query = select(success_map).where(success_map.c.published_at.is_not(None))
+    if which is not None:
+        query = query.where(which)
+    return query.order_by(success_map.c.published_at.desc(), success_map.c.id.desc())
+
+
+def _record(row: RowMapping) -> SuccessMap:
+    inputs = json.loads(row["inputs"])
+    return SuccessMap(
+        id=row["id"],
+        designation=row["designation"],
+        length_unit=LengthUnit(row["length_unit"]),
+        input_sha256=row["input_sha256"],
+        content_sha256=row["content_sha256"],
+        code_version=row["code_version"],
+        pair=json.dumps(inputs["pair"]),
+        device=device_from_document(inputs["device"]),
+        strategy=Strategy(inputs["strategy"]),
+        grid=Grid(inputs["tilt_max"], inputs["tilt_step"], inputs["phase_step"]),
+        frictions=tuple(inputs["mu"]),
+        phase_tolerance_deg=inputs["phase_tolerance"],
+        mu_tolerance=inputs["mu_tolerance"],
+        point_limit=inputs["point_limit"],
+        created_at=row["created_at"],
+        published_at=row["published_at"],
+    )

@@ -1,0 +1,1 @@
+"""The search for a device by success maps."""
