@@ -120,7 +120,7 @@ def list_success_maps(request: Request, connection: ReadConnection) -> Response:
 @router.get("/success-maps/{id}", summary="One success map", response_model=SuccessMapDetail, responses=NOT_MODIFIED)
 def get_success_map(request: Request, connection: ReadConnection, found: IdentifiedMap) -> Response:
     """A success map with its device, and how many of its orientations engage at each friction."""
-    totals = totals_documents(orientations_of_map(connection, found.id), found.grid, found.frictions)
+    totals = totals_documents(orientations_of_map(connection, found.id), found.inputs.grid, found.inputs.frictions)
     document = {**success_map_document(found).model_dump(mode="json"), "summary": totals}
     return json_response(request, document, {"Content-Location": f"/v1/success-maps/{found.id}"})
 
@@ -140,8 +140,8 @@ def list_success_orientations(
     unit: UnitQuery = None,
 ) -> Response:
     """What a map has of each orientation, in the order of roll and pitch, page by page."""
-    shown = unit or found.length_unit
-    factor = conversion_factor(found.length_unit, shown)
+    shown = unit or found.inputs.pair.unit
+    factor = conversion_factor(found.inputs.pair.unit, shown)
     orientations = orientations_of_map(connection, found.id, after, limit + 1)
     headers = {UNIT_HEADER: shown.value}
     following = None
@@ -149,7 +149,9 @@ def list_success_orientations(
         query = urlencode({**request.query_params, "after": orientations[limit - 1].index})
         following = f"{request.scope.get('root_path', '')}/v1/success-maps/{found.id}/orientations?{query}"
         headers["Link"] = f'<{following}>; rel="next"'
-    documents = [summarised_document(one, found.grid, found.frictions, factor) for one in orientations[:limit]]
+    documents = [
+        summarised_document(one, found.inputs.grid, found.inputs.frictions, factor) for one in orientations[:limit]
+    ]
     page = {"success_map": found.id, "unit": shown.value, "orientations": documents, "next": following}
     return json_response(request, page, headers)
 
@@ -169,10 +171,10 @@ def get_success_orientation(
     unit: UnitQuery = None,
 ) -> Response:
     """What a map has of an orientation: every path, boundaries of outcome, the critical friction, and a summary."""
-    shown = unit or found.length_unit
+    shown = unit or found.inputs.pair.unit
     orientation = orientation_of_map(connection, found, roll, pitch)
-    factor = conversion_factor(found.length_unit, shown)
-    document = summarised_document(orientation, found.grid, found.frictions, factor)
+    factor = conversion_factor(found.inputs.pair.unit, shown)
+    document = summarised_document(orientation, found.inputs.grid, found.inputs.frictions, factor)
     place = "/".join(map(number_text, (roll, pitch)))
     location = f"/v1/success-maps/{found.id}/orientations/{place}"
     return json_response(request, document, {UNIT_HEADER: shown.value, "Content-Location": location})

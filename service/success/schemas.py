@@ -12,7 +12,6 @@ from service.libraries.endpoints import GridDocument
 from service.solve import NOT_BOTH, RequestOfPair
 from threadstate.device.document import DeviceDocument, device_document
 from threadstate.device.strategy import Strategy
-from threadstate.library.identity import pair_of
 from threadstate.success.inputs import FRICTIONS, MU_TOLERANCE, PHASE_TOLERANCE_DEG, POINT_LIMIT
 from threadstate.success.read import SuccessMap
 from threadstate.success.summary_document import FrictionTotalsDocument, SummarisedOrientationDocument
@@ -114,24 +113,24 @@ class GrowingMap(BaseModel):
 
 def success_map_document(record: SuccessMap) -> SuccessMapDocument:
     """The document of a map."""
-    grid = record.grid
+    inputs, grid = record.inputs, record.inputs.grid
     return SuccessMapDocument(
         id=record.id,
-        designation=record.designation,
-        source=source_of(pair_of(record.pair)),
-        device=DeviceDocument(**device_document(record.device)),
-        strategy=record.strategy,
+        designation=inputs.pair.designation,
+        source=source_of(inputs.pair),
+        device=DeviceDocument(**device_document(inputs.device)),
+        strategy=inputs.strategy,
         grid=GridDocument(
             tilt_max=grid.tilt_max_deg,
             tilt_step=grid.tilt_step_deg,
             phase_step=grid.phase_step_deg,
             orientations=grid.orientation_count,
         ),
-        mu=list(record.frictions),
-        phase_tolerance=record.phase_tolerance_deg,
-        mu_tolerance=record.mu_tolerance,
-        point_limit=record.point_limit,
-        stored_unit=record.length_unit,
+        mu=list(inputs.frictions),
+        phase_tolerance=inputs.phase_tolerance_deg,
+        mu_tolerance=inputs.mu_tolerance,
+        point_limit=inputs.point_limit,
+        stored_unit=inputs.pair.unit,
         code_version=record.code_version,
         input_sha256=record.input_sha256,
         content_sha256=record.content_sha256,

@@ -114,12 +114,7 @@ def test_a_map_is_read_while_it_grows_and_once_it_is_published(engine: Engine) -
         assert named_success_map(connection, str(map_id)) == found
         assert orientations_of_map(connection, map_id) == expected
         assert orientations_of_map(connection, map_id, after=4, limit=2) == expected[5:7]
-    assert (found.input_sha256, found.content_sha256, found.grid) == (sha256, content, GRID)
-    assert (found.device, found.strategy, found.frictions) == (
-        SUCCESS_INPUTS.device,
-        SUCCESS_INPUTS.strategy,
-        SUCCESS_INPUTS.frictions,
-    )
+    assert (found.input_sha256, found.content_sha256, found.inputs) == (sha256, content, SUCCESS_INPUTS)
 
 
 def test_a_settled_library_of_a_job_is_that_of_the_command(engine: Engine) -> None:

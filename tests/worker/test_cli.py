@@ -55,7 +55,7 @@ def _sections(text: str) -> dict[str, str]:
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_and_option_is_documented(repository_root: Path, name: str) -> None:
     section = _sections((repository_root / "docs" / "cli.md").read_text())[name].split("## Exit codes")[0]
-    documented = set(re.findall(r"`(--[a-z-]+)(?: [A-Z=,]+)?`", section))
+    documented = set(re.findall(r"`(--[a-z-]+)(?: [A-Z=,:]+)?`", section))
     assert documented - {"--json"} == set(_options(name)) - {"--json"}
     assert ("--json" in documented) == ("--json" in set(_options(name))) or name == "run"
 

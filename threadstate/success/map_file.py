@@ -66,19 +66,27 @@ def inputs_of_map(path: Path) -> SuccessInputs | None:
     if not line.endswith(b"\n"):
         return None
     try:
-        document = json.loads(line)
-        return SuccessInputs(
-            pair_of(json.dumps(document["pair"])),
-            device_from_document(document["device"]),
-            Strategy(document["strategy"]),
-            Grid(document["tilt_max"], document["tilt_step"], document["phase_step"]),
-            tuple(document["mu"]),
-            document["phase_tolerance"],
-            document["mu_tolerance"],
-            document["point_limit"],
-        )
+        return inputs_from_document(json.loads(line))
     except (ValueError, KeyError, TypeError):
         raise InvalidValueError(NAME, str(path), "a success map, or a file that does not exist") from None
+
+
+def inputs_from_document(document: Any) -> SuccessInputs:
+    """What a map is computed from, of its document; hash and code version, which it names, are not compared.
+
+    Raises:
+        KeyError, TypeError, ValueError: it is not the document of such inputs.
+    """
+    return SuccessInputs(
+        pair_of(json.dumps(document["pair"])),
+        device_from_document(document["device"]),
+        Strategy(document["strategy"]),
+        Grid(document["tilt_max"], document["tilt_step"], document["phase_step"]),
+        tuple(document["mu"]),
+        document["phase_tolerance"],
+        document["mu_tolerance"],
+        document["point_limit"],
+    )
 
 
 def read_map(path: Path, inputs: SuccessInputs) -> list[OrientationMap]:

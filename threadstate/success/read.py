@@ -11,17 +11,14 @@ from typing import Any
 
 from sqlalchemy import ColumnElement, Connection, RowMapping, Select, select
 
-from threadstate.device.document import device_from_document
-from threadstate.device.model import Device
-from threadstate.device.strategy import Strategy
 from threadstate.errors import NotFoundError
-from threadstate.library.grid import Grid
 from threadstate.library.read import LARGEST_ID
 from threadstate.library.success_tables import success_map, success_orientation
 from threadstate.numbers import number_text
 from threadstate.success.document import orientation_from_document
+from threadstate.success.inputs import SuccessInputs
+from threadstate.success.map_file import inputs_from_document
 from threadstate.success.model import OrientationMap
-from threadstate.units import LengthUnit
 
 LATEST = "latest"
 _NUMBER = re.compile(r"[0-9]{1,18}")
@@ -29,25 +26,13 @@ _NUMBER = re.compile(r"[0-9]{1,18}")
 
 @dataclass(frozen=True)
 class SuccessMap:
-    """A published success map: what it was computed from, and its hashes. ``pair`` is JSON.
-
-    Frictions ascend; tolerances and limit are those of ``threadstate.success.inputs.SuccessInputs``.
-    """
+    """A published success map: what it was computed from, the hashes of that and of its content, the code at the time."""
 
     id: int
-    designation: str
-    length_unit: LengthUnit
+    inputs: SuccessInputs
     input_sha256: str
     content_sha256: str
     code_version: str
-    pair: str
-    device: Device
-    strategy: Strategy
-    grid: Grid
-    frictions: tuple[float, ...]
-    phase_tolerance_deg: float
-    mu_tolerance: float
-    point_limit: int
     created_at: datetime
     published_at: datetime
 
@@ -106,7 +91,7 @@ def orientation_of_map(connection: Connection, found: SuccessMap, roll_deg: floa
     if document is None:
         raise NotFoundError(
             f"success map {found.id} has no orientation at roll {number_text(roll_deg)}, pitch "
-            f"{number_text(pitch_deg)} deg; its grid: {found.grid}"
+            f"{number_text(pitch_deg)} deg; its grid: {found.inputs.grid}"
         )
     return _orientation(document)
 
@@ -129,22 +114,12 @@ def _published(which: ColumnElement[bool] | None = None) -> Select[Any]:
 
 
 def _record(row: RowMapping) -> SuccessMap:
-    inputs = json.loads(row["inputs"])
     return SuccessMap(
         id=row["id"],
-        designation=row["designation"],
-        length_unit=LengthUnit(row["length_unit"]),
+        inputs=inputs_from_document(json.loads(row["inputs"])),
         input_sha256=row["input_sha256"],
         content_sha256=row["content_sha256"],
         code_version=row["code_version"],
-        pair=json.dumps(inputs["pair"]),
-        device=device_from_document(inputs["device"]),
-        strategy=Strategy(inputs["strategy"]),
-        grid=Grid(inputs["tilt_max"], inputs["tilt_step"], inputs["phase_step"]),
-        frictions=tuple(inputs["mu"]),
-        phase_tolerance_deg=inputs["phase_tolerance"],
-        mu_tolerance=inputs["mu_tolerance"],
-        point_limit=inputs["point_limit"],
         created_at=row["created_at"],
         published_at=row["published_at"],
     )

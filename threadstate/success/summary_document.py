@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from typing_extensions import TypedDict
 
@@ -11,6 +10,7 @@ from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.library.grid import Grid
 from threadstate.success.document import CellDocument, OrientationDocument, cell_document, orientation_document
 from threadstate.success.model import Cell, OrientationMap
+from threadstate.success.scaled import scaled_cell, scaled_orientation
 from threadstate.success.summary import map_counts, orientation_summary, tilt_area
 
 
@@ -56,7 +56,7 @@ class OutcomeDocument(CellDocument):
 
 def outcome_document(roll_deg: float, pitch_deg: float, cell: Cell, factor: float = 1.0) -> OutcomeDocument:
     """The document of a path that ends so, in a unit of which the pair's has ``factor``."""
-    return {"roll": roll_deg + 0.0, "pitch": pitch_deg + 0.0, **cell_document(_scaled(cell, factor))}
+    return {"roll": roll_deg + 0.0, "pitch": pitch_deg + 0.0, **cell_document(scaled_cell(cell, factor))}
 
 
 def totals_documents(
@@ -87,7 +87,7 @@ def summarised_document(
     found: OrientationMap, grid: Grid, frictions: Sequence[float], factor: float = 1.0
 ) -> SummarisedOrientationDocument:
     """The document of an orientation and its summaries, in a unit of which the pair's has ``factor``."""
-    shown = replace(found, cells=tuple(_scaled(cell, factor) for cell in found.cells))
+    shown = scaled_orientation(found, factor)
     summaries = [orientation_summary(shown, grid, mu) for mu in frictions]
     return {
         **orientation_document(shown),
@@ -105,12 +105,3 @@ def summarised_document(
             for one in summaries
         ],
     }
-
-
-def _scaled(cell: Cell, factor: float) -> Cell:
-    """A cell with its lengths times a factor; the largest tilt and the phases are angles."""
-    return replace(
-        cell,
-        torque=None if cell.torque is None else cell.torque * factor,
-        shift=None if cell.shift is None else cell.shift * factor,
-    )
