@@ -1,4 +1,4 @@
-"""Settles a held bolt in MuJoCo: run by benchmarks.settle_peer in an environment of its own, which has mujoco alone.
+"""Settles a held bolt in MuJoCo, and turns it: run by benchmarks.settle_peer in an environment of its own, which has mujoco alone.
 
 Reads a JSON object (meshes, device, cases) from its input, writes one JSON object a case. Lengths are over the nominal
 radius and forces over the push, so that all is of the order of 1.
@@ -7,6 +7,7 @@ radius and forces over the push, so that all is of the order of 1.
 from __future__ import annotations
 
 import json
+import math
 import sys
 import time
 from typing import Any
@@ -28,7 +29,11 @@ def numbers(values: Any) -> str:
 
 
 def model(meshes: dict[str, Any], device: dict[str, float], command: list[list[float]], height: float) -> Any:
-    """Bolt and nut as signed distances of their meshes; the device is three slides and a ball joint with springs."""
+    """Bolt and nut as signed distances of their meshes; the device is three slides and a ball joint with springs.
+
+    The nut can be turned: a device whose springs are alike all around, and whose tilt goes round with the phase, stays
+    as it is in the frame of its phase, in which the nut turns the other way.
+    """
     turn = np.zeros(4)
     mujoco.mju_mat2Quat(turn, np.ravel(command))
     assets = "".join(
@@ -43,7 +48,7 @@ def model(meshes: dict[str, Any], device: dict[str, float], command: list[list[f
       <option timestep="{TIME_STEP}" gravity="0 0 0" integrator="implicitfast"/>
       <asset>{assets}</asset>
       <worldbody>
-        <geom type="sdf" mesh="nut" {CONTACT}/>
+        <body name="nut" mocap="true"><geom type="sdf" mesh="nut" {CONTACT}/></body>
         <body name="hand" pos="0 0 {height + LIFT}">{slides}<inertial pos="0 0 0" mass="0.1" diaginertia="1 1 1"/>
           <body name="bolt" quat="{numbers(turn)}">
             <joint type="ball" stiffness="{device["k_tilt"]}" damping="{device["damping"]}"/>
@@ -55,8 +60,18 @@ def model(meshes: dict[str, Any], device: dict[str, float], command: list[list[f
     </mujoco>""")
 
 
+def about_z(angle: float) -> Any:
+    """The turn about z by an angle."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
 def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, Any]) -> dict[str, Any]:
-    """The pose of the bolt at the end, its speed there, and processor seconds without building the model."""
+    """The pose of the bolt in the nut at the end, its speed there, and processor seconds without building the model.
+
+    After it has settled it is turned by the ``legs`` of the case (degrees, positive counter-clockwise), at ``rate``
+    degrees a unit of time.
+    """
     built = model(meshes, device, case["command"], case["height"])
     data = mujoco.MjData(built)
     bolt = built.body("bolt").id
@@ -66,11 +81,21 @@ def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, An
         data.qfrc_applied[2] = -min(1.0, data.time / RAMP)
         mujoco.mj_step(built, data)
         steps += 1
+    phase_deg = 0.0
+    for leg_deg in case.get("legs", ()):
+        count = max(1, math.ceil(abs(leg_deg) / (case["rate"] * TIME_STEP)))
+        for _ in range(count):
+            phase_deg += leg_deg / count
+            half = math.radians(-phase_deg) / 2.0
+            data.mocap_quat[0] = (math.cos(half), 0.0, 0.0, math.sin(half))
+            mujoco.mj_step(built, data)
+        steps += count
+    turn = about_z(math.radians(phase_deg))
     return {
         "seconds": time.process_time() - start,
         "steps": steps,
-        "translation": data.xpos[bolt].tolist(),
-        "rotation": data.xmat[bolt].reshape(3, 3).tolist(),
+        "translation": (turn @ data.xpos[bolt]).tolist(),
+        "rotation": (turn @ data.xmat[bolt].reshape(3, 3)).tolist(),
         "speed": float(np.abs(data.qvel).max()),
     }
 

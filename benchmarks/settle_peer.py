@@ -1,4 +1,6 @@
-"""``make peer``: settled states beside those of MuJoCo, by signed distances of meshes; writes docs/settle-peer.md."""
+"""``make peer``: settled states and whole paths beside MuJoCo's, by signed distances of meshes; writes
+docs/settle-peer.md.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +9,7 @@ import json
 import math
 import subprocess
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,8 +21,10 @@ from harness.markdown import table
 from oracle.pose import pose_rotation
 from oracle.profile import bolt_profile, nut_profile
 from oracle.rest import ALL_SAMPLES, overlap_depth
+from threadstate.device.assemble import assemble_pose
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath
 from threadstate.device.document import device_from_document
-from threadstate.device.model import Device, Outcome, SettledState
+from threadstate.device.model import Device, Outcome, SettledState, default_device
 from threadstate.device.settle import settle_poses
 from threadstate.mesh.part import part_solid
 from threadstate.mesh.presets import Preset
@@ -81,21 +86,29 @@ def compared(python: Path, count: int, preset: Preset) -> list[Compared]:
     r = pair.nominal_diameter / 2.0
     poses = np.random.default_rng(SEED).uniform([-4.0, -4.0, 0.0], [4.0, 4.0, 360.0], (count, 3))
     states = [(state, ms) for state, ms in exact(pair, device, poses) if state.outcome is Outcome.SETTLED]
-    held = device.in_unit(pair.unit)
-    asked = {
+    asked = {**_asked(pair, device, preset), "cases": [_case(state, r) for state, _ in states]}
+    answers = _answers(python, asked)
+    return [_compared(pair, state, ms, theirs, r) for (state, ms), theirs in zip(states, answers, strict=True)]
+
+
+def _asked(pair: Pair, device: Device, preset: Preset) -> dict[str, Any]:
+    """What the peer is asked, without the cases."""
+    r, held = pair.nominal_diameter / 2.0, device.in_unit(pair.unit)
+    return {
         "meshes": meshes(pair, preset),
         "device": {
             "k_lateral": held.stiffness[3][3] * r / held.push,
             "k_tilt": held.stiffness[0][0] / (held.push * r),
             "damping": DAMPING,
         },
-        "cases": [_case(state, r) for state, _ in states],
     }
+
+
+def _answers(python: Path, asked: dict[str, Any]) -> list[dict[str, Any]]:
     answer = subprocess.run(
         [str(python), str(CHILD)], input=json.dumps(asked), capture_output=True, text=True, check=True
     )
-    lines = [json.loads(line) for line in answer.stdout.splitlines()]
-    return [_compared(pair, state, ms, theirs, r) for (state, ms), theirs in zip(states, lines, strict=True)]
+    return [json.loads(line) for line in answer.stdout.splitlines()]
 
 
 def _case(state: SettledState, r: float) -> dict[str, Any]:
@@ -108,7 +121,6 @@ def _case(state: SettledState, r: float) -> dict[str, Any]:
 def _compared(pair: Pair, state: SettledState, ms: float, theirs: dict[str, Any], r: float) -> Compared:
     assert state.pose is not None
     rotation, origin = np.array(theirs["rotation"]), r * np.array(theirs["translation"])
-    turn = np.array(state.pose.rotation).T @ rotation
     depth = overlap_depth(
         np.ascontiguousarray(rotation), origin, np.arange(ALL_SAMPLES), math.inf, bolt_profile(pair), nut_profile(pair)
     )
@@ -117,13 +129,81 @@ def _compared(pair: Pair, state: SettledState, ms: float, theirs: dict[str, Any]
         ms,
         1e3 * float(theirs["seconds"]),
         float(np.linalg.norm(origin - np.array(state.pose.translation)) / r),
-        math.degrees(math.acos(min(1.0, (float(np.trace(turn)) - 1.0) / 2.0))),
+        _angle_deg(np.array(state.pose.rotation), rotation),
         float(depth) / r,
         float(theirs["speed"]),
     )
 
 
-def page(found: list[Compared], preset: Preset) -> str:
+def _angle_deg(one: Floats, other: Floats) -> float:
+    """The angle of the turn from one rotation to another."""
+    return math.degrees(math.acos(max(-1.0, min(1.0, (float(np.trace(one.T @ other)) - 1.0) / 2.0))))
+
+
+@dataclass(frozen=True)
+class ComparedPath:
+    """A path followed by both: processor seconds of each, and how far the peer's last pose is from the exact one's.
+
+    ``rate`` is the peer's, degrees of turn a unit of its time. ``apart`` (over the nominal radius) and ``angle_deg``
+    are as of :class:`Compared`.
+    """
+
+    pose_deg: tuple[float, float, float]
+    outcome: AssemblyOutcome
+    turned_deg: float
+    rate: float
+    exact_s: float
+    peer_s: float
+    apart: float
+    angle_deg: float
+
+
+def compared_paths(python: Path, count: int, preset: Preset, rates: Sequence[float]) -> list[ComparedPath]:
+    """Random commands settled and turned by ``ccw_then_cw``; the peer is turned as far, each way, at each rate."""
+    pair = quarter_twenty_unc()
+    stiff, device = device_from_document(DEVICE), default_device()
+    r = pair.nominal_diameter / 2.0
+    poses = np.random.default_rng(SEED + 1).uniform([-4.0, -4.0, 0.0], [4.0, 0.0, 360.0], (count, 3))
+    assemble_pose(pair, 0.0, 0.0, 0.0, device)
+    paths = []
+    for roll, pitch, phase in poses.tolist():
+        start = time.process_time()
+        path = assemble_pose(pair, roll, pitch, phase, device)
+        seconds = time.process_time() - start
+        if path.outcome is not AssemblyOutcome.UNDECIDED:
+            paths.append((path, seconds))
+    asked = _asked(pair, stiff, preset)
+    asked["cases"] = [
+        {**_case(path.start, r), "legs": legs_deg(path), "rate": rate} for path, _ in paths for rate in rates
+    ]
+    found = []
+    for k, theirs in enumerate(_answers(python, asked)):
+        path, seconds = paths[k // len(rates)]
+        last = path.points[-1].pose
+        start_deg = (path.start.roll_deg, path.start.pitch_deg, path.start.phase_deg)
+        found.append(
+            ComparedPath(
+                start_deg,
+                path.outcome,
+                sum(map(abs, legs_deg(path))),
+                rates[k % len(rates)],
+                seconds,
+                float(theirs["seconds"]),
+                float(np.linalg.norm(np.array(theirs["translation"]) - np.array(last.translation) / r)),
+                _angle_deg(np.array(last.rotation), np.array(theirs["rotation"])),
+            )
+        )
+    return found
+
+
+def legs_deg(path: AssemblyPath) -> list[float]:
+    """How far a path is turned, counter-clockwise and then back."""
+    phases = [point.phase_deg for point in path.points]
+    top = max(phases)
+    return [top - phases[0], phases[-1] - top]
+
+
+def page(found: list[Compared], paths: list[ComparedPath], preset: Preset) -> str:
     """The page as Markdown."""
     columns = ("roll, pitch, phase (deg)", "ms", "MuJoCo ms", "apart (r)", "angle (deg)", "overlap (r)", "speed")
     rows = [
@@ -139,7 +219,7 @@ def page(found: list[Compared], preset: Preset) -> str:
         for one in found
     ]
     ours, theirs = (
-        float(np.median(times)) for times in zip(*((one.exact_ms, one.peer_ms) for one in found), strict=True)
+        float(np.median(times)) for times in ([one.exact_ms for one in found], [one.peer_ms for one in found])
     )
     apart, overlap = [one.apart for one in found], [one.overlap for one in found]
     return f"""# Settled states beside MuJoCo
@@ -160,6 +240,54 @@ some 1e-4 r, but its distances are interpolated between samples of a mesh, which
 softness, up to {max(overlap):.0e} r here, and poses differ by as much and by what tilt and shift make of it.
 *Speed*: the fastest joint at the end, radii or radians a unit of its time; where it is not small MuJoCo has not come to
 rest.
+
+{_paths_words(paths)}"""
+
+
+def _paths_words(paths: list[ComparedPath]) -> str:
+    """The section on whole paths."""
+    columns = (
+        "roll, pitch, phase (deg)",
+        "outcome",
+        "turned (deg)",
+        "s",
+        "rate",
+        "MuJoCo s",
+        "times",
+        "apart (r)",
+        "angle (deg)",
+    )
+    rows = [
+        [
+            ", ".join(f"{angle:.2f}" for angle in one.pose_deg),
+            one.outcome.value.replace("_", " "),
+            f"{one.turned_deg:.0f}",
+            f"{one.exact_s:.2f}",
+            f"{one.rate:g}",
+            f"{one.peer_s:.1f}",
+            f"{one.peer_s / one.exact_s:,.0f}",
+            f"{one.apart:.1e}",
+            f"{one.angle_deg:.2f}",
+        ]
+        for one in paths
+    ]
+    rates = sorted({one.rate for one in paths}, reverse=True)
+    lines = []
+    for rate in rates:
+        of_rate = [one for one in paths if one.rate == rate]
+        times = float(np.median([one.peer_s / one.exact_s for one in of_rate]))
+        apart = float(np.median([one.apart for one in of_rate]))
+        words = f"{times:,.0f} times as long at the median, and its bolt ends {apart:.1e} r from ours"
+        lines.append(f"- At {rate:g} deg a unit of its time MuJoCo takes {words}.")
+    return f"""## Whole paths
+
+The same device, its twist rigid here, settles the bolt and turns it by `ccw_then_cw`, without friction. MuJoCo turns it
+as far each way as that path goes, at several rates: a slower one is nearer to the quasi-static path, and takes as much
+longer.
+
+{chr(10).join(lines)}
+
+{table(columns, rows)}
 """
 
 
@@ -168,11 +296,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.settle_peer", description=__doc__)
     parser.add_argument("--mujoco", type=Path, required=True, help="the Python that has mujoco")
     parser.add_argument("--count", type=int, default=20, help="random commands [%(default)s]")
+    parser.add_argument("--paths", type=int, default=5, help="random paths [%(default)s]")
+    parser.add_argument("--rates", type=float, nargs="+", default=[40.0, 10.0], help="degrees a unit of time [40 10]")
     parser.add_argument("--preset", type=Preset, default=Preset.COARSE, help="meshes [%(default)s]")
     parser.add_argument("--into", type=Path, default=DOCS, help="folder of the page [docs]")
     chosen = parser.parse_args()
     found = compared(chosen.mujoco, chosen.count, chosen.preset)
-    (chosen.into / "settle-peer.md").write_text(page(found, chosen.preset))
+    paths = compared_paths(chosen.mujoco, chosen.paths, chosen.preset, chosen.rates)
+    (chosen.into / "settle-peer.md").write_text(page(found, paths, chosen.preset))
 
 
 if __name__ == "__main__":

@@ -7,15 +7,18 @@ import math
 import pytest
 
 from oracle.pose import pose_rotation
+from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, Held
-from threadstate.device.assembly_outcome import Ending, allowed_tilt_deg, outcome_of, play_margin
+from threadstate.device.assembly_outcome import Ending, allowed_tilt_deg, lead_margin, outcome_of, play_margin
 from threadstate.device.model import default_device
 from threadstate.device.strategy import Strategy
 from threadstate.state.model import StagePose
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
+from threadstate.thread.pair import Pair
 from threadstate.thread.play import axial_limits
 
 UNC = quarter_twenty_unc()
+LEFT = pair_by_designation("M6x1-6g/6H LH")
 P = UNC.thread_pitch
 DOWN, UP = axial_limits(UNC)
 DEVICE = default_device().in_unit(UNC.unit)
@@ -58,6 +61,35 @@ def test_a_clockwise_turn(above: float, rate: float, roll_deg: float, outcome: A
     assert margins.lead is not None
     assert margins.lead == pytest.approx(0.05 - abs(rate - 1.0), abs=1e-9)
     assert margins.snap is None
+
+
+@pytest.mark.parametrize("first_deg", [0.3, 0.0, -0.4])
+@pytest.mark.parametrize("step_deg", [0.5, 1.0, 1.7, 2.0, 40.0])
+@pytest.mark.parametrize("pair", [UNC, LEFT])
+def test_where_the_points_of_a_turn_lie_does_not_matter(pair: Pair, first_deg: float, step_deg: float) -> None:
+    sign = math.copysign(1.0, pair.lead)
+    count = math.ceil((270.0 + first_deg) / step_deg)
+    phases = [first_deg - step_deg * i for i in range(count)] + [-270.0]
+    points = [point(sign * phase, abs(pair.lead) * 1.04 * (phase + 270.0) / 360.0) for phase in phases]
+    assert lead_margin(pair, points) == pytest.approx(0.01, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("roll_deg", "pitch_deg", "phase_deg"),
+    [(0, -3, 118.125), (-1, -4, 118.125), (-1, -1, 123.75), (1, -2, 118.125), (2, -2, 118.125), (3, -2, 118.125)],
+)
+def test_paths_that_all_but_follow_the_lead_end_alike_with_any_step(
+    roll_deg: float, pitch_deg: float, phase_deg: float
+) -> None:
+    """Beside boundaries of success maps: they miss the lead by some 1e-3 of what is allowed."""
+    paths = [
+        assemble_pose(UNC, roll_deg, pitch_deg, phase_deg, strategy=Strategy.CW, longest_step=step)
+        for step in (2.0, 1.0, 0.5)
+    ]
+    assert {path.outcome for path in paths} == {AssemblyOutcome.IDLE}
+    margins = [path.margins.lead for path in paths if path.margins is not None and path.margins.lead is not None]
+    assert len(margins) == 3
+    assert max(margins) - min(margins) < 5e-5
 
 
 @pytest.mark.parametrize("turns", range(4))

@@ -68,17 +68,23 @@ def outcome_of(
 def lead_margin(pair: Pair, points: Sequence[AssemblyPoint]) -> float:
     """By how much the height follows the lead better than it has to, over the last 90 deg of a clockwise turn.
 
-    As a part of what the lead makes of it; ``points`` are those of that turn.
+    As a part of what the lead makes of it; ``points`` are those of that turn. Between two of them the height is on a
+    straight line.
     """
-    last = points[-1]
-    followed = pair.lead * FOLLOWED_DEG / 360.0
-    worst = 0.0
-    for point in points:
-        turned = point.phase_deg - last.phase_deg
-        if abs(turned) <= FOLLOWED_DEG:
-            height = point.pose.translation[2] - last.pose.translation[2]
-            worst = max(worst, abs(height - pair.lead * turned / 360.0))
-    return FOLLOWED - worst / abs(followed)
+    last = points[-1].pose.translation[2]
+    turned = np.array([point.phase_deg - points[-1].phase_deg for point in points])
+    heights = np.array([point.pose.translation[2] - last for point in points])
+    apart = np.abs(heights - pair.lead * turned / 360.0)
+    within = np.abs(turned) <= FOLLOWED_DEG
+    worst = float(apart[within].max())
+    before = np.flatnonzero(~within)
+    if before.size:
+        # Where the 90 deg begin lies between two points: what is found must not hang on where points lie.
+        k = int(before[-1])
+        part = (abs(turned[k]) - FOLLOWED_DEG) / abs(turned[k] - turned[k + 1])
+        begin = heights[k] + part * (heights[k + 1] - heights[k])
+        worst = max(worst, abs(begin - pair.lead * math.copysign(FOLLOWED_DEG, turned[k]) / 360.0))
+    return FOLLOWED - worst / abs(pair.lead * FOLLOWED_DEG / 360.0)
 
 
 def play_margin(pair: Pair, pose: StagePose) -> float:

@@ -26,7 +26,7 @@ _NUMBER = re.compile(r"[0-9]{1,18}")
 
 @dataclass(frozen=True)
 class SuccessMap:
-    """A published success map: what it was computed from, the hashes of that and of its content, the code at the time."""
+    """A published success map: what it was computed from, the hashes of that and of its content, and the code then."""
 
     id: int
     inputs: SuccessInputs
