@@ -36,7 +36,7 @@ from threadstate.success.summary import map_counts
 
 WITHIN, BEYOND, OPEN = "#0b5f99", "#8fbfd8", "#ffffff"
 """Orientations that engage within the travel, beyond it, and those without a certain outcome."""
-COLOURS = {Strategy.CCW_THEN_CW: "#175582", Strategy.CW: "#e08e45"}
+COLOURS = {Strategy.CCW_THEN_CW: "#4a5563", Strategy.CW: "#e08e45"}
 """Of the strategies, where both are in one plot."""
 TRAVEL = f"{number_text(LIMITS.tilt_deg)} deg and {number_text(LIMITS.shift)} mm"
 ROW_IN, AROUND_IN = 0.44, 1.5
@@ -69,11 +69,11 @@ def page(maps: Maps) -> str:
 def pictures(maps: Maps) -> dict[str, str]:
     """The pictures as SVG, by name."""
     drawn = {
-        comparison.name: bars(f"{comparison.title}, without friction", rows(comparison, maps), SHIFT)
+        comparison.name: bars(f"{comparison.title}, without friction", comparison.varied, rows(comparison, maps), SHIFT)
         for comparison in comparisons()
     }
     friction = friction_comparison()
-    return {**drawn, friction.name: bars(friction.title, friction_rows(friction, maps), TORQUE)}
+    return {**drawn, friction.name: bars(friction.title, friction.varied, friction_rows(friction, maps), TORQUE)}
 
 
 def rows(comparison: Comparison, maps: Maps) -> list[Row]:
@@ -95,8 +95,8 @@ def friction_rows(comparison: Comparison, maps: Maps) -> list[Row]:
     ]
 
 
-def bars(title: str, found: Sequence[Row], last: Measure) -> str:
-    """Counts of orientations by strategy, and one measure of all, as horizontal bars in SVG."""
+def bars(title: str, varied: str, found: Sequence[Row], last: Measure) -> str:
+    """Counts of orientations by strategy, and one measure of all, as horizontal bars in SVG; ``varied`` is the axis."""
     names = list(dict.fromkeys(one.name for one in found))
     strategies = _strategies_of(found)
 
@@ -108,13 +108,15 @@ def bars(title: str, found: Sequence[Row], last: Measure) -> str:
             axes.set_title(f"by {strategy.value}")
         _measure_bars(plots[-1], found, last)
         plots[0].set_yticks(range(len(names)), names)
+        plots[0].set_ylabel(varied)
         plots[0].set_ylim(len(names) - 0.4, -0.6)
         handles = [
             Patch(facecolor=WITHIN, label=f"engage within {TRAVEL}"),
             Patch(facecolor=BEYOND, label="engage with more travel"),
             Patch(facecolor=OPEN, edgecolor=FAINT, hatch="////", label="undecided"),
-            *(Patch(facecolor=COLOURS[strategy], label=strategy.value) for strategy in strategies),
         ]
+        if len(strategies) > 1:
+            handles += [Patch(facecolor=COLOURS[strategy], label=strategy.value) for strategy in strategies]
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8.0)
 
     return picture((10.0, AROUND_IN + ROW_IN * len(names)), title, draw)
@@ -126,7 +128,8 @@ def _count_bars(axes: Axes, found: Sequence[Row]) -> None:
     for place, one in enumerate(found):
         axes.barh(place, one.within, color=WITHIN, height=0.7)
         axes.barh(place, one.engaged - one.within, left=one.within, color=BEYOND, height=0.7)
-        axes.barh(place, one.undecided, left=one.engaged, color=OPEN, edgecolor=FAINT, hatch="////", height=0.7)
+        if one.undecided:
+            axes.barh(place, one.undecided, left=one.engaged, color=OPEN, edgecolor=FAINT, hatch="////", height=0.7)
         axes.text(one.engaged + one.undecided + 0.02 * total, place, f"{one.engaged} ({one.within})", va="center")
     axes.set(xlim=(0.0, total), xlabel=f"engage (within the travel), of {total}")
     axes.grid(visible=False, axis="y")
@@ -147,7 +150,7 @@ def _measure_bars(axes: Axes, found: Sequence[Row], measure: Measure) -> None:
     if measure.limit is not None and measure.limit < 1.2 * largest:
         axes.axvline(measure.limit, color=INK, linestyle="--", linewidth=1.0)
     axes.set(xlim=(0.0, 1.25 * largest), xlabel=measure.axis)
-    axes.set_title("that engage")
+    axes.set_title("of those that engage")
     axes.grid(visible=False, axis="y")
 
 
@@ -267,9 +270,10 @@ def _friction_section(maps: Maps) -> str:
     tilts = ", ".join(f"{tilt:.0f}" for tilt in FRICTION_GRID.tilts_deg)
     with_friction = [one for one in found if one.name.endswith(f"mu {number_text(MU)}")]
     words = _paragraph(
-        f"A few devices and a loose pair at mu = {number_text(MU)}, of {FRICTION_GRID.orientation_count} orientations: "
+        f"Some devices and a loose pair at mu = {number_text(MU)}, of {FRICTION_GRID.orientation_count} orientations: "
         f"rolls and pitches of {tilts} deg, from starting phase 0. The rows without friction are those of the same "
-        "orientations. Nothing else was computed with friction."
+        "orientations. No other device or pair was computed with friction here; the default one has been, by both "
+        "strategies and at three frictions, for [its success maps](success.md#measured-the-default-device)."
     )
     ends = f"With mu = {number_text(MU)}:\n\n{seen(with_friction)}"
     parts = [

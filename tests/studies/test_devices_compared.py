@@ -142,7 +142,7 @@ def test_a_map_without_an_engaging_path_has_no_needs() -> None:
     one = row("x", made_up(DEFAULT.inputs(Strategy.CW), lambda i, mu: replace(mixed(11, mu), phase_deg=0.0 * i)))
     assert (one.engaged, one.undecided, one.torque, one.shift) == (0, 81, None, None)
     assert "| x | `cw` | 0 of 81 | 0 | 81 | - | - | - |" in table("device", [one])
-    assert "none engages" in bars("title", [replace(one, strategy=strategy) for strategy in Strategy], SHIFT)
+    assert "none engages" in bars("title", "varied", [replace(one, strategy=strategy) for strategy in Strategy], SHIFT)
 
 
 def rows_of(*values: tuple[str, Strategy, int, float]) -> list[Row]:
@@ -189,7 +189,7 @@ def test_the_page_has_every_variant_by_its_strategies(maps: dict[str, StudiedMap
     assert "5 orientations engage by both, 5 by the first alone, 0 by the second alone." in text
     for variant in friction_comparison().computed:
         assert f"| {variant.name}, mu 0 | `ccw_then_cw` | 10 of 25 | 8 | 2 | 0.25 |" in text
-        assert f"| {variant.name}, mu 0.2 | `cw` | 5 of 25 | 4 | 2 | 0.45 |" in text
+        assert f"| {variant.name}, mu 0.2 | `ccw_then_cw` | 10 of 25 | 8 | 2 | 0.45 |" in text
 
 
 def test_more_force_is_compared_path_by_path(maps: dict[str, StudiedMap]) -> None:
@@ -214,9 +214,9 @@ def test_pictures_are_those_that_the_page_shows_and_have_the_numbers(maps: dict[
 
 def test_a_picture_is_drawn_alike_twice_and_has_the_limit_where_it_is_near() -> None:
     found = rows_of(*(("a", strategy, 40, 2.0) for strategy in Strategy))
-    assert bars("title", found, SHIFT) == bars("title", found, SHIFT)
+    assert bars("title", "varied", found, SHIFT) == bars("title", "varied", found, SHIFT)
     dashed = "stroke-dasharray"
     far = [replace(one, shift=10.0) for one in found]
-    assert dashed in bars("title", far, SHIFT)
-    assert dashed not in bars("title", found, SHIFT)
-    assert dashed not in bars("title", far, TORQUE)
+    assert dashed in bars("title", "varied", far, SHIFT)
+    assert dashed not in bars("title", "varied", found, SHIFT)
+    assert dashed not in bars("title", "varied", far, TORQUE)
