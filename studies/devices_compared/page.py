@@ -27,6 +27,7 @@ from studies.devices_compared.study import (
     friction_comparison,
     like_outcomes,
     row,
+    tilt_deg,
 )
 from studies.pictures import FAINT, INK, picture
 from studies.success.study import StudiedMap
@@ -42,6 +43,7 @@ TRAVEL = f"{number_text(LIMITS.tilt_deg)} deg and {number_text(LIMITS.shift)} mm
 ROW_IN, AROUND_IN = 0.44, 1.5
 """Heights of a row of a picture, and of what is around the rows (inches)."""
 HASH_DIGITS = 12
+ROUND_OFF_DEG = 1e-9
 WIDTH = 118
 
 Maps = Mapping[str, StudiedMap]
@@ -205,6 +207,9 @@ def _head(maps: Maps) -> str:
     errors = [
         abs(beside.torque / (FORCES * cell.torque) - 1.0) for cell, beside in alike if cell.torque and beside.torque
     ]
+    little = sum(
+        tilt_deg(GRID.orientation(index)) <= LIMITS.tilt_deg + ROUND_OFF_DEG for index in range(GRID.orientation_count)
+    )
     low, high = GRID.tilts_deg[0], GRID.tilts_deg[-1]
     what = (
         "`make compared` writes this page: what another strategy, [device](device.md#the-device) or pair changes of "
@@ -225,7 +230,8 @@ def _head(maps: Maps) -> str:
 {_paragraph(what)}
 
 - **Engage**: the orientations of which the path ends engaged.
-- **Within the travel**: those of them that ask the device for no more than {TRAVEL}.
+- **Within the travel**: those of them that ask the device for no more than {TRAVEL}. The command itself is tilted by
+  at most {number_text(LIMITS.tilt_deg)} deg in {little} of the {GRID.orientation_count} orientations.
 - **Undecided**: those without a certain outcome; they do not count as engaged.
 - **Torque, tilt, shift**: the largest that those which engage ask for.
 - **Map**: the first digits of its content hash.
@@ -268,7 +274,11 @@ def _friction_section(maps: Maps) -> str:
     comparison = friction_comparison()
     found = friction_rows(comparison, maps)
     tilts = ", ".join(f"{tilt:.0f}" for tilt in FRICTION_GRID.tilts_deg)
-    with_friction = [one for one in found if one.name.endswith(f"mu {number_text(MU)}")]
+    with_friction = [
+        row(variant.name, maps[variant.inputs(strategy, with_friction=True).sha256], MU)
+        for variant in comparison.computed
+        for strategy in comparison.strategies
+    ]
     words = _paragraph(
         f"Some devices and a loose pair at mu = {number_text(MU)}, of {FRICTION_GRID.orientation_count} orientations: "
         f"rolls and pitches of {tilts} deg, from starting phase 0. The rows without friction are those of the same "

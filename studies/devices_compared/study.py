@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +13,7 @@ from threadstate.device.model import About, Device, default_device
 from threadstate.device.settle import check_pair
 from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
-from threadstate.library.grid import Grid
+from threadstate.library.grid import Grid, Orientation
 from threadstate.numbers import number_text
 from threadstate.success.design import Limits
 from threadstate.success.inputs import SuccessInputs
@@ -234,6 +235,12 @@ def all_inputs() -> list[SuccessInputs]:
     return list({one.sha256: one for one in inputs}.values())
 
 
+def tilt_deg(orientation: Orientation) -> float:
+    """By how much a commanded axis is tilted against the nut's."""
+    roll, pitch = math.radians(orientation.roll_deg), math.radians(orientation.pitch_deg)
+    return math.degrees(math.acos(math.cos(roll) * math.cos(pitch)))
+
+
 def in_millimetres(one: StudiedMap) -> list[OrientationMap]:
     """The orientations of a map with lengths in millimetres, torques in N mm."""
     factor = conversion_factor(one.inputs.pair.unit, LengthUnit.MILLIMETRE)
@@ -280,9 +287,9 @@ def _sizes() -> tuple[Variant, ...]:
     variants = []
     for name in SIZES:
         scale = _diameter_mm(name) / _diameter_mm(DEFAULT_PAIR)
-        variants.append(Variant(f"{name}, unchanged", default_device(), name))
+        variants.append(Variant(f"{name} unchanged", default_device(), name))
         if scale != 1.0:
-            variants.append(Variant(f"{name}, scaled", scaled_device(scale), name))
+            variants.append(Variant(f"{name} scaled", scaled_device(scale), name))
     return tuple(variants)
 
 

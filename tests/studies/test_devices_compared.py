@@ -23,12 +23,14 @@ from studies.devices_compared.study import (
     like_outcomes,
     row,
     scaled_device,
+    tilt_deg,
 )
 from studies.success.study import StudiedMap
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.device.document import device_document
 from threadstate.device.model import default_device
 from threadstate.device.strategy import Strategy
+from threadstate.library.grid import Orientation
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import Cell, CriticalFriction, OrientationMap
 from threadstate.success.scaled import scaled_orientation
@@ -108,9 +110,9 @@ def test_a_scaled_device_scales_with_the_diameter_and_forces_with_forces() -> No
     assert scaled["k_tilt"] == 3.0 * 2.0 * default["k_tilt"]
     assert scaled["push"] == 3.0 * default["push"]
     names = [variant.name for variant in comparisons()[-1].variants]
-    metric = next(variant for variant in comparisons()[-1].variants if variant.name == "M10x1.5, scaled")
+    metric = next(variant for variant in comparisons()[-1].variants if variant.name == "M10x1.5 scaled")
     assert device_document(metric.device)["k_tilt"] == pytest.approx(500.0 * 10.0 / 6.35, rel=1e-12)
-    assert "1/4-20 UNC, scaled" not in names
+    assert "1/4-20 UNC scaled" not in names
 
 
 def test_every_map_is_computed_once_and_refused_pairs_are_not() -> None:
@@ -131,6 +133,11 @@ def test_a_row_counts_in_millimetres_and_those_that_engage_alone() -> None:
     assert one.tilt_deg == 1.5
     metric = Variant("M6", default_device(), "M6x1")
     assert row("x", made_up(metric.inputs(Strategy.CW), engaged)).shift == 3.0 / INCH_MM
+
+
+def test_the_tilt_of_a_command_is_that_of_its_axis() -> None:
+    assert tilt_deg(Orientation(0, 3.0, 0.0)) == pytest.approx(3.0, abs=1e-9)
+    assert tilt_deg(Orientation(0, -3.0, 4.0)) == pytest.approx(5.0, abs=2e-3)
 
 
 def test_a_row_has_the_friction_that_is_asked_for() -> None:
@@ -186,6 +193,7 @@ def test_the_page_has_every_variant_by_its_strategies(maps: dict[str, StudiedMap
                 assert f"| {variant.name} | refused |" in section
                 assert f"refuses {variant.name}: {variant.refusal}." in section
     assert "By `ccw_then_cw` of 81 paths end 10 engaged, 69 idle, 2 undecided." in text
+    assert "in 49 of the 81 orientations" in text
     assert "5 orientations engage by both, 5 by the first alone, 0 by the second alone." in text
     for variant in friction_comparison().computed:
         assert f"| {variant.name}, mu 0 | `ccw_then_cw` | 10 of 25 | 8 | 2 | 0.25 |" in text
