@@ -156,8 +156,8 @@ def _measure_bars(axes: Axes, found: Sequence[Row], measure: Measure) -> None:
     axes.grid(visible=False, axis="y")
 
 
-def table(varied: str, found: Sequence[Row], refused: Sequence[str] = ()) -> str:
-    """Rows as a table in Markdown; the names of pairs that are refused at the end."""
+def table(varied: str, found: Sequence[Row], omitted: Sequence[str] = ()) -> str:
+    """Rows as a table in Markdown; the names of those that are not computed at the end."""
     lines = [
         f"| {varied} | strategy | engage | within the travel | undecided | torque (N mm) | tilt (deg) | shift (mm) | "
         "map |",
@@ -169,7 +169,7 @@ def table(varied: str, found: Sequence[Row], refused: Sequence[str] = ()) -> str
             f"| {one.name} | `{one.strategy.value}` | {one.engaged} of {one.paths} | {one.within} | {one.undecided} | "
             f"{' | '.join(needs)} | `{one.content_sha256[:HASH_DIGITS]}` |"
         )
-    lines += [f"| {name} | refused | - | - | - | - | - | - | - |" for name in refused]
+    lines += [f"| {name} | not computed | - | - | - | - | - | - | - |" for name in omitted]
     return "\n".join(lines)
 
 
@@ -241,9 +241,9 @@ def _head(maps: Maps) -> str:
 
 def _section(comparison: Comparison, maps: Maps) -> str:
     found = rows(comparison, maps)
-    refused = {variant.name: variant.refusal for variant in comparison.variants if variant.refusal is not None}
-    parts = [f"## {comparison.title}", table(comparison.varied, found, list(refused))]
-    parts += [f"The device's solver refuses {name}: {reason}." for name, reason in refused.items()]
+    omitted = {variant.name: variant.omission for variant in comparison.variants if variant.omission is not None}
+    parts = [f"## {comparison.title}", table(comparison.varied, found, list(omitted))]
+    parts += [_paragraph(f"{name} is not computed: {reason}.") for name, reason in omitted.items()]
     if len(comparison.variants) == 1:
         parts.append(_strategies(comparison.variants[0], maps))
     else:

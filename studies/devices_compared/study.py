@@ -22,6 +22,7 @@ from threadstate.success.scaled import scaled_orientation
 from threadstate.success.summary import grid_cells
 from threadstate.thread.catalogue import pair_by_designation
 from threadstate.thread.pair import Pair
+from threadstate.thread.play import axial_play
 from threadstate.units import LengthUnit, conversion_factor
 
 GRID = Grid(4.0, 1.0, 360.0)
@@ -45,6 +46,12 @@ SHARP = "2A/2B with sharp corners"
 SIZES = ("M6x1", DEFAULT_PAIR, "M10x1.5")
 FORCES = 10.0
 """How many times the default push and stiffnesses are taken, all by the same factor."""
+LEAST_PLAY = 1e-6
+"""Over the thread pitch: of pairs with less no map is computed."""
+NO_PLAY = (
+    "it has no play, and a path takes some seventy times as long as with play; the three that were tried end "
+    "undecided, `unsettled`"
+)
 LARGEST_MU_TOLERANCE = 1.0
 """Of critical frictions, which are not looked for."""
 
@@ -75,13 +82,13 @@ class Variant:
         return pair_by_designation(self.designation)
 
     @cached_property
-    def refusal(self) -> str | None:
-        """Why the device's solver does not take the pair; None where it does."""
+    def omission(self) -> str | None:
+        """Why no map of it is computed; None where one is."""
         try:
             check_pair(self.pair)
         except InvalidValueError as error:
-            return str(error)
-        return None
+            return f"the device's solver refuses it ({error})"
+        return NO_PLAY if axial_play(self.pair) <= LEAST_PLAY * self.pair.thread_pitch else None
 
     def inputs(self, strategy: Strategy, *, with_friction: bool = False) -> SuccessInputs:
         """What the map is computed from: without friction, or at few orientations without it and with it."""
@@ -117,8 +124,8 @@ class Comparison:
 
     @property
     def computed(self) -> tuple[Variant, ...]:
-        """The variants that the device's solver takes."""
-        return tuple(variant for variant in self.variants if variant.refusal is None)
+        """The variants of which maps are computed."""
+        return tuple(variant for variant in self.variants if variant.omission is None)
 
 
 @dataclass(frozen=True)

@@ -115,14 +115,18 @@ def test_a_scaled_device_scales_with_the_diameter_and_forces_with_forces() -> No
     assert "1/4-20 UNC scaled" not in names
 
 
-def test_every_map_is_computed_once_and_refused_pairs_are_not() -> None:
+def test_every_map_is_computed_once_and_pairs_refused_or_without_play_are_not() -> None:
     found = all_inputs()
     assert len({inputs.sha256 for inputs in found}) == len(found)
     assert {inputs.grid for inputs in found if inputs.frictions == (0.0,)} == {GRID}
     assert {inputs.grid for inputs in found if inputs.frictions == (0.0, MU)} == {FRICTION_GRID}
-    refused = [variant for comparison in comparisons() for variant in comparison.variants if variant.refusal]
-    assert refused
-    assert all(variant.pair not in [inputs.pair for inputs in found] for variant in refused)
+    omitted = {
+        variant.name: variant for comparison in comparisons() for variant in comparison.variants if variant.omission
+    }
+    assert "bolt_root_fillet" in str(omitted["2A/2B with sharp corners"].omission)
+    assert "no play" in str(omitted["3A/3B at maximum material"].omission)
+    assert len(omitted) == 2
+    assert all(variant.pair not in [inputs.pair for inputs in found] for variant in omitted.values())
 
 
 def test_a_row_counts_in_millimetres_and_those_that_engage_alone() -> None:
@@ -189,9 +193,9 @@ def test_the_page_has_every_variant_by_its_strategies(maps: dict[str, StudiedMap
                 needs = f"0.25 | 1.5 | 3 | `{digits}`"
                 assert f"| {variant.label} | `{strategy.value}` | {counts[strategy]} | {needs} |" in section
         for variant in comparison.variants:
-            if variant.refusal is not None:
-                assert f"| {variant.name} | refused |" in section
-                assert f"refuses {variant.name}: {variant.refusal}." in section
+            if variant.omission is not None:
+                assert f"| {variant.name} | not computed |" in section
+                assert f"{variant.name} is not computed: {variant.omission}." in " ".join(section.split())
     assert "By `ccw_then_cw` of 81 paths end 10 engaged, 69 idle, 2 undecided." in text
     assert "in 49 of the 81 orientations" in text
     assert "5 orientations engage by both, 5 by the first alone, 0 by the second alone." in text
