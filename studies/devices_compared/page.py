@@ -121,7 +121,7 @@ def bars(title: str, varied: str, found: Sequence[Row], last: Measure) -> str:
             handles += [Patch(facecolor=COLOURS[strategy], label=strategy.value) for strategy in strategies]
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8.0)
 
-    return picture((10.0, AROUND_IN + ROW_IN * len(names)), title, draw)
+    return picture((10.0, AROUND_IN + ROW_IN * max(2, len(names))), title, draw)
 
 
 def _count_bars(axes: Axes, found: Sequence[Row]) -> None:
@@ -133,7 +133,7 @@ def _count_bars(axes: Axes, found: Sequence[Row]) -> None:
         if one.undecided:
             axes.barh(place, one.undecided, left=one.engaged, color=OPEN, edgecolor=FAINT, hatch="////", height=0.7)
         axes.text(one.engaged + one.undecided + 0.02 * total, place, f"{one.engaged} ({one.within})", va="center")
-    axes.set(xlim=(0.0, total), xlabel=f"engage (within the travel), of {total}")
+    axes.set(xlim=(0.0, 1.15 * total), xlabel=f"engage (within the travel), of {total}")
     axes.grid(visible=False, axis="y")
 
 
@@ -280,10 +280,11 @@ def _friction_section(maps: Maps) -> str:
         for strategy in comparison.strategies
     ]
     words = _paragraph(
-        f"Some devices and a loose pair at mu = {number_text(MU)}, of {FRICTION_GRID.orientation_count} orientations: "
-        f"rolls and pitches of {tilts} deg, from starting phase 0. The rows without friction are those of the same "
-        "orientations. No other device or pair was computed with friction here; the default one has been, by both "
-        "strategies and at three frictions, for [its success maps](success.md#measured-the-default-device)."
+        f"The default, a loose pair and a device that is stiff against tilt at mu = {number_text(MU)}, of "
+        f"{FRICTION_GRID.orientation_count} orientations: rolls and pitches of {tilts} deg, from starting phase 0. "
+        "The rows without friction are those of the same orientations. No other device or pair was computed with "
+        "friction here; the default one has been, by both strategies and at three frictions, for [its success "
+        "maps](success.md#measured-the-default-device)."
     )
     ends = f"With mu = {number_text(MU)}:\n\n{seen(with_friction)}"
     parts = [
