@@ -17,6 +17,7 @@
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
+# make compared   what another strategy, device, class or size changes of success, docs/devices-compared.md and its pictures
 # make settle     settled states beside the brute force, their minima found again, changed commands, docs/settle-checked.md
 # make paper-case the paper's case turned by compliant hands, docs/paper-case.md and its pictures
 # make paths      paths with friction: energy, and the same with half the step, docs/paths-checked.md
@@ -44,7 +45,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: site setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success paths
+.PHONY: site setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success paths compared
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -113,6 +114,9 @@ settled: setup
 
 success: setup
 	$(BIN)/python -m studies.success
+
+compared: setup
+	$(BIN)/python -m studies.devices_compared
 
 witness: setup
 	$(BIN)/python -m studies.witness
