@@ -1,4 +1,4 @@
-"""Settles a held bolt in MuJoCo, and turns it: run by benchmarks.settle_peer in an environment of its own, which has mujoco alone.
+"""Settles a held bolt in MuJoCo, and turns it: run by benchmarks.settle_peer in an environment that has mujoco alone.
 
 Reads a JSON object (meshes, device, cases) from its input, writes one JSON object a case. Lengths are over the nominal
 radius and forces over the push, so that all is of the order of 1.

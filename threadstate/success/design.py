@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 from scipy.optimize import direct
@@ -27,6 +28,10 @@ DIGITS = 3
 """Significant digits of a device that is tried: one that can be written down."""
 LOGARITHMIC_FROM = 5.0
 """A range whose ends are at least this many times apart is searched by the logarithm."""
+SHARE_OF_DIRECT = 0.6
+"""Of the devices that are tried; the others are near the best of them."""
+FIRST_STEP, LAST_STEP = 0.125, 0.01
+"""Steps of that part of the search, of the ranges."""
 STEPS = (1.1, 1.25, 1.5, 2.0, 3.0)
 """Factors by which a parameter may err; one that is searched linearly errs by as large a part of its range."""
 
@@ -64,6 +69,12 @@ class Parameter:
             value = self.low + (self.high - self.low) * fraction
             scale = max(abs(self.low), abs(self.high))
         return round(value, DIGITS - 1 - math.floor(math.log10(scale))) + 0.0 if scale > 0.0 else 0.0
+
+    def fraction_of(self, value: float) -> float:
+        """The fraction of the range at which a value lies; outside 0 to 1 where that is outside."""
+        if self.is_logarithmic:
+            return math.log(value / self.low) / math.log(self.high / self.low) if value > 0.0 else -math.inf
+        return (value - self.low) / (self.high - self.low)
 
     def moved(self, value: float, step: float) -> float:
         """The value that errs by a step of ``STEPS`` (or its inverse), within the range."""
@@ -197,26 +208,59 @@ def candidate_of(
 
 
 def searched(
-    evaluate: Callable[[tuple[float, ...]], Candidate], parameters: Sequence[Parameter], most: int
+    evaluate: Callable[[tuple[float, ...]], Candidate],
+    parameters: Sequence[Parameter],
+    most: int,
+    start: tuple[float, ...] | None = None,
 ) -> list[Candidate]:
-    """Up to ``most`` different devices, in the order in which they were tried.
+    """Up to ``most`` different devices, in the order in which they were tried; that of ``start`` first, if there is one.
 
-    DIRECT divides the ranges (Jones, Perttunen and Stuckman 1993, as scipy has it): no chance, no start to choose. The
-    first one is the middle of all ranges.
+    For the first ``SHARE_OF_DIRECT`` of them DIRECT divides the ranges (Jones, Perttunen and Stuckman 1993, as scipy
+    has it), beginning with the middle of all. From the best of these a compass search goes on (Kolda, Lewis and Torczon
+    2003): each number alone a step up and down, with half the step where none of them is better. No chance is in it.
     """
     tried: dict[tuple[float, ...], Candidate] = {}
 
-    def cost(fractions: Sequence[float]) -> float:
-        values = tuple(one.at(fraction) for one, fraction in zip(parameters, fractions, strict=True))
+    def candidate(values: tuple[float, ...], room: int) -> Candidate:
         if values not in tried:
-            if len(tried) == most:
+            if len(tried) >= room:
                 raise _EnoughTriedError
             tried[values] = evaluate(values)
-        return _cost(tried[values])
+        return tried[values]
 
+    def values_at(fractions: Sequence[float]) -> tuple[float, ...]:
+        return tuple(one.at(float(fraction)) for one, fraction in zip(parameters, fractions, strict=True))
+
+    divided = math.ceil(SHARE_OF_DIRECT * most)
     with suppress(_EnoughTriedError):
-        direct(cost, [(0.0, 1.0)] * len(parameters), maxfun=20 * most, maxiter=20 * most)
+        if start is not None:
+            candidate(start, most)
+        cost = partial(_cost_at, lambda fractions: candidate(values_at(fractions), divided))
+        direct(cost, [(0.0, 1.0)] * len(parameters), maxfun=20 * divided, maxiter=20 * divided)
+    with suppress(_EnoughTriedError):
+        _compass(lambda values: candidate(values, most), parameters, best_first(list(tried.values()))[0])
     return list(tried.values())
+
+
+def _cost_at(at: Callable[[Sequence[float]], Candidate], fractions: Sequence[float]) -> float:
+    return _cost(at(fractions))
+
+
+def _compass(
+    evaluate: Callable[[tuple[float, ...]], Candidate], parameters: Sequence[Parameter], best: Candidate
+) -> None:
+    """Try devices beside the best one, as long as steps are not too small to tell two of them apart."""
+    step = FIRST_STEP
+    while step >= LAST_STEP:
+        before = best
+        for k, parameter in enumerate(parameters):
+            for sign in (1.0, -1.0):
+                fraction = parameter.fraction_of(best.values[k]) + sign * step
+                if 0.0 <= fraction <= 1.0:
+                    values = (*best.values[:k], parameter.at(fraction), *best.values[k + 1 :])
+                    best = min(best, evaluate(values), key=_cost)
+        if best is before:
+            step *= 0.5
 
 
 def best_first(candidates: Sequence[Candidate]) -> list[Candidate]:

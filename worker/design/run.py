@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from threadstate.device.document import device_document
 from threadstate.errors import InvalidValueError
 from threadstate.success.design import (
     Candidate,
@@ -87,7 +88,14 @@ class Design:
             ClusterError: the cluster cannot be used, or becomes unreachable.
         """
         least, every = self._inputs.frictions[:1], self._inputs.frictions
-        candidates = searched(lambda values: self._candidate(least, values), self._parameters, most)
+        given = device_document(self._inputs.device)
+        start = tuple(given[name] for name in self._names if isinstance(given.get(name), float))
+        candidates = searched(
+            lambda values: self._candidate(least, values),
+            self._parameters,
+            most,
+            start if len(start) == len(self._names) else None,
+        )
         best = front(candidates)
         whole = best_first([self._candidate(every, one.values) for one in best[:finalists]])
         errors = tolerances(lambda values: self._candidate(least, values), whole[0], self._parameters)
