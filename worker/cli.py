@@ -73,6 +73,7 @@ COMMANDS = (
     settle,
     assemble,
     success,
+    chances,
     design,
     report,
     rebuild,

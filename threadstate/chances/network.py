@@ -180,8 +180,8 @@ def _node(
 def _moves(records: Sequence[Record]) -> Counter[Move]:
     moves: Counter[Move] = Counter()
     for record in records:
-        targets = [*(visit.formation for visit in record.visits[1:]), record.outcome]
-        for visit, target in zip(record.visits, targets, strict=False):
+        later: list[Formation | AssemblyOutcome] = [visit.formation for visit in record.visits[1:]]
+        for visit, target in zip(record.visits, [*later, record.outcome], strict=False):
             moves[visit.formation, target, visit.left] += 1
     return moves
 

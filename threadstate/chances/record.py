@@ -15,6 +15,8 @@ FOLLOWED_DEG, FOLLOWED = 90.0, 0.05
 """The height follows the lead to the end within this part of what the lead makes of this turn, as at engagement."""
 DIGITS = 6
 """Significant digits of torques and forces of a reading."""
+PHASE_DECIMALS = 9
+"""Of the phase of a reading in degrees: what is beyond is round-off."""
 
 HELD_CHANGES = {
     (Held.SURFACE, Held.CONTACTS): Leaving.OFF_SURFACE,
@@ -73,12 +75,12 @@ def visits_of(path: AssemblyPath) -> tuple[Visit, ...]:
         if k == 0 or legs[k] is not legs[k - 1] or formation_of(points[k]) != formation_of(points[k - 1])
     ]
     visits = []
-    from_deg = points[0].phase_deg
+    from_deg = _phase(points[0])
     for begin, end in pairwise([*begins, len(points)]):
         left = _leaving(path, legs, end)
         # The next leg begins where this one ends: at its last point.
         last = end - 1 if left in (Leaving.END, Leaving.SNAP) else end
-        to_deg = points[last].phase_deg
+        to_deg = _phase(points[last])
         readings = tuple(reading_of(point) for point in points[begin:end])
         visits.append(Visit(formation_of(points[begin]), legs[begin], from_deg, to_deg, left, readings))
         from_deg = to_deg
@@ -93,7 +95,7 @@ def formation_of(point: AssemblyPoint) -> Formation:
 def reading_of(point: AssemblyPoint) -> Reading:
     """What is measured at a point."""
     fx, fy, fz = (math.fsum(contact.force[axis] for contact in point.contacts) for axis in range(3))
-    return Reading(point.phase_deg + 0.0, _rounded(point.torque), (_rounded(fx), _rounded(fy), _rounded(fz)))
+    return Reading(_phase(point), _rounded(point.torque), (_rounded(fx), _rounded(fy), _rounded(fz)))
 
 
 def _legs(path: AssemblyPath) -> list[LegName]:
@@ -133,6 +135,10 @@ def _leaving(path: AssemblyPath, legs: Sequence[LegName], end: int) -> Leaving:
         return HELD_CHANGES[before.held, after.held]
     more = len(after.contacts) - len(before.contacts)
     return Leaving.MOVED if more == 0 else Leaving.GAINED if more > 0 else Leaving.LOST
+
+
+def _phase(point: AssemblyPoint) -> float:
+    return round(point.phase_deg, PHASE_DECIMALS) + 0.0
 
 
 def _rounded(value: float) -> float:

@@ -125,12 +125,12 @@ def parse_observation(text: str) -> Observation:
     given: dict[str, tuple[list[float], float]] = {}
     for part in text.split():
         name, is_given, rest = part.partition("=")
-        value, has_tolerance, tolerance = rest.rpartition(SEPARATOR)
+        value, has_tolerance, spread = rest.rpartition(SEPARATOR)
         if name not in ("force", "torque", "phase") or name in given or not (is_given and has_tolerance):
             raise InvalidValueError("watch", part, VALID)
         try:
             numbers = [number(one) for one in value.split(",")]
-            given[name] = numbers, number(tolerance)
+            given[name] = numbers, number(spread)
         except ValueError:
             raise InvalidValueError("watch", part, VALID) from None
         if len(numbers) != 1 and (name != "force" or len(numbers) != 3):

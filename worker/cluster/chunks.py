@@ -12,14 +12,17 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from queue import Empty, SimpleQueue
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
+from threadstate.chances.model import Record
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
+from threadstate.settled.rows import SettledRows
+from threadstate.success.model import OrientationMap
 from worker.cluster.errors import ClusterError, VersionSkewError
 from worker.cluster.versions import own_versions
 from worker.interruption import waiting
-from worker.messages import Chunk, ChunkInputs
+from worker.messages import Chunk, ChunkInputs, LibraryChunk
 from worker.output import print_status
 from worker.processes import QUEUED_PER_PROCESS, ComputeError
 
@@ -131,7 +134,7 @@ class ComputingCluster:
             if future.status != "error" and isinstance(error, (CancelledError, OSError, TimeoutError)):
                 raise self._unreachable(error) from None
             raise ComputeError(f"a Dask worker failed: {type(error).__name__}: {error}") from None
-        assert isinstance(chunk, get_args(Chunk))
+        assert isinstance(chunk, LibraryChunk | SettledRows | OrientationMap | Record)
         return chunk
 
     def _unreachable(self, error: BaseException) -> ClusterError:
