@@ -108,12 +108,12 @@ def _print_formations(network: ChancesNetwork, unit: LengthUnit) -> None:
 
 
 def _print_moves(network: ChancesNetwork) -> None:
-    rows = table("moves", "probability", "left", "from, to", words_last=True)
+    rows = table("moves", "probability", "left", "from", "to", words_last=True)
     ranked = sorted(network.edges, key=lambda edge: -edge.moves.count)
     for edge in ranked[:MOST_ROWS]:
         moves = edge.moves
-        way = f"{edge.source} -> {target_text(edge.target)}"
-        rows.add_row(f"{moves.count}/{moves.of}", _percent(moves.share), edge.left.value, way)
+        ways = (str(edge.source), target_text(edge.target))
+        rows.add_row(f"{moves.count}/{moves.of}", _percent(moves.share), edge.left.value, *ways)
     rows.print()
     _print_left_out(len(ranked), min(len(ranked), MOST_ROWS), "moves")
     print_line("")
