@@ -68,6 +68,8 @@ def test_numbers_of_made_up_paths() -> None:
     assert [node.formation for node in network.nodes] == [EDGES, THREAD, FLUSH]
     assert (edges.visited.count, edges.visits, edges.begins) == (3, 4, 3)
     assert edges.turned_deg == pytest.approx((90.0 + 30.0 + 30.0 + 270.0) / 3)
+    assert edges.reached_deg == 0.0
+    assert thread.reached_deg == pytest.approx((90.0 + 30.0) / 2)
     assert thread.torque == (0.1, 0.5)
     assert (thread.force_low, thread.force_high) == ((0.0, -2.0, 10.0), (1.0, 0.0, 10.0))
     assert thread.difference == pytest.approx(1.0 - 2 / 3)

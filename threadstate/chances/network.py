@@ -5,6 +5,7 @@ Angles are in degrees, forces in N, torques in N times the pair's unit.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
 from collections.abc import Sequence
@@ -28,6 +29,7 @@ class FormationNode:
         visited: the paths that visit it, of all.
         visits: how often they do.
         begins: how many paths begin with it.
+        reached_deg: mean turning until the first visit, of the paths that visit it.
         turned_deg: mean turning in it, of the paths that visit it.
         torque: least and largest torque of the hand.
         force_low, force_high: least and largest components of the force on the hand, in the nut's frame.
@@ -40,6 +42,7 @@ class FormationNode:
     visited: Proportion
     visits: int
     begins: int
+    reached_deg: float
     turned_deg: float
     torque: tuple[float, float]
     force_low: Vector
@@ -139,6 +142,12 @@ def quantile(values: Sequence[float], fraction: float) -> float:
     return ordered[before] + (place - before) * (ordered[after] - ordered[before])
 
 
+def reached_deg(record: Record, formation: Formation) -> float:
+    """How far the hand has turned when a path first has a formation, which it visits."""
+    before = itertools.takewhile(lambda visit: visit.formation != formation, record.visits)
+    return math.fsum(visit.turned_deg for visit in before)
+
+
 Move = tuple[Formation, Formation | AssemblyOutcome, Leaving]
 
 
@@ -167,6 +176,7 @@ def _node(
         Proportion(len(visiting), paths),
         len(visits),
         begins,
+        math.fsum(reached_deg(record, formation) for record in visiting.values()) / len(visiting),
         math.fsum(visit.turned_deg for _, visit in visits) / len(visiting),
         (min(torques), max(torques)),
         (low_x, low_y, low_z),

@@ -58,6 +58,7 @@ class FormationNodeDocument(ProportionDocument):
     features: list[FeaturePair]
     visits: int
     begins: int
+    reached: float
     turned: float
     torque_low: float
     torque_high: float
@@ -176,6 +177,7 @@ def _node(node: FormationNode) -> FormationNodeDocument:
         "features": list(node.formation.features),
         "visits": node.visits,
         "begins": node.begins,
+        "reached": node.reached_deg,
         "turned": node.turned_deg,
         "torque_low": node.torque[0],
         "torque_high": node.torque[1],

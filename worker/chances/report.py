@@ -89,7 +89,15 @@ def _print_outcomes(network: ChancesNetwork) -> None:
 
 def _print_formations(network: ChancesNetwork, unit: LengthUnit) -> None:
     rows = table(
-        "difference", "engaged", "interval", "paths", "turned", f"torque (N {unit})", "formation", words_last=True
+        "difference",
+        "engaged",
+        "interval",
+        "paths",
+        "reached",
+        "turned",
+        f"torque (N {unit})",
+        "formation",
+        words_last=True,
     )
     for node in network.telling[:MOST_ROWS]:
         assert node.difference is not None
@@ -98,6 +106,7 @@ def _print_formations(network: ChancesNetwork, unit: LengthUnit) -> None:
             _chance_text(node.chance),
             _interval_text(node.chance.interval),
             f"{node.visited.count}/{node.visited.of}",
+            f"{node.reached_deg:.1f}",
             f"{node.turned_deg:.1f}",
             f"{node.torque[0]:.3g} to {node.torque[1]:.3g}",
             f"{node.formation} ({_force_text(node)})",
