@@ -75,6 +75,12 @@ def test_a_fall_is_how_a_visit_is_left_even_where_contacts_are_gained() -> None:
     assert [one.left for one in visits_of(path(points, [earlier]))] == [Leaving.GAINED, Leaving.END]
 
 
+def test_the_formation_after_a_fall_is_left_as_it_is() -> None:
+    points = [point(0.0, [EE]), point(-10.0, [EE]), point(-10.05, [EE, TE]), point(-10.1, [EE])]
+    fall = PathEvent(PathEventKind.FALL, -10.05, -10.0)
+    assert [one.left for one in visits_of(path(points, [fall]))] == [Leaving.FALL, Leaving.LOST, Leaving.END]
+
+
 def test_the_snap_ends_a_visit_also_where_the_bolt_is_held_alike() -> None:
     points = [point(0.0, [ET]), point(40.0, [ET]), point(38.0, [ET]), point(20.0, [ET])]
     snap = PathEvent(PathEventKind.SNAP, 40.0, 39.0)

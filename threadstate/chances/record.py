@@ -128,8 +128,9 @@ def _leaving(path: AssemblyPath, legs: Sequence[LegName], end: int) -> Leaving:
     before, after = points[end - 1], points[end]
     if legs[end] is not legs[end - 1]:
         return Leaving.SNAP
-    low, high = sorted((before.phase_deg, after.phase_deg))
-    if any(event.kind is PathEventKind.FALL and low <= event.phase_deg <= high for event in path.events):
+    # An event has the phases of the points before and after it: one that ends at the first point is over there.
+    phases = (before.phase_deg, after.phase_deg)
+    if any(event.kind is PathEventKind.FALL and (event.from_deg, event.phase_deg) == phases for event in path.events):
         return Leaving.FALL
     if before.held is not after.held:
         return HELD_CHANGES[before.held, after.held]
