@@ -6,7 +6,7 @@ import pytest
 
 from tests.chances.made_up import path, point
 from threadstate.chances.compute import computed_record
-from threadstate.chances.model import Leaving, LegName
+from threadstate.chances.model import Leaving, LegName, Record
 from threadstate.chances.record import following_from, record_of, visits_of
 from threadstate.chances.sampling import Approach, Uncertainty
 from threadstate.device.assemble import assemble_pose
@@ -112,14 +112,14 @@ def test_a_start_that_does_not_settle_has_no_visits() -> None:
     assert (found.visits, found.turned_deg, found.torque, found.is_bounded) == ((), None, None, False)
 
 
-@pytest.fixture(scope="module")
-def inputs() -> tuple[object, ...]:
-    """Inputs without friction whose first path engages."""
-    return PAIR, default_device(), Strategy.CCW_THEN_CW, Uncertainty((0.0, -2.0), 1.0, (0.0, 0.0))
+def computed(point_limit: int) -> Record:
+    """A path without friction that engages where it is not bounded."""
+    uncertainty = Uncertainty((0.0, -2.0), 1.0, (0.0, 0.0))
+    return computed_record(PAIR, default_device(), Strategy.CCW_THEN_CW, uncertainty, point_limit, 0)
 
 
-def test_a_computed_path_has_its_points_in_its_visits(inputs: tuple[object, ...]) -> None:
-    record = computed_record(*inputs, 1000, 0)  # type: ignore[arg-type]
+def test_a_computed_path_has_its_points_in_its_visits() -> None:
+    record = computed(1000)
     one = record.approach
     whole = assemble_pose(PAIR, one.roll_deg, one.pitch_deg, one.phase_deg, default_device(), mu=0.0)
     readings = [reading for visit in record.visits for reading in visit.readings]
@@ -136,6 +136,6 @@ def test_a_computed_path_has_its_points_in_its_visits(inputs: tuple[object, ...]
     assert sum(visit.left is Leaving.FALL for visit in record.visits) <= len(falls)
 
 
-def test_a_path_beyond_the_limit_of_points_is_bounded(inputs: tuple[object, ...]) -> None:
-    record = computed_record(*inputs, 10, 0)  # type: ignore[arg-type]
+def test_a_path_beyond_the_limit_of_points_is_bounded() -> None:
+    record = computed(10)
     assert (record.outcome, record.is_bounded, record.visits) == (AssemblyOutcome.UNDECIDED, True, ())

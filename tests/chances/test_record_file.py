@@ -39,7 +39,8 @@ def test_a_record_reads_back_the_same() -> None:
 
 def test_a_visit_without_readings_or_with_unequal_lists_is_refused() -> None:
     document = json.loads(json.dumps(record_document(records()[0])))
-    for lists in ({"phases": []}, {"phases": [], "torques": [], "forces": []}):
+    changes: list[dict[str, list[float]]] = [{"phases": []}, {"phases": [], "torques": [], "forces": []}]
+    for lists in changes:
         changed = {**document, "visits": [{**document["visits"][0], **lists}]}
         with pytest.raises(ValueError, match=r"zip|without readings"):
             record_from_document(changed)  # type: ignore[arg-type]
