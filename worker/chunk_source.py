@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
-from threadstate.jobs.model import JobInputs
-from worker.messages import Chunk
+from worker.messages import Chunk, ChunkInputs
 from worker.processes import computing_processes
 
 
@@ -22,7 +21,7 @@ class ChunkSource(Protocol):
 
 
 @contextmanager
-def chunk_source(inputs: JobInputs, processes: int, scheduler: str | None) -> Iterator[ChunkSource]:
+def chunk_source(inputs: ChunkInputs, processes: int, scheduler: str | None) -> Iterator[ChunkSource]:
     """The workers of the cluster at ``scheduler``, or without one ``processes`` local processes, terminated on leaving.
 
     Raises:

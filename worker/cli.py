@@ -17,6 +17,7 @@ from typer.main import get_group
 import threadstate
 from threadstate.errors import ThreadstateError
 from worker.commands.assemble import assemble
+from worker.commands.chances import chances
 from worker.commands.compare import compare
 from worker.commands.copy import copy
 from worker.commands.design import design
@@ -72,6 +73,7 @@ COMMANDS = (
     settle,
     assemble,
     success,
+    chances,
     design,
     report,
     rebuild,

@@ -7,12 +7,13 @@ from sqlalchemy import Engine
 from threadstate.library.write import write_chunk
 from threadstate.settled.rows import SettledRows
 from threadstate.settled.write import write_settled
+from threadstate.success.model import OrientationMap
 from threadstate.success.write import write_orientation
 from worker.messages import Chunk, LibraryChunk
 
 
 def commit_chunk(engine: Engine, store_id: int, chunk: Chunk) -> bool:
-    """Write a chunk in one transaction; a committed chunk is not changed.
+    """Write a job's chunk in one transaction; a committed chunk is not changed.
 
     Returns:
         Whether it was written.
@@ -21,6 +22,7 @@ def commit_chunk(engine: Engine, store_id: int, chunk: Chunk) -> bool:
         return write_chunk(engine, store_id, chunk.rows, chunk.history)
     if isinstance(chunk, SettledRows):
         return write_settled(engine, store_id, chunk)
+    assert isinstance(chunk, OrientationMap)
     return write_orientation(engine, store_id, chunk)
 
 
@@ -28,4 +30,7 @@ def orientation_of(chunk: Chunk) -> int:
     """The number of the orientation in the grid."""
     if isinstance(chunk, LibraryChunk):
         return chunk.rows.orientation.index
-    return chunk.orientation.index if isinstance(chunk, SettledRows) else chunk.index
+    if isinstance(chunk, SettledRows):
+        return chunk.orientation.index
+    assert isinstance(chunk, OrientationMap)
+    return chunk.index

@@ -1,4 +1,4 @@
-"""Computing chunks, all that is stored of an orientation, in a process that its parent controls."""
+"""Computing chunks, all that is stored of an orientation or a sampled path, in a process that its parent controls."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from contextlib import suppress
 from functools import partial
 from multiprocessing.connection import Connection
 
-from threadstate.jobs.model import JobInputs
+from threadstate.chances.inputs import ChancesInputs
 from threadstate.library.identity import LibraryInputs
 from threadstate.settled.inputs import SettledInputs
 from threadstate.stored_histories.compute import computed_rows, exact_answers
-from worker.messages import Chunk, Failure, LibraryChunk, Ready
+from worker.messages import Chunk, ChunkInputs, Failure, LibraryChunk, Ready
 
 
 def compute_library_chunk(inputs: LibraryInputs, index: int) -> LibraryChunk:
@@ -20,8 +20,8 @@ def compute_library_chunk(inputs: LibraryInputs, index: int) -> LibraryChunk:
     return LibraryChunk(*computed_rows(inputs, index))
 
 
-def compute_chunk(inputs: JobInputs, index: int) -> Chunk:
-    """All that is stored of the orientation with this number."""
+def compute_chunk(inputs: ChunkInputs, index: int) -> Chunk:
+    """All that is stored of the orientation, or the sampled path, with this number."""
     if isinstance(inputs, LibraryInputs):
         return compute_library_chunk(inputs, index)
     # What a library of contact states does not need takes a second to import.
@@ -29,6 +29,11 @@ def compute_chunk(inputs: JobInputs, index: int) -> Chunk:
         from threadstate.settled.compute import computed_rows as settled_rows
 
         return settled_rows(inputs.pair, inputs.grid, inputs.device, index)
+    if isinstance(inputs, ChancesInputs):
+        from threadstate.chances.compute import computed_record
+
+        sampled = (inputs.uncertainty, inputs.point_limit, index)
+        return computed_record(inputs.pair, inputs.device, inputs.strategy, *sampled)
     from threadstate.success.compute import computed_orientation
 
     return computed_orientation(
@@ -44,8 +49,8 @@ def compute_chunk(inputs: JobInputs, index: int) -> Chunk:
     )
 
 
-def serve_chunks(connection: Connection, inputs: JobInputs) -> None:
-    """Reply to each orientation number received with its chunk, until the other end of the pipe is closed.
+def serve_chunks(connection: Connection, inputs: ChunkInputs) -> None:
+    """Reply to each number received with its chunk, until the other end of the pipe is closed.
 
     A parent that dies closes its end, and the process ends.
     """
@@ -59,13 +64,13 @@ def serve_chunks(connection: Connection, inputs: JobInputs) -> None:
             connection.send(message)
 
 
-def _ready(inputs: JobInputs) -> Ready:
-    first = inputs.grid.poses(0)[:1]
+def _ready(inputs: ChunkInputs) -> Ready:
     if isinstance(inputs, LibraryInputs):
-        exact_answers(inputs.pair, inputs.options, first)
+        exact_answers(inputs.pair, inputs.options, inputs.grid.poses(0)[:1])
     else:
         from threadstate.device.settle import settle_poses
 
+        first = [(0.0, 0.0, 0.0)] if isinstance(inputs, ChancesInputs) else inputs.grid.poses(0)[:1]
         settle_poses(inputs.pair, first, inputs.device)
     return Ready()
 

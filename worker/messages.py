@@ -1,9 +1,12 @@
-"""Messages of a computing process to its parent."""
+"""What computing processes are asked for, and their messages."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from threadstate.chances.inputs import ChancesInputs
+from threadstate.chances.model import Record
+from threadstate.jobs.model import JobInputs
 from threadstate.library.rows import ChunkRows, HistoryRows
 from threadstate.settled.rows import SettledRows
 from threadstate.success.model import OrientationMap
@@ -22,8 +25,10 @@ class LibraryChunk:
     history: HistoryRows | None
 
 
-Chunk = LibraryChunk | SettledRows | OrientationMap
-"""An orientation is computed, for each kind of job."""
+ChunkInputs = JobInputs | ChancesInputs
+"""What chunks are computed from: the inputs of a job, or those of sampled paths, which are no job."""
+Chunk = LibraryChunk | SettledRows | OrientationMap | Record
+"""An orientation is computed, for each kind of job, or a sampled path."""
 
 
 @dataclass(frozen=True, slots=True)

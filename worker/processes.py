@@ -18,9 +18,8 @@ from multiprocessing.process import BaseProcess
 from typing import get_args
 
 from threadstate.errors import ThreadstateError
-from threadstate.jobs.model import JobInputs
 from worker.interruption import waiting
-from worker.messages import Chunk, Failure, Ready
+from worker.messages import Chunk, ChunkInputs, Failure, Ready
 
 QUEUED_PER_PROCESS = 2
 """Chunks queued per process, so that it computes while a chunk waits to be written."""
@@ -57,7 +56,7 @@ class _Computer:
 class ComputingProcesses:
     """Processes that compute chunks of one job; made by :func:`computing_processes`."""
 
-    def __init__(self, inputs: JobInputs, count: int) -> None:
+    def __init__(self, inputs: ChunkInputs, count: int) -> None:
         self._context = running_forkserver()
         self._inputs = inputs
         self._computers = [self._start() for _ in range(count)]
@@ -119,7 +118,7 @@ class ComputingProcesses:
         return _Computer(process, ours)
 
 
-def _compute(connection: Connection, inputs: JobInputs) -> None:
+def _compute(connection: Connection, inputs: ChunkInputs) -> None:
     # Imported in the computing process alone: the writing one does not need numba, which is slow to load.
     from worker.compute import serve_chunks
 
@@ -127,7 +126,7 @@ def _compute(connection: Connection, inputs: JobInputs) -> None:
 
 
 @contextmanager
-def computing_processes(inputs: JobInputs, count: int) -> Iterator[ComputingProcesses]:
+def computing_processes(inputs: ChunkInputs, count: int) -> Iterator[ComputingProcesses]:
     """``count`` processes that compute chunks, ended on leaving."""
     processes = ComputingProcesses(inputs, count)
     try:

@@ -12,6 +12,18 @@ from pathlib import Path
 import pytest
 
 from service.app import create_app
+from threadstate.chances.document import RecordDocument, VisitDocument
+from threadstate.chances.model import Leaving, LegName
+from threadstate.chances.network_document import (
+    ChanceDocument,
+    ChancesDocument,
+    FormationMoveDocument,
+    FormationNodeDocument,
+    OutcomeShareDocument,
+    RemainingDocument,
+    TurningDocument,
+    WatchDocument,
+)
 from threadstate.device.assembly_document import (
     AssemblyDocument,
     AssemblyEnergyDocument,
@@ -109,7 +121,7 @@ def test_every_field_of_an_answer_is_a_term(known: set[str]) -> None:
     "names",
     [
         *(StateClass, Flag, FeaturePair, Region, Move, ChangeKind, Verdict, Outcome, SettledFlag),
-        *(AssemblyOutcome, PathEventKind, Held, Strategy),
+        *(AssemblyOutcome, PathEventKind, Held, Strategy, Leaving, LegName),
     ],
 )
 def test_every_name_of_an_answer_is_a_term(known: set[str], names: type[StrEnum]) -> None:
@@ -131,6 +143,14 @@ def test_every_field_of_a_path_is_a_term(known: set[str]) -> None:
 
 def test_every_field_of_a_success_map_is_a_term(known: set[str]) -> None:
     documents = (OrientationDocument, CellDocument, PhaseBoundaryDocument, CriticalFrictionDocument)
+    assert sorted({name for document in documents for name in document.__annotations__} - known) == []
+
+
+def test_every_field_of_sampled_paths_is_a_term(known: set[str]) -> None:
+    documents = (
+        *(RecordDocument, VisitDocument, ChancesDocument, ChanceDocument, OutcomeShareDocument, TurningDocument),
+        *(FormationNodeDocument, FormationMoveDocument, RemainingDocument, WatchDocument),
+    )
     assert sorted({name for document in documents for name in document.__annotations__} - known) == []
 
 

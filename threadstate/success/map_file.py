@@ -1,29 +1,20 @@
-"""Success maps in files: a header of their inputs, then an orientation a line, as JSON.
-
-Lines are appended as orientations are finished. What a killed run leaves of a line is dropped by the next one.
-"""
+"""Success maps in files: a header of their inputs, then an orientation a line (``threadstate.line_file``)."""
 
 from __future__ import annotations
 
-import fcntl
 import json
-import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 from threadstate.device.document import device_document, device_from_document
 from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.library.identity import pair_of
-from threadstate.success.document import (
-    document_text,
-    orientation_document,
-    orientation_from_document,
-    orientation_sha256,
-)
+from threadstate.line_file import LineFile
+from threadstate.success.document import orientation_document, orientation_from_document, orientation_sha256
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import OrientationMap
 
@@ -95,17 +86,12 @@ def read_map(path: Path, inputs: SuccessInputs) -> list[OrientationMap]:
     Raises:
         InvalidValueError: the file cannot be read, is not a map, or is one of other inputs.
     """
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InvalidValueError(NAME, str(path), f"a file that can be read ({error.strerror})") from None
-    return _orientations(path, content, inputs)
+    return _lines(inputs).read(path)
 
 
-@contextmanager
 def growing_map(
     path: Path, inputs: SuccessInputs
-) -> Iterator[tuple[list[OrientationMap], Callable[[OrientationMap], None]]]:
+) -> AbstractContextManager[tuple[list[OrientationMap], Callable[[OrientationMap], None]]]:
     """What a file has of a map, and what appends an orientation; a file that does not exist is made.
 
     An orientation that was appended is on the disk. While the context lasts no other process can append.
@@ -113,57 +99,18 @@ def growing_map(
     Raises:
         InvalidValueError: as :func:`read_map`, or the file cannot be written, or another process appends to it.
     """
-    try:
-        file = path.open("a+b")
-    except OSError as error:
-        raise InvalidValueError(NAME, str(path), f"a file that can be written ({error.strerror})") from None
-    with file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            raise InvalidValueError(NAME, str(path), "a file that no other run writes") from None
-        file.seek(0)
-        content = file.read()
-        complete = content.rfind(b"\n") + 1
-        found = _orientations(path, content, inputs)
-        file.truncate(complete)
-        if complete == 0:
-            _append(file, inputs_document(inputs))
-        yield (
-            found,
-            lambda one: _append(file, {"sha256": orientation_sha256(one), **orientation_document(one)}),
-        )
+    return _lines(inputs).growing(path)
 
 
-def _append(file: BinaryIO, document: Any) -> None:
-    file.write(document_text(document).encode() + b"\n")
-    file.flush()
-    os.fsync(file.fileno())
-
-
-def _orientations(path: Path, content: bytes, inputs: SuccessInputs) -> list[OrientationMap]:
-    # What follows the last end of a line is a part of one.
-    lines = content[: content.rfind(b"\n") + 1].splitlines()
-    if not lines:
-        if content and not document_text(inputs_document(inputs)).encode().startswith(content):
-            raise InvalidValueError(NAME, str(path), "a success map, or a file that does not exist")
-        return []
-    try:
-        made_from = json.loads(lines[0])["input_sha256"]
-    except (ValueError, KeyError, TypeError):
-        raise InvalidValueError(NAME, str(path), "a success map, or a file that does not exist") from None
-    if made_from != inputs.sha256:
-        valid = f"a map of the same inputs and code ({inputs.sha256[:12]}, not {str(made_from)[:12]})"
-        raise InvalidValueError(NAME, str(path), valid)
-    found = {}
-    for number, line in enumerate(lines[1:], 2):
-        try:
-            document = json.loads(line)
-            one = orientation_from_document(document)
-            is_whole = document["sha256"] == orientation_sha256(one)
-        except (ValueError, KeyError, TypeError):
-            is_whole = False
-        if not is_whole:
-            raise InvalidValueError(f"{NAME}: line {number}", str(path), "an orientation with its own hash")
-        found[one.index] = one
-    return [found[index] for index in sorted(found)]
+def _lines(inputs: SuccessInputs) -> LineFile[OrientationMap]:
+    return LineFile(
+        name=NAME,
+        content="a success map",
+        short="a map",
+        line="an orientation",
+        header=inputs_document(inputs),
+        document=orientation_document,
+        value=orientation_from_document,
+        sha256=orientation_sha256,
+        index=lambda one: one.index,
+    )

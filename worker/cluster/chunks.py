@@ -14,15 +14,15 @@ from contextlib import contextmanager
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
+from threadstate.chances.model import Record
 from threadstate.errors import InvalidValueError
-from threadstate.jobs.model import JobInputs
 from threadstate.numbers import number_text
 from threadstate.settled.rows import SettledRows
 from threadstate.success.model import OrientationMap
 from worker.cluster.errors import ClusterError, VersionSkewError
 from worker.cluster.versions import own_versions
 from worker.interruption import waiting
-from worker.messages import Chunk, LibraryChunk
+from worker.messages import Chunk, ChunkInputs, LibraryChunk
 from worker.output import print_status
 from worker.processes import QUEUED_PER_PROCESS, ComputeError
 
@@ -41,7 +41,7 @@ VALID_ADDRESS = "the address of a Dask scheduler, such as tcp://host:8786 or tls
 class ComputingCluster:
     """The workers of a cluster that compute chunks of one job; made by :func:`computing_cluster`."""
 
-    def __init__(self, inputs: JobInputs, address: str, client: Client) -> None:
+    def __init__(self, inputs: ChunkInputs, address: str, client: Client) -> None:
         self._inputs = inputs
         self._address = address
         self._client = client
@@ -134,7 +134,7 @@ class ComputingCluster:
             if future.status != "error" and isinstance(error, (CancelledError, OSError, TimeoutError)):
                 raise self._unreachable(error) from None
             raise ComputeError(f"a Dask worker failed: {type(error).__name__}: {error}") from None
-        assert isinstance(chunk, LibraryChunk | SettledRows | OrientationMap)
+        assert isinstance(chunk, LibraryChunk | SettledRows | OrientationMap | Record)
         return chunk
 
     def _unreachable(self, error: BaseException) -> ClusterError:
@@ -142,7 +142,7 @@ class ComputingCluster:
 
 
 @contextmanager
-def computing_cluster(inputs: JobInputs, address: str) -> Iterator[ComputingCluster]:
+def computing_cluster(inputs: ChunkInputs, address: str) -> Iterator[ComputingCluster]:
     """The cluster of the scheduler at ``address``, after a check that its workers have this version.
 
     Raises:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from functools import cache
 
-from threadstate.jobs.model import JobInputs
 from threadstate.warm_up import load_kernels_exclusively
 from worker.cluster.errors import VersionSkewError
 from worker.cluster.versions import Versions, own_versions
 from worker.compute import compute_chunk
 from worker.garbage import collect_rarely
-from worker.messages import Chunk
+from worker.messages import Chunk, ChunkInputs
 
 
-def remote_chunk(inputs: JobInputs, index: int, wanted: Versions) -> Chunk:
+def remote_chunk(inputs: ChunkInputs, index: int, wanted: Versions) -> Chunk:
     """Compute the chunk of an orientation in a process that must have the ``wanted`` versions.
 
     Raises:
