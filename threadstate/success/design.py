@@ -213,7 +213,7 @@ def searched(
     most: int,
     start: tuple[float, ...] | None = None,
 ) -> list[Candidate]:
-    """Up to ``most`` different devices, in the order in which they were tried; that of ``start`` first, if there is one.
+    """Up to ``most`` different devices, in the order in which they were tried; that of ``start`` first, if it is given.
 
     For the first ``SHARE_OF_DIRECT`` of them DIRECT divides the ranges (Jones, Perttunen and Stuckman 1993, as scipy
     has it), beginning with the middle of all. From the best of these a compass search goes on (Kolda, Lewis and Torczon
