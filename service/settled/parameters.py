@@ -12,7 +12,8 @@ from service.quantities import INTEGER_TEXT, PhaseMaxQuery, PhaseMinQuery, Phase
 from threadstate.device.model import Outcome, SettledFlag
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import LARGEST_POSE_COUNT
-from threadstate.settled.read import LATEST, SettledFilter, SettledLibrary, named_settled_library
+from threadstate.library.published import LATEST
+from threadstate.settled.read import SettledFilter, SettledLibrary, named_settled_library
 
 MOST = 1000
 """Of contacts, and of falls, that a filter can ask for."""

@@ -30,10 +30,10 @@ from threadstate.device.settle import check_pair
 from threadstate.errors import NotFoundError
 from threadstate.jobs.queue import job_by_id, submit_job
 from threadstate.library.grid import LARGEST_POSE_COUNT, Grid
+from threadstate.library.published import LATEST
 from threadstate.numbers import number_text
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.read import (
-    LATEST,
     SuccessMap,
     committed_orientations,
     named_success_map,

@@ -13,19 +13,12 @@ from threadstate.device.document import device_document
 from threadstate.device.model import Device
 from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
-from threadstate.library.identity import COMPUTING, canonical_json, version_of_code
+from threadstate.library.identity import COMPUTING, HELD, canonical_json, version_of_code
 from threadstate.success.inputs import POINT_LIMIT, POINT_LIMITS
 from threadstate.thread.pair import Pair
 
 PHYSICS = (
-    "_compile.py",
-    "_pointer.py",
-    "errors.py",
-    "units.py",
-    "thread/*.py",
-    "contact/*.py",
-    "state/*.py",
-    "device/*.py",
+    *HELD,
     "success/bounded.py",
     "success/model.py",
     "chances/compute.py",

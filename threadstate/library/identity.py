@@ -54,6 +54,17 @@ STATES = (
     "stored_histories/compute.py",
 )
 """The sources that decide what is stored of states, whatever the method."""
+HELD = (
+    "_compile.py",
+    "_pointer.py",
+    "errors.py",
+    "units.py",
+    "thread/*.py",
+    "contact/*.py",
+    "state/*.py",
+    "device/*.py",
+)
+"""The sources that decide where a held bolt rests and how it moves."""
 PHYSICS = (
     *STATES,
     "history/*.py",

@@ -10,18 +10,11 @@ from functools import cached_property
 from threadstate.device.document import device_document, device_from_document
 from threadstate.device.model import Device
 from threadstate.library.grid import Grid
-from threadstate.library.identity import COMPUTING, canonical_json, version_of_code
+from threadstate.library.identity import COMPUTING, HELD, canonical_json, version_of_code
 from threadstate.thread.pair import Pair
 
 PHYSICS = (
-    "_compile.py",
-    "_pointer.py",
-    "errors.py",
-    "units.py",
-    "thread/*.py",
-    "contact/*.py",
-    "state/*.py",
-    "device/*.py",
+    *HELD,
     "library/grid.py",
     "settled/compute.py",
     "settled/rows.py",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -13,7 +12,7 @@ from sqlalchemy import ColumnElement, Connection, RowMapping, Select, Table, fun
 from threadstate.device.model import Device, Outcome, SettledFlag, SettledState
 from threadstate.errors import NotFoundError
 from threadstate.library.grid import Grid
-from threadstate.library.read import LARGEST_ID
+from threadstate.library.published import named_row, published_rows
 from threadstate.library.settled_tables import (
     settled_contact,
     settled_fall,
@@ -25,9 +24,6 @@ from threadstate.numbers import number_text
 from threadstate.settled.inputs import device_of
 from threadstate.settled.rows import Row, states_from_rows
 from threadstate.units import LengthUnit
-
-LATEST = "latest"
-_NUMBER = re.compile(r"[0-9]{1,18}")
 
 
 @dataclass(frozen=True)
@@ -80,13 +76,13 @@ class SettledFilter:
 
 def settled_libraries(connection: Connection) -> list[SettledLibrary]:
     """All published libraries of settled states, the latest first."""
-    return [_record(row) for row in connection.execute(_published()).mappings()]
+    return [_record(row) for row in published_rows(connection, settled_library)]
 
 
 def settled_library_by_input(connection: Connection, input_sha256: str) -> SettledLibrary | None:
     """The published library of these inputs; None if there is none."""
-    row = connection.execute(_published(settled_library.c.input_sha256 == input_sha256)).mappings().first()
-    return None if row is None else _record(row)
+    rows = published_rows(connection, settled_library, settled_library.c.input_sha256 == input_sha256)
+    return _record(rows[0]) if rows else None
 
 
 def named_settled_library(connection: Connection, name: str) -> SettledLibrary:
@@ -95,18 +91,8 @@ def named_settled_library(connection: Connection, name: str) -> SettledLibrary:
     Raises:
         NotFoundError: it does not exist; the message says which do.
     """
-    row = None
-    if name == LATEST:
-        row = connection.execute(_published().limit(1)).mappings().first()
-    elif _NUMBER.fullmatch(name) and int(name) <= LARGEST_ID:
-        row = connection.execute(_published(settled_library.c.id == int(name))).mappings().first()
-    if row is not None:
-        return _record(row)
-    numbers = ", ".join(str(one.id) for one in settled_libraries(connection)[:20])
-    raise NotFoundError(
-        f"no library {name!r} of settled states is published; published are: {numbers or 'none yet'}; "
-        "`threadstate rebuild-settled` makes one"
-    )
+    missing = f"no library {name!r} of settled states is published"
+    return _record(named_row(connection, settled_library, name, missing, "`threadstate rebuild-settled` makes one"))
 
 
 def settled_counts(connection: Connection, library_id: int) -> SettledCounts:
@@ -185,14 +171,6 @@ def _conditions(library_id: int, which: SettledFilter) -> Iterator[ColumnElement
         flags = settled_flag.c
         flagged = select(flags.ordinal).where(flags.library_id == library_id, flags.flag == which.flag.value)
         yield column.ordinal.in_(flagged)
-
-
-def _published(*which: ColumnElement[bool]) -> Select[Any]:
-    return (
-        select(settled_library)
-        .where(settled_library.c.published_at.is_not(None), *which)
-        .order_by(settled_library.c.published_at.desc(), settled_library.c.id.desc())
-    )
 
 
 def _record(row: RowMapping) -> SettledLibrary:

@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, RowMapping, Select, select
+from sqlalchemy import Connection, RowMapping, select
 
 from threadstate.errors import NotFoundError
-from threadstate.library.read import LARGEST_ID
+from threadstate.library.published import named_row, published_rows
 from threadstate.library.success_tables import success_map, success_orientation
 from threadstate.numbers import number_text
 from threadstate.success.document import orientation_from_document
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.map_file import inputs_from_document
 from threadstate.success.model import OrientationMap
-
-LATEST = "latest"
-_NUMBER = re.compile(r"[0-9]{1,18}")
 
 
 @dataclass(frozen=True)
@@ -39,7 +34,7 @@ class SuccessMap:
 
 def success_maps(connection: Connection) -> list[SuccessMap]:
     """All published maps, the latest first."""
-    return [_record(row) for row in connection.execute(_published()).mappings()]
+    return [_record(row) for row in published_rows(connection, success_map)]
 
 
 def named_success_map(connection: Connection, name: str) -> SuccessMap:
@@ -48,18 +43,8 @@ def named_success_map(connection: Connection, name: str) -> SuccessMap:
     Raises:
         NotFoundError: it does not exist; the message says which do.
     """
-    row = None
-    if name == LATEST:
-        row = connection.execute(_published().limit(1)).mappings().first()
-    elif _NUMBER.fullmatch(name) and int(name) <= LARGEST_ID:
-        row = connection.execute(_published(success_map.c.id == int(name))).mappings().first()
-    if row is not None:
-        return _record(row)
-    numbers = ", ".join(str(one.id) for one in success_maps(connection)[:20])
-    raise NotFoundError(
-        f"no success map {name!r} is published; published are: {numbers or 'none yet'}; "
-        "`POST /v1/success-maps` requests one"
-    )
+    missing = f"no success map {name!r} is published"
+    return _record(named_row(connection, success_map, name, missing, "`POST /v1/success-maps` requests one"))
 
 
 def orientations_of_map(
@@ -104,13 +89,6 @@ def committed_orientations(connection: Connection, input_sha256: str) -> Sequenc
 
 def _orientation(document: str) -> OrientationMap:
     return orientation_from_document(json.loads(document))
-
-
-def _published(which: ColumnElement[bool] | None = None) -> Select[Any]:
-    query = select(success_map).where(success_map.c.published_at.is_not(None))
-    if which is not None:
-        query = query.where(which)
-    return query.order_by(success_map.c.published_at.desc(), success_map.c.id.desc())
 
 
 def _record(row: RowMapping) -> SuccessMap:
