@@ -63,7 +63,12 @@ def test_from_an_empty_device_to_a_critical_friction(explorer: Explorer) -> None
     assert explorer.text("#success-cell").startswith("paths from roll")
     explorer.click("#success-critical-find")
     explorer.wait(lambda: "so far" in explorer.text("#success-critical"), "nothing is narrowed down")
-    explorer.wait(lambda: "so far" not in explorer.text("#success-critical"), "no critical friction")
+    for _ in range(20):
+        # A friction takes seconds on a machine that is busy; each has to change what is said.
+        before = explorer.text("#success-critical")
+        if "so far" not in before:
+            break
+        explorer.wait(lambda said=before: explorer.text("#success-critical") != said, "no friction is tried")  # type: ignore[misc]
     last = re.search(r"engages up to μ = ([0-9.]+)", explorer.text("#success-critical"))
     assert last is not None
     assert "success=phases%3D1" in explorer.chromium.current_url

@@ -31,6 +31,7 @@ TELL_TIME = {
     "threadstate/jobs/queue.py",
     "threadstate/library/write.py",
     "threadstate/settled/write.py",
+    "threadstate/success/write.py",
     "threadstate/access/keys.py",
     "threadstate/client/retrying.py",
     "service/logs.py",

@@ -215,10 +215,14 @@ def test_every_pattern_of_the_hash_finds_files(repository_root: Path) -> None:
 
 
 def test_the_computing_process_computes_nothing_beside_it(repository_root: Path) -> None:
-    """Rows come from ``threadstate.stored_histories.compute`` alone: the worker imports no physics of its own."""
+    """What is stored comes from one module of each kind alone: the worker imports no physics of its own.
+
+    That a device can settle a pose is asked once, before the first chunk.
+    """
     tree = ast.parse((repository_root / "worker" / "compute.py").read_text())
     modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module}
     assert {name for name in modules if name.startswith("threadstate")} == {
-        "threadstate.stored_histories.compute",
-        "threadstate.library.identity",
+        *(f"threadstate.{kind}.compute" for kind in ("stored_histories", "settled", "success", "chances")),
+        *("threadstate.library.identity", "threadstate.settled.inputs", "threadstate.chances.inputs"),
+        "threadstate.device.settle",
     }

@@ -15,6 +15,7 @@ from harness.databases import Databases
 from tests.service.conftest import client_of, store_library
 from tests.service.made_up_states import made_up_states
 from tests.service.settled_library import store_settled
+from tests.service.success_map import store_success_map
 from tests.stored_histories.history_library import SMALL_GRID, histories_of_grid, store_histories
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -26,6 +27,15 @@ Clients = tuple[TestClient, TestClient]
 MADE_UP, WITH_HISTORIES = "/v1/libraries/1", "/v1/libraries/2"
 OF_ONE_ANSWER = re.compile(r"\d{4}-\d\d-\d\dT[\d:.]+Z|urn:threadstate:request:\w+")
 READ = {
+    "/v1/success-maps": ["/v1/success-maps"],
+    "/v1/success-maps/{id}": ["/v1/success-maps/latest", "/v1/success-maps/1", "/v1/success-maps/9"],
+    "/v1/success-maps/{id}/orientations": [
+        "/v1/success-maps/1/orientations?unit=mm",
+        "/v1/success-maps/1/orientations?limit=4&after=3",
+    ],
+    "/v1/success-maps/{id}/orientations/{roll}/{pitch}": [
+        f"/v1/success-maps/latest/orientations/{tilt}" for tilt in ("0/0", "-1/1?unit=mm", "9/9")
+    ],
     "/v1/libraries": ["/v1/libraries", "/v1/libraries?unit=mm"],
     "/v1/libraries/{id}": [MADE_UP, WITH_HISTORIES, "/v1/libraries/1-4-20-unc", "/v1/libraries/3"],
     "/v1/building": ["/v1/building"],
@@ -97,6 +107,7 @@ ELSEWHERE = {
     "/v1/jobs",
     "/v1/jobs/{id}",
     "/v1/jobs/{id}/events",
+    "/v1/jobs/{id}/success-map",
 }
 """A formation and paths have a test below; a mesh is made of the pair that the library's entry shows; jobs are tested
 on both kinds in ``tests/jobs``."""
@@ -104,12 +115,13 @@ on both kinds in ``tests/jobs``."""
 
 @pytest.fixture(scope="module")
 def clients(sqlite_databases: Databases, postgresql_databases: Databases) -> Iterator[Clients]:
-    """Clients of two services over the same libraries: of made-up states, with real histories, of settled states."""
+    """Clients of two services over the same libraries: of made-up states, with histories, of settled states, and a success map."""
     urls = [databases.migrated() for databases in (sqlite_databases, postgresql_databases)]
     for url in urls:
         store_library(url, quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)
         store_histories(url, SMALL_GRID, histories_of_grid(SMALL_GRID))
         store_settled(url)
+        store_success_map(url)
     with client_of(urls[0]) as one, client_of(urls[1]) as other:
         yield one, other
 

@@ -23,7 +23,7 @@ from threadstate.tables import metadata
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 SAFE = {"GET", "HEAD", "OPTIONS"}
-COMPUTES = {("POST", "/v1/solve"), ("POST", "/v1/statics"), ("POST", "/v1/settle"), ("POST", "/v1/assemblies")}
+COMPUTES = {("POST", path) for path in ("/v1/solve", "/v1/statics", "/v1/settle", "/v1/assemblies", "/v1/outcomes")}
 """Not safe by their method, but they store nothing: questions too long for an address."""
 INPUTS = LibraryInputs(quarter_twenty_unc(), Grid(0.0, 1.0, 180.0), SolveOptions())
 
@@ -66,7 +66,8 @@ def test_nothing_changes_without_a_key_for_writing(client: TestClient, engine: E
     ]
     before = _content(engine)
     writes = {(method, path) for path, method, _ in described(client) if method not in SAFE} - COMPUTES
-    assert {("POST", "/v1/jobs"), ("DELETE", "/v1/jobs/{id}")} <= writes
+    assert {("POST", "/v1/jobs"), ("POST", "/v1/settled"), ("POST", "/v1/success-maps")} <= writes
+    assert ("DELETE", "/v1/jobs/{id}") in writes
     for method, path in sorted(writes):
         for authorization, status in shown:
             headers = {} if authorization is None else {"Authorization": authorization}

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from threadstate.device.document import device_document
 from threadstate.errors import InvalidValueError
+from threadstate.numbers import number_text
 from threadstate.success.design import (
     Candidate,
     Limits,
@@ -115,7 +116,7 @@ class Design:
         path = self._folder / f"{inputs.sha256[:16]}.map"
         result = computed_map(inputs, self._workers, path, _Unwatched(), self._scheduler)
         found = candidate_of(values, device, result.orientations, inputs.grid, frictions, self._limits)
-        words = ", ".join(f"{name} {value:g}" for name, value in zip(self._names, values, strict=False))
+        words = ", ".join(f"{name} {number_text(value)}" for name, value in zip(self._names, values, strict=False))
         print_status(f"{words or 'as given'}: {found.engaged[0]} of {inputs.grid.orientation_count} engage")
         return found
 
