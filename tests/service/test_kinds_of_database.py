@@ -115,7 +115,7 @@ on both kinds in ``tests/jobs``."""
 
 @pytest.fixture(scope="module")
 def clients(sqlite_databases: Databases, postgresql_databases: Databases) -> Iterator[Clients]:
-    """Clients of two services over the same libraries: of made-up states, with histories, of settled states, and a success map."""
+    """Clients of two services over the same content: made-up states, histories, settled states and a success map."""
     urls = [databases.migrated() for databases in (sqlite_databases, postgresql_databases)]
     for url in urls:
         store_library(url, quarter_twenty_unc(), Grid(1.0, 1.0, 30.0), made_up_states)
