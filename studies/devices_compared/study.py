@@ -48,10 +48,7 @@ FORCES = 10.0
 """How many times the default push and stiffnesses are taken, all by the same factor."""
 LEAST_PLAY = 1e-6
 """Over the thread pitch: of pairs with less no map is computed."""
-NO_PLAY = (
-    "it has no play, and a path takes many times as long as with play; the three that were tried end "
-    "undecided, `unsettled`"
-)
+NO_PLAY = "it has no play, and a path then takes many times as long as with play"
 LARGEST_MU_TOLERANCE = 1.0
 """Of critical frictions, which are not looked for."""
 

@@ -117,7 +117,7 @@ def test_a_map_is_read_while_it_grows_and_once_it_is_published(engine: Engine) -
     assert (found.input_sha256, found.content_sha256, found.inputs) == (sha256, content, SUCCESS_INPUTS)
 
 
-def test_a_settled_library_of_a_job_is_that_of_the_command(engine: Engine) -> None:
+def test_a_settled_library_of_a_job_is_found_with_the_hash_it_was_published_with(engine: Engine) -> None:
     store = STORES[JobKind.SETTLED]
     library_id = store.open(engine, SETTLED_INPUTS)
     for index in range(GRID.orientation_count):
