@@ -5,6 +5,7 @@ The service runs over the database of the settings, whose latest library has to 
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import sleep
@@ -23,12 +24,16 @@ DRAWN = ("#map .cell", "#depth .curve", "#scene canvas")
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture: its file's name, the size of the page in pixels, the view as a fragment, what its tab shows."""
+    """A picture: its file's name, the size of the page in pixels, the view as a fragment, what its tab shows.
+
+    What is computed for it may take ``waits`` times as long as a browser test waits.
+    """
 
     name: str
     size: tuple[int, int]
     view: str
     tab: str
+    waits: int = 1
 
 
 SHOTS = (
@@ -55,6 +60,14 @@ SHOTS = (
         "roll=0&pitch=-4&phase=300&theme=light&nut=glass&tab=device&point=100"
         "&assembly=roll%3D0%26pitch%3D-4%26phase%3D300%26unit%3Dmm",
         "#turned-chart svg",
+    ),
+    Shot(
+        "laptop-success",
+        LAPTOP,
+        "roll=0&pitch=-4&phase=300&theme=light&nut=glass&tab=success&success=phases%3D2%26roll%3D0%26pitch%3D-4"
+        "%26phase%3D300%26strategy%3Dccw_then_cw%26unit%3Dmm",
+        "#panel-success:has(#success-progress[hidden]) #success .cell",
+        waits=60,
     ),
     Shot("laptop-threads", LAPTOP, "theme=light&tab=threads&thread=M6+at+minimum+material", "#profiles img + img"),
     Shot("laptop-network", LAPTOP, "roll=-3&pitch=3&phase=120&theme=light&tab=network", "#network .way .stop"),
@@ -89,8 +102,13 @@ def main() -> None:
 def _take(explorer: Explorer, chromium: webdriver.Chrome, shot: Shot) -> None:
     resize(chromium, *shot.size)
     explorer.open(f"/#{shot.view}")
-    for selector in (*DRAWN, shot.tab):
+    for selector in DRAWN:
         explorer.one(selector)
+    for _ in range(shot.waits - 1):
+        with suppress(AssertionError):
+            explorer.one(shot.tab)
+            break
+    explorer.one(shot.tab)
     label = "return document.querySelector('#scene canvas').getAttribute('aria-label') ?? ''"
     explorer.wait(lambda: "phase" in explorer.run(label), "the scene is not drawn")
     # Without a graphics card a change of the solids is drawn after a rest.

@@ -258,7 +258,7 @@ def _class(evaluation: Evaluation, claims: Claims, proved: list[tuple[float, flo
     """Whether the class of a box is proved; the ranges that balls have proved count, too."""
     known = [None if one is None else arb(one[0]).union(arb(one[1])) for one in proved[:9]]
     kind = claims.box_class
-    if kind in (box.SPLIT_THETA, box.SPLIT_TIME):
+    if kind == box.UNDECIDED_BOX:
         return Outcome.HOLDS
     parts: list[Part] = [(0.0, 1.0, 0.0, 1.0)]
     balls = 0

@@ -60,7 +60,7 @@ def claims(one: Box, kernels: Kernels = COMPILED) -> Claims:
     numbers = motion_numbers(motion), profile_numbers(curve), profile_numbers(solid)
     phi, g, depth = ranges(one.theta, a, tau, b, *numbers[0], *numbers[1:], sizes)
     p = one.search.solid.thread_pitch
-    box_class, _ = classify_box(a, b, phi, g, depth, p)
+    box_class, *_ = classify_box(a, b, phi, g, depth, p)
     return Claims(
         one.theta,
         a,

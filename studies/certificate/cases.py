@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from studies.certificate.motions import EdgeMotion, edge_motion
 from threadstate.contact import _box_kernel as box
-from threadstate.contact._edge_search_kernel import pad_boxes, set_initial_boxes, split_boxes
+from threadstate.contact._edge_search_kernel import BATCH, box_at, pad_boxes, part_of, set_box_at, set_initial_boxes
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, motion_scale
 from threadstate.contact._stage_kernel import rotation, set_motions
 from threadstate.contact._surface_kernel import start_height
@@ -180,31 +181,24 @@ def state_searches(form: str, state: ContactState) -> list[tuple[Search, float]]
 
 def visited_boxes(search: Search, until: float) -> list[tuple[Box, int]]:
     """The boxes that a search for all onsets up to a time visits, with their classes, as far as they are many."""
-    boxes, spare = np.zeros(box.BOXES_SIZE), np.zeros(box.BOXES_SIZE)
+    boxes = np.zeros(box.BOXES_SIZE)
     curve, solid = search.curve.packed, search.solid.packed
     slender = SLENDER * motion_scale(search.motion, solid)
     found: list[tuple[Box, int]] = []
     count = set_initial_boxes(0.0, until, boxes)
-    while count and len(found) < MOST_VISITED:
-        count = pad_boxes(count, boxes)
-        box.classify_boxes(count, search.motion, curve, solid, boxes)
-        left = 0
-        for i in range(count):
-            kind, half = int(boxes[box.X_CLASS + i]), float(boxes[box.X_HALF + i])
-            theta, start, end = (float(boxes[at + i]) for at in (box.X_THETA, box.X_START, box.X_END))
-            if half == 0.0:
-                continue
+    waiting = deque(box_at(i, boxes) for i in range(count))
+    while waiting and len(found) < MOST_VISITED:
+        taken = [waiting.popleft() for _ in range(min(BATCH, len(waiting)))]
+        for i, one in enumerate(taken):
+            set_box_at(one, i, boxes)
+        box.classify_boxes(pad_boxes(len(taken), boxes), search.motion, curve, solid, boxes)
+        for i, (theta, half, start, end) in enumerate(taken):
+            kind = int(boxes[box.X_CLASS + i])
             found.append((Box(search, theta, half, start, end, visited=True), kind))
-            if kind in (box.SPLIT_THETA, box.SPLIT_TIME) or (kind >= box.PEAK_EDGE and half > 1e-6):
-                by_time = kind == box.SPLIT_TIME or end - start > slender * half or (kind < 8 and end - start > half)
-                for at in (box.X_THETA, box.X_HALF, box.X_START, box.X_END):
-                    boxes[at + left] = boxes[at + i]
-                boxes[box.X_CLASS + left] = box.SPLIT_TIME if by_time else box.SPLIT_THETA
-                left += 1
-        if left > box.CAPACITY // 8:
-            break
-        count = split_boxes(left, boxes, spare)
-        boxes, spare = spare, boxes
+            undecided = kind == box.UNDECIDED_BOX
+            if undecided or (kind >= box.PEAK_EDGE and half > 1e-6):
+                by_time = bool(boxes[box.X_BY_TIME + i]) or (undecided and end - start > slender * half)
+                waiting.extend(part_of(taken[i], by_time, part, 2) for part in range(2))
     return found
 
 

@@ -19,8 +19,7 @@ CLASSES = (
     "peak on an edge",
     "peak on the thread",
     "peak on the plane",
-    "split by azimuth",
-    "split by time",
+    "undecided",
 )
 QUANTITIES = OVER_BOX + IN_MIDDLE
 

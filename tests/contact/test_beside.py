@@ -197,31 +197,32 @@ def test_third_derivatives_in_the_middle_are_those_of_balls() -> None:
 
 def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]:
     """Boxes of a search beside a contact that the bend of phi excludes: middle, half-width, start, end."""
-    boxes, spare, scratch = (np.zeros(box.BOXES_SIZE) for _ in range(3))
+    boxes, scratch = np.zeros(box.BOXES_SIZE), np.zeros(box.BOXES_SIZE)
     edge = new_edge(one.search.motion, one.search.curve.packed, one.search.solid.packed, one.kept)
-    count = edge_search.set_initial_boxes(0.0, one.until, boxes)
+    level = [edge_search.box_at(i, boxes) for i in range(edge_search.set_initial_boxes(0.0, one.until, boxes))]
     for _ in range(40):
-        count = edge_search.pad_boxes(count, boxes)
-        edge_search.evaluate_boxes(count, edge, boxes)
-        left = 0
-        for i in range(count):
-            kind, half = int(boxes[box.X_CLASS + i]), float(boxes[box.X_HALF + i])
-            theta, start, end = (float(boxes[at + i]) for at in (box.X_THETA, box.X_START, box.X_END))
-            gap = edge_search.contact_distance(theta, one.kept)
-            if kind <= box.EXCLUDED or half == 0.0 or not (half < gap < beside.BESIDE or kind >= box.PEAK_EDGE):
-                continue
-            bends = float(boxes[box.X_BEND_LOW + i]), float(boxes[box.X_BEND_HIGH + i])
-            if (
-                half < gap < beside.BESIDE
-                and boxes[box.X_G_LOW + i] > 0.0
-                and edge_search.no_onset_from_contact(Box(theta, half, start, end), *bends, edge, scratch)[0]
-            ):
-                yield theta, half, start, end
-            elif left < 100:
-                by_time = kind == box.SPLIT_TIME or (kind < box.SPLIT_THETA and end - start > half)
-                left = edge_search.move_to_front(i, end, by_time, left, boxes)
-        count = edge_search.split_boxes(left, boxes, spare)
-        boxes, spare = spare, boxes
+        parts: list[Box] = []
+        for first in range(0, len(level), edge_search.BATCH):
+            taken = level[first : first + edge_search.BATCH]
+            for i, wanted in enumerate(taken):
+                edge_search.set_box_at(wanted, i, boxes)
+            edge_search.evaluate_boxes(edge_search.pad_boxes(len(taken), boxes), edge, boxes)
+            for i, (theta, half, start, end) in enumerate(taken):
+                kind = int(boxes[box.X_CLASS + i])
+                gap = edge_search.contact_distance(theta, one.kept)
+                if kind <= box.EXCLUDED or not (half < gap < beside.BESIDE or kind >= box.PEAK_EDGE):
+                    continue
+                bends = float(boxes[box.X_BEND_LOW + i]), float(boxes[box.X_BEND_HIGH + i])
+                if (
+                    half < gap < beside.BESIDE
+                    and boxes[box.X_G_LOW + i] > 0.0
+                    and edge_search.no_onset_from_contact(Box(theta, half, start, end), *bends, edge, scratch)[0]
+                ):
+                    yield theta, half, start, end
+                elif len(parts) < 200:
+                    by_time = bool(boxes[box.X_BY_TIME + i])
+                    parts += [edge_search.part_of(taken[i], by_time, part, 2) for part in range(2)]
+        level = parts
 
 
 def test_no_tangency_is_where_the_bend_from_the_contact_excludes_it() -> None:

@@ -165,15 +165,15 @@ def test_no_box_that_holds_an_onset_is_excluded(states: list[ContactState]) -> N
     found_onsets = onsets(states)
     assert len(found_onsets) > 150
     boxes = np.zeros(box.BOXES_SIZE)
-    for theta, time, motion, curve, solid in found_onsets:
-        for i in range(200):
+    for theta, time, motion, curve, solid in 3 * found_onsets:
+        for i in range(box.CAPACITY):
             half, span = 10.0 ** rng.uniform(-8, -1), 10.0 ** rng.uniform(-9, -1.5)
             boxes[box.X_THETA + i] = theta + rng.uniform(-0.99, 0.99) * half
             boxes[box.X_HALF + i] = half
             boxes[box.X_START + i] = time - rng.uniform(0.01, 0.99) * span
             boxes[box.X_END + i] = boxes[box.X_START + i] + span
-        box.classify_boxes(200, motion, curve, solid, boxes)
-        classes = boxes[box.X_CLASS : box.X_CLASS + 200]
+        box.classify_boxes(box.CAPACITY, motion, curve, solid, boxes)
+        classes = boxes[box.X_CLASS : box.X_CLASS + box.CAPACITY]
         assert not np.isin(classes, (box.ALL_OUTSIDE, box.EXCLUDED)).any()
 
 

@@ -52,13 +52,13 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
 ) -> None:
     """``earliest`` interpreted, with an edge search that fills its list of candidates, so far apart in time."""
 
-    def crowded_search(*arguments: Any) -> tuple[int, int, float]:
+    def crowded_search(*arguments: Any) -> tuple[int, int, float, float]:
         count, found = arguments[5:]
         assert found.shape[1] == CANDIDATE_SIZE
         for i in range(len(found)):
             one = Candidate(1e-4 + apart * i, int(ONE_EDGE), 0.3 * i, 0.3 * i, *around(i), 0.0)
             count = insert_candidate(one, count, found)
-        return count, 1, 1e-4
+        return count, 1, 1e-4, 1e-4
 
     monkeypatch.setattr(stage, "search_edge", crowded_search)
     monkeypatch.setattr(stage, "search_both_edges", stage.search_both_edges.py_func)

@@ -97,13 +97,14 @@ def solved(pose: PoseDeg, pair: Pair = PAIR) -> Floats:
     ("pair", "pose", "poses"),
     [
         (PAIR, (3.576567074329921e-06, 1.941986622585566e-06, -1.7142272342935438), 0),
-        (PAIR, (1.8398712734907334e-05, 0.00012444704985027888, 2.243004327857509), 1),
+        (PAIR, (2.3917780808415613e-06, 2.5972127350257494e-06, 2.1471097995532444), 1),
         (PAIR, (1.735635670838846e-09, 9.606987204942213e-10, 1.9080351168902752), 2),
         (SHARP, (-1.848321590093091e-09, 2.75804603556617e-06, -0.2093575674421757), 2),
+        (PAIR, (-1.4484050324440231e-08, 7.245777749913274e-08, -2.0681629732524485), 3),
     ],
 )
 def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pair: Pair, pose: PoseDeg, poses: int) -> None:
-    """One for each stage: ``poses`` of the three were found. No pose is known whose embedment is undecided."""
+    """One for each stage, and one for the embedment: ``poses`` of the three were found."""
     row = solved(pose, pair)
     assert (row[record.O_STATUS], row[record.O_POSES]) == (stage.UNRESOLVED, poses)
     with pytest.raises(UnresolvedPoseError, match="before every box was excluded"):
@@ -116,6 +117,7 @@ def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pair: Pa
         (0.0009377165331601753, 0.002716068435739592, 1.1404050124514917),
         (2.903245030657479e-05, 6.360621194900974e-05, 0.19721446962774447),
         (1e-4, 5e-5, 0.0),
+        (1.8398712734907334e-05, 0.00012444704985027888, 2.243004327857509),
     ],
 )
 def test_nearly_level_poses_whose_flanks_nearly_touch_as_a_whole_are_decided(pose: PoseDeg) -> None:
@@ -148,8 +150,8 @@ def test_nearly_level_edges_in_narrow_boxes_without_a_peak_have_the_first_height
 def test_an_edge_that_lies_in_the_other_plane_is_undecided(height: float, outcome: int) -> None:
     """Level on the surface every box of the edge over the nut's flat touches: no list is long enough."""
     motion, _ = descents(pose_at((0.0, 0.0, 90.0), height))
-    boxes, spare_boxes = stage.new_work()[:2]
-    found, _ = edge_search.find_inside(new_edge(motion, BOLT, NUT, new_kept(0)), 1e-12, 1e-11, boxes, spare_boxes)
+    work = stage.new_work()
+    found, _ = edge_search.find_inside(new_edge(motion, BOLT, NUT, new_kept(0)), 1e-12, 1e-11, work.boxes, work.queue)
     assert found == outcome
 
 
@@ -165,7 +167,8 @@ def test_a_level_edge_has_no_onset_of_its_own_with_the_plane() -> None:
     """g has no slope along the edge: the Jacobian of g = g_theta = 0 is singular."""
     motion, _ = descents(pose_at((0.0, 0.0, 90.0), 1e-3))
     edge = new_edge(motion, BOLT, NUT, new_kept(0))
-    assert not onset.newton_onset(ONE_PLANE, Box(1.0, 0.1, 0.0, 2e-3), edge, np.empty(onset.JET_SIZE))[0]
+    place, _, _ = onset.newton_onset(ONE_PLANE, Box(1.0, 0.1, 0.0, 2e-3), edge, np.empty(onset.JET_SIZE))
+    assert place == onset.NO_ROOT
 
 
 def test_edges_that_run_along_each_other_are_not_separated() -> None:

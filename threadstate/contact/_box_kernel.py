@@ -23,8 +23,9 @@ Array = NDArray[np.float64]
 
 # Boxes are stored column by column in a flat buffer of that capacity: middle and half-width of theta, start and end of
 # tau, class, min(g, phi) in the middle, range of phi_thetatheta, least g; then g and phi in the
-# middle as differences from a contact, and its distance, NaN where they are not given (``_beside_kernel``).
-CAPACITY = 4096
+# middle as differences from a contact, and its distance, NaN where they are not given (``_beside_kernel``); whether an
+# undecided box is to be split by time (1) or by azimuth (0).
+CAPACITY = 64
 COLUMN = CAPACITY + 16
 """Distance of columns: a power of two would have the same rows of all of them compete for the same lines of a cache."""
 X_THETA = 0
@@ -39,13 +40,13 @@ X_G_LOW = 8 * COLUMN
 X_G_BESIDE = 9 * COLUMN
 X_PHI_BESIDE = 10 * COLUMN
 X_GAP = 11 * COLUMN
-BOXES_SIZE = 12 * COLUMN
+X_BY_TIME = 12 * COLUMN
+BOXES_SIZE = 13 * COLUMN
 
 # Classes, in this order: no onset and no point inside; no onset (excluded); at most one onset, on the edge, the thread
 # or the plane; at most one peak of min(g, phi) at each time, of that kind, but whether and when it rises through zero
-# is undecided (a point of the curve that stays in contact is such a peak); undecided, to be split by azimuth or by
-# time.
-ALL_OUTSIDE, EXCLUDED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, PEAK_PLANE, SPLIT_THETA, SPLIT_TIME = (
+# is undecided (a point of the curve that stays in contact is such a peak); undecided.
+ALL_OUTSIDE, EXCLUDED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, PEAK_PLANE, UNDECIDED_BOX = (
     0.0,
     1.0,
     2.0,
@@ -55,7 +56,6 @@ ALL_OUTSIDE, EXCLUDED, ONE_EDGE, ONE_THREAD, ONE_PLANE, PEAK_EDGE, PEAK_THREAD, 
     6.0,
     7.0,
     8.0,
-    9.0,
 )
 
 OVERLAP = 2.0**-51
@@ -63,8 +63,33 @@ OVERLAP = 2.0**-51
 
 
 @kernel(contract=True, forceinline=True)
-def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float) -> tuple[float, float]:
-    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`, and the least g in it.
+def tangency(a: float, b: float, of_one: Numbers, slope_error: float, remainder: float) -> tuple[bool, bool]:
+    """Whether the linear expansions of a function and of its slope exclude a common zero in a box.
+
+    Then whether the time blurs the height of a peak more than the azimuth. ``of_one`` is the function in the middle,
+    its derivatives by theta and tau, the range of the second one by theta, the mixed one and its variation, a bound on
+    the second one by tau; ``remainder`` is what the function may differ by from its expansion.
+    """
+    value, slope, rate, tt_low, tt_high, tv_mid, tv_var, vv_bound = of_one
+    tt_mid, tt_var = 0.5 * (tt_low + tt_high), 0.5 * (tt_high - tt_low)
+    slope_remainder = tt_var * a + tv_var * b + slope_error
+    det = slope * tv_mid - rate * tt_mid
+    excluded = abs(rate * slope - value * tv_mid) > a * abs(det) + remainder * abs(tv_mid) + slope_remainder * abs(
+        rate
+    ) or abs(tt_mid * value - slope * slope) > b * abs(det) + remainder * abs(tt_mid) + slope_remainder * abs(slope)
+    by_time = b * (abs(det) + 0.5 * vv_bound * b * abs(tt_mid) + tv_var * abs(slope))
+    by_theta = a * (
+        (0.5 * larger(tt_high, -tt_low) * a + (abs(tv_mid) + tv_var) * b) * abs(tt_mid) + tt_var * abs(slope)
+    )
+    return excluded, by_time > by_theta
+
+
+@kernel(contract=True, forceinline=True)
+def classify_box(
+    a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float
+) -> tuple[float, float, float]:
+    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`, the least g in it, and
+    whether to split it by time (1) or by azimuth (0) where that leaves it undecided.
 
     In names, ``tt``, ``tv`` and ``vv`` are second derivatives by theta twice, theta and tau, tau twice; ``bound`` is a
     bound on the size, ``var`` on the variation from the value in the middle, ``low`` and ``high`` are the range.
@@ -126,22 +151,20 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
     ) + remainder_phi * abs(g_tau) or abs(g * phi_theta - phi * g_theta) > b * abs(jac) + remainder_g * abs(
         phi_theta
     ) + remainder_phi * abs(g_theta)
-    phi_tt_mid = 0.5 * (phi_tt_low + phi_tt_high)
-    remainder_slope = 0.5 * (phi_tt_high - phi_tt_low) * a + phi_tv_var * b + phi_theta_error
-    det = phi_theta * phi_tv_mid - phi_tau * phi_tt_mid
-    thread_root_excluded = abs(phi_tau * phi_theta - phi * phi_tv_mid) > a * abs(det) + remainder_phi * abs(
-        phi_tv_mid
-    ) + remainder_slope * abs(phi_tau) or abs(phi_tt_mid * phi - phi_theta * phi_theta) > b * abs(
-        det
-    ) + remainder_phi * abs(phi_tt_mid) + remainder_slope * abs(phi_theta)
-    g_tt_mid = 0.5 * (g_tt_low + g_tt_high)
-    remainder_slope = 0.5 * (g_tt_high - g_tt_low) * a + g_tv_var * b + g_theta_error
-    det = g_theta * g_tv_mid - g_tau * g_tt_mid
-    plane_root_excluded = abs(g_tau * g_theta - g * g_tv_mid) > a * abs(det) + remainder_g * abs(
-        g_tv_mid
-    ) + remainder_slope * abs(g_tau) or abs(g_tt_mid * g - g_theta * g_theta) > b * abs(det) + remainder_g * abs(
-        g_tt_mid
-    ) + remainder_slope * abs(g_theta)
+    thread_root_excluded, thread_by_time = tangency(
+        a,
+        b,
+        (phi, phi_theta, phi_tau, phi_tt_low, phi_tt_high, phi_tv_mid, phi_tv_var, phi_vv_bound),
+        phi_theta_error,
+        remainder_phi,
+    )
+    plane_root_excluded, plane_by_time = tangency(
+        a,
+        b,
+        (g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound),
+        g_theta_error,
+        remainder_g,
+    )
     # At most one onset: the peak is unique, and rises or falls at all times.
     peak_edge = phi_monotonic and g_monotonic
     peak_thread = g_low > 0.0 and phi_tt_high < 0.0
@@ -164,7 +187,13 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
     no_thread = phi_monotonic or phi_tt_low > 0.0 or phi_low > 0.0 or thread_peak_no_onset or thread_root_excluded
     no_plane = g_monotonic or g_tt_low > 0.0 or g_low > 0.0 or plane_peak_no_onset or plane_root_excluded
     excluded = no_edge and no_thread and no_plane
-    # Where to split: by the variable that contributes more to the relative uncertainty of the undecided functions.
+    # Where to split: by the variable that contributes more to the uncertainty of a peak's height, or else to the
+    # relative uncertainty of the undecided functions.
+    edge_by_time = b * abs(jac) + 0.5 * b * b * (g_vv_bound * abs(phi_theta) + phi_vv_bound * abs(g_theta))
+    edge_by_theta = a * (
+        (0.5 * g_tt_bound * a + g_tv_bound * b) * abs(phi_theta)
+        + (0.5 * phi_tt_bound * a + phi_tv_bound * b) * abs(g_theta)
+    )
     phi_weight = 0.0 if phi_monotonic and not g_monotonic else 1.0
     g_weight = 0.0 if g_low > 0.0 or (g_monotonic and not phi_monotonic) else 1.0
     size_phi, size_phi_theta = abs(phi) + 1e-30, abs(phi_theta) + 1e-30
@@ -185,15 +214,18 @@ def classify_box(a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: floa
         + abs(g_tau) * b * g_value_weight
         + g_tv_bound * b * g_slope_weight
     )
-    box_class = SPLIT_THETA if uncertainty_by_theta >= uncertainty_by_time else SPLIT_TIME
-    box_class = PEAK_PLANE if peak_plane else box_class
+    by_time = uncertainty_by_time > uncertainty_by_theta
+    by_time = plane_by_time if peak_plane else by_time
+    by_time = thread_by_time if peak_thread else by_time
+    by_time = edge_by_time > edge_by_theta if peak_edge else by_time
+    box_class = PEAK_PLANE if peak_plane else UNDECIDED_BOX
     box_class = PEAK_THREAD if peak_thread else box_class
     box_class = PEAK_EDGE if peak_edge else box_class
     box_class = ONE_PLANE if one_plane else box_class
     box_class = ONE_THREAD if one_thread else box_class
     box_class = ONE_EDGE if one_edge else box_class
     box_class = EXCLUDED if excluded else box_class
-    return ALL_OUTSIDE if all_outside else box_class, g_low
+    return ALL_OUTSIDE if all_outside else box_class, g_low, 1.0 if by_time else 0.0
 
 
 @kernel(contract=True)
@@ -213,6 +245,6 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
         error = error_beside(tau, sizes) * boxes[X_GAP + i]
         of_g = of_g if math.isnan(g) else (g, *of_g[1:9], error, *of_g[10:])
         of_phi = of_phi if math.isnan(phi) else (phi, *of_phi[1:10], error, *of_phi[11:])
-        boxes[X_CLASS + i], boxes[X_G_LOW + i] = classify_box(a, b, of_phi, of_g, depth, p)
+        boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = classify_box(a, b, of_phi, of_g, depth, p)
         boxes[X_DEPTH + i] = smaller(of_phi[0], of_g[0])
         boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = of_phi[3], of_phi[4]

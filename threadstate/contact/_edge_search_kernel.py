@@ -12,15 +12,14 @@ from threadstate._compile import kernel
 from threadstate.contact._beside_kernel import BESIDE, K_G, K_PHI, K_TANGENT, nearest_contact, values_beside
 from threadstate.contact._box_kernel import (
     ALL_OUTSIDE,
-    CAPACITY,
     EXCLUDED,
     ONE_EDGE,
     ONE_PLANE,
     PEAK_EDGE,
-    SPLIT_THETA,
-    SPLIT_TIME,
+    UNDECIDED_BOX,
     X_BEND_HIGH,
     X_BEND_LOW,
+    X_BY_TIME,
     X_CLASS,
     X_DEPTH,
     X_END,
@@ -45,6 +44,9 @@ from threadstate.contact._onset_kernel import (
     J_Y,
     J_Z,
     JET_SIZE,
+    ROOT_AT_SIDE,
+    ROOT_BESIDE,
+    ROOT_INSIDE,
     TIME_SLACK,
     Candidate,
     insert_candidate,
@@ -53,6 +55,7 @@ from threadstate.contact._onset_kernel import (
     rises,
     set_jet_beside,
 )
+from threadstate.contact._queue_kernel import ROOM, add, row, set_row
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -87,9 +90,17 @@ ENLARGEMENT = 8.0
 
 MAX_BOXES = 16_000
 
+MAX_REGIONS = 8
+
+BATCH = 16
+"""So many boxes are evaluated at once: two vectors hide each other's latency."""
+
 SLENDER = 50.0
 """A box whose duration, over its half-width, is more than this is split by time: at a corner one of azimuth may leave
 its uncertainty as it is."""
+
+SHORTEST = 1e-12
+"""A box with at most one onset that is no longer than this, in units of ``motion_scale``, is split by azimuth."""
 
 NARROWEST = 2.0**-51
 """Half-width (rad) of the narrowest box that is split: of a narrower one the sides are the same number."""
@@ -137,34 +148,24 @@ def pad_boxes(count: int, boxes: Array) -> int:
 
 
 @kernel()
-def move_to_front(i: int, end: float, by_time: bool, count: int, boxes: Array) -> int:
-    """Moves an undecided box to the front of the list, with how it is to be split; returns the number there then."""
-    boxes[X_THETA + count] = boxes[X_THETA + i]
-    boxes[X_HALF + count] = boxes[X_HALF + i]
-    boxes[X_START + count] = boxes[X_START + i]
-    boxes[X_END + count] = end
-    boxes[X_CLASS + count] = SPLIT_TIME if by_time else SPLIT_THETA
-    return count + 1
+def set_box_at(box: Box, i: int, boxes: Array) -> None:
+    """Sets the azimuths and times of a box of the list."""
+    boxes[X_THETA + i], boxes[X_HALF + i], boxes[X_START + i], boxes[X_END + i] = box
 
 
-@kernel()
-def split_boxes(count: int, boxes: Array, spare_boxes: Array) -> int:
-    """Splits the boxes at the front of a list into another: in halves, or finer while they fit into one vector."""
-    parts = 2
-    while 0 < 2 * parts * count <= VECTOR_WIDTH:
-        parts *= 2
-    m = 0
-    for i in range(count):
-        theta, half = boxes[X_THETA + i], boxes[X_HALF + i]
-        start, end = boxes[X_START + i], boxes[X_END + i]
-        by_time = boxes[X_CLASS + i] == SPLIT_TIME
-        for j in range(parts):
-            spare_boxes[X_THETA + m] = theta if by_time else theta + half * ((2 * j + 1) / parts - 1.0)
-            spare_boxes[X_HALF + m] = half if by_time else half / parts
-            spare_boxes[X_START + m] = start + (end - start) * j / parts if by_time else start
-            spare_boxes[X_END + m] = start + (end - start) * (j + 1) / parts if by_time else end
-            m += 1
-    return m
+@kernel(forceinline=True)
+def box_at(i: int, boxes: Array) -> Box:
+    """The azimuths and times of a box of the list."""
+    return Box(boxes[X_THETA + i], boxes[X_HALF + i], boxes[X_START + i], boxes[X_END + i])
+
+
+@kernel(forceinline=True)
+def part_of(box: Box, by_time: bool, j: int, parts: int) -> Box:
+    """One of so many equal parts of a box, by time or by azimuth."""
+    theta, half, start, end = box
+    if by_time:
+        return Box(theta, half, start + (end - start) * j / parts, start + (end - start) * (j + 1) / parts)
+    return Box(theta + half * ((2 * j + 1) / parts - 1.0), half / parts, start, end)
 
 
 @kernel()
@@ -191,7 +192,7 @@ def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
 @kernel()
 def evaluate_box(box: Box, edge: Edge, boxes: Array) -> float:
     """The class of a single box, which is set as the first one of ``boxes``."""
-    boxes[X_THETA], boxes[X_HALF], boxes[X_START], boxes[X_END] = box
+    set_box_at(box, 0, boxes)
     evaluate_boxes(1, edge, boxes)
     return boxes[X_CLASS]
 
@@ -251,13 +252,13 @@ def onset_only_outside(box_class: int, box: Box, edge: Edge, scratch: Array, jet
     found = evaluate_box(larger_box, edge, scratch)
     if found != box_class:
         return found <= EXCLUDED
-    inside, t, tau = newton_onset(box_class, larger_box, edge, jet)
-    return inside and (abs(t - theta) >= half or tau <= start or tau >= end)
+    place, t, tau = newton_onset(box_class, larger_box, edge, jet)
+    return place == ROOT_INSIDE and (abs(t - theta) >= half or tau <= start or tau >= end)
 
 
 @kernel()
 def is_the_one(box_class: int, box: Box, t: float, tau: float, edge: Edge, scratch: Array) -> bool:
-    """Whether a root found in a box, or just beside it, is the only one there: the box widened to it has one, too."""
+    """Whether a root in a box, or beside it, is the only one there: the box widened to it has at most one, too."""
     theta, half, start, end = box
     if abs(t - theta) <= half and start <= tau <= end:
         return True
@@ -303,14 +304,19 @@ class EdgeSearch(NamedTuple):
         any_onset: whether an onset that is not a contact ends the search, too.
         tie_tolerance: how long after the earliest time the search ends.
         boxes: a list of boxes.
-        spare_boxes: another one.
+        scratch: another one.
+        queue: undecided boxes (``_queue_kernel``).
+        regions: in the first row how many were kept; then boxes about onsets that are found, in which there is no other
+            one, the latest ``MAX_REGIONS``: rows as the fields of ``Box``.
         entries: onsets that are not contacts: there an edge enters an open overlap.
     """
 
     any_onset: bool
     tie_tolerance: float
     boxes: Array
-    spare_boxes: Array
+    scratch: Array
+    queue: Array
+    regions: Array
     entries: Array
 
 
@@ -336,20 +342,101 @@ def list_onset(
 
 
 @kernel()
+def keep_region(box_class: int, box: Box, t: float, tau: float, edge: Edge, search: EdgeSearch) -> None:
+    """Keeps the largest box about the onset found in ``box`` that has no other one, of those that are evaluated.
+
+    Without it what lies beside an onset would be split until its bounds tell it from the onset itself: the cluster
+    effect of branch and bound.
+    """
+    scratch, regions = search.scratch, search.regions
+    room = contact_distance(t, edge.kept)
+    duration = box.end - box.start
+    for i in range(VECTOR_WIDTH):
+        size = 2.0**i
+        set_box_at(Box(t, size * box.half, tau - size * duration, tau + size * duration), i, scratch)
+    evaluate_boxes(VECTOR_WIDTH, edge, scratch)
+    number = int(regions[0, 0])
+    place = 1 + number % MAX_REGIONS
+    for i in range(VECTOR_WIDTH):
+        if scratch[X_CLASS + i] != box_class or scratch[X_HALF + i] >= room:
+            return
+        regions[place, 0], regions[place, 1], regions[place, 2], regions[place, 3] = box_at(i, scratch)
+        regions[0, 0] = number + 1
+
+
+@kernel(forceinline=True)
+def outside_regions(box: Box, regions: Array) -> Box:
+    """What is left of a box without the times at which all its azimuths are in a region; half-width 0: nothing."""
+    theta, half, start, end = box
+    for i in range(1, 1 + min(int(regions[0, 0]), MAX_REGIONS)):
+        if abs(theta - regions[i, 0]) + half + NARROWEST > regions[i, 1]:
+            continue
+        since, until = regions[i, 2], regions[i, 3]
+        if start >= since and end <= until:
+            return Box(theta, 0.0, start, end)
+        if since <= start < until:
+            start = until
+        elif since < end <= until:
+            end = since
+    return Box(theta, half, start, end)
+
+
+@kernel()
+def close_by_onset(
+    box_class: int, box: Box, since: float, best: float, edge: Edge, search: EdgeSearch, count: int, found: Array
+) -> tuple[bool, int, float]:
+    """Whether Newton's method closes a box with at most one onset: it finds the one there is, in the box or beside it.
+
+    One in the box is listed in ``found`` if it begins in time. Returns the number there then, and the earliest time.
+    """
+    jet = np.empty(JET_SIZE)
+    is_narrow = box.half < AZIMUTH_TOLERANCE
+    place, t, tau = newton_onset(box_class, box, edge, jet)
+    is_located = place == ROOT_INSIDE or place == ROOT_BESIDE or (place == ROOT_AT_SIDE and is_narrow)
+    if is_located and is_the_one(box_class, box, t, tau, edge, search.scratch):
+        if place == ROOT_INSIDE:
+            keep_region(box_class, box, t, tau, edge, search)
+        if place == ROOT_INSIDE and since <= tau <= best + search.tie_tolerance:
+            count, ends = list_onset(box_class, t, tau, edge, search, search.scratch, count, found)
+            best = min(best, tau) if ends else best
+        return True, count, best
+    return is_narrow and onset_only_outside(box_class, box, edge, search.scratch, jet), count, best
+
+
+@kernel(forceinline=True)
+def splits_by_time(box_class: int, box: Box, shorter: bool, gap: float, by_time: bool, scale: float) -> bool:
+    """Whether an undecided box is split by time: where its bounds say so (``by_time``), as long as it is not short.
+
+    And where it is slender, or is as narrow as the way to the nearest contact allows that excludes it in a ``shorter``
+    time.
+    """
+    duration = box.end - box.start
+    if box_class < UNDECIDED_BOX:
+        return (by_time and duration > SHORTEST * scale) or (shorter and box.half < gap / NARROW)
+    return (
+        (by_time and duration > NARROWEST * scale)
+        or duration > SLENDER * scale * box.half
+        or (shorter and box.half < gap / NARROW)
+    )
+
+
+@kernel()
 def search_edge(
     since: float, until: float, best: float, edge: Edge, search: EdgeSearch, count: int, found: Array
-) -> tuple[int, int, float]:
+) -> tuple[int, int, float, float]:
     """Contacts of an edge curve with the other part's solid from ``since`` to ``until``.
 
-    ``best`` is the earliest time known. Returns the number of candidates in ``found`` (earliest first), the number of
-    boxes evaluated (OVERFLOW: too many) and the earliest time. A root that round-off puts before the start counts as
-    before it.
+    ``best`` is the earliest time known. Boxes are looked at in the order of their starts, so that an early contact
+    spares the later ones. Returns the number of candidates in ``found`` (earliest first), the number of boxes evaluated
+    (OVERFLOW: too many), the earliest time, and the time before which nothing is undecided. A root that round-off puts
+    before the start counts as before it.
     """
-    boxes, spare_boxes = search.boxes, search.spare_boxes
-    jet = np.empty(JET_SIZE)
+    boxes, queue = search.boxes, search.queue
     scale = motion_scale(edge.motion, edge.solid)
     earliest = since - TIME_SLACK * scale
+    search.regions[0, 0] = 0.0
     evaluated = 0
+    waiting = 0
     narrowest = math.inf
     n = set_initial_boxes(since, min(until, best + search.tie_tolerance), boxes)
     while n > 0:
@@ -359,72 +446,121 @@ def search_edge(
         m = 0
         for i in range(n):
             box_class = int(boxes[X_CLASS + i])
-            box = Box(boxes[X_THETA + i], boxes[X_HALF + i], boxes[X_START + i], boxes[X_END + i])
+            box = box_at(i, boxes)
             if box_class <= EXCLUDED or box.half == 0.0 or box.start > best + search.tie_tolerance:
                 continue
             gap = contact_distance(box.theta, edge.kept)
-            if gap + box.half < AZIMUTH_TOLERANCE or (gap <= box.half + 1e-13 and box_class < SPLIT_THETA):
+            if gap + box.half < AZIMUTH_TOLERANCE or (gap <= box.half + 1e-13 and box_class < UNDECIDED_BOX):
                 continue
             shorter = False
             if box.half <= FINE and box.half < gap < BESIDE and boxes[X_G_LOW + i] > 0.0:
                 bends = boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i]
-                no_onset, shorter = no_onset_from_contact(box, bends[0], bends[1], edge, spare_boxes)
+                no_onset, shorter = no_onset_from_contact(box, bends[0], bends[1], edge, search.scratch)
                 if no_onset:
                     continue
             if box_class <= ONE_PLANE and gap > ASIDE * box.half:
-                inside, t, tau = newton_onset(box_class, box, edge, jet)
-                inside = inside and is_the_one(box_class, box, t, tau, edge, spare_boxes)
-                if inside and earliest <= tau <= best + search.tie_tolerance:
-                    count, ends = list_onset(box_class, t, tau, edge, search, spare_boxes, count, found)
-                    best = min(best, tau) if ends else best
-                if inside or (
-                    box.half < AZIMUTH_TOLERANCE and onset_only_outside(box_class, box, edge, spare_boxes, jet)
-                ):
+                closed, count, best = close_by_onset(box_class, box, earliest, best, edge, search, count, found)
+                if closed:
                     continue
                 evaluated += NEWTON_COST if box.half < AZIMUTH_TOLERANCE else 0
-            by_time = (
-                box_class == SPLIT_TIME
-                or (box_class < SPLIT_THETA and box.end - box.start > box.half)
-                or box.end - box.start > SLENDER * scale * box.half
-                or (shorter and box.half < gap / NARROW)
-            )
+            by_time = splits_by_time(box_class, box, shorter, gap, boxes[X_BY_TIME + i] > 0.0, scale)
             narrowest = min(narrowest, box.half)
-            m = move_to_front(i, min(box.end, best + search.tie_tolerance), by_time, m, boxes)
-        if 2 * m + VECTOR_WIDTH > CAPACITY or evaluated > MAX_BOXES or narrowest < NARROWEST:
-            return count, OVERFLOW, best
-        n = split_boxes(m, boxes, spare_boxes)
-        boxes, spare_boxes = spare_boxes, boxes
-    return count, evaluated, best
+            box = outside_regions(box, search.regions)
+            if box.half > 0.0:
+                set_box_at(box, m, boxes)
+                boxes[X_BY_TIME + m] = 1.0 if by_time else 0.0
+                m += 1
+        if waiting + VECTOR_WIDTH * m > ROOM or evaluated > MAX_BOXES or narrowest < NARROWEST:
+            first = row(waiting - 1, queue).start if waiting > 0 else until
+            for i in range(m):
+                first = min(first, boxes[X_START + i])
+            return count, OVERFLOW, best, first
+        waiting = add_parts(m, best + search.tie_tolerance, boxes, waiting, queue)
+        n, waiting = take_batch(best + search.tie_tolerance, boxes, waiting, queue)
+    return count, evaluated, best, until
 
 
 @kernel()
-def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, spare_boxes: Array) -> tuple[int, float]:
+def parts_for(count: int) -> int:
+    """Into how many parts so many boxes are split: in halves, or finer while all fit into one vector."""
+    parts = 2
+    while 0 < 2 * parts * count <= VECTOR_WIDTH:
+        parts *= 2
+    return parts
+
+
+@kernel()
+def add_parts(count: int, latest: float, boxes: Array, waiting: int, queue: Array) -> int:
+    """Splits the first boxes of a list and adds the parts that start by ``latest`` to those that wait.
+
+    They are halves, or finer if none are waiting. Returns how many wait then.
+    """
+    parts = parts_for(count) if waiting == 0 else 2
+    for i in range(count):
+        theta, half, start, end = box_at(i, boxes)
+        box, by_time = Box(theta, half, start, min(end, latest)), boxes[X_BY_TIME + i] > 0.0
+        for j in range(parts):
+            part = part_of(box, by_time, j, parts)
+            if part.start <= latest:
+                waiting = add(part, waiting, queue)
+    return waiting
+
+
+@kernel()
+def take_batch(latest: float, boxes: Array, waiting: int, queue: Array) -> tuple[int, int]:
+    """Takes the first boxes of those that wait into a list, up to ``BATCH``; returns how many, and how many still wait.
+
+    Where the first one starts after ``latest`` all are dropped.
+    """
+    n = 0
+    while n < BATCH and waiting > 0:
+        theta, half, start, end = row(waiting - 1, queue)
+        if start > latest:
+            return n, 0
+        set_box_at(Box(theta, half, start, min(end, latest)), n, boxes)
+        n += 1
+        waiting -= 1
+    return n, waiting
+
+
+@kernel()
+def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, queue: Array) -> tuple[int, float]:
     """Whether the edge curve is inside the other solid at the start of a motion, except at earlier contacts.
 
     Returns INSIDE and the azimuth of a point that is; OUTSIDE: nowhere by more than ``shallow`` thread pitches over
     more than ``narrow`` (rad); UNDECIDED: too many boxes.
     """
+    undecided = ROOM // 2
     n = set_initial_boxes(0.0, 0.0, boxes)
+    for i in range(n):
+        set_row(Box(boxes[X_THETA + i], boxes[X_HALF + i], 0.0, 0.0), i, queue)
     while n > 0:
-        n = pad_boxes(n, boxes)
-        evaluate_boxes(n, edge, boxes)
         m = 0
         deepest, azimuth = shallow * edge.solid[pk.P], 0.0
-        for i in range(n):
-            box_class = int(boxes[X_CLASS + i])
-            half = boxes[X_HALF + i]
-            if box_class == ALL_OUTSIDE or half < narrow:
-                continue
-            theta, depth = boxes[X_THETA + i], boxes[X_DEPTH + i]
-            if depth > deepest:
-                deepest, azimuth = depth, theta
-            if (box_class == ONE_EDGE or box_class == PEAK_EDGE) and contact_distance(theta, edge.kept) <= half:
-                continue
-            m = move_to_front(i, 0.0, False, m, boxes)
+        for begin in range(0, n, BATCH):
+            size = min(BATCH, n - begin)
+            for i in range(size):
+                set_box_at(row(begin + i, queue), i, boxes)
+            evaluate_boxes(pad_boxes(size, boxes), edge, boxes)
+            for i in range(size):
+                box_class = int(boxes[X_CLASS + i])
+                theta, half, depth = boxes[X_THETA + i], boxes[X_HALF + i], boxes[X_DEPTH + i]
+                if box_class == ALL_OUTSIDE or half < narrow:
+                    continue
+                if depth > deepest:
+                    deepest, azimuth = depth, theta
+                if (box_class == ONE_EDGE or box_class == PEAK_EDGE) and contact_distance(theta, edge.kept) <= half:
+                    continue
+                set_row(Box(theta, half, 0.0, 0.0), undecided + m, queue)
+                m += 1
         if deepest > shallow * edge.solid[pk.P]:
             return INSIDE, azimuth
-        if 2 * m + VECTOR_WIDTH > CAPACITY:
+        parts = parts_for(m)
+        if m * parts > undecided:
             return UNDECIDED, 0.0
-        n = split_boxes(m, boxes, spare_boxes)
-        boxes, spare_boxes = spare_boxes, boxes
+        for i in range(m):
+            box = row(undecided + i, queue)
+            for j in range(parts):
+                set_row(part_of(box, False, j, parts), parts * i + j, queue)
+        n = m * parts
     return OUTSIDE, 0.0

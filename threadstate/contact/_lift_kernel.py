@@ -172,10 +172,10 @@ def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array,
     left = high - lift
     up = np.array([0.0, 0.0, 1.0])
     set_motions(raised, False, False, up, up, work.bolt_motion, work.nut_motion)
-    outcome, theta = find_inside(bolt_edge, WITNESS_DEPTH, WITNESS_HALF_WIDTH, work.boxes, work.spare_boxes)
+    outcome, theta = find_inside(bolt_edge, WITNESS_DEPTH, WITNESS_HALF_WIDTH, work.boxes, work.queue)
     if outcome == INSIDE:
         return INSIDE, lift + edge_point_inside_until(theta, left, bolt_edge, bounds)
-    nut_outcome, theta = find_inside(nut_edge, WITNESS_DEPTH, WITNESS_HALF_WIDTH, work.boxes, work.spare_boxes)
+    nut_outcome, theta = find_inside(nut_edge, WITNESS_DEPTH, WITNESS_HALF_WIDTH, work.boxes, work.queue)
     if nut_outcome == INSIDE:
         return INSIDE, lift + edge_point_inside_until(theta, left, nut_edge, bounds)
     if outcome == UNDECIDED or nut_outcome == UNDECIDED:

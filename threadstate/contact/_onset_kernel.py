@@ -54,6 +54,10 @@ J_G_THETA_THETA, J_G_THETA_TAU, J_PHI_THETA_THETA, J_PHI_THETA_TAU, J_X, J_Y, J_
 JET_SIZE = 13
 
 
+NO_ROOT, ROOT_INSIDE, ROOT_BESIDE, ROOT_AT_SIDE = range(4)
+"""Where Newton's method ends: at no root, in the box, certainly beside it, beside it by less than its round-off."""
+
+
 @kernel()
 def set_jet(
     theta: float, tau: float, motion: Array, curve_profile: Array, solid_profile: Array, path: Array, jet: Array
@@ -152,8 +156,8 @@ def onset_step(
 
 
 @kernel()
-def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[bool, float, float]:
-    """The one onset or end of overlap in a box by Newton's method: whether it is in the box, its azimuth and time.
+def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[int, float, float]:
+    """The one onset or end of overlap in a box, or near it, by Newton's method: where it is, its azimuth and time.
 
     ``kind`` is the class of the box: g = phi = 0, phi = phi_theta = 0 or g = g_theta = 0. Where steps to a
     tangency away from earlier contacts have become as small as what round-off makes of them the root is in the box if
@@ -167,27 +171,34 @@ def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[bool, flo
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
     step = motion_scale(edge.motion, edge.curve)
+    # On the way to an onset in a box that is short for its width the time may leave it.
+    farthest = max(2.0 * span, half * step)
     before, t_error_before, stalls = math.inf, 0.0, 0
     for _ in range(40):
         set_jet_beside(t, tau, edge, jet)
         determinant, dt, dtau, t_error, tau_error = onset_step(kind, jet, value_error, slope_error)
         if determinant == 0.0:
-            return False, t, tau
+            return NO_ROOT, t, tau
         t += dt
         tau += dtau
         size = abs(dt) / (1.0 + abs(t)) + abs(dtau) / (step + abs(tau))
         # At a junction of flank and fillet steps of round-off lead from the one side to the other.
         t_error = max(t_error, 0.5 * t_error_before)
-        if abs(t - theta) > 2.0 * half + t_error or abs(tau - 0.5 * (start + end)) > 2.0 * span + tau_error:
-            return False, t, tau
+        if abs(t - theta) > 2.0 * half + t_error or abs(tau - 0.5 * (start + end)) > farthest + tau_error:
+            return NO_ROOT, t, tau
         stalls += 1 if size >= 0.5 * before else 0
         round_off = stalls >= STALLS and abs(dt) <= t_error and abs(dtau) <= tau_error
         if size <= 4e-16 or (size < 1e-11 and size >= 0.5 * before) or round_off:
             t_slack, tau_slack = 1e-13 + t_error, TIME_SLACK * step + tau_error
-            inside = abs(t - theta) <= half * (1.0 + 1e-9) + t_slack and start - tau_slack <= tau <= end + tau_slack
-            return inside, t, tau
+            if abs(t - theta) <= half * (1.0 + 1e-9) + t_slack and start - tau_slack <= tau <= end + tau_slack:
+                return ROOT_INSIDE, t, tau
+            errors = jet_errors(tau, edge.motion, edge.curve, edge.solid)
+            _, _, _, t_error, tau_error = onset_step(kind, jet, errors[0], errors[1])
+            if abs(t - theta) > half + t_error or not start - tau_error <= tau <= end + tau_error:
+                return ROOT_BESIDE, t, tau
+            return ROOT_AT_SIDE, t, tau
         before, t_error_before = size, t_error
-    return False, t, tau
+    return NO_ROOT, t, tau
 
 
 @kernel()

@@ -102,6 +102,8 @@ OVERSHOOT, MAX_OVERSHOOTS = 0.25, 16
 most: the contact may be so early that the step has passed it."""
 FOLLOW_RANGE = 3.0 * INSTANT_STEP
 """A maximum of phi that by its rate reaches zero farther away in time than this is left to nearer instants."""
+FAR = 1.5
+"""That is known before the maximum is located where by second derivatives it is so many times as far."""
 
 
 @kernel()
@@ -232,6 +234,20 @@ def bracketed_maximum(
 
 
 @kernel()
+def is_far(theta: float, z: float, placement: Array, bolt: Array, nut: Array, time_range: float, jet: Array) -> bool:
+    """Whether by its second derivatives phi has a maximum near (theta, z) from which, by its rate, it does not reach
+    zero within ``time_range``.
+    """
+    set_jet(theta, z, placement, bolt, nut, jet)
+    a, b, uu, uz, zz = jet[TJ_A], jet[TJ_B], jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
+    det = uu * zz - uz * uz
+    if not (zz < 0.0 and det > 0.0):
+        return False
+    rise = 0.5 * (a * (uz * b - zz * a) + b * (uz * a - uu * b)) / det
+    return abs(jet[TJ_PHI] + rise) > time_range * jet[TJ_RATE]
+
+
+@kernel()
 def follow_maximum(
     theta: float,
     z: float,
@@ -255,8 +271,9 @@ def follow_maximum(
     p = bolt[pk.P]
     step = motion_scale(motion, bolt)
     farthest = MAX_FOLLOW_STEP * step
-    start = tau
-    overshoots = 0
+    if is_far(theta, z, placement, bolt, nut, FAR * FOLLOW_RANGE * step, jet):
+        return count
+    start, overshoots = tau, 0
     for i in range(60):
         if i > 0:
             set_placement(motion, tau, later_placement)

@@ -20,6 +20,7 @@ from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
     ENTRY_SIZE,
     MAX_ENTRIES,
+    MAX_REGIONS,
     OUTSIDE,
     OVERFLOW,
     EdgeSearch,
@@ -38,6 +39,7 @@ from threadstate.contact._onset_kernel import (
     CANDIDATE_SIZE,
     MAX_CANDIDATES,
 )
+from threadstate.contact._queue_kernel import new_queue
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -48,7 +50,9 @@ class Work(NamedTuple):
 
     Attributes:
         boxes: a list of boxes.
-        spare_boxes: another one.
+        scratch: another one.
+        queue: undecided boxes.
+        regions: boxes about onsets that are found.
         bolt_found: candidates on the bolt's edge.
         nut_found: candidates on the nut's edge.
         bolt_motion: motion of the bolt in the nut's frame.
@@ -59,7 +63,9 @@ class Work(NamedTuple):
     """
 
     boxes: Array
-    spare_boxes: Array
+    scratch: Array
+    queue: Array
+    regions: Array
     bolt_found: Array
     nut_found: Array
     bolt_motion: Array
@@ -88,6 +94,10 @@ FIRST_SPAN_HEIGHT = 0.05
 SPAN_GROWTH = 1.25
 """A motion is searched in spans of time: the first (rad, thread pitches), and the factor to each next one."""
 
+SPAN_REDUCTION = 0.25
+SHORTEST_SPAN = 1e-9
+"""Factor by which a span with too many boxes is shortened, and the shortest one (in units of ``motion_scale``)."""
+
 TOUCH_DEPTH = 1e-10
 """Depth (thread pitches) up to which an edge counts as touching."""
 
@@ -96,10 +106,6 @@ LEAST_HALF_WIDTH = 1e-7
 
 SAME_TANGENCY = 1e-4
 """How near (thread pitches) a contact of thread with thread is to an earlier one that is the same."""
-
-SPAN_REDUCTION = 0.25
-SHORTEST_SPAN = 1e-9
-"""Factor by which a span with too many boxes is shortened, and the shortest one (in units of ``motion_scale``)."""
 
 
 @kernel()
@@ -212,6 +218,8 @@ def new_work() -> Work:
     return Work(
         np.empty(BOXES_SIZE),
         np.empty(BOXES_SIZE),
+        new_queue(),
+        np.zeros((1 + MAX_REGIONS, 4)),
         np.empty((MAX_CANDIDATES, CANDIDATE_SIZE)),
         np.empty((MAX_CANDIDATES, CANDIDATE_SIZE)),
         np.empty(MOTION_SIZE),
@@ -291,16 +299,18 @@ def search_both_edges(
     span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt_edge.curve[pk.P]
     while since < best:
         until = min(since + span, limit)
-        bolt_count, bolt_evaluated, best = search_edge(
+        bolt_count, bolt_evaluated, best, bolt_closed = search_edge(
             since, until, best, bolt_edge, search, bolt_count, work.bolt_found
         )
-        nut_count, nut_evaluated, best = search_edge(since, until, best, nut_edge, search, nut_count, work.nut_found)
+        nut_count, nut_evaluated, best, nut_closed = search_edge(
+            since, until, best, nut_edge, search, nut_count, work.nut_found
+        )
+        since = min(bolt_closed, nut_closed)
         if bolt_evaluated == OVERFLOW or nut_evaluated == OVERFLOW:
             span *= SPAN_REDUCTION
             if span < SHORTEST_SPAN * motion_scale(bolt_edge.motion, bolt_edge.curve):
                 return bolt_count, nut_count, best, UNRESOLVED
             continue
-        since = until
         span *= SPAN_GROWTH
     return bolt_count, nut_count, best, RESOLVED
 
@@ -366,7 +376,7 @@ def earliest(
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
     work.entries[0, 0] = 0.0
-    search = EdgeSearch(not is_turn, tie_tolerance, work.boxes, work.spare_boxes, work.entries)
+    search = EdgeSearch(not is_turn, tie_tolerance, work.boxes, work.scratch, work.queue, work.regions, work.entries)
     bolt_count, nut_count, best, status = search_both_edges(limit, is_turn, bolt_edge, nut_edge, search, work)
     if status != RESOLVED:
         return 0, UNRESOLVED, best
@@ -425,7 +435,7 @@ def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Ar
     keep_contacts(contacts, count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
     down = np.array([0.0, 0.0, -1.0])
     set_motions(pose, False, False, down, down, work.bolt_motion, work.nut_motion)
-    outcome, _ = find_inside(bolt_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.spare_boxes)
+    outcome, _ = find_inside(bolt_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.queue)
     if outcome == OUTSIDE:
-        outcome, _ = find_inside(nut_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.spare_boxes)
+        outcome, _ = find_inside(nut_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.queue)
     return outcome != OUTSIDE

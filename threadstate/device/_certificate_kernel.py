@@ -65,10 +65,10 @@ def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, n
     down = np.array([0.0, 0.0, -1.0])
     set_motions(pose, False, False, down, down, stage.bolt_motion, stage.nut_motion)
     shallow = limit / bolt[pk.P]
-    outcome, _ = find_inside(on_bolt, shallow, NARROW, stage.boxes, stage.spare_boxes)
+    outcome, _ = find_inside(on_bolt, shallow, NARROW, stage.boxes, stage.queue)
     if outcome != OUTSIDE:
         return EDGE_INSIDE
-    outcome, _ = find_inside(on_nut, shallow, NARROW, stage.boxes, stage.spare_boxes)
+    outcome, _ = find_inside(on_nut, shallow, NARROW, stage.boxes, stage.queue)
     if outcome != OUTSIDE:
         return EDGE_INSIDE
     return THREAD_INSIDE if threads_overlap(pose, limit, stage.bolt_motion, stage.nut_motion, bolt, nut) else FREE

@@ -33,6 +33,7 @@ from threadstate.contact._onset_kernel import (
     J_Y,
     J_Z,
     JET_SIZE,
+    ROOT_INSIDE,
     is_contact,
     newton_onset,
     rises,
@@ -163,8 +164,8 @@ def follow_edge_point(kind: int, theta: float, tau: float, edge: Edge, work: Wor
     """
     jet = work.jet
     span = REACH_TURN if edge.motion[M_KIND] > 0.0 else REACH_HEIGHT * edge.solid[pk.P]
-    found, t, time = newton_onset(kind, Box(theta, REACH_AZIMUTH, tau - span, tau + span), edge, jet)
-    if not found:
+    place, t, time = newton_onset(kind, Box(theta, REACH_AZIMUTH, tau - span, tau + span), edge, jet)
+    if place != ROOT_INSIDE:
         return False, t, time
     set_jet_beside(t, time, edge, jet)
     # A peak of the lesser of g and phi, at which the other one is not negative.
