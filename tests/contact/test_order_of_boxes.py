@@ -170,3 +170,22 @@ def test_a_search_that_gives_up_says_up_to_when_nothing_is_undecided(monkeypatch
     _, evaluated, best, closed = edge_search.search_edge.py_func(0.0, 0.08, 0.08, edge, wanted_of(work), 0, found)
     assert evaluated == edge_search.OVERFLOW
     assert 0.0 < closed < best
+
+
+@pytest.mark.parametrize(("closed", "since"), [(2e-3, [0.0, 2e-3]), (6e-3, [0.0, 0.0])])
+def test_what_is_undecided_from_the_earliest_contact_on_is_searched_again(
+    monkeypatch: pytest.MonkeyPatch, closed: float, since: list[float]
+) -> None:
+    """Interpreted, with a search that gives up once, after it has found a contact at 5e-3."""
+    starts: list[float] = []
+
+    def search(start: float, until: float, *_: object) -> tuple[int, int, float, float]:
+        starts.append(start)
+        return (0, edge_search.OVERFLOW, 5e-3, closed) if len(starts) <= 2 else (0, 8, 5e-3, until)
+
+    monkeypatch.setattr(stage, "search_edge", search)
+    work = stage.new_work()
+    edges = second_turn((2.0, -4.0, 3.0), work)
+    *_, best, status = stage.search_both_edges.py_func(0.08, True, *edges, wanted_of(work), work)
+    assert (best, status) == (5e-3, stage.RESOLVED)
+    assert starts[0:4:2] == since

@@ -214,7 +214,7 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
     """
     theta, half, start, end = box
     kept = edge.kept
-    nearest, contact, row = nearest_contact(theta, kept)
+    nearest, contact, number = nearest_contact(theta, kept)
     gap = abs(nearest)
     width = (gap - half) / PIECES
     for i in range(PIECES):
@@ -223,8 +223,8 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
         scratch[X_START + i], scratch[X_END + i] = start, end
         scratch[X_G_BESIDE + i], scratch[X_PHI_BESIDE + i], scratch[X_GAP + i] = math.nan, math.nan, math.nan
     classify_boxes(PIECES, edge.motion, edge.curve, edge.solid, scratch)
-    touches = kept[row, K_PHI] != 0.0
-    tangent = touches and kept[row, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
+    touches = kept[number, K_PHI] != 0.0
+    tangent = touches and kept[number, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):
         last = 2.0 * half * (gap - j * width)
         low, high = smaller(bend_low, 0.0) * last, larger(bend_high, 0.0) * last

@@ -305,12 +305,15 @@ def search_both_edges(
         nut_count, nut_evaluated, best, nut_closed = search_edge(
             since, until, best, nut_edge, search, nut_count, work.nut_found
         )
-        since = min(bolt_closed, nut_closed)
+        closed = min(bolt_closed, nut_closed)
         if bolt_evaluated == OVERFLOW or nut_evaluated == OVERFLOW:
+            # What is undecided from the earliest contact on may still begin with it.
+            since = closed if closed < best else since
             span *= SPAN_REDUCTION
             if span < SHORTEST_SPAN * motion_scale(bolt_edge.motion, bolt_edge.curve):
                 return bolt_count, nut_count, best, UNRESOLVED
             continue
+        since = closed
         span *= SPAN_GROWTH
     return bolt_count, nut_count, best, RESOLVED
 
