@@ -43,6 +43,7 @@ pytestmark = pytest.mark.slow
 
 PAIR = quarter_twenty_unc()
 SHARP = pair_by_designation("1/4-16 ACME-2G with sharp corners")
+NO_CLEARANCE = pair_by_designation("1/4-28 UNJF-3A/3B")
 BOLT, NUT = PAIR.bolt.packed, PAIR.nut.packed
 P = PAIR.thread_pitch
 TIE_INCH = 2e-11 * P
@@ -100,7 +101,7 @@ def solved(pose: PoseDeg, pair: Pair = PAIR) -> Floats:
         (PAIR, (2.3917780808415613e-06, 2.5972127350257494e-06, 2.1471097995532444), 1),
         (PAIR, (1.735635670838846e-09, 9.606987204942213e-10, 1.9080351168902752), 2),
         (SHARP, (-1.848321590093091e-09, 2.75804603556617e-06, -0.2093575674421757), 2),
-        (PAIR, (-1.4484050324440231e-08, 7.245777749913274e-08, -2.0681629732524485), 3),
+        (NO_CLEARANCE, (1.0485832972802616, -1.9987059987023654, 4.943892773021979), 3),
     ],
 )
 def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pair: Pair, pose: PoseDeg, poses: int) -> None:
