@@ -64,6 +64,10 @@ ITERATIONS = 40
 RESIDUAL = 1e-11
 """Largest residual of a mode's equations: forces over the push, gaps and slips over the nominal radius."""
 
+STRONGEST = 1e3
+"""The largest force of a contact, over the push, that an iteration goes on from. Where two contacts brace each other
+most modes have no solution, and Newton's method goes to and fro among such forces until its iterations are over."""
+
 LONGEST = 0.02
 """The longest change of the coordinates in an iteration, in nominal radii."""
 
@@ -539,6 +543,8 @@ def solve_mode(
             return UNSOLVED
         for i in range(n, size):
             unknowns[i] += step[i]
+        if not largest(size - n, unknowns[n:]) < STRONGEST:
+            return UNSOLVED
     return UNSOLVED
 
 
