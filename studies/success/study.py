@@ -14,11 +14,9 @@ from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import OrientationMap
 from threadstate.thread.catalogue import quarter_twenty_unc
 
-FRICTIONLESS_GRID = Grid(4.0, 1.0, 180.0)
-"""All 81 orientations of the default grid, from two phases; boundaries between them are narrowed."""
-FRICTIONLESS_TOLERANCE_DEG = 6.0
-FRICTION_GRID = Grid(4.0, 1.0, 360.0)
-"""All 81 orientations again, from one phase: a path with friction takes ten times as long as one without."""
+GRID = Grid(4.0, 1.0, 15.0)
+"""All 81 orientations of the default grid, from 24 phases; boundaries between them are narrowed."""
+TOLERANCE_DEG = 4.0
 FRICTIONS = (0.1, 0.2, 0.3)
 
 
@@ -38,15 +36,11 @@ class StudiedMap:
 def studied_inputs() -> list[SuccessInputs]:
     """What the maps are computed from: frictionless ones, then those with friction, each by both strategies.
 
-    With friction boundaries are those of the starting phases, and critical frictions those between the frictions of the
-    map.
+    With friction critical frictions are those between the frictions of the map.
     """
     pair, device = quarter_twenty_unc(), default_device()
     return [
-        SuccessInputs(pair, device, strategy, grid, frictions, phase_tolerance_deg=tolerance_deg, mu_tolerance=0.1)
-        for grid, frictions, tolerance_deg in (
-            (FRICTIONLESS_GRID, (0.0,), FRICTIONLESS_TOLERANCE_DEG),
-            (FRICTION_GRID, FRICTIONS, 360.0),
-        )
+        SuccessInputs(pair, device, strategy, GRID, frictions, phase_tolerance_deg=TOLERANCE_DEG, mu_tolerance=0.1)
+        for frictions in ((0.0,), FRICTIONS)
         for strategy in Strategy
     ]

@@ -28,7 +28,7 @@ from threadstate.device.assembly_model import (
     PathEventKind,
 )
 from threadstate.device.assembly_outcome import Ending, outcome_of
-from threadstate.device.branches import FollowedLeg, PlannedLeg, all_paths
+from threadstate.device.branches import FollowedLeg, KnownPaths, PlannedLeg, all_paths
 from threadstate.device.command import (
     LONGEST_STEP_DEG,
     LONGEST_STEP_WITH_FRICTION_DEG,
@@ -94,6 +94,7 @@ def assemble_pose(
     mu: float = 0.0,
     longest_step: float | None = None,
     watch: PathWatch | None = None,
+    known: KnownPaths | None = None,
 ) -> AssemblyPath:
     """The path of a bolt that settles at a commanded pose and is turned; angles in degrees.
 
@@ -101,7 +102,9 @@ def assemble_pose(
     4, unless another is given. The path is a sequence of equilibria, at most ``longest_step`` (deg) of phase apart, and
     0.05 deg where contacts change. It is 2 deg, or 1 deg with friction, unless another is given, and with friction the
     push grows by at most 1/16 of its whole a step, in proportion. The same input gives the same bits. By ``watch``
-    another thread sees how far it is, and stops it.
+    another thread sees how far it is, and stops it. With friction ``known`` are paths from other phases, of the same
+    command else: one that comes to within 1e-4 nominal radii of one goes on as that does. It is added to them if it is
+    the only one from its phase and its outcome is certain.
 
     Raises:
         InvalidValueError: as :func:`threadstate.device.settle.settle_pose`; a longest step outside 0.25 to 2 deg.
@@ -128,7 +131,7 @@ def assemble_pose(
     path = path_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch, longest_step_deg=longest)
     if isinstance(path, SettledState):
         return _unsettled(path, strategy, mu)
-    followed = all_paths(path, phase, [growing_push(held), *plan])
+    followed = all_paths(path, phase, [growing_push(held), *plan], known)
     ends = []
     for legs in followed.paths:
         start = settled_with_friction(held, wanted[0], path, legs[0].rows)
@@ -137,6 +140,8 @@ def assemble_pose(
         else:
             ends.append(_unsettled(start, strategy, mu))
     first = ends[0]
+    if known is not None and first.outcome is not AssemblyOutcome.UNDECIDED:
+        known.add(followed)
     if followed.first_ends > 1:
         flags = (*first.start.flags, SettledFlag.AMBIGUOUS)
         first = replace(first, start=replace(first.start, flags=flags))

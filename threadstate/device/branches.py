@@ -1,6 +1,7 @@
 """Every path of a bolt with friction: where a step has several solutions the path branches (forces, section 5).
 
-A branch that comes back to a path that is followed already, at the same phase, is that path from there on.
+A branch that comes back to a path that is followed already, at the same phase, is that path from there on. So is a path
+that comes to one from another starting phase (:class:`KnownPaths`).
 """
 
 from __future__ import annotations
@@ -34,8 +35,11 @@ SAME_AS_IT_GROWS = 1e-6
 """How near (nominal radii) to a path it is that path while the push grows: one that rests has moved by less than SAME
 from one that slides, step after step."""
 
-LOOKED_AFTER = math.radians(30.0)
-"""After which turn a branch is looked at whether it has come back to a path."""
+LOOKED_AFTER, LOOKED_AFTER_START = math.radians(30.0), math.radians(10.0)
+"""After which turn a branch is looked at whether it has come back to a path, and a path whether it has come to a known
+one."""
+
+TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -75,8 +79,65 @@ class Followed:
     first_ends: int
 
 
-def all_paths(path: FrictionPath, phase: float, plan: Sequence[PlannedLeg]) -> Followed:
-    """The paths of a plan from a phase (rad) on; ``path`` is the bolt of the first one.
+class KnownPaths:
+    """Paths from other starting phases, of one pair, device, commanded tilt, strategy and friction.
+
+    After a whole turn the command is what it was: a path that is where a known one is, whole turns apart, goes on as it
+    does. Of a start that has several paths none is known.
+    """
+
+    def __init__(self) -> None:
+        self._paths: list[list[FollowedLeg]] = []
+
+    def add(self, followed: Followed) -> None:
+        """Keeps the path of a start that has only one."""
+        if followed.is_whole and len(followed.paths) == 1:
+            self._paths.append(followed.paths[0])
+
+    def __bool__(self) -> bool:
+        return bool(self._paths)
+
+    def rest_of(self, leg: FrictionLeg, number: int, end: float, path: FrictionPath) -> _Rest | None:
+        """How a turn that has come to a known path's leg of that number goes on, up to the phase ``end`` (rad)."""
+        rows = leg.points
+        at = float(rows[-1, fk.P_PHASE])
+        sense = math.copysign(1.0, end - at)
+        for legs in self._paths:
+            if len(legs) <= number:
+                continue
+            known = legs[number].rows
+            for turns in (-1.0, 0.0, 1.0):
+                shift = turns * TURN
+                if not _is_there(rows[-1], at - shift, fk.P_PHASE, sense, known.points, path.numbers, SAME):
+                    continue
+                ahead = sense * (known.points[:, fk.P_PHASE] + shift)
+                whole = bool(ahead[-1] <= sense * end)
+                chosen = (ahead > sense * at) & (ahead <= sense * end)
+                count = len(rows) + int(chosen.sum())
+                if count > fk.MAX_POINTS or not chosen.any():
+                    continue
+                points = np.vstack([rows, _shifted(known.points[chosen], shift)])
+                contacts = np.concatenate([leg.contacts, known.contacts[chosen]])
+                ended = whole and known.status != fs.REACHED
+                status = known.status if ended else fs.REACHED
+                later = [_turned(other, shift, path) for other in legs[number + 1 :]] if ended else []
+                return _Rest(replace(leg, status=status, points=points, contacts=contacts), ended, later)
+        return None
+
+
+@dataclass(frozen=True)
+class _Rest:
+    """A leg with what a known path adds to it, whether it has ended there, and the legs after it then."""
+
+    leg: FrictionLeg
+    ended: bool
+    later: list[FollowedLeg]
+
+
+def all_paths(
+    path: FrictionPath, phase: float, plan: Sequence[PlannedLeg], known: KnownPaths | None = None
+) -> Followed:
+    """The paths of a plan from a phase (rad) on; ``path`` is the bolt of the first one, which may come to known ones.
 
     Raises:
         PathStoppedError: the path was stopped.
@@ -99,7 +160,7 @@ def all_paths(path: FrictionPath, phase: float, plan: Sequence[PlannedLeg]) -> F
         for planned in plan[number:]:
             at = float(legs[-1].rows.points[-1, fk.P_PHASE]) if legs else phase
             before = start.path.copy()
-            leg, joins = _leg_of(start, planned, at, len(legs), found)
+            leg, joins, later = _leg_of(start, planned, at, len(legs), found, known)
             to_do += [_Start(before.copy(), tuple(legs), branch) for branch in leg.branches]
             is_whole = is_whole and not leg.has_more
             if joins:
@@ -108,7 +169,8 @@ def all_paths(path: FrictionPath, phase: float, plan: Sequence[PlannedLeg]) -> F
             legs.append(_followed(leg, path))
             if planned.turn != 0.0 and not found:
                 path.watch.end_turn([event for earlier in legs for event in earlier.events])
-            if leg.status != (fs.SNAP_REACHED if planned.stops_at_snap else fs.REACHED):
+            legs += later
+            if later or leg.status != (fs.SNAP_REACHED if planned.stops_at_snap else fs.REACHED):
                 found.append(legs)
                 break
         else:
@@ -117,15 +179,25 @@ def all_paths(path: FrictionPath, phase: float, plan: Sequence[PlannedLeg]) -> F
 
 
 def _leg_of(
-    start: _Start, planned: PlannedLeg, at: float, number: int, found: list[list[FollowedLeg]]
-) -> tuple[FrictionLeg, bool]:
-    """The leg of a start from a phase (rad) on, and whether it comes back to a path; the first path's as a whole."""
+    start: _Start,
+    planned: PlannedLeg,
+    at: float,
+    number: int,
+    found: list[list[FollowedLeg]],
+    known: KnownPaths | None,
+) -> tuple[FrictionLeg, bool, list[FollowedLeg]]:
+    """The leg of a start from a phase (rad) on, whether it comes back to a path, and the legs of a known path after it.
+
+    The first path's is followed as a whole where none is known.
+    """
     bolt, begun = start.path, start.begun if number == len(start.legs) else None
     if planned.turn != 0.0 and not found:
         bolt.watch.begin_turn()
-    parts = max(math.ceil(abs(planned.turn) / LOOKED_AFTER), 1) if found else 1
+    part_size = LOOKED_AFTER if found else LOOKED_AFTER_START if known else math.inf
+    parts = max(math.ceil(abs(planned.turn) / part_size), 1)
     branches: list[FrictionBranch] = []
     has_more = False
+    later: list[FollowedLeg] = []
     for part in range(1, parts + 1):
         end = at + planned.turn * part / parts
         if begun is not None and abs(float(begun.points[-1, fk.P_PHASE]) - at) > abs(end - at):
@@ -136,8 +208,25 @@ def _leg_of(
         joins = _joins(leg.points, number, found, bolt.numbers, SAME)
         if joins or leg.status != fs.REACHED:
             break
+        rest = known.rest_of(leg, number, at + planned.turn, bolt) if known and not found and part < parts else None
+        if rest is not None:
+            leg, later = rest.leg, rest.later
+            if rest.ended:
+                break
         begun = FrictionBranch(leg.points, leg.contacts)
-    return replace(leg, branches=tuple(branches), has_more=has_more), joins
+    return replace(leg, branches=tuple(branches), has_more=has_more), joins, later
+
+
+def _shifted(rows: Floats, shift: float) -> Floats:
+    """Rows of points at other phases (rad)."""
+    rows = rows.copy()
+    rows[:, fk.P_PHASE] += shift
+    return rows
+
+
+def _turned(leg: FollowedLeg, shift: float, path: FrictionPath) -> FollowedLeg:
+    """A leg at other phases (rad)."""
+    return _followed(replace(leg.rows, points=_shifted(leg.rows.points, shift)), path)
 
 
 def _followed(leg: FrictionLeg, path: FrictionPath) -> FollowedLeg:
@@ -153,18 +242,21 @@ def _joins(rows: Floats, number: int, found: list[list[FollowedLeg]], numbers: F
 
     ``same`` is how far apart they are at most, in nominal radii.
     """
-    coordinates = slice(fk.P_COORDINATES, fk.P_COORDINATES + ck.COORDINATES)
     column = fk.P_PHASE if (rows[:, fk.P_PHASE] != rows[0, fk.P_PHASE]).any() else fk.P_PUSH
     sense = math.copysign(1.0, rows[-1, column] - rows[0, column])
-    at = sense * rows[-1, column]
-    for legs in found:
-        if len(legs) <= number:
-            continue
-        others = legs[number].rows.points
-        passed = sense * others[:, column]
-        if not passed[0] <= at <= passed[-1]:
-            continue
-        there = np.array([np.interp(at, passed, values) for values in others[:, coordinates].T])
-        if distance(rows[-1, coordinates].copy(), there, numbers) < same * numbers[ck.D_SCALE]:
-            return True
-    return False
+    at = float(rows[-1, column])
+    return any(
+        _is_there(rows[-1], at, column, sense, legs[number].rows.points, numbers, same)
+        for legs in found
+        if len(legs) > number
+    )
+
+
+def _is_there(row: Floats, at: float, column: int, sense: float, others: Floats, numbers: Floats, same: float) -> bool:
+    """Whether the bolt is at a row's place where ``column`` of a leg's rows, which goes in a sense, is ``at``."""
+    coordinates = slice(fk.P_COORDINATES, fk.P_COORDINATES + ck.COORDINATES)
+    passed = sense * others[:, column]
+    if not passed[0] <= sense * at <= passed[-1]:
+        return False
+    there = np.array([np.interp(sense * at, passed, values) for values in others[:, coordinates].T])
+    return distance(row[coordinates].copy(), there, numbers) < same * numbers[ck.D_SCALE]

@@ -8,6 +8,7 @@ from threading import Event, Thread
 
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath
+from threadstate.device.branches import KnownPaths
 from threadstate.device.model import Device
 from threadstate.device.strategy import Strategy
 from threadstate.device.watch import PathStoppedError, PathWatch, RunningLeg
@@ -77,10 +78,12 @@ def bounded_cell(
     mu: float,
     point_limit: int,
     longest_step_deg: float | None = None,
+    known: KnownPaths | None = None,
 ) -> Cell:
     """The cell of the path from a commanded pose (roll, pitch, phase in degrees) at a friction.
 
-    ``longest_step_deg`` is the path's longest step; None: that of :func:`threadstate.device.assemble.assemble_pose`.
+    ``longest_step_deg`` is the path's longest step; None: that of :func:`threadstate.device.assemble.assemble_pose`, as
+    are the ``known`` paths.
 
     Raises:
         InvalidValueError: as :func:`threadstate.device.assemble.assemble_pose`.
@@ -89,7 +92,9 @@ def bounded_cell(
     phase_deg = pose_deg[2]
     try:
         with watch.looking():
-            path = assemble_pose(pair, *pose_deg, device, strategy, mu=mu, longest_step=longest_step_deg, watch=watch)
+            path = assemble_pose(
+                pair, *pose_deg, device, strategy, mu=mu, longest_step=longest_step_deg, watch=watch, known=known
+            )
     except PathStoppedError:
         return Cell(phase_deg, mu, AssemblyOutcome.UNDECIDED, (), True, None, None, None, None)
     return cell_of(path)

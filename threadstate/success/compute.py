@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+
+from threadstate.device.branches import KnownPaths
 from threadstate.device.model import Device
 from threadstate.device.strategy import Strategy
 from threadstate.library.grid import Grid
@@ -27,10 +30,11 @@ def computed_orientation(
     What this imports decides which map is which: see ``threadstate.success.inputs``.
     """
     orientation = grid.orientation(index)
+    known: defaultdict[float, KnownPaths] = defaultdict(KnownPaths)
 
     def compute(phase_deg: float, mu: float) -> Cell:
         pose_deg = (orientation.roll_deg, orientation.pitch_deg, phase_deg)
-        return bounded_cell(pair, device, strategy, pose_deg, mu, point_limit)
+        return bounded_cell(pair, device, strategy, pose_deg, mu, point_limit, known=known[mu])
 
     cells, boundaries, critical = mapped_cells(compute, grid.phases_deg, frictions, phase_tolerance_deg, mu_tolerance)
     return OrientationMap(index, orientation.roll_deg, orientation.pitch_deg, cells, boundaries, critical)
