@@ -2,12 +2,14 @@
 
 The service runs over the database of the settings, warm: a load before the first that counts. From the start of the
 navigation to the paint of the map, the depth, the numbers and the solids, with an empty and a full browser cache; what
-was fetched, and how long a frame takes while the phase moves, with the solids and without.
+was fetched, and how long a frame takes while the phase moves, with the solids and without. Last a success map of the
+default device: from the click to its first square, and to all of them, without friction and with it.
 """
 
 from __future__ import annotations
 
 from statistics import median
+from time import monotonic, sleep
 from typing import Any
 from urllib.request import urlopen
 
@@ -17,6 +19,8 @@ from threadstate.settings import read_settings
 
 LOADS = 7
 FRAMES = 120
+MAPS = (("", "1"), ("0.2", "1"), ("0.2", "12"))
+"""Frictions and starting phases of the maps, as the form takes them."""
 TIMEOUT_S = 300.0
 VIEW = "/#roll=0&pitch=-4&phase=10"
 SEEN = ("map", "depth", "state", "solids")
@@ -49,6 +53,9 @@ const next = (now) => {
 performance.clearResourceTimings();
 requestAnimationFrame(next);
 """
+FILLED = "return document.querySelectorAll('#success .cell rect:first-child:not(.none)').length"
+LOOK_S = 0.02
+MAP_TIMEOUT_S = 600.0
 
 
 def main() -> None:
@@ -68,6 +75,8 @@ def main() -> None:
             explorer.choose("#nut-look", "off")
             explorer.run("document.querySelector('.panel.scene').hidden = true")
             _print_frames("without the solids", _scrubbed(explorer))
+            for mu, phases in MAPS:
+                _print_map(explorer, mu, phases)
     finally:
         chromium.quit()
 
@@ -106,6 +115,29 @@ def _print_frames(what: str, found: dict[str, Any]) -> None:
     print(
         f"phase moved in every frame, {what}: {median(took):.1f} ms a frame, {late:.1f} ms at the 95th percentile; "
         f"{median(work):.1f} ms of them the page's own; {found['requests']} requests"
+    )
+
+
+def _print_map(explorer: Explorer, mu: str, phases: str) -> None:
+    explorer.open(f"{VIEW}&tab=success")
+    explorer.wait(lambda: explorer.one("#success-compute").is_displayed(), "the tab is not shown")
+    friction = explorer.one("#success-mu")
+    friction.clear()
+    friction.send_keys(mu)
+    explorer.choose("#success-phases", phases)
+    explorer.click("#success-compute")
+    begun = monotonic()
+    first = None
+    while (took := monotonic() - begun) < MAP_TIMEOUT_S:
+        count = explorer.run(FILLED)
+        if first is None and count > 0:
+            first = took
+        if first is not None and not explorer.one("#success-cancel").is_enabled():
+            break
+        sleep(LOOK_S)
+    print(
+        f"success map, mu {mu or '0'}, {phases} starting phases: first square after {first or took:.2f} s, "
+        f"{count} after {took:.1f} s {explorer.text('#success-problem')}"
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, Response
@@ -16,6 +17,7 @@ from service.representation import JSON
 from service.settle.endpoints import device_of
 from service.solve import NOT_BOTH, PoseToSolve, RequestOfPair
 from service.strict_json import StrictJsonRoute
+from threadstate.device.branches import KnownPaths
 from threadstate.device.document import DeviceDocument
 from threadstate.device.model import Device, default_device
 from threadstate.device.settle import LARGEST_FRICTION, check_pair
@@ -79,14 +81,19 @@ router = APIRouter(
 async def outcomes(request: Request, body: OutcomesRequest, unit: UnitQuery = None) -> Response:
     """How each of up to 100 paths ends, and what it asks of the device, without the paths themselves.
 
-    They are the cells of a success map. Between two paths a request whose client is gone is cancelled.
+    They are the cells of a success map: with friction a path that comes to that of an earlier pose, with the same roll
+    and pitch, goes on as that does. Between two paths a request whose client is gone is cancelled.
     """
     device = device_of(body.device) or default_device()
     asked = await run_in_threadpool(solved_pair, request, body.designation, body.library)
     check_pair(asked.pair)
     shown = unit or asked.pair.unit
     factor = conversion_factor(asked.pair.unit, shown)
-    found = [await run_in_threadpool(_outcome, asked.pair, body, device, pose, factor) for pose in body.poses]
+    known: defaultdict[tuple[float, float], KnownPaths] = defaultdict(KnownPaths)
+    found = [
+        await run_in_threadpool(_outcome, asked.pair, body, device, pose, known[pose.roll, pose.pitch], factor)
+        for pose in body.poses
+    ]
     answer = {
         "designation": asked.pair.designation,
         "source": asked.source,
@@ -98,7 +105,9 @@ async def outcomes(request: Request, body: OutcomesRequest, unit: UnitQuery = No
     return Response(content, headers={UNIT_HEADER: shown.value, "Cache-Control": "no-store"}, media_type=JSON)
 
 
-def _outcome(pair: Pair, body: OutcomesRequest, device: Device, pose: PoseToSolve, factor: float) -> OutcomeDocument:
+def _outcome(
+    pair: Pair, body: OutcomesRequest, device: Device, pose: PoseToSolve, known: KnownPaths, factor: float
+) -> OutcomeDocument:
     pose_deg = (pose.roll, pose.pitch, pose.phase)
-    cell = bounded_cell(pair, device, body.strategy, pose_deg, body.mu, body.point_limit)
+    cell = bounded_cell(pair, device, body.strategy, pose_deg, body.mu, body.point_limit, known=known)
     return outcome_document(pose.roll, pose.pitch, cell, factor)

@@ -22,6 +22,21 @@ CELLS = 9
 COMPUTED = "tab=success&nut=off&success=phases%3D1%26roll%3D0%26pitch%3D0%26phase%3D0%26strategy%3Dcw%26unit%3Din"
 
 
+OUT_OF_TIME = """
+window.threadstateFetch = window.fetch;
+const late = () => new Response(
+  JSON.stringify({ type: '/docs/problems#out-of-time', title: 'Out of time', status: 503, detail: 'no answer' }),
+  { status: 503, headers: { 'Content-Type': 'application/problem+json' } },
+);
+window.fetch = (address, options) => {
+  const poses = String(address).includes('/v1/outcomes') ? JSON.parse(options.body).poses : [];
+  const isLate = poses.some(({ roll, pitch, phase }) => roll === 4 && pitch === 4 && phase === 180);
+  return isLate ? Promise.resolve(late()) : window.threadstateFetch(address, options);
+};
+"""
+"""Has the service be out of time for the path from roll 4, pitch 4, phase 180, alone or among others."""
+
+
 def filled(explorer: Explorer, frame: str = "#success") -> int:
     """How many cells of a map are computed."""
     return len(explorer.all(f"{frame} .cell rect:first-child:not(.none)"))
@@ -112,6 +127,22 @@ def test_by_keys_alone_a_cell_is_chosen_and_a_map_kept_beside_another(explorer: 
     explorer.wait(lambda: not explorer.one("#success-cancel").is_enabled(), "the map is not cancelled")
     explorer.press("#success-drop", Keys.ENTER)
     explorer.wait(lambda: filled(explorer, "#success-kept") == 0, "the kept map is not dropped")
+
+
+def test_a_path_that_takes_too_long_is_undecided_and_the_map_goes_on(explorer: Explorer) -> None:
+    explorer.open("/#tab=success")
+    explorer.run(OUT_OF_TIME)
+    explorer.choose("#success-phases", "2")
+    explorer.click("#success-compute")
+    whole(explorer)
+    explorer.run("window.fetch = window.threadstateFetch")
+    assert explorer.text("#success-problem") == ""
+    cell = explorer.one('#success .cell[data-roll="4"][data-pitch="4"]')
+    explorer.run("arguments[0].dispatchEvent(new MouseEvent('click', {bubbles: true}))", cell)
+    explorer.wait_for_text("#success-cell", "paths from roll 4")
+    (answered, not_answered) = explorer.all("#success-cell tbody tr")
+    assert "undecided" not in answered.text
+    assert "undecided, no answer in time" in not_answered.text
 
 
 def test_what_is_not_valid_is_said(explorer: Explorer) -> None:

@@ -9,7 +9,9 @@ from fastapi.testclient import TestClient
 
 from service.assemblies.outcomes import LARGEST_POSE_COUNT, OutcomesAnswer
 from tests.service.test_problems import problem
+from threadstate.device.branches import KnownPaths
 from threadstate.device.document import device_from_document
+from threadstate.device.model import default_device
 from threadstate.device.strategy import Strategy
 from threadstate.success.bounded import bounded_cell
 from threadstate.success.document import cell_document
@@ -39,6 +41,20 @@ def test_outcomes_are_the_cells_of_a_map(client: TestClient) -> None:
     for pose, found in zip(POSES, answer["outcomes"], strict=True):
         cell = bounded_cell(quarter_twenty_unc(), device, Strategy.CW, pose, 0.0, 1000)
         assert found == {"roll": pose[0], "pitch": pose[1], **cell_document(cell)}
+
+
+def test_paths_of_one_orientation_go_on_as_those_before_them(client: TestClient) -> None:
+    poses = [(3.0, -3.0, 90.0), (3.0, -2.0, 120.0), (3.0, -3.0, 120.0)]
+    asked = [dict(zip(("roll", "pitch", "phase"), pose, strict=True)) for pose in poses]
+    answer = client.post(PATH, json={"poses": asked, "strategy": "cw", "mu": 0.2}).json()
+    known = {pose[:2]: KnownPaths() for pose in poses}
+    for pose, found in zip(poses, answer["outcomes"], strict=True):
+        cell = bounded_cell(quarter_twenty_unc(), default_device(), Strategy.CW, pose, 0.2, 1000, known=known[pose[:2]])
+        assert found == {"roll": pose[0], "pitch": pose[1], **cell_document(cell)}
+    alone = client.post(PATH, json={"poses": asked[2:], "strategy": "cw", "mu": 0.2}).json()["outcomes"][0]
+    assert alone["outcome"] == answer["outcomes"][2]["outcome"] == "idle"
+    # To the last digit they are not the same: it took over the other's points.
+    assert alone["shift"] != answer["outcomes"][2]["shift"]
 
 
 def test_lengths_and_torques_come_in_the_unit_that_is_asked_for(client: TestClient) -> None:

@@ -5,7 +5,7 @@ import { ProblemError } from "./api.js";
 import { tilts } from "./grid.js";
 
 /** How many starting phases an orientation can have, evenly spaced from 0. */
-export const PHASE_COUNTS = [1, 2, 3, 4, 6, 8, 12];
+export const PHASE_COUNTS = [1, 2, 3, 4, 6, 8, 12, 24];
 export const OUTCOMES = {
   engaged: { name: "engages", letter: "✓" },
   cross_threaded: { name: "cross-threads", letter: "×" },
@@ -176,13 +176,39 @@ export class SuccessMap {
     if (this.critical === found) this.#changed();
   }
 
-  #outcomes({ text, library, unit }, { roll, pitch }, mu, signal) {
+  /** How the paths of an orientation end; one that takes longer than the service's time limit is undecided. */
+  async #outcomes({ text, library, unit }, { roll, pitch }, mu, signal) {
     const { phases } = mapRequestOf(text);
     const body = { ...bodyOf(assemblyOf(text), library), ...(mu !== null && { mu }) };
     delete body.pose;
     const poses = Array.from({ length: phases }, (_, k) => ({ roll, pitch, phase: (360 * k) / phases }));
-    return this.#api.outcomes({ ...body, poses }, unit, signal);
+    try {
+      return await this.#api.outcomes({ ...body, poses }, unit, signal);
+    } catch (error) {
+      if (!isOutOfTime(error)) throw error;
+      if (phases === 1) return [unanswered(poses[0], body)];
+    }
+    const found = [];
+    for (const pose of poses) {
+      try {
+        found.push(...(await this.#api.outcomes({ ...body, poses: [pose] }, unit, signal)));
+      } catch (error) {
+        if (!isOutOfTime(error)) throw error;
+        found.push(unanswered(pose, body));
+      }
+    }
+    return found;
   }
+}
+
+function isOutOfTime(error) {
+  return error instanceof ProblemError && error.type.endsWith("out-of-time");
+}
+
+/** The outcome of a path that the service has no time for. */
+function unanswered(pose, { mu = 0 }) {
+  const nothing = { torque: null, tilt: null, shift: null, end: null };
+  return { ...pose, mu, outcome: "undecided", flags: ["no answer in time"], bounded: false, ...nothing };
 }
 
 function assemblyOf(text) {
