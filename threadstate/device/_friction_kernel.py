@@ -387,10 +387,15 @@ def follow_friction(
             step = min(BRIDGING * size, longest) if bridging else least
             continue
         if ended == SHORTER:
-            known_size = 0.0
             next_kind, next_count, ended, has_friction = fall_with_friction(
                 q, push, mu, before, count, contacts, setting, solutions, losses
             )
+            # The next step may end where the fall did, with contacts that do as they did at its end.
+            known_size, known_count = size if next_kind == ON_CONTACTS and has_friction else 0.0, next_count
+            copy_numbers(q, known_begin)
+            copy_numbers(q, known_end)
+            for c in range(known_count):
+                copy_numbers(contacts[c], known_contacts[c])
             bare = 0 if has_friction else bare + 1
             if bare > MOST_BARE:
                 return NO_MINIMUM, i + 1, count
