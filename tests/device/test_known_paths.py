@@ -12,6 +12,8 @@ from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath
 from threadstate.device.branches import Followed, FollowedLeg, KnownPaths
 from threadstate.device.friction import FrictionLeg
+from threadstate.device.model import Outcome
+from threadstate.device.settle import settle_pose
 from threadstate.device.strategy import Strategy
 from threadstate.success.bounded import cell_of
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
@@ -68,6 +70,13 @@ def test_what_a_path_takes_from_a_known_one_are_its_points_whole_turns_later() -
     start = taken.index(True)
     assert 0 < start < len(taken) // 2
     assert all(taken[start:])
+
+
+def test_the_step_after_a_fall_begins_where_the_fall_ended() -> None:
+    """One edge slides and one holds as the push grows; each of the shortest steps would fall, by next to nothing."""
+    state = settle_pose(UNC, -4.0, -3.0, 150.0, mu=0.1)
+    assert state.outcome is Outcome.SETTLED
+    assert len(state.path) < 100
 
 
 def test_the_order_in_which_paths_become_known_moves_no_outcome() -> None:
