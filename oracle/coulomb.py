@@ -16,7 +16,7 @@ from oracle.compiled import compiled
 
 Floats = NDArray[np.float64]
 
-SWEEPS = 3000
+SWEEPS = 300
 """The most of them; in one each contact's force is corrected once."""
 
 
@@ -33,9 +33,9 @@ def contact_step(
 ) -> tuple[Floats, bool]:
     """The step, shape (m,), and whether the forces changed by less than the tolerance in the last sweep.
 
-    ``rows``, shape (n, 3, m), are the normal and two tangential velocities of each contact for each coordinate; ``gaps``
-    (n,) and ``slips`` (n, 2) are those before the step. ``forces``, shape (n, 3), is what they begin with, and is
-    overwritten.
+    ``rows``, shape (n, 3, m), are the normal and two tangential velocities of each contact for each coordinate;
+    ``gaps`` (n,) and ``slips`` (n, 2) are those before the step. ``forces``, shape (n, 3), is what they begin with, and
+    is overwritten.
     """
     n, m = len(gaps), len(load)
     step = inverse @ load

@@ -35,13 +35,15 @@ LARGEST = 0.02
 FALL = 0.025
 """A bolt that goes farther within a step of the hand falls."""
 LEAST_DRAG, FALL_DRAG, MOST_DRAG = 0.5, 5.0, 1e4
-BALANCED = 2e-5
+BALANCED = 1e-4
 """What drag is left at the end of a step, over the push."""
-TOUCHING = 2e-7
+TOUCHING = 1e-6
 """Overlap at the end of a step."""
-ACCURACY = 1e-7
+NEARLY_BALANCED, NEARLY_TOUCHING, NEARLY_AFTER = 1e-2, 1e-4, 25
+"""The same that are enough after so many linear steps: peaks that are flat move to and fro."""
+ACCURACY = 1e-5
 """Of contact forces over the push, in each linear step."""
-STEPS, FALL_STEPS = 200, 1500
+STEPS, FALL_STEPS = 60, 400
 """The most linear steps of one of the hand's, and of one with a fall."""
 FRESH = 8
 """After so many linear steps all places are sampled again."""
@@ -186,12 +188,12 @@ def hand_step(
     places = _sampled(places, rot, t, bolt, nut)
     drag, before, falls = LEAST_DRAG, np.zeros(5), False
     for number in range(FALL_STEPS):
-        if number == STEPS and not falls:
-            return q, places, LOOSE, number, 0.0
         rows, gaps, slips, forces = _linearised(places, q, command, centre, reference)
         load = -(stiffness @ (q - np.array([0.0, 0.0, 0.0, 0.0, first])))
         load[4] -= push
-        inverse = np.linalg.inv(stiffness + drag * np.eye(5))
+        inverse: Floats = np.linalg.inv(stiffness + drag * np.eye(5))
+        if mu == 0.0:
+            forces[:, 1:] = 0.0
         step, solved = contact_step(rows, gaps, slips, load, inverse, mu, forces, ACCURACY * push)
         size = np.abs(step).max()
         is_long = size > LARGEST
@@ -209,11 +211,14 @@ def hand_step(
         else:
             places = _tracked(places, rot, t, bolt, nut)
         least = places[:, GAP].min() if len(places) > 0 else 1.0
-        if is_still and solved and least > -TOUCHING:
+        is_near = not is_long and size * drag < NEARLY_BALANCED and least > -NEARLY_TOUCHING
+        if (is_still and solved and least > -TOUCHING) or (number >= NEARLY_AFTER and is_near):
             return q, places, BALANCE, number + 1, np.abs(q - start).max() if falls else 0.0
+        if number == STEPS and not falls:
+            break
         drag = _new_drag(drag, step, before, FALL_DRAG if falls else LEAST_DRAG)
         before = step
-    return q, places, LOOSE, FALL_STEPS, np.abs(q - start).max()
+    return q, places, LOOSE, number + 1, np.abs(q - start).max() if falls else 0.0
 
 
 @dataclass(frozen=True)

@@ -88,9 +88,7 @@ def _zoomed_on_edge(part: int, u: float, rot: Floats, t: Floats, bolt: Floats, n
 
 
 @compiled
-def _zoomed_on_thread(
-    u: float, v: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats
-) -> tuple[float, float]:
+def _zoomed_on_thread(u: float, v: float, rot: Floats, t: Floats, bolt: Floats, nut: Floats) -> tuple[float, float]:
     half, half_v = _TWO_PI / AROUND, bolt[P] / ALONG
     best = depth_at(2, u, v, rot, t, bolt, nut)
     for _ in range(60):

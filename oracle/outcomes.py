@@ -68,12 +68,18 @@ class Limits:
         return cls(pair.thread_pitch / r, play / r, pair.fit.nut_minor_diameter / r)
 
 
-class Stopped(Exception):
+class StoppedError(Exception):
     """The path ends before its time, with an outcome."""
 
 
 def followed_to_end(
-    pair: Pair, hand: Hand, pose_deg: tuple[float, float, float], mu: float, *, counter: bool, step_deg: float = STEP_DEG
+    pair: Pair,
+    hand: Hand,
+    pose_deg: tuple[float, float, float],
+    mu: float,
+    *,
+    counter: bool,
+    step_deg: float = STEP_DEG,
 ) -> tuple[End, list[Point]]:
     """How a bolt ends that settles at a pose and is turned, ``counter`` clockwise first or clockwise at once."""
     follower = Follower(pair, hand, pose_deg, mu)
@@ -96,7 +102,7 @@ def followed_to_end(
                 _stepped(follower, phase - math.radians(k * step_deg), 1.0, points, slip)
             lead, play, tilt = judged(points[began:], limits)
             outcome = _named(lead, play, tilt)
-    except Stopped as stopped:
+    except StoppedError as stopped:
         outcome = str(stopped)
     loose = sum(point.loose for point in points)
     torque = max(abs(point.torque) for point in points)
@@ -107,11 +113,11 @@ def _stepped(follower: Follower, phase: float, push: float, points: list[Point],
     point = follower.step(phase, push)
     points.append(point)
     if math.hypot(point.origin[0], point.origin[1]) > slip:
-        raise Stopped("slipped")
+        raise StoppedError("slipped")
     if abs(point.torque) > MOST_TORQUE:
-        raise Stopped("jammed")
+        raise StoppedError("jammed")
     if len(points) >= MOST_LOOSE and all(one.loose for one in points[-MOST_LOOSE:]):
-        raise Stopped("undecided")
+        raise StoppedError("undecided")
 
 
 def _until_snap(

@@ -1,0 +1,65 @@
+"""Random cells of success maps, each by the solver and by the witness of the oracle (docs/success-witness.md)."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from oracle.follow import Hand
+from oracle.outcomes import End, followed_to_end
+from threadstate.device.model import default_device
+from threadstate.device.strategy import Strategy
+from threadstate.success.bounded import bounded_cell
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+SEED = 2032
+TILTS_DEG = tuple(float(tilt) for tilt in range(-4, 5))
+PHASE_STEP_DEG = 15.0
+FRICTIONS = (0.0, 0.1, 0.2, 0.3)
+POINT_LIMIT = 1000
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A cell, its outcome by the solver, and its end and processor time (s) by the witness."""
+
+    strategy: Strategy
+    pose_deg: tuple[float, float, float]
+    mu: float
+    solver: str
+    witness: End
+    seconds: float
+
+    @property
+    def is_decided(self) -> bool:
+        """Whether both have an outcome."""
+        return "undecided" not in (self.solver, self.witness.outcome)
+
+    @property
+    def agrees(self) -> bool:
+        """Whether both outcomes are one."""
+        return self.solver == self.witness.outcome
+
+
+def cell(number: int) -> tuple[Strategy, tuple[float, float, float], float]:
+    """Strategy, roll, pitch and phase (deg), and friction of the cell with a number."""
+    choose = np.random.default_rng([SEED, number])
+    roll, pitch = choose.choice(TILTS_DEG, 2)
+    phase = PHASE_STEP_DEG * choose.integers(round(360.0 / PHASE_STEP_DEG))
+    strategy = (Strategy.CCW_THEN_CW, Strategy.CW)[number % 2]
+    return strategy, (float(roll), float(pitch), float(phase)), FRICTIONS[number // 2 % len(FRICTIONS)]
+
+
+def done(number: int) -> Compared:
+    """The cell with a number, computed by both."""
+    strategy, pose_deg, mu = cell(number)
+    pair = quarter_twenty_unc()
+    device = default_device().in_unit(pair.unit)
+    by_solver = bounded_cell(pair, device, strategy, pose_deg, mu, POINT_LIMIT)
+    outcome = "undecided" if by_solver.outcome is None else by_solver.outcome.value
+    hand = Hand(np.array(device.stiffness), device.centre, device.push)
+    began = time.process_time()
+    end, _ = followed_to_end(pair, hand, pose_deg, mu, counter=strategy is Strategy.CCW_THEN_CW)
+    return Compared(strategy, pose_deg, mu, outcome, end, time.process_time() - began)
