@@ -16,6 +16,7 @@
 # make success    success maps of the default device, the end of docs/success.md and its pictures
 # make forms      forms of threads beside the brute force and under perturbation, docs/forms-checked.md
 # make chamfer    what a chamfer of the bolt's base changes of first contacts, docs/chamfer.md
+# make success-witness cells of success maps beside a brute force, docs/success-witness.md
 # make threads    what class, fit, form and size of a thread change, docs/threads-compared.md
 # make compared   what another strategy, device, class or size changes of success, docs/devices-compared.md and its pictures
 # make settle     settled states beside the brute force, their minima found again, changed commands, docs/settle-checked.md
@@ -45,7 +46,7 @@ NODE := PATH="$$PATH:$(CURDIR)/$(BIN)" node
 NPM := PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 SOURCES := $(wildcard threadstate/*.py threadstate/*/*.py)
 
-.PHONY: site setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success paths compared
+.PHONY: site setup run unit test all-tests check bench client load paper chart stability docs lock designer settled statics witness threads forms chamfer histories screenshots kills containers fuzz audit scale certificate certainty settle paper-case peer success success-witness paths compared
 .DELETE_ON_ERROR:
 # Processes that tests start would compile their modules each time.
 unexport PYTHONDONTWRITEBYTECODE
@@ -114,6 +115,9 @@ settled: setup
 
 success: setup
 	$(BIN)/python -m studies.success
+
+success-witness: setup $(VENV)/.oracle
+	$(BIN)/python -m studies.success_witness
 
 compared: setup
 	$(BIN)/python -m studies.devices_compared

@@ -43,7 +43,7 @@ NEARLY_BALANCED, NEARLY_TOUCHING, NEARLY_AFTER = 1e-2, 1e-4, 25
 """The same that are enough after so many linear steps: peaks that are flat move to and fro."""
 ACCURACY = 1e-5
 """Of contact forces over the push, in each linear step."""
-STEPS, FALL_STEPS = 60, 400
+STEPS, FALL_STEPS = 100, 400
 """The most linear steps of one of the hand's, and of one with a fall."""
 FRESH = 8
 """After so many linear steps all places are sampled again."""
@@ -158,10 +158,10 @@ def _new_drag(drag: float, step: Floats, before: Floats, least: float) -> float:
     if last == 0.0 or size == 0.0:
         return drag
     cosine = (step @ before) / (size * last)
-    if cosine < -0.2 and size > 0.3 * last:
-        return min(2.5 * drag, MOST_DRAG)
-    if cosine > 0.5 and size > 0.3 * last:
-        return max(0.6 * drag, least)
+    if cosine < 0.0 and size > 0.3 * last:
+        return min(3.0 * drag, MOST_DRAG)
+    if cosine > 0.8 and size > 0.3 * last:
+        return max(0.8 * drag, least)
     return drag
 
 
