@@ -285,6 +285,13 @@ class Follower:
         self._places = np.zeros((0, FORCES + 3))
         self._push = 0.0
 
+    @property
+    def potential(self) -> float:
+        """Elastic energy and that of the push, over push times nominal radius."""
+        stiffness, _, first = self._device
+        deviation = self._q - np.array([0.0, 0.0, 0.0, 0.0, first])
+        return float(0.5 * deviation @ stiffness @ deviation + self._push * self._q[4])
+
     def step(self, phase: float, push: float) -> Point:
         """Turn the hand to a phase (rad) and let the push grow to a part of it."""
         centre = self._device[1]
