@@ -191,7 +191,7 @@ def hand_step(
         rows, gaps, slips, forces = _linearised(places, q, command, centre, reference)
         load = -(stiffness @ (q - np.array([0.0, 0.0, 0.0, 0.0, first])))
         load[4] -= push
-        inverse: Floats = np.linalg.inv(stiffness + drag * np.eye(5))
+        inverse = np.linalg.inv(stiffness + drag * np.eye(5)).astype(np.float64)
         if mu == 0.0:
             forces[:, 1:] = 0.0
         step, solved = contact_step(rows, gaps, slips, load, inverse, mu, forces, ACCURACY * push)
