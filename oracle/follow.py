@@ -49,8 +49,8 @@ FRESH = 8
 """After so many linear steps all places are sampled again."""
 FORCES = 14
 """Column of the contact force on the bolt in the nut's frame, beside those of a place."""
-BALANCE, LOOSE = 0, 1
-"""How a step ends: balanced, or after the most linear steps."""
+BALANCE, NEARLY, LOOSE = 0, 1, 2
+"""How a step ends: balanced, nearly so, or after the most linear steps."""
 
 
 @compiled
@@ -212,8 +212,10 @@ def hand_step(
             places = _tracked(places, rot, t, bolt, nut)
         least = places[:, GAP].min() if len(places) > 0 else 1.0
         is_near = not is_long and size * drag < NEARLY_BALANCED and least > -NEARLY_TOUCHING
-        if (is_still and solved and least > -TOUCHING) or (number >= NEARLY_AFTER and is_near):
-            return q, places, BALANCE, number + 1, np.abs(q - start).max() if falls else 0.0
+        is_balanced = is_still and solved and least > -TOUCHING
+        if is_balanced or (number >= NEARLY_AFTER and is_near):
+            end = BALANCE if is_balanced else NEARLY
+            return q, places, end, number + 1, np.abs(q - start).max() if falls else 0.0
         if number == STEPS and not falls:
             break
         drag = _new_drag(drag, step, before, FALL_DRAG if falls else LEAST_DRAG)
@@ -250,6 +252,7 @@ class Point:
     contacts: int
     below: bool
     fall: float
+    nearly: bool
     loose: bool
     linear_steps: int
 
@@ -317,6 +320,7 @@ class Follower:
             contacts=int(loaded.sum()),
             below=bool((self._places[loaded, ON_THREAD] > 0.0).any()),
             fall=fall,
+            nearly=end == NEARLY,
             loose=end == LOOSE,
             linear_steps=steps,
         )

@@ -37,8 +37,8 @@ class End:
     """How a path ends, and the margins of the rules: what is allowed less what is, over what is allowed.
 
     ``lead``, ``play`` and ``tilt`` are nan where the bolt was not turned clockwise to the end; ``snap`` is the largest
-    descent within 3 deg over the one that is a snap, nan where the hand does not look for one. ``loose`` is the number
-    of steps of the hand that did not balance, ``snap_deg`` the phase of the snap.
+    descent within 3 deg over the one that is a snap, nan where the hand does not look for one. ``nearly`` and ``loose``
+    are the numbers of steps of the hand that balance nearly and not at all, ``snap_deg`` the phase of the snap.
     """
 
     outcome: str
@@ -48,6 +48,7 @@ class End:
     snap: float
     snap_deg: float
     torque: float
+    nearly: int
     loose: int
 
 
@@ -104,9 +105,9 @@ def followed_to_end(
             outcome = _named(lead, play, tilt)
     except StoppedError as stopped:
         outcome = str(stopped)
-    loose = sum(point.loose for point in points)
+    nearly, loose = sum(point.nearly for point in points), sum(point.loose for point in points)
     torque = max(abs(point.torque) for point in points)
-    return End(outcome, lead, play, tilt, snap, snap_deg, torque, loose), points
+    return End(outcome, lead, play, tilt, snap, snap_deg, torque, nearly, loose), points
 
 
 def _stepped(follower: Follower, phase: float, push: float, points: list[Point], slip: float) -> None:

@@ -15,6 +15,7 @@ from threadstate.numbers import number_text
 def page(cells: Sequence[Compared]) -> str:
     """The page as Markdown."""
     seconds = np.array([one.seconds for one in cells])
+    steps = sum(one.witness.nearly + one.witness.loose for one in cells)
     rows = [
         _row(strategy, mu, [one for one in cells if one.strategy is strategy and one.mu == mu])
         for strategy in Strategy
@@ -27,16 +28,21 @@ def page(cells: Sequence[Compared]) -> str:
 [brute force](oracle.md) that is written apart from it (`oracle/follow.py`, `oracle/outcomes.py`): the hand moves by
 0.5 deg, and contacts are peaks of sampled boundaries.
 
-Of {len(cells):,} cells {sum(one.is_decided for one in cells):,} have an outcome by both, of which
+A step of the hand balances if no more than 1e-4 of the push is left of the drag, and no overlap beyond 1e-6 nominal
+radii; after 25 linear steps 1e-2 and 1e-4 are enough, and the step is *nearly* balanced. With 20 *loose* ones in a row,
+that balance neither way, the witness says nothing of the end: its linear steps know no curvature, and go to and fro
+where edges lie along each other. It confirms outcomes as far as its margins go; it is no bound.
+
+Of the first {len(cells):,} cells {sum(one.is_decided for one in cells):,} have an outcome by both, of which
 {sum(one.is_decided and one.agrees for one in cells):,} agree. A path takes the witness {np.median(seconds):.2g} s of
-processor time (median), at most {seconds.max():.2g} s.
+processor time (median), at most {seconds.max():.2g} s; of all its steps {steps:,} are nearly balanced or loose.
 
 {table(("strategy", "mu", "cells", "decided by both", "agree", "undecided: solver", "witness"), rows)}
 
 ## Cells that differ
 
 Margins are what a rule allows less what is found, over what it allows; *snap* is the largest descent within 3 deg over
-the one that is a snap. *Loose* are steps of the hand after which the witness's forces do not balance.
+the one that is a snap. *Nearly* and *loose* are numbers of steps of the hand.
 
 {_differing([one for one in cells if not one.agrees])}
 """
@@ -58,7 +64,19 @@ def _row(strategy: Strategy, mu: float, cells: Sequence[Compared]) -> list[str]:
 def _differing(cells: Sequence[Compared]) -> str:
     if not cells:
         return "None."
-    head = ("strategy", "roll, pitch, phase", "mu", "solver", "witness", "lead", "play", "tilt", "snap", "loose")
+    head = (
+        "strategy",
+        "roll, pitch, phase",
+        "mu",
+        "solver",
+        "witness",
+        "lead",
+        "play",
+        "tilt",
+        "snap",
+        "nearly",
+        "loose",
+    )
     return table(head, [_listed(one) for one in cells])
 
 
@@ -66,4 +84,13 @@ def _listed(one: Compared) -> list[str]:
     end = one.witness
     margins = ["" if np.isnan(value) else f"{value:.2g}" for value in (end.lead, end.play, end.tilt, end.snap)]
     pose = ", ".join(number_text(angle) for angle in one.pose_deg)
-    return [f"`{one.strategy.value}`", pose, number_text(one.mu), one.solver, end.outcome, *margins, str(end.loose)]
+    return [
+        f"`{one.strategy.value}`",
+        pose,
+        number_text(one.mu),
+        one.solver,
+        end.outcome,
+        *margins,
+        str(end.nearly),
+        str(end.loose),
+    ]
