@@ -20,8 +20,8 @@ pytestmark = pytest.mark.slow
 
 ENGAGING = "roll=1&pitch=-2&phase=10&nut=off&tab=device"
 COMPUTED = f"{ENGAGING}&assembly=roll%3D1%26pitch%3D-2%26phase%3D10%26strategy%3Dcw%26unit%3Din"
-LONG = {"strategy": "ccw_then_cw", "mu": "0.02"}
-"""A path of many seconds on any machine."""
+LONG_AT, LONG = "roll=-2&pitch=-1&phase=0&nut=off&tab=device", {"strategy": "ccw_then_cw", "mu": "0.2"}
+"""A path of many seconds on any machine: where it starts, and the fields of its device."""
 
 
 def value_of(explorer: Explorer, selector: str) -> str:
@@ -116,7 +116,7 @@ def test_the_path_plays_until_it_is_stopped(explorer: Explorer) -> None:
 
 
 def test_a_path_that_is_cancelled_is_not_shown(explorer: Explorer) -> None:
-    explorer.click("#tab-device")
+    explorer.open(f"/#{LONG_AT}")
     choose_device(explorer, **LONG)
     explorer.click("#device-compute")
     explorer.wait_for_text("#device-progress-text", "points so far")

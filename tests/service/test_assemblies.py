@@ -28,7 +28,7 @@ pytestmark = pytest.mark.sqlite_alone
 POST = "/v1/assemblies"
 EVENTS = {"Accept": "text/event-stream"}
 ENGAGING = {"pose": {"roll": 1, "pitch": -2, "phase": 10}, "strategy": "cw"}
-LONG = {"pose": {"roll": 0, "pitch": -4, "phase": 300}, "mu": 0.02}
+LONG = {"pose": {"roll": 4, "pitch": -4, "phase": 0}, "mu": 0.2, "longest_step": 0.25}
 """A path of many seconds on any machine."""
 DEVICE = {"unit": "mm", "k_tilt": 250, "centre": -2, "push": 4}
 LONGEST_S = 60.0
@@ -219,6 +219,6 @@ def test_what_else_is_not_valid_is_a_problem(client: TestClient) -> None:
     assert refused.type.endswith(":unknown-parameter")
     assert problem(client.post(POST, json=ENGAGING, params={"unit": "cm"}), 400).errors[0].location == "query unit"
     problem(client.post(POST, json={"strategy": "cw"}), 400)
-    problem(client.post(POST, content=json.dumps(LONG).replace("0.02", "NaN")), 400)
+    problem(client.post(POST, content=json.dumps(LONG).replace("0.2,", "NaN,")), 400)
     problem(client.post(POST, content=b" " * 600_000 + b"{}"), 413)
     problem(client.post(POST, json={**ENGAGING, "library": 99}), 404)
