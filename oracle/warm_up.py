@@ -8,6 +8,7 @@ import numpy as np
 
 from oracle.chamfer import chamfered_height
 from oracle.first_height import first_height
+from oracle.follow import Follower, Hand
 from oracle.lift import least_lift
 from oracle.overlap import overlap_components
 from oracle.pose import pose_rotation
@@ -34,6 +35,7 @@ def main() -> None:
     held.overlap(np.zeros(5), first.height)
     held.free_beside(np.zeros(5), first.height, np.full((1, 5), 1e-6), 1e-9)
     held.lowest_by_programs(np.zeros(5), first.height, 1e-5)
+    Follower(pair, Hand(np.eye(6), centre=0.0, push=1.0), POSE_DEG, mu=0.1).step(0.0, 0.1)
     point = np.array(first.point)
     contact_components_along_turn(
         pair,
