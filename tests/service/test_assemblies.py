@@ -110,8 +110,9 @@ def test_friction_is_taken(client: TestClient) -> None:
 
 
 @pytest.mark.slow
-def test_a_stream_has_the_progress_before_the_answer(made_up: StoredLibrary) -> None:
-    body = {"pose": {"roll": 0, "pitch": -4, "phase": 300}, "device": DEVICE}
+@pytest.mark.parametrize("longer", [{"longest_step": 0.25}, {"mu": 0.2}])
+def test_a_stream_has_the_progress_before_the_answer(made_up: StoredLibrary, longer: dict[str, float]) -> None:
+    body = {"pose": {"roll": 0, "pitch": -4, "phase": 300}, "device": DEVICE, **longer}
     with service_thread(made_up.database) as address, httpx2.Client(base_url=address, timeout=LONGEST_S) as client:
         with client.stream("POST", POST, json=body, headers=EVENTS, params={"unit": "mm"}) as response:
             assert response.headers["Content-Type"].startswith("text/event-stream")

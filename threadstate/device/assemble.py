@@ -37,7 +37,7 @@ from threadstate.device.command import (
 )
 from threadstate.device.flush import level_numbers
 from threadstate.device.friction import REASONS as FRICTION_REASONS
-from threadstate.device.friction import FrictionPath, settled_with_friction
+from threadstate.device.friction import FrictionPath, settled_with_friction, snap_event
 from threadstate.device.model import Device, LoadedContact, Outcome, SettledFlag, SettledState, default_device
 from threadstate.device.settle import (
     FEATURES,
@@ -185,12 +185,6 @@ class Course:
     reason: SettledFlag | None = None
     is_free: bool = True
 
-    def add_leg(self, points: list[AssemblyPoint], *, snapped: bool) -> None:
-        """Adds a leg's points, and the snap that ended it."""
-        self.legs.append(points)
-        if snapped:
-            self.events.append(_snap(points))
-
     @property
     def work(self) -> float:
         """The torque summed over the phase, by trapezoids."""
@@ -244,7 +238,9 @@ def _without_friction(
         course.events += [_event(event) for event in found]
         course.falls += float(found[found[:, tk.E_KIND] == tk.FALL, tk.E_LOSS].sum())
         points = [_point(rows[i], contacts[i], numbers, command) for i in range(count)]
-        course.add_leg(points, snapped=status == tk.SNAPPED)
+        course.legs.append(points)
+        if status == tk.SNAPPED:
+            course.events.append(snap_event(points))
         watch.end_turn(course.events)
         course.is_free = int(result[tk.L_OVERLAP]) == FREE
         phase = float(rows[count - 1, tk.T_PHASE])
@@ -265,7 +261,7 @@ def _with_friction(path: FrictionPath, legs: list[FollowedLeg]) -> Course:
     course = Course()
     for leg in legs:
         course.events += leg.events
-        course.add_leg(leg.points, snapped=leg.rows.status == fs.SNAP_REACHED)
+        course.legs.append(leg.points)
         course.friction += float(leg.rows.points[:, fk.P_FRICTION].sum())
         course.falls += float(leg.rows.points[:, fk.P_FALL].sum())
     last = legs[-1]
@@ -385,14 +381,3 @@ def _event(event: Floats) -> PathEvent:
 
 def _features(index: float) -> FeaturePair | None:
     return FEATURES[int(index)] if index >= 0.0 else None
-
-
-def _snap(points: list[AssemblyPoint]) -> PathEvent:
-    """The snap at the last point: the descent within its span of phase."""
-    span = math.degrees(tk.SNAP_SPAN) * (1.0 + 1e-9)
-    last = points[-1]
-    near = [point for point in points if abs(last.phase_deg - point.phase_deg) <= span]
-    highest = max(near, key=lambda point: point.pose.translation[2])
-    drop = highest.pose.translation[2] - last.pose.translation[2]
-    way = math.dist(highest.pose.translation, last.pose.translation)
-    return PathEvent(PathEventKind.SNAP, last.phase_deg, highest.phase_deg, drop=drop, way=way)

@@ -18,7 +18,7 @@ from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device._settle_kernel import distance
 from threadstate.device.assembly_model import AssemblyPoint, PathEvent
-from threadstate.device.friction import FrictionBranch, FrictionLeg, FrictionPath, friction_events, point_of
+from threadstate.device.friction import FrictionBranch, FrictionLeg, FrictionPath, friction_events, point_of, snap_event
 
 Floats = NDArray[np.float64]
 
@@ -167,9 +167,9 @@ def all_paths(
                 break
             first_ends += 0 if legs else 1
             legs.append(_followed(leg, path))
-            if planned.turn != 0.0 and not found:
-                path.watch.end_turn([event for earlier in legs for event in earlier.events])
             legs += later
+            if planned.turn != 0.0 and not found:
+                path.watch.end_turn(_events_of_turns(legs, plan))
             if later or leg.status != (fs.SNAP_REACHED if planned.stops_at_snap else fs.REACHED):
                 found.append(legs)
                 break
@@ -234,7 +234,16 @@ def _followed(leg: FrictionLeg, path: FrictionPath) -> FollowedLeg:
         point_of(row, contacts, path.numbers, path.command)
         for row, contacts in zip(leg.points, leg.contacts, strict=True)
     ]
-    return FollowedLeg(leg, points, friction_events(points, leg.points))
+    events = friction_events(points, leg.points)
+    if leg.status == fs.SNAP_REACHED:
+        events.append(snap_event(points))
+    return FollowedLeg(leg, points, events)
+
+
+def _events_of_turns(legs: Sequence[FollowedLeg], plan: Sequence[PlannedLeg]) -> list[PathEvent]:
+    """The events of a path but those while the push grew."""
+    turns = [leg for leg, planned in zip(legs, plan, strict=False) if planned.turn != 0.0]
+    return [event for leg in turns for event in leg.events]
 
 
 def _joins(rows: Floats, number: int, found: list[list[FollowedLeg]], numbers: Floats, same: float) -> bool:

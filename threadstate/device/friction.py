@@ -257,6 +257,17 @@ def friction_events(points: Sequence[AssemblyPoint], rows: Floats) -> list[PathE
     return events
 
 
+def snap_event(points: Sequence[AssemblyPoint]) -> PathEvent:
+    """The snap at the last point of a leg: the descent within its span of phase."""
+    span = math.degrees(tk.SNAP_SPAN) * (1.0 + 1e-9)
+    last = points[-1]
+    near = [point for point in points if abs(last.phase_deg - point.phase_deg) <= span]
+    highest = max(near, key=lambda point: point.pose.translation[2])
+    drop = highest.pose.translation[2] - last.pose.translation[2]
+    way = math.dist(highest.pose.translation, last.pose.translation)
+    return PathEvent(PathEventKind.SNAP, last.phase_deg, highest.phase_deg, drop=drop, way=way)
+
+
 def contact_of(contact: Floats) -> LoadedContact:
     """A contact with its whole force from its row."""
     return LoadedContact(
