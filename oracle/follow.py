@@ -1,11 +1,11 @@
 """Paths of a held bolt that is turned, by time steps: small steps of the hand, contacts at places that samples find.
 
 Each step is implicit (Moreau and Jean): device, push and contact forces with Coulomb friction balance at its end, with
-the slip of the whole step. It is solved by linear steps on the places nearest to each other, with a drag on each that
-vanishes as they do. Where the bolt goes far in one step it falls: then the drag stays, and the slip is that of each
-linear step. A bolt without any near equilibrium so goes on by something like steepest descent. Inside, lengths are in
-nominal radii and forces in pushes. A place of the bolt is five numbers: the first two of the rotation vector in the
-commanded bolt's axes, the shift of the compliance centre across the nut's axis, and its height.
+the slip of the whole step. It is solved by linear steps on the places nearest to each other, with a damping of each
+that vanishes as they do. A bolt that would go far in a step of the hand, or finds no balance, falls instead: small
+implicit steps at the same command, with a drag on the way of each that is lowered as the bolt slows down. Inside,
+lengths are in nominal radii and forces in pushes. A place of the bolt is five numbers: the first two of the rotation
+vector in the commanded bolt's axes, the shift of the compliance centre across the nut's axis, and its height.
 """
 
 from __future__ import annotations
@@ -32,19 +32,21 @@ WINDOW = 0.06
 """Places with a smaller gap count in a step."""
 LARGEST = 0.02
 """No linear step is longer, in any coordinate."""
-FALL = 0.025
+FALL = 0.009
 """A bolt that goes farther within a step of the hand falls."""
-LEAST_DRAG, FALL_DRAG, MOST_DRAG = 0.5, 5.0, 1e4
-BALANCED = 1e-4
+FLOW, MOST_FLOW, FLOWN, FLOW_STEPS = 100.0, 1e5, 0.01, 300
+"""Drag on a fall at its beginning and at most, the longest of its steps, and the most of them."""
+LEAST_DRAG, MOST_DRAG = 0.5, 1e4
+BALANCED = 1e-5
 """What drag is left at the end of a step, over the push."""
 TOUCHING = 1e-6
 """Overlap at the end of a step."""
 NEARLY_BALANCED, NEARLY_TOUCHING, NEARLY_AFTER = 1e-2, 1e-4, 25
 """The same that are enough after so many linear steps: peaks that are flat move to and fro."""
-ACCURACY = 1e-5
+ACCURACY = 1e-6
 """Of contact forces over the push, in each linear step."""
-STEPS, FALL_STEPS = 100, 400
-"""The most linear steps of one of the hand's, and of one with a fall."""
+STEPS = 100
+"""The most linear steps of one implicit step."""
 FRESH = 8
 """After so many linear steps all places are sampled again."""
 FORCES = 14
@@ -79,6 +81,19 @@ def _turn_axes(q: Floats, command: Floats) -> Floats:
         half = (1.0 - math.cos(angle)) / (angle * angle)
         jacobian = jacobian + half * cross + (angle - math.sin(angle)) / angle**3 * (cross @ cross)
     return (command @ jacobian)[:, :2].copy()
+
+
+@compiled
+def _metric(q: Floats, command: Floats, centre: float) -> Floats:
+    """The squared length of motions, rotations in rad and the way of the bolt's origin in radii, shape (5, 5)."""
+    axes = _turn_axes(q, command)
+    along = turned(command, q[0], q[1], 0.0)[:, 2].copy()
+    turning, way = np.zeros((3, 5)), np.zeros((3, 5))
+    turning[:, :2] = axes
+    way[:, 2:] = np.eye(3)
+    for k in range(2):
+        way[:, k] = -centre * np.cross(axes[:, k].copy(), along)
+    return turning.T.copy() @ turning + way.T.copy() @ way
 
 
 @compiled
@@ -152,7 +167,7 @@ def _keep_forces(places: Floats, forces: Floats) -> None:
 
 
 @compiled
-def _new_drag(drag: float, step: Floats, before: Floats, least: float) -> float:
+def _new_drag(drag: float, step: Floats, before: Floats) -> float:
     """More drag where steps go to and fro, less where they go on."""
     size, last = math.sqrt(step @ step), math.sqrt(before @ before)
     if last == 0.0 or size == 0.0:
@@ -161,8 +176,66 @@ def _new_drag(drag: float, step: Floats, before: Floats, least: float) -> float:
     if cosine < 0.0 and size > 0.3 * last:
         return min(3.0 * drag, MOST_DRAG)
     if cosine > 0.8 and size > 0.3 * last:
-        return max(0.8 * drag, least)
+        return max(0.8 * drag, LEAST_DRAG)
     return drag
+
+
+@compiled
+def implicit_step(
+    q: Floats,
+    places: Floats,
+    reference: Pose,
+    command: Floats,
+    flow: float,
+    push: float,
+    mu: float,
+    device: tuple[Floats, float, float],
+    bolt: Floats,
+    nut: Floats,
+) -> tuple[Floats, Floats, int, int]:
+    """The place and contacts at the end of a step to a command, how it ends, and the number of linear steps.
+
+    ``reference`` is the pose before the step, ``flow`` a drag on the way since then: 0 but in a fall. ``device`` is the
+    stiffness (5, 5), the height of the centre over the base, and the height of the centre at the first contact.
+    """
+    stiffness, centre, first = device
+    start, q = q.copy(), q.copy()
+    rot, t = pose_of(q, command, centre)
+    places = _sampled(places, rot, t, bolt, nut)
+    metric = _metric(q, command, centre)
+    at_rest = np.array([0.0, 0.0, 0.0, 0.0, first])
+    drag, before = LEAST_DRAG, np.zeros(5)
+    end = LOOSE
+    number = 0
+    while number < STEPS and end == LOOSE:
+        rows, gaps, slips, forces = _linearised(places, q, command, centre, reference)
+        load = -(stiffness @ (q - at_rest)) - flow * (metric @ (q - start))
+        load[4] -= push
+        inverse = np.linalg.inv(stiffness + flow * metric + drag * np.eye(5)).astype(np.float64)
+        if mu == 0.0:
+            forces[:, 1:] = 0.0
+        step, solved = contact_step(rows, gaps, slips, load, inverse, mu, forces, ACCURACY * push)
+        size = np.abs(step).max()
+        is_long = size > LARGEST
+        if is_long:
+            step *= LARGEST / size
+        _keep_forces(places, forces)
+        q += step
+        rot, t = pose_of(q, command, centre)
+        is_still = not is_long and size * drag < BALANCED
+        if is_still or number % FRESH == FRESH - 1 or is_long:
+            places = _sampled(places, rot, t, bolt, nut)
+        else:
+            places = _tracked(places, rot, t, bolt, nut)
+        least = places[:, GAP].min() if len(places) > 0 else 1.0
+        number += 1
+        if is_still and solved and least > -TOUCHING:
+            end = BALANCE
+        elif number > NEARLY_AFTER and not is_long and size * drag < NEARLY_BALANCED and least > -NEARLY_TOUCHING:
+            end = NEARLY
+        drag = _new_drag(drag, step, before)
+        before = step
+    return q, places, end, number
 
 
 @compiled
@@ -179,48 +252,28 @@ def hand_step(
 ) -> tuple[Floats, Floats, int, int, float]:
     """The place and contacts after a step of the hand to a command; ``reference`` is the pose before it.
 
-    ``device`` is the stiffness (5, 5), the height of the centre over the base, and the height of the centre at the
-    first contact. Returns also how the step ends, the number of linear steps, and how far the bolt fell.
+    Returns also how the step ends, the number of linear steps, and how far the bolt fell.
     """
-    stiffness, centre, first = device
-    start, q = q.copy(), q.copy()
-    rot, t = pose_of(q, command, centre)
-    places = _sampled(places, rot, t, bolt, nut)
-    drag, before, falls = LEAST_DRAG, np.zeros(5), False
-    for number in range(FALL_STEPS):
-        rows, gaps, slips, forces = _linearised(places, q, command, centre, reference)
-        load = -(stiffness @ (q - np.array([0.0, 0.0, 0.0, 0.0, first])))
-        load[4] -= push
-        inverse = np.linalg.inv(stiffness + drag * np.eye(5)).astype(np.float64)
-        if mu == 0.0:
-            forces[:, 1:] = 0.0
-        step, solved = contact_step(rows, gaps, slips, load, inverse, mu, forces, ACCURACY * push)
-        size = np.abs(step).max()
-        is_long = size > LARGEST
-        if is_long:
-            step *= LARGEST / size
-        _keep_forces(places, forces)
-        if falls:
-            reference = (rot, t)
-        q += step
-        rot, t = pose_of(q, command, centre)
-        falls = falls or np.abs(q - start).max() > FALL
-        is_still = not is_long and size * drag < BALANCED
-        if is_still or number % FRESH == FRESH - 1 or is_long:
-            places = _sampled(places, rot, t, bolt, nut)
-        else:
-            places = _tracked(places, rot, t, bolt, nut)
-        least = places[:, GAP].min() if len(places) > 0 else 1.0
-        is_near = not is_long and size * drag < NEARLY_BALANCED and least > -NEARLY_TOUCHING
-        is_balanced = is_still and solved and least > -TOUCHING
-        if is_balanced or (number >= NEARLY_AFTER and is_near):
-            end = BALANCE if is_balanced else NEARLY
-            return q, places, end, number + 1, np.abs(q - start).max() if falls else 0.0
-        if number == STEPS and not falls:
-            break
-        drag = _new_drag(drag, step, before, FALL_DRAG if falls else LEAST_DRAG)
-        before = step
-    return q, places, LOOSE, number + 1, np.abs(q - start).max() if falls else 0.0
+    centre = device[1]
+    end_q, end_places, end, steps = implicit_step(q, places, reference, command, 0.0, push, mu, device, bolt, nut)
+    if end != LOOSE and np.abs(end_q - q).max() < FALL:
+        return end_q, end_places, end, steps, 0.0
+    at, flow, worst = q.copy(), FLOW, BALANCE
+    for _ in range(FLOW_STEPS):
+        new, new_places, end, more = implicit_step(at, places, reference, command, flow, push, mu, device, bolt, nut)
+        steps += more
+        way = np.abs(new - at).max()
+        if (end == LOOSE or way > FLOWN) and flow < MOST_FLOW:
+            flow *= 4.0
+            continue
+        worst = max(worst, end)
+        at, places = new, new_places
+        reference = pose_of(at, command, centre)
+        if end != LOOSE and flow * way < BALANCED:
+            return at, places, worst, steps, np.abs(at - q).max()
+        if way < 0.25 * FLOWN:
+            flow *= 0.25
+    return at, places, LOOSE, steps, np.abs(at - q).max()
 
 
 @dataclass(frozen=True)

@@ -28,10 +28,12 @@ def page(cells: Sequence[Compared]) -> str:
 [brute force](oracle.md) that is written apart from it (`oracle/follow.py`, `oracle/outcomes.py`): the hand moves by
 0.5 deg, and contacts are peaks of sampled boundaries.
 
-A step of the hand balances if no more than 1e-4 of the push is left of the drag, and no overlap beyond 1e-6 nominal
-radii; after 25 linear steps 1e-2 and 1e-4 are enough, and the step is *nearly* balanced. With 20 *loose* ones in a row,
-that balance neither way, the witness says nothing of the end: its linear steps know no curvature, and go to and fro
-where edges lie along each other. It confirms outcomes as far as its margins go; it is no bound.
+A step of the hand balances if no more than 1e-5 of the push is left of its damping, and no overlap beyond 1e-6 nominal
+radii; after 25 linear steps 1e-2 and 1e-4 are enough, and the step is *nearly* balanced. One that would go farther than
+0.009 nominal radii, or does not balance, is a fall: small steps at the same command, with a drag that is lowered as the
+bolt slows down. With 20 *loose* ones in a row, that balance neither way, the witness says nothing of the end: its
+linear steps know no curvature, and go to and fro where edges lie along each other. It confirms outcomes as far as its
+margins go; it is no bound.
 
 Of the first {len(cells):,} cells {sum(one.is_decided for one in cells):,} have an outcome by both, of which
 {sum(one.is_decided and one.agrees for one in cells):,} agree. A path takes the witness {np.median(seconds):.2g} s of

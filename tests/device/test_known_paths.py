@@ -101,6 +101,6 @@ def test_neither_several_paths_nor_an_undecided_one_become_known() -> None:
     assert known
     unsettled = KnownPaths()
     # Its paths end unlike one another.
-    path = assemble_pose(UNC, -3.0, -4.0, 0.0, mu=0.2, known=unsettled)
+    path = assemble_pose(UNC, 4.0, 2.0, 0.0, strategy=Strategy.CW, mu=0.02, known=unsettled)
     assert path.outcome is AssemblyOutcome.UNDECIDED
     assert not unsettled

@@ -20,6 +20,7 @@ from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.device._chart_kernel import D_RIGID, D_SCALE, N_OFFSET, N_ROTATION, PLACE_SIZE, set_place
 from threadstate.device._flush_kernel import centre_of_pressure, set_flush
 from threadstate.device._friction_held_kernel import lay_flush
+from threadstate.device._friction_rest_kernel import rests
 from threadstate.device._friction_step_kernel import (
     GOES_ON,
     NO_MINIMUM,
@@ -33,6 +34,7 @@ from threadstate.device._friction_step_kernel import (
     friction_loss,
     kept,
     solve_step,
+    touching_contacts,
 )
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
@@ -45,10 +47,11 @@ from threadstate.device._modes_kernel import (
     K_SLIP,
     MOST_CANDIDATES,
     MOST_CONTACTS,
+    OVERLAP,
     STICKS,
     ModesWork,
 )
-from threadstate.device._places_kernel import lowest_height
+from threadstate.device._places_kernel import find_places, lowest_height
 from threadstate.device._rest_kernel import AT_REST, DEEPEST, FLUSH, SLIPPED, Work, free_coordinates, set_metric
 from threadstate.device._settle_kernel import distance
 from threadstate.device._slide_kernel import lies_beside
@@ -66,6 +69,10 @@ has none, that above which a fall is given up, and by how much they change from 
 
 LEFT = 1e-9
 """The force of the drag, over the push, at which the bolt is in equilibrium."""
+
+SLOW = 1e-3
+"""The force of the drag, over the push, below which the bolt stays where it is if friction can hold it there and no
+step goes on."""
 
 MOST_STEPS = 400
 """The most steps of a fall that are tried."""
@@ -114,15 +121,16 @@ def flow(
 ) -> tuple[int, int, int]:
     """Lets the bolt flow with friction from ``q``, in place, to an equilibrium.
 
-    Returns what holds it there, its number of contacts and how the path ends there, if it does: NO_MINIMUM where the
-    flow does not come to an end. ``before`` is the pose before the step in which it falls, and is set to the last one.
+    Where it does not come to one, as no step has a solution, it stays where friction can hold it. Returns what holds it
+    there, its number of contacts and how the path ends there, if it does: NO_MINIMUM where nothing holds it.
+    ``before`` is the pose before the step in which it falls, and is set to the last one.
     """
     command, device, bolt, modes_work = setting[0], setting[1], setting[3], setting[7]
     r = device[D_SCALE]
     candidates = np.empty((MOST_CANDIDATES, K_SIZE))
     for h in range(4):
         losses[h] = 0.0
-    drag, friction = FIRST_DRAG, 0.0
+    drag, friction, left = FIRST_DRAG, 0.0, math.inf
     modes_work.guessed[0] = 0
     for _ in range(MOST_STEPS):
         for c in range(count):
@@ -131,6 +139,11 @@ def flow(
         number, total = solve_step(q, q, before, push, mu, True, count, candidates, setting, solutions)
         best = chosen(number, q, count, contacts, device, solutions)
         way = distance(q, solutions[0][best], device) / r if number > 0 and total <= MOST_CANDIDATES else math.inf
+        if way > LONGEST_WAY and left < SLOW:
+            touching = contacts_at_rest(q, push, mu, setting, contacts)
+            if touching > 0:
+                return ON_CONTACTS, touching, GOES_ON
+            left = math.inf
         if way > LONGEST_WAY:
             drag = max(LOWERED * drag, LEAST_DRAG)
             if drag > LARGEST_DRAG:
@@ -142,8 +155,8 @@ def flow(
         count = kept(solved, solutions[1][best], command[M_PUSH])
         for c in range(count):
             copy_numbers(solutions[1][best, c], contacts[c])
-        losses[0] = friction
-        if drag * way <= LEFT:
+        losses[0], left = friction, drag * way
+        if left <= LEFT:
             return ON_CONTACTS, count, GOES_ON
         if lies_beside(q, device, bolt[pk.R_MAJOR]) and lay_flush(
             False, q, push, mu, True, before, contacts, setting, losses
@@ -157,7 +170,26 @@ def flow(
             return ON_CONTACTS, 0, ended
         if 2.0 * way < LONGEST_WAY:
             drag = drag / LOWERED if drag > LEAST_DRAG else 0.0
-    return ON_CONTACTS, 0, NO_MINIMUM
+    touching = contacts_at_rest(q, push, mu, setting, contacts)
+    return ON_CONTACTS, touching, GOES_ON if touching > 0 else NO_MINIMUM
+
+
+@kernel()
+def contacts_at_rest(q: Array, push: float, mu: float, setting: Setting, contacts: Array) -> int:
+    """The number of contacts that hold the bolt where it is, which are set; 0 where they do not."""
+    _, device, _, bolt, nut, threads, _, modes_work = setting
+    place = np.empty(PLACE_SIZE)
+    held = np.empty((MOST_CANDIDATES, K_SIZE))
+    set_place(q, device, place)
+    found = find_places(
+        OVERLAP * device[D_SCALE], place, device, bolt, nut, threads, modes_work.search, modes_work.places
+    )
+    count = touching_contacts(found, modes_work.places, held)
+    if not rests(q, push, mu, count, held, device):
+        return 0
+    for c in range(count):
+        copy_numbers(held[c], contacts[c])
+    return kept(count, contacts, push)
 
 
 @kernel()

@@ -97,6 +97,10 @@ BRIDGING = 4.0
 """How much longer the steps of a growing push become that are tried where no step is short enough: contacts that have
 all but ceased to slide have no solution then."""
 
+TRIED_AGAIN = 16
+"""Of falls in a row each is followed by a first step of half the length, and every so many-th by one of the full
+length: where a bolt has fallen in the shortest step again and again longer ones have no solution as a rule."""
+
 MOST_BARE = 4
 """The most falls without friction in a row: in more of them the path has not the friction that it is said to have."""
 
@@ -321,7 +325,7 @@ def follow_friction(
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
-    bridging, falling, bare = False, False, 0
+    bridging, falling, bare, falls = False, False, 0, 0
     step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
@@ -426,7 +430,12 @@ def follow_friction(
         if ended != GOES_ON:
             return ended, i + 1, count
         bridging, falling = False, False
-        step = FIRST_PART * longest if losses[2] == 0.0 else min(2.0 * size, longest)
+        falls = falls + 1 if losses[2] == 0.0 else 0
+        if falls == 0:
+            step = min(2.0 * size, longest)
+        else:
+            tried = 0 if falls % TRIED_AGAIN == 0 else falls - 1
+            step = max(FIRST_PART * longest * 0.5**tried, least)
     return REACHED, i + 1, count
 
 

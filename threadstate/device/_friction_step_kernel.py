@@ -70,6 +70,9 @@ DISTINCT = 1e-6
 SAME_CONTACT = 0.03
 """Points of two contacts (nominal radii) that are nearer to each other are one contact's."""
 
+MOST_MOVES = 3
+"""How often contacts of a mode move to places close by."""
+
 STEP_REACH = 2e-2
 """How far (nominal radii) the bolt may go in a step beside where the hand carries it."""
 
@@ -207,7 +210,7 @@ def enumerate_modes(
             touching += 0 if modes[c] == OPENS else 1
         if sticking > most_sticking or touching > MOST_CONTACTS:
             continue
-        status = UNSOLVED
+        status, beside = UNSOLVED, -1
         for begins_at_guess in (True, False):
             if status == SOLVED or (begins_at_guess and code != guessed_code):
                 continue
@@ -227,24 +230,73 @@ def enumerate_modes(
                 near = found
                 for j in range(found):
                     copy_numbers(at_start[j], places[j])
-            status = solve_mode(
-                modes, count, mu, near, trial, push, unit, before, device, bolt, nut, threads, contacts, modes_work
-            )
-            if status == SOLVED and (
-                distance(carried, trial, device) > STEP_REACH * r or not cones_hold(modes, count, mu, unit, r, contacts)
-            ):
-                status = UNSOLVED
+            status, beside = solve_moved(modes, count, mu, near, carried, trial, push, unit, before, setting, contacts)
         if status != SOLVED:
             continue
-        set_place(trial, device, place)
-        after = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
-        beside = overlap_beside(modes, count, r, after, contacts, places)
         if beside >= 0:
-            copy_numbers(places[beside], met)
-            has_met = True
+            is_known = False
+            for c in range(count):
+                is_known = is_known or is_same(candidates[c], places[beside], r)
+            if not is_known:
+                copy_numbers(places[beside], met)
+                has_met = True
         else:
             total = add_solution(total, trial, count, contacts, device, solutions)
     return total, has_met
+
+
+@kernel()
+def solve_moved(
+    modes: Indices,
+    count: int,
+    mu: float,
+    found: int,
+    carried: Array,
+    q: Array,
+    push: float,
+    unit: float,
+    before: Array,
+    setting: Setting,
+    contacts: Array,
+) -> tuple[int, int]:
+    """Solves a mode, and again where a contact has moved to a place close by, as from an edge to the thread beside it.
+
+    Returns SOLVED where it has a solution whose forces are what the mode says, and which place overlaps beside its
+    contacts there, -1 if none does.
+    """
+    _, device, _, bolt, nut, threads, _, modes_work = setting
+    places, search = modes_work.places, modes_work.search
+    r, falls = device[D_SCALE], modes_work.drag[0, 0] > 0.0
+    place = np.empty(PLACE_SIZE)
+    moves = 0
+    while True:
+        status = solve_mode(
+            modes, count, mu, found, q, push, unit, before, device, bolt, nut, threads, contacts, modes_work
+        )
+        is_far = distance(carried, q, device) > STEP_REACH * r
+        if status != SOLVED or is_far or not cones_hold(modes, count, mu, unit, r, contacts, falls):
+            return UNSOLVED, -1
+        set_place(q, device, place)
+        found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+        beside = overlap_beside(modes, count, r, found, contacts, places)
+        moved = -1
+        for c in range(count):
+            if beside >= 0 and modes[c] != OPENS and is_same(contacts[c], places[beside], r):
+                moved = c
+        if moved < 0 or moves == MOST_MOVES:
+            return SOLVED, beside
+        for h in range(3):
+            contacts[moved, K_POINT + h] = places[beside, G_POINT + h]
+        moves += 1
+
+
+@kernel()
+def is_same(contact: Array, gap: Array, r: float) -> bool:
+    """Whether a place is so near to a contact that it is that contact's."""
+    apart = 0.0
+    for h in range(3):
+        apart += (contact[K_POINT + h] - gap[G_POINT + h]) ** 2
+    return math.sqrt(apart) < SAME_CONTACT * r
 
 
 @kernel()
@@ -496,6 +548,9 @@ def step_with_friction(
         total = add_free_contacts(total, found, push, device, work, candidates)
         if total > known or not turns:
             number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
+        if number == 0 and not turns and total <= MOST_CANDIDATES:
+            # Half-way to where it would be without friction is too far for a bolt that friction all but holds.
+            number, total = solve_step(q, q, before, push, mu, turns, total, candidates, setting, solutions)
         ramps = number == 0 and turns and found > 0 and total <= MOST_CANDIDATES
         if ramps and ramp_friction(free, found, before, push, command[M_PUSH], mu, total, candidates, setting):
             number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)

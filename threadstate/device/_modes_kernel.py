@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_SCALE,
@@ -81,6 +82,8 @@ forces along it would be anything; so they are what has come up while the contac
 
 LEAST_SLIP = 1e-7
 """The least slip (nominal radii) that the numbers rho of a step are made for."""
+
+SOFT_SLIP = 1e-5
 
 SAME_POINT = 0.1
 """How far (nominal radii) a contact's point may move in a step, and a place be from it to be the same contact."""
@@ -290,6 +293,7 @@ def set_equations(
     count: int,
     mu: float,
     rho: float,
+    keeps_direction: bool,
     q: Array,
     push: float,
     unit: float,
@@ -302,7 +306,8 @@ def set_equations(
     """Sets residual and matrix of a mode at ``q``, and the contacts' forces from the unknowns; the number of unknowns.
 
     The unknowns are the coordinates, then of each contact that stays the force along its normal and both tangents. Of
-    the matrix the change of tangential forces with the pose is left out.
+    the matrix the change of tangential forces with the pose is left out, and where friction ``keeps_direction`` that of
+    its direction.
     """
     places, indices, velocities, drag, begun = work.places, work.indices, work.velocities, work.drag, work.begun
     matrix, residual, unknowns = work.matrix, work.residual, work.unknowns
@@ -377,7 +382,7 @@ def set_equations(
             length = math.hypot(ahead[0], ahead[1])
             for t in range(2):
                 ahead[t] /= length if length > 0.0 else 1.0
-            turned = mu * normal_force / length if length > 0.0 else 0.0
+            turned = mu * normal_force / length if length > 0.0 and not keeps_direction else 0.0
             for i in range(n):
                 first, second = matrix[row + 1, i], matrix[row + 2, i]
                 across = ahead[0] * second - ahead[1] * first
@@ -501,12 +506,21 @@ def solve_mode(
         set_place(q, device, place)
         if iteration > 0 and not follow_places(modes, count, place, device, bolt, nut, threads, work):
             return UNSOLVED
-        size = set_equations(modes, count, mu, rho, q, push, unit, place, before, device, contacts, work)
+        size = set_equations(modes, count, mu, rho, False, q, push, unit, place, before, device, contacts, work)
         worst = largest(size, residual)
         if worst < RESIDUAL:
             return SOLVED
         if not worst < 1e6:
             return UNSOLVED
+        if iteration >= 8 and worst < 1e-6 and rho > 1.01 * mu / SOFT_SLIP:
+            rho = mu / SOFT_SLIP
+            for i in range(size):
+                for j in range(size):
+                    update[i, j] = 0.0
+            size = set_equations(modes, count, mu, rho, False, q, push, unit, place, before, device, contacts, work)
+            worst = largest(size, residual)
+            if worst < RESIDUAL:
+                return SOLVED
         if iteration > 0:
             # Broyden: what the last step changed beyond what the matrix had expected of it.
             length = 0.0
@@ -524,7 +538,16 @@ def solve_mode(
             spare[i, size] = -residual[i]
             expected[i] = residual[i]
         if not solve_linear(size, spare):
-            return UNSOLVED
+            if iteration > 0:
+                return UNSOLVED
+            # No contact has slid yet: friction keeps its direction in this iteration, which three of them at once
+            # would have no motion along.
+            set_equations(modes, count, mu, rho, True, q, push, unit, place, before, device, contacts, work)
+            for i in range(size):
+                copy_numbers(matrix[i, 0:size], spare[i, 0:size])
+                spare[i, size] = -residual[i]
+            if not solve_linear(size, spare):
+                return UNSOLVED
         longest = 0.0
         for i in range(n):
             longest = max(longest, abs(spare[i, size]))
@@ -549,8 +572,11 @@ def solve_mode(
 
 
 @kernel()
-def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, contacts: Array) -> bool:
-    """Whether the forces of a mode's solution are what the mode says: in their cones, and against the slip."""
+def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, contacts: Array, falls: bool) -> bool:
+    """Whether the forces of a mode's solution are what the mode says: in their cones, and against the slip.
+
+    A contact of a bolt that ``falls`` may come to rest as it slips, with the friction of one that does.
+    """
     for c in range(count):
         if modes[c] == OPENS:
             continue
@@ -568,7 +594,10 @@ def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, con
             across = math.sqrt(max(square - normal * normal, 0.0))
             if across > mu * normal + SLACK * unit:
                 return False
-        elif against > 0.0 or not math.sqrt(slip) > SLIDES * r:
+        elif math.sqrt(slip) > SLIDES * r:
+            if against > 0.0:
+                return False
+        elif not falls:
             return False
     return True
 

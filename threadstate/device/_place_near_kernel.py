@@ -31,7 +31,7 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-WINDOWS = (0.02, 0.1)
+WINDOWS = (0.003, 0.02, 0.1)
 """Within these azimuths (rad) of where a contact was its place along an edge is looked for, one after the other."""
 
 BESIDE_CROSSING = 5e-3
@@ -63,7 +63,25 @@ def place_near(
 
 @kernel()
 def edge_place(of_bolt: bool, was: float, place: Array, bolt: Array, nut: Array, jet: Array) -> tuple[int, float]:
-    """The pair of features of an edge's place near an azimuth, and where it is."""
+    """The pair of features of an edge's place near an azimuth, and where it is: of both edges, on the bolt's."""
+    pair, theta = edge_peak(of_bolt, was, place, bolt, nut, jet)
+    if pair != EDGE_EDGE or of_bolt:
+        return pair, theta
+    x, y = point_of_edge(of_bolt, theta, place, nut)
+    return edge_peak(True, math.atan2(y, x), place, bolt, nut, jet)
+
+
+@kernel()
+def point_of_edge(of_bolt: bool, theta: float, place: Array, curve: Array) -> tuple[float, float]:
+    """Where a point of an edge is across the other part's axis."""
+    r = pk.radius(-curve[pk.LEAD] / TWO_PI * theta, curve)
+    x, y, _ = moved_point(of_bolt, place, r * math.cos(theta), r * math.sin(theta), 0.0)
+    return x, y
+
+
+@kernel()
+def edge_peak(of_bolt: bool, was: float, place: Array, bolt: Array, nut: Array, jet: Array) -> tuple[int, float]:
+    """As :func:`edge_place`, on this edge."""
     curve, solid = (bolt, nut) if of_bolt else (nut, bolt)
     for window in WINDOWS:
         kind, theta = bracketed_peak(of_bolt, was - window, was + window, place, curve, solid, jet)
@@ -71,7 +89,7 @@ def edge_place(of_bolt: bool, was: float, place: Array, bolt: Array, nut: Array,
             return (EDGE_SURFACE if of_bolt else BASE_EDGE), theta
         if kind == 1:
             return (EDGE_THREAD if of_bolt else THREAD_EDGE), theta
-        if kind == 2 and of_bolt:
+        if kind == 2:
             return EDGE_EDGE, theta
     return NOWHERE, was
 
@@ -82,9 +100,7 @@ def deeper_edge(
 ) -> tuple[int, float]:
     """Of a place of one part's edge near the other's, and the place of that one beside it, the deeper one."""
     of_bolt = pair == EDGE_THREAD
-    curve = bolt if of_bolt else nut
-    r = pk.radius(-curve[pk.LEAD] / TWO_PI * theta, curve)
-    x, y, _ = moved_point(of_bolt, place, r * math.cos(theta), r * math.sin(theta), 0.0)
+    x, y = point_of_edge(of_bolt, theta, place, bolt if of_bolt else nut)
     other, at = edge_place(not of_bolt, math.atan2(y, x), place, bolt, nut, jet)
     if (other == EDGE_THREAD or other == THREAD_EDGE) and min(jet[E_G], jet[E_PHI]) > depth:
         return other, at
