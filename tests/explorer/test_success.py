@@ -37,9 +37,19 @@ window.fetch = (address, options) => {
 """Has the service be out of time for the path from roll 4, pitch 4, phase 180, alone or among others."""
 
 
+FIRST_PHASE_ALONE = """
+const fetched = window.fetch;
+window.fetch = (address, options) => {
+  const poses = String(address).includes('/v1/outcomes') ? JSON.parse(options.body).poses : [];
+  return poses.some(({ phase }) => phase !== 0) ? new Promise(() => {}) : fetched(address, options);
+};
+"""
+"""Has the service never answer for paths from other phases than 0."""
+
+
 def filled(explorer: Explorer, frame: str = "#success") -> int:
     """How many cells of a map are computed."""
-    return len(explorer.all(f"{frame} .cell rect:first-child:not(.none)"))
+    return len(explorer.all(f"{frame} .cell rect:first-child:not(.none, .partial)"))
 
 
 def whole(explorer: Explorer) -> None:
@@ -66,7 +76,7 @@ def saved(explorer: Explorer, kind: str, folder: Path) -> str:
 
 def test_from_an_empty_device_to_a_critical_friction(explorer: Explorer) -> None:
     explorer.click("#tab-device")
-    choose_device(explorer, strategy="cw", k_tilt="15")
+    choose_device(explorer, strategy="cw", k_tilt="25")
     explorer.click("#tab-success")
     explorer.click("#success-compute")
     explorer.wait(lambda: filled(explorer) > 0, "no cell is filled in")
@@ -74,7 +84,7 @@ def test_from_an_empty_device_to_a_critical_friction(explorer: Explorer) -> None
     words = explorer.text("#success-text")
     found = re.match(r"Of 9 orientations (\d) engage at", words)
     assert found is not None, words
-    assert explorer.text("#success-device").startswith("k tilt (N in/rad) 15")
+    assert explorer.text("#success-device").startswith("k tilt (N in/rad) 25")
     engaging = explorer.all('#success .cell[aria-label*=": engages"]')
     assert len(engaging) == int(found[1])
     roll, pitch = (float(engaging[0].get_attribute(f"data-{name}") or "nan") for name in ("roll", "pitch"))
@@ -143,6 +153,20 @@ def test_a_path_that_takes_too_long_is_undecided_and_the_map_goes_on(explorer: E
     (answered, not_answered) = explorer.all("#success-cell tbody tr")
     assert "undecided" not in answered.text
     assert "undecided, no answer in time" in not_answered.text
+
+
+def test_paths_from_the_first_phase_come_first_as_small_squares(explorer: Explorer) -> None:
+    explorer.open("/#tab=success")
+    explorer.run(FIRST_PHASE_ALONE)
+    explorer.choose("#success-phases", "2")
+    explorer.click("#success-compute")
+    explorer.wait(lambda: len(explorer.all("#success .cell rect.partial")) == CELLS, "no small squares")
+    assert explorer.text("#success-text").startswith("From phase 0 alone 9 orientations are computed so far (of 9)")
+    assert explorer.one("#success-bar").get_attribute("value") == str(CELLS)
+    assert explorer.one("#success-bar").get_attribute("max") == str(2 * CELLS)
+    words = explorer.one('#success .cell[data-roll="0"][data-pitch="0"]').get_attribute("aria-label") or ""
+    assert words.endswith("from phase 0 deg so far")
+    explorer.click("#success-cancel")
 
 
 def test_what_is_not_valid_is_said(explorer: Explorer) -> None:

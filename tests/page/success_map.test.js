@@ -65,10 +65,12 @@ test("a map is computed with every phase of every orientation, and says where it
   const map = new SuccessMap(service, () => (changes += 1));
   map.follow(TEXT, 7, GRID, "in");
   await computed(map);
-  assert.equal(service.asked.length, 9);
-  assert.ok(changes >= 9);
+  assert.equal(service.asked.length, 18);
+  assert.ok(changes >= 18);
   const [{ body, unit }] = service.asked;
-  assert.deepEqual(body.poses, [{ roll: 0, pitch: 0, phase: 0 }, { roll: 0, pitch: 0, phase: 180 }]);
+  assert.deepEqual(body.poses, [{ roll: 0, pitch: 0, phase: 0 }]);
+  assert.deepEqual(service.asked[9].body.poses, [{ roll: 0, pitch: 0, phase: 180 }]);
+  assert.deepEqual(map.value.cells.get("0 0").map(({ phase }) => phase), [0, 180]);
   assert.deepEqual([body.library, body.mu, body.strategy, body.device, unit], [7, 0.1, "cw", { unit: "mm", k_tilt: 250, about: "nut" }, "in"]);
   assert.equal(body.pose, undefined);
   const totals = totalsOf(map.value);
@@ -80,7 +82,16 @@ test("a map is computed with every phase of every orientation, and says where it
       "Paths that engage ask for up to 1.500 N in of torque, 3.00 deg of tilt and 0.0100 in of shift.",
   );
   map.follow(TEXT, 7, GRID, "mm");
-  assert.equal(service.asked.length, 9, "another unit is no other map");
+  assert.equal(service.asked.length, 18, "another unit is no other map");
+});
+
+test("of a map that is not whole only whole orientations count", async () => {
+  const map = new SuccessMap(new Service(0.05), () => {});
+  map.follow(TEXT, 7, GRID, "in");
+  await computed(map);
+  for (const [key, outcomes] of map.value.cells) map.value.cells.set(key, outcomes.slice(0, 1));
+  assert.deepEqual([totalsOf(map.value).done, totalsOf(map.value).engaged, totalsOf(map.value).failure], [0, 0, null]);
+  assert.equal(mapWords(map.value, "in"), "From phase 0 alone 9 orientations are computed so far (of 9): small squares.");
 });
 
 test("a map that is cancelled or replaced is not computed any further", async () => {

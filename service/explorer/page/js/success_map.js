@@ -65,9 +65,20 @@ export function cellOf(outcomes) {
   return { count: outcomes.length, engaged: engaged.length, undecided: undecided.length, worst: failed[0] ?? undecided[0] ?? hardest[0] };
 }
 
-/** What a map says as far as it is there: {orientations, done, engaged, undecided, failure, torque, tilt, shift}. */
-export function totalsOf({ grid, cells }) {
-  const done = orientationsOf(grid).filter((one) => cells.has(keyOf(one)));
+/** The poses of an orientation of a map. */
+function posesOf({ roll, pitch }, phases) {
+  return Array.from({ length: phases }, (_, k) => ({ roll, pitch, phase: (360 * k) / phases }));
+}
+
+/** Whether the outcomes of an orientation are there from every phase of the map. */
+export function isWhole({ text }, outcomes) {
+  return outcomes?.length === mapRequestOf(text).phases;
+}
+
+/** What a map says of its whole orientations: {orientations, done, engaged, undecided, failure, torque, tilt, shift}. */
+export function totalsOf(map) {
+  const { grid, cells } = map;
+  const done = orientationsOf(grid).filter((one) => isWhole(map, cells.get(keyOf(one))));
   const found = done.map((one) => ({ ...one, ...cellOf(cells.get(keyOf(one))) }));
   const whole = found.filter(({ engaged, count }) => engaged === count);
   const paths = [...cells.values()].flat().filter(({ outcome }) => outcome === "engaged");
@@ -125,9 +136,14 @@ export class SuccessMap {
   }
 
   async #compute(map, signal) {
-    const left = orientationsOf(map.grid);
-    const take = async (next) => {
-      map.cells.set(keyOf(next), await this.#outcomes(map, next, null, signal));
+    const { phases } = mapRequestOf(map.text);
+    const orientations = orientationsOf(map.grid);
+    // First the paths from phase 0 alone: the whole map is seen long before the paths from all phases are there.
+    const left = [[0, 1], [1, phases]].filter(([from, to]) => from < to)
+      .flatMap(([from, to]) => orientations.map((place) => ({ place, poses: posesOf(place, phases).slice(from, to) })));
+    const take = async ({ place, poses }) => {
+      const found = await this.#outcomes(map, poses, null, signal);
+      map.cells.set(keyOf(place), [...(map.cells.get(keyOf(place)) ?? []), ...found]);
       if (!signal.aborted) this.#changed();
     };
     const lane = async () => {
@@ -153,10 +169,11 @@ export class SuccessMap {
     this.#bracketing.abort();
     const bracketing = (this.#bracketing = new AbortController());
     const map = this.value;
+    const poses = posesOf(place, mapRequestOf(map.text).phases);
     const found = (this.critical = { ...place, last: null, first: null, outcome: null, isRunning: true });
     this.#changed();
     const engagesAt = async (mu) => {
-      const { engaged, count, worst } = cellOf(await this.#outcomes(map, place, mu, bracketing.signal));
+      const { engaged, count, worst } = cellOf(await this.#outcomes(map, poses, mu, bracketing.signal));
       if (engaged === count) found.last = mu;
       else [found.first, found.outcome] = [mu, worst.outcome];
       this.#changed();
@@ -176,17 +193,15 @@ export class SuccessMap {
     if (this.critical === found) this.#changed();
   }
 
-  /** How the paths of an orientation end; one that takes longer than the service's time limit is undecided. */
-  async #outcomes({ text, library, unit }, { roll, pitch }, mu, signal) {
-    const { phases } = mapRequestOf(text);
+  /** How the paths from poses end; one that takes longer than the service's time limit is undecided. */
+  async #outcomes({ text, library, unit }, poses, mu, signal) {
     const body = { ...bodyOf(assemblyOf(text), library), ...(mu !== null && { mu }) };
     delete body.pose;
-    const poses = Array.from({ length: phases }, (_, k) => ({ roll, pitch, phase: (360 * k) / phases }));
     try {
       return await this.#api.outcomes({ ...body, poses }, unit, signal);
     } catch (error) {
       if (!isOutOfTime(error)) throw error;
-      if (phases === 1) return [unanswered(poses[0], body)];
+      if (poses.length === 1) return [unanswered(poses[0], body)];
     }
     const found = [];
     for (const pose of poses) {

@@ -4,7 +4,7 @@ import { labelOf, NUMBERS, CHOICES } from "./assembly.js";
 import { textColourOn } from "./colours.js";
 import { tilts } from "./grid.js";
 import { byId, html } from "./html.js";
-import { OUTCOMES, PHASE_COUNTS, cellOf, keyOf, mapRequestOf, mapText, pathText, totalsOf } from "./success_map.js";
+import { OUTCOMES, PHASE_COUNTS, cellOf, isWhole, keyOf, mapRequestOf, mapText, pathText, totalsOf } from "./success_map.js";
 import { picture, svg } from "./svg.js";
 import { angle, angleNumber, fixed, unitFactor } from "./units.js";
 
@@ -12,6 +12,8 @@ const SIDE = 30;
 const LEFT = 40;
 const BELOW = 34;
 const LEGEND_WIDTH = 330;
+/** Of the square of an orientation from which some phases alone are computed. */
+const PARTIAL_INSET = 8;
 /** Up to a quarter of the starting phases that engage, a half, three quarters, and all. */
 const SHADES = ["#bcd9e6", "#7db4d0", "#3f8fbf", "#0b5f99"];
 const NONE_ENGAGES = "#f4e3d3";
@@ -60,8 +62,8 @@ export class SuccessView {
     byId("success-keep").disabled = value === null || value.cells.size === 0;
     byId("success-drop").hidden = kept === null;
     byId("success-progress").hidden = !isRunning;
-    if (isRunning) byId("success-bar").max = tilts(value.grid).length ** 2;
-    if (isRunning) byId("success-bar").value = value.cells.size;
+    if (isRunning) byId("success-bar").max = tilts(value.grid).length ** 2 * mapRequestOf(value.text).phases;
+    if (isRunning) byId("success-bar").value = [...value.cells.values()].flat().length;
     byId("success-problem").replaceChildren(...problemsOf(value));
     byId("success-text").textContent = value === null || value.cells.size === 0 ? "" : mapWords(value, view.unit);
     this.#drawMap(byId("success"), value, true);
@@ -100,15 +102,19 @@ export class SuccessView {
 
   #cell(map, place, x, y, { isMain, hatch, stop }) {
     const outcomes = map.cells.get(keyOf(place));
+    const isPartial = outcomes !== undefined && !isWhole(map, outcomes);
+    const words = cellWords(place, outcomes, isPartial);
     const isStop = isMain && stop.roll === place.roll && stop.pitch === place.pitch;
     const element = svg("g", {
-      role: "gridcell", class: isMain && this.#chosen !== null && isStop ? "cell chosen" : "cell", tabindex: isStop ? 0 : -1, "aria-label": cellWords(place, outcomes), "data-roll": place.roll, "data-pitch": place.pitch,
+      role: "gridcell", class: isMain && this.#chosen !== null && isStop ? "cell chosen" : "cell", tabindex: isStop ? 0 : -1, "aria-label": words, "data-roll": place.roll, "data-pitch": place.pitch,
       "aria-selected": isMain && this.#chosen !== null && isStop,
     });
     const look = lookOf(outcomes, hatch);
-    const box = { x: x + 0.75, y: y + 0.75, width: SIDE - 1.5, height: SIDE - 1.5 };
-    element.append(svg("rect", { ...box, fill: look.fill, class: look.fill === null ? "none" : null }), svg("title", {}, cellWords(place, outcomes)));
-    if (look.text !== "") element.append(svg("text", { x: x + SIDE / 2, y: y + SIDE / 2 + 4.5, "text-anchor": "middle", fill: look.ink }, look.text));
+    const inset = isPartial ? PARTIAL_INSET : 0.75;
+    const box = { x: x + inset, y: y + inset, width: SIDE - 2 * inset, height: SIDE - 2 * inset };
+    const kind = look.fill === null ? "none" : isPartial ? "partial" : null;
+    element.append(svg("rect", { ...box, fill: look.fill, class: kind }), svg("title", {}, words));
+    if (look.text !== "" && !isPartial) element.append(svg("text", { x: x + SIDE / 2, y: y + SIDE / 2 + 4.5, "text-anchor": "middle", fill: look.ink }, look.text));
     if (isMain) {
       const frame = { x: x + 2, y: y + 2, width: SIDE - 4, height: SIDE - 4 };
       element.append(svg("rect", { ...frame, class: "frame-out" }), svg("rect", { ...frame, class: "frame-in" }));
@@ -173,8 +179,9 @@ function placeWords({ roll, pitch }) {
   return `roll ${angle(roll)}, pitch ${angle(pitch)}`;
 }
 
-function cellWords(place, outcomes) {
+function cellWords(place, outcomes, isPartial) {
   if (outcomes === undefined) return `${placeWords(place)}: not computed yet`;
+  if (isPartial) return `${cellWords(place, outcomes, false)}, from phase ${outcomes.map(({ phase }) => angle(phase)).join(", ")} so far`;
   const { count, engaged, worst } = cellOf(outcomes);
   if (engaged === count) return `${placeWords(place)}: engages${count > 1 ? ` from all ${count} phases` : ""}`;
   return `${placeWords(place)}: ${OUTCOMES[worst.outcome].name} from phase ${angle(worst.phase)}${count > 1 ? `; ${engaged} of ${count} engage` : ""}`;
@@ -190,6 +197,7 @@ export function mapWords(map, unit) {
   const { request, phases } = mapRequestOf(map.text);
   const of = totals.done < totals.orientations ? `${totals.done} computed so far (of ${totals.orientations})` : `${totals.orientations} orientations`;
   const from = phases > 1 ? ` from each of ${phases} phases` : "";
+  if (totals.done === 0) return `From phase 0 alone ${map.cells.size} orientations are computed so far (of ${totals.orientations}): small squares.`;
   const open = totals.undecided > 0 ? `; ${totals.undecided} are undecided` : "";
   const least = totals.failure === null ? "" : ` The least tilt that fails: ${placeWords(totals.failure)}, which ${OUTCOMES[totals.failure.worst.outcome].name}.`;
   const needs = totals.engaged > 0 ? ` Paths that engage ask for ${needsWords(totals, unitFactor(map.unit, unit), unit)}.` : "";
@@ -208,7 +216,7 @@ function deviceWords(text, unit) {
 function keptWords(kept, map, unit) {
   const words = `Kept for comparison: ${deviceWords(kept.text, unit)}: ${mapWords(kept, unit)}`;
   if (map === null) return words;
-  const whole = (one) => new Set([...one.cells].filter(([, outcomes]) => outcomes.every(({ outcome }) => outcome === "engaged")).map(([key]) => key));
+  const whole = (one) => new Set([...one.cells].filter(([, outcomes]) => isWhole(one, outcomes) && outcomes.every(({ outcome }) => outcome === "engaged")).map(([key]) => key));
   const [here, there] = [whole(map), whole(kept)];
   const more = [...here].filter((key) => kept.cells.has(key) && !there.has(key)).length;
   const fewer = [...there].filter((key) => map.cells.has(key) && !here.has(key)).length;
