@@ -152,7 +152,7 @@ def test_falls_on_a_path_end_with_friction(roll_deg: float, pitch_deg: float) ->
 
 def test_a_fall_that_friction_ends_early_is_no_snap() -> None:
     """Without friction this bolt falls by 1.3 times what a snap is; the witness has 0.91 of it, with half the steps
-    0.96 (docs/success-witness.md)."""
+    0.96 (decision 44)."""
     path = assemble_pose(UNC, -4.0, -3.0, 30.0, mu=0.3)
     assert path.outcome is AssemblyOutcome.NO_SNAP
     assert path.margins is not None

@@ -84,6 +84,10 @@ LEAST_SLIP = 1e-7
 """The least slip (nominal radii) that the numbers rho of a step are made for."""
 
 SOFT_SLIP = 1e-5
+"""The slip (nominal radii) that rho is made for instead, where residuals do not vanish for round-off."""
+
+SOFT_AFTER, SOFT_RESIDUAL = 8, 1e-6
+"""After so many iterations with a residual below that one rho is that of SOFT_SLIP."""
 
 SAME_POINT = 0.1
 """How far (nominal radii) a contact's point may move in a step, and a place be from it to be the same contact."""
@@ -512,7 +516,7 @@ def solve_mode(
             return SOLVED
         if not worst < 1e6:
             return UNSOLVED
-        if iteration >= 8 and worst < 1e-6 and rho > 1.01 * mu / SOFT_SLIP:
+        if iteration >= SOFT_AFTER and worst < SOFT_RESIDUAL and rho > 1.01 * mu / SOFT_SLIP:
             rho = mu / SOFT_SLIP
             for i in range(size):
                 for j in range(size):
