@@ -122,3 +122,26 @@ def test_a_contact_goes_on_from_an_edge_into_the_threads_and_back(path: Assembly
                 changes += int(gap[gk.G_PAIR]) in (EDGE_THREAD, THREAD_EDGE) and pair == THREAD_THREAD
                 changes += int(gap[gk.G_PAIR]) == THREAD_THREAD and pair != THREAD_THREAD
     assert changes > 0
+
+
+def test_newton_leads_to_the_place_that_a_bracket_has(path: AssemblyPath) -> None:
+    """A place along an edge, from 1e-3 rad beside it; where what it was is another of its kinds, it leads nowhere."""
+    kinds = {near.ON_PHI: 0, near.ON_BOTH: 0}
+    for point in path.points[::20]:
+        place = place_of(np.array(point.pose.rotation), np.array(point.pose.translation))
+        for gap in found(place, TOUCHING, pl.new_threads(BOLT)):
+            pair, jet = int(gap[gk.G_PAIR]), np.zeros(gk.EDGE_JET_SIZE)
+            if pair == THREAD_THREAD:
+                continue
+            of_bolt = pair != THREAD_EDGE
+            curve, solid = (BOLT, NUT) if of_bolt else (NUT, BOLT)
+            theta, kind = float(gap[gk.G_THETA]), near.kind_of(pair)
+            bracketed, at = pl.bracketed_peak(of_bolt, theta - 2e-3, theta + 2e-3, place, curve, solid, jet)
+            is_found, reached = near.newton_peak(of_bolt, theta + 1e-3, kind, place, curve, solid, jet)
+            if bracketed == kind and is_found:
+                assert reached == pytest.approx(at, abs=1e-9)
+                kinds[kind] += 1
+            other = near.ON_BOTH if kind == near.ON_PHI else near.ON_PHI
+            leads, reached = near.newton_peak(of_bolt, theta, other, place, curve, solid, jet)
+            assert not leads or abs(reached - theta) > 1e-9
+    assert min(kinds.values()) > 0

@@ -325,7 +325,7 @@ def follow_friction(
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
-    bridging, falling, bare, falls = False, False, 0, 0
+    bridging, falling, is_shortened, bare, falls = False, False, False, 0, 0
     step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
@@ -369,8 +369,10 @@ def follow_friction(
             guessed = known_count if known_size > 0.0 else 0
             part = size / known_size if guessed > 0 else 0.0
             set_guess(part, q, known_begin, known_end, guessed, known_contacts, setting[7])
+            # Of steps that become shorter only the first and the shortest are begun anew: it takes most of their time.
+            begins_anew = size <= least or not is_shortened
             ended, next_count = step_with_friction(
-                q, push, mu, turns, before, count, contacts, setting, solutions, losses
+                q, push, mu, turns, begins_anew, before, count, contacts, setting, solutions, losses
             )
             if ended == GOES_ON:
                 known_size, known_count = size, next_count
@@ -381,6 +383,7 @@ def follow_friction(
         # Of solutions while it is turned those a finite way off end as steps get shorter.
         has_several = turns and ended == GOES_ON and losses[2] > 1.0
         if size > least and not bridging and (ended == SHORTER or has_several):
+            is_shortened = is_shortened or ended == SHORTER
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, least)
             continue
@@ -429,7 +432,7 @@ def follow_friction(
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
         if ended != GOES_ON:
             return ended, i + 1, count
-        bridging, falling = False, False
+        bridging, falling, is_shortened = False, False, False
         falls = falls + 1 if losses[2] == 0.0 else 0
         if falls == 0:
             step = min(2.0 * size, longest)

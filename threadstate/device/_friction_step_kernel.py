@@ -505,6 +505,7 @@ def step_with_friction(
     push: float,
     mu: float,
     turns: bool,
+    begins_anew: bool,
     before: Array,
     count: int,
     contacts: Array,
@@ -515,8 +516,8 @@ def step_with_friction(
     """A step from ``q`` to a new command, in place: GOES_ON, and its number of contacts; SHORTER where it is unsolved.
 
     It is where there is no solution, or where there are too many contacts. ``before`` is the pose before the step.
-    The contacts are those before it and what the bolt meets in it; where they have no solution, and where the push
-    grows, those that a bolt without friction would have are added.
+    The contacts are those before it and what the bolt meets in it; where they have no solution and the step
+    ``begins_anew``, and where the push grows, those that a bolt without friction would have are added.
     """
     command, device, _, bolt, nut, threads, work, _ = setting
     free = q.copy()
@@ -526,7 +527,7 @@ def step_with_friction(
     number, total = 0, count
     if turns:
         number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
-    if number == 0 and total <= MOST_CANDIDATES:
+    if number == 0 and total <= MOST_CANDIDATES and (begins_anew or not turns):
         status, found = descend(
             free,
             push,

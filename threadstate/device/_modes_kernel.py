@@ -80,6 +80,10 @@ SOFTNESS = 1e-8
 normal by the unit. Two contacts that did not at all would fix their points on the line between them twice, and the
 forces along it would be anything; so they are what has come up while the contacts stick."""
 
+CONVERGES_AFTER, CONVERGING, FAR_OUT = 2, 0.25, 2.0
+"""After so many iterations, one whose step is less than a quarter of that before is converging: if the steps go on so,
+it ends within a third of the last one. Where forces are out of their cones by twice that step, they will be."""
+
 LEAST_SLIP = 1e-7
 """The least slip (nominal radii) that the numbers rho of a step are made for."""
 
@@ -472,6 +476,25 @@ def largest(size: int, values: Array) -> float:
 
 
 @kernel()
+def leaves_cones(modes: Indices, count: int, mu: float, off: float, forces: Array) -> bool:
+    """Whether a contact pulls, or one that sticks has more friction than it can, by more than ``off``.
+
+    ``forces`` are, of each contact that stays, those along its normal and both tangents.
+    """
+    row = 0
+    for c in range(count):
+        if modes[c] == OPENS:
+            continue
+        normal = forces[row]
+        if normal < -off:
+            return True
+        if modes[c] == STICKS and math.hypot(forces[row + 1], forces[row + 2]) > mu * normal + off:
+            return True
+        row += 3
+    return False
+
+
+@kernel()
 def solve_mode(
     modes: Indices,
     count: int,
@@ -490,6 +513,8 @@ def solve_mode(
 ) -> int:
     """Solves a mode's equations from ``q``, in place; SOLVED where its residuals vanish. Contacts are set.
 
+    It is given up where it converges to forces out of their cones.
+
     ``before`` is the pose before the step; ``unit`` the force that forces are counted in; ``found`` places are those
     at ``q``. The contacts have the forces to begin with, and those before the step.
     """
@@ -497,15 +522,16 @@ def solve_mode(
     places, indices = work.places, work.indices
     n = free_coordinates(device)
     r = device[D_SCALE]
+    if not match_places(modes, count, contacts, found, places, r, indices):
+        return UNSOLVED
     place = np.empty(PLACE_SIZE)
     step = np.empty(MOST_UNKNOWNS)
     update = np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS))
     expected = np.zeros(MOST_UNKNOWNS)
     start = q.copy()
     set_place(q, device, place)
-    if not match_places(modes, count, contacts, found, places, r, indices):
-        return UNSOLVED
     rho = set_first_unknowns(modes, count, mu, unit, r, n, before, place, contacts, work)
+    taken_before = math.inf
     for iteration in range(ITERATIONS):
         set_place(q, device, place)
         if iteration > 0 and not follow_places(modes, count, place, device, bolt, nut, threads, work):
@@ -570,6 +596,11 @@ def solve_mode(
             return UNSOLVED
         for i in range(n, size):
             unknowns[i] += step[i]
+        taken = largest(size, step)
+        is_converging = iteration >= CONVERGES_AFTER and taken < CONVERGING * taken_before
+        if is_converging and leaves_cones(modes, count, mu, FAR_OUT * taken, unknowns[n:]):
+            return UNSOLVED
+        taken_before = taken
         if not largest(size - n, unknowns[n:]) < STRONGEST:
             return UNSOLVED
     return UNSOLVED

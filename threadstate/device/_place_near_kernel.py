@@ -1,7 +1,8 @@
 """Where a contact is after a small motion: its place of overlap is followed from where it was, over edges and threads.
 
 A contact of the threads that leaves them goes on along the edge at which it leaves; one of an edge from which phi rises
-into both threads goes on within them.
+into both threads goes on within them, if Newton's method leads to a maximum there. Beside a fillet it may not: what is
+found by following contacts is searched for other places at its end.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers
-from threadstate.contact._ridge_kernel import LATER_RIDGE_STEP
+from threadstate.contact._ridge_kernel import LATER_RIDGE_STEP, nearby_maximum
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -24,12 +25,30 @@ from threadstate.contact._stage_kernel import (
 )
 from threadstate.contact._tangency_kernel import TJ_B, TJ_X, TJ_Y, TJ_Z, set_jet
 from threadstate.device._chart_kernel import N_OFFSET, N_ROTATION
-from threadstate.device._gap_kernel import E_G, E_PHI, G_PAIR, G_THETA, G_Z, moved_point
+from threadstate.device._gap_kernel import (
+    E_G,
+    E_G1,
+    E_G2,
+    E_PHI,
+    E_PHI1,
+    E_PHI2,
+    G_PAIR,
+    G_THETA,
+    G_Z,
+    moved_point,
+    set_edge_jet,
+)
 from threadstate.device._places_kernel import Threads, bracketed_peak
-from threadstate.device._thread_maximum_kernel import MAXIMUM, NONE, polished_maximum, ridge_maximum, thread_maximum
+from threadstate.device._thread_maximum_kernel import NONE, polished_maximum, ridge_maximum
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
+
+PEAK_STEPS = 8
+"""The most steps of Newton's method to a place along an edge."""
+
+PEAK, PEAK_NOISE = 1e-14, 1e-11
+"""The step (rad) at which it ends, and that below which it does where steps get no shorter for round-off."""
 
 WINDOWS = (0.003, 0.02, 0.1)
 """Within these azimuths (rad) of where a contact was its place along an edge is looked for, one after the other."""
@@ -40,6 +59,9 @@ the other part's edge: a crossing of both edges divides into a place of each."""
 
 NOWHERE = -1
 """Instead of a pair of features: no place is near."""
+
+ON_PLANE, ON_PHI, ON_BOTH, ANY = range(4)
+"""What is greatest at a place along an edge: g, phi, or the lesser where they cross; or it is not known."""
 
 
 @kernel()
@@ -53,7 +75,7 @@ def place_near(
     if pair == THREAD_THREAD:
         return from_thread(gap[G_THETA], gap[G_Z], place, bolt, nut, threads, edge_jet)
     of_bolt = not (pair == BASE_EDGE or pair == THREAD_EDGE)
-    pair, theta = edge_place(of_bolt, gap[G_THETA], place, bolt, nut, edge_jet)
+    pair, theta = edge_place(of_bolt, gap[G_THETA], kind_of(pair), place, bolt, nut, edge_jet)
     if (pair == EDGE_THREAD or pair == THREAD_EDGE) and edge_jet[E_G] < BESIDE_CROSSING * bolt[pk.R_MAJOR]:
         pair, theta = deeper_edge(pair, theta, min(edge_jet[E_G], edge_jet[E_PHI]), place, bolt, nut, edge_jet)
     if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
@@ -62,13 +84,18 @@ def place_near(
 
 
 @kernel()
-def edge_place(of_bolt: bool, was: float, place: Array, bolt: Array, nut: Array, jet: Array) -> tuple[int, float]:
-    """The pair of features of an edge's place near an azimuth, and where it is: of both edges, on the bolt's."""
-    pair, theta = edge_peak(of_bolt, was, place, bolt, nut, jet)
+def edge_place(
+    of_bolt: bool, was: float, kind: int, place: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[int, float]:
+    """The pair of features of an edge's place near an azimuth, and where it is: of both edges, on the bolt's.
+
+    It is looked for first as what it was, ``kind`` of :func:`kind_of`, or ``ANY``.
+    """
+    pair, theta = edge_peak(of_bolt, was, kind, place, bolt, nut, jet)
     if pair != EDGE_EDGE or of_bolt:
         return pair, theta
     x, y = point_of_edge(of_bolt, theta, place, nut)
-    return edge_peak(True, math.atan2(y, x), place, bolt, nut, jet)
+    return edge_peak(True, math.atan2(y, x), kind, place, bolt, nut, jet)
 
 
 @kernel()
@@ -80,17 +107,59 @@ def point_of_edge(of_bolt: bool, theta: float, place: Array, curve: Array) -> tu
 
 
 @kernel()
-def edge_peak(of_bolt: bool, was: float, place: Array, bolt: Array, nut: Array, jet: Array) -> tuple[int, float]:
+def kind_of(pair: int) -> int:
+    """What is greatest at an edge's place with this pair of features."""
+    if pair == EDGE_SURFACE or pair == BASE_EDGE:
+        return ON_PLANE
+    return ON_BOTH if pair == EDGE_EDGE else ON_PHI
+
+
+@kernel()
+def newton_peak(
+    of_bolt: bool, was: float, kind: int, place: Array, curve: Array, solid: Array, jet: Array
+) -> tuple[bool, float]:
+    """A place of its kind by Newton's method from an azimuth: whether it leads to one that is near, and where."""
+    at, before = was, math.inf
+    for _ in range(PEAK_STEPS):
+        set_edge_jet(of_bolt, at, place, curve, solid, jet)
+        over = jet[E_G] - jet[E_PHI]
+        if kind == ON_PLANE:
+            is_peak, step = jet[E_G2] < 0.0 and over < 0.0, -jet[E_G1] / jet[E_G2]
+        elif kind == ON_PHI:
+            is_peak, step = jet[E_PHI2] < 0.0 and over > 0.0, -jet[E_PHI1] / jet[E_PHI2]
+        else:
+            is_peak, step = jet[E_G1] * jet[E_PHI1] < 0.0, -over / (jet[E_G1] - jet[E_PHI1])
+        if not is_peak:
+            return False, at
+        if abs(step) < PEAK or 0.5 * abs(before) < abs(step) < PEAK_NOISE:
+            return True, at
+        at += step
+        before = step
+        if not abs(at - was) < WINDOWS[0]:
+            return False, at
+    return False, at
+
+
+@kernel()
+def edge_peak(
+    of_bolt: bool, was: float, kind: int, place: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[int, float]:
     """As :func:`edge_place`, on this edge."""
     curve, solid = (bolt, nut) if of_bolt else (nut, bolt)
-    for window in WINDOWS:
-        kind, theta = bracketed_peak(of_bolt, was - window, was + window, place, curve, solid, jet)
-        if kind == 0:
-            return (EDGE_SURFACE if of_bolt else BASE_EDGE), theta
-        if kind == 1:
-            return (EDGE_THREAD if of_bolt else THREAD_EDGE), theta
-        if kind == 2:
-            return EDGE_EDGE, theta
+    is_found, theta = False, was
+    if kind != ANY:
+        is_found, theta = newton_peak(of_bolt, was, kind, place, curve, solid, jet)
+    if not is_found:
+        for window in WINDOWS:
+            kind, theta = bracketed_peak(of_bolt, was - window, was + window, place, curve, solid, jet)
+            if kind >= 0:
+                break
+    if kind == ON_PLANE:
+        return (EDGE_SURFACE if of_bolt else BASE_EDGE), theta
+    if kind == ON_PHI:
+        return (EDGE_THREAD if of_bolt else THREAD_EDGE), theta
+    if kind == ON_BOTH:
+        return EDGE_EDGE, theta
     return NOWHERE, was
 
 
@@ -101,7 +170,7 @@ def deeper_edge(
     """Of a place of one part's edge near the other's, and the place of that one beside it, the deeper one."""
     of_bolt = pair == EDGE_THREAD
     x, y = point_of_edge(of_bolt, theta, place, bolt if of_bolt else nut)
-    other, at = edge_place(not of_bolt, math.atan2(y, x), place, bolt, nut, jet)
+    other, at = edge_place(not of_bolt, math.atan2(y, x), ON_PHI, place, bolt, nut, jet)
     if (other == EDGE_THREAD or other == THREAD_EDGE) and min(jet[E_G], jet[E_PHI]) > depth:
         return other, at
     return pair, theta
@@ -120,8 +189,8 @@ def from_edge(
         at, inward = math.atan2(y, x), -1.0
     set_jet(at, up, threads.placement, bolt, nut, jet)
     if inward * jet[TJ_B] > 0.0:
-        at, up, kind = thread_maximum(at, up, 0.0, threads.placement, bolt, nut, jet)
-        if kind == MAXIMUM and up > 0.0 and jet[TJ_Z] < 0.0:
+        at, up, converged = nearby_maximum(at, up, 0.0, threads.placement, bolt, nut, jet)
+        if converged and up > 0.0 and jet[TJ_Z] < 0.0:
             at, up, converged = polished_maximum(at, up, threads.placement, bolt, nut, jet)
             if converged and up > 0.0 and jet[TJ_Z] < 0.0:
                 return THREAD_THREAD, at, up
@@ -140,9 +209,9 @@ def from_thread(
         if kind == NONE:
             return NOWHERE, at, up
     if up <= 0.0:
-        pair, at = edge_place(True, at, place, bolt, nut, edge_jet)
+        pair, at = edge_place(True, at, ANY, place, bolt, nut, edge_jet)
         return pair, at, 0.0
     if jet[TJ_Z] >= 0.0:
-        pair, at = edge_place(False, math.atan2(jet[TJ_Y], jet[TJ_X]), place, bolt, nut, edge_jet)
+        pair, at = edge_place(False, math.atan2(jet[TJ_Y], jet[TJ_X]), ANY, place, bolt, nut, edge_jet)
         return pair, at, 0.0
     return THREAD_THREAD, at, up
