@@ -166,6 +166,7 @@ def test_both_sides_of_the_boundary_of_random_contacts(contacts: int, mu: float)
         if found.dimension != 2 or not len(found.vertices):
             continue
         size = np.ptp(found.vertices, axis=0).max()
+        assert found.gap <= 2e-4 * size
         for piece in found.pieces[:6]:
             start, end = found.vertices[piece.first], found.vertices[(piece.first + 1) % len(found.vertices)]
             along = (end - start) / math.dist(start, end)

@@ -25,6 +25,8 @@ MOST_STEPS = 80
 STEP_TO_BOUNDARY = 0.995
 ACCURACY = 1e-14
 """Residuals and gap, relative to the data's size, at which the iteration ends."""
+MOST_STALLED = 5
+"""The iteration ends after so many steps that take a tenth neither off the residuals nor off residuals and gap."""
 
 
 @kernel()
@@ -206,6 +208,7 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
     into_cones(z, sizes)
     degree = sizes.shape[0]
     best = math.inf
+    least = math.inf
     stalled = 0
     best_x = x.copy()
     best_z = z.copy()
@@ -224,17 +227,18 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
                 rs[k] -= g[k, i] * x[i]
             worst_s += abs(rs[k])
             gap += s[k] * z[k]
-        error = max(worst_x / size_c, worst_s / max(size_h, size_x), gap / size_x)
+        residual = max(worst_x / size_c, worst_s / max(size_h, size_x))
+        error = max(residual, gap / size_x)
         if not worst_x + worst_s + gap < math.inf:
             break
+        # The gap of a start that is far from feasible may grow for some steps while the residuals fall.
+        stalled = 0 if error < 0.9 * best or residual < 0.9 * least else stalled + 1
+        least = min(least, residual)
         if error < best:
-            stalled = 0 if error < 0.9 * best else stalled + 1
             best = error
             assign(best_x, x)
             assign(best_z, z)
-        else:
-            stalled += 1
-        if error <= ACCURACY or stalled == 5:
+        if error <= ACCURACY or stalled == MOST_STALLED:
             break
         if not set_scaling(s, z, sizes, scaling, eta):
             break

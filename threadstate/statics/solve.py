@@ -13,7 +13,7 @@ from threadstate.statics import _friction_kernel as fk
 from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics._support_kernel import support_margin
-from threadstate.statics.hold_bounds import LOOSE, NEAR, STEPS, deep_forces, outline_hold, sharpened
+from threadstate.statics.hold_bounds import BALANCED, LOOSE, STEPS, deep_forces, outline_hold, sharpened
 from threadstate.statics.load import Load, checked_friction
 from threadstate.statics.scene import scene_of
 from threadstate.statics.touching import Touching
@@ -50,7 +50,8 @@ class Statics:
         wedge: the least friction at which contact forces can balance each other.
         turn_effort_ccw, turn_effort_cw: torque over the push times the nominal radius at which the bolt begins to turn,
             held by a rigid device; infinite where it is locked, None without a push on a contact.
-        forces: balancing forces of least largest normal part; empty where there are none.
+        forces: balancing forces of least largest normal part; empty where none were found that lie in
+            their cones but for round-off.
     """
 
     pose_deg: Vector
@@ -175,7 +176,7 @@ def _forces(wrench: Floats, scaled: Touching, wedge: FrictionBounds, mu: float) 
     forces = np.zeros(3 * len(chosen))
     needed = fk.least_forces(wrench, mu, scaled.points[chosen], scaled.normals[chosen], forces)
     vectors = forces.reshape(-1, 3)
-    if not needed <= mu * (1.0 + NEAR) + NEAR:
+    if not needed <= mu * (1.0 + BALANCED) + BALANCED:
         vectors, needed = deep_forces(wrench, scaled.points[chosen], scaled.normals[chosen], mu)
         if math.isinf(needed):
             return ()
