@@ -12,7 +12,7 @@ from service.database import ReadConnection, RequestedControl
 from service.jobs.endpoints import ACCEPTED, JobId, job_response
 from service.jobs.schemas import JobDocument
 from service.keys import require_write_key
-from service.libraries.requested import solved_pair
+from service.libraries.requested import identified_library, solved_pair
 from service.quantities import INTEGER_TEXT, UNIT_HEADER, PitchPath, RollPath, UnitQuery
 from service.representation import NOT_MODIFIED, json_response
 from service.settle.endpoints import device_of
@@ -30,6 +30,7 @@ from threadstate.device.settle import check_pair
 from threadstate.errors import NotFoundError
 from threadstate.jobs.queue import job_by_id, submit_job
 from threadstate.library.grid import LARGEST_POSE_COUNT, Grid
+from threadstate.library.identity import pair_of
 from threadstate.library.published import LATEST
 from threadstate.numbers import number_text
 from threadstate.success.inputs import SuccessInputs
@@ -62,6 +63,14 @@ SuccessMapId = Annotated[
 ]
 LimitQuery = Annotated[
     int, Ge(1), Le(LARGEST_PAGE), INTEGER_TEXT, Query(description="how many orientations a page has at most")
+]
+PairOfLibraryQuery = Annotated[
+    str | None,
+    Query(
+        min_length=1,
+        max_length=100,
+        description="only maps of the pair of this library, which is named as in a path",
+    ),
 ]
 AfterQuery = Annotated[
     int, Ge(-1), Le(LARGEST_POSE_COUNT), INTEGER_TEXT, Query(description="from the `next` link of the page before")
@@ -111,9 +120,13 @@ def post_success_map(request: Request, engine: RequestedControl, body: SuccessRe
 
 
 @router.get("/success-maps", summary="All success maps", response_model=SuccessMapList, responses=NOT_MODIFIED)
-def list_success_maps(request: Request, connection: ReadConnection) -> Response:
-    """The published success maps, the latest first."""
-    documents = [success_map_document(record) for record in success_maps(connection)]
+def list_success_maps(request: Request, connection: ReadConnection, library: PairOfLibraryQuery = None) -> Response:
+    """The published success maps, the latest first; with ``library`` those of its pair."""
+    found = success_maps(connection)
+    if library is not None:
+        pair = pair_of(identified_library(connection, library).pair)
+        found = [record for record in found if record.inputs.pair == pair]
+    documents = [success_map_document(record) for record in found]
     return json_response(request, SuccessMapList(success_maps=documents).model_dump(mode="json"))
 
 

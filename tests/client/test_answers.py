@@ -118,7 +118,7 @@ def test_both_clients_get_the_same_of_every_method(client: Client, address: str)
         "settled_library": {"settled_library": 1},
         "settled_state": {"roll": 0, "pitch": 0, "phase": 90, "unit": "mm"},
         "outcomes": {"poses": [(1, -2, 10)], "strategy": "cw", "unit": "mm"},
-        "success_maps": {},
+        "success_maps": {"library": 1},
         "success_map": {},
         "success_orientation": {"roll": 1, "pitch": -1, "unit": "mm"},
         "intervals": {"roll": 0, "pitch": -3},

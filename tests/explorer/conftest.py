@@ -2,24 +2,34 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 import pytest
 from selenium import webdriver
 
 from harness.browser import Explorer, hosts_of, start_chromium
 from harness.databases import Databases
+from tests.jobs.jobs import SUCCESS_INPUTS
+from tests.service.success_map import store_success_map
 from tests.service_thread import service_thread
 from tests.stored_histories.history_library import histories_of_grid, store_histories
+from threadstate.device.document import device_from_document
 from threadstate.library.grid import Grid
 
 GRID = Grid(4.0, 4.0, 5.0)
 """Tilts of -4, 0 and 4 deg, phases by 5 deg."""
+MATRIX_DEVICE = device_from_document(
+    {"unit": "mm", "stiffness": [[20.0 + i if i == j else 0.0 for j in range(6)] for i in range(6)]}
+)
+"""A device that the page has no fields for."""
 
 
 @pytest.fixture(scope="session")
 def library_database(sqlite_databases: Databases) -> str:
-    """A database with a real library and its histories."""
+    """A database with a real library and its histories, and success maps of made-up outcomes."""
     database = sqlite_databases.migrated()
+    store_success_map(database)
+    store_success_map(database, replace(SUCCESS_INPUTS, device=MATRIX_DEVICE))
     store_histories(database, GRID, histories_of_grid(GRID))
     return database
 

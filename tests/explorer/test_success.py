@@ -169,6 +169,32 @@ def test_paths_from_the_first_phase_come_first_as_small_squares(explorer: Explor
     explorer.click("#success-cancel")
 
 
+def test_a_stored_map_is_shown_at_each_of_its_frictions_and_by_a_link(explorer: Explorer) -> None:
+    explorer.click("#tab-success")
+    explorer.wait(lambda: len(explorer.all("#success-stored option")) == 5, "the stored maps are not listed")
+    _, of_matrix, _, without, with_friction = explorer.all("#success-stored option")
+    assert not of_matrix.is_enabled()
+    assert "a whole matrix" in of_matrix.text
+    assert without.text == "1: μ 0, 2 phases, the default device; ccw, then cw"
+    explorer.choose("#success-stored", without.get_attribute("value") or "")
+    explorer.wait_for_text("#success-text", "Of 9 orientations 9 engage from each of 2 phases at μ = 0.")
+    explorer.choose("#success-stored", with_friction.get_attribute("value") or "")
+    explorer.wait_for_text("#success-text", "Of 9 orientations 0 engage from each of 2 phases at μ = 0.2.")
+    assert explorer.text("#success-device") == "stored map 1: the default device; ccw, then cw"
+    assert explorer.one('#success .cell[data-roll="1"][data-pitch="-1"]')
+    explorer.wait(lambda: "mu%3D0.2" in explorer.chromium.current_url, "the link does not have the map")
+    link = explorer.chromium.current_url
+    explorer.choose("#success-stored", "")
+    explorer.wait(lambda: not explorer.all("#success .cell"), "the map is not left")
+    for changed, words in (
+        (link, "0 engage"),
+        (link.replace("phases%3D2", "phases%3D4"), "another one than that of the link"),
+    ):
+        explorer.chromium.get("about:blank")
+        explorer.chromium.get(changed)
+        explorer.wait_for_text("#panel-success", words)
+
+
 def test_what_is_not_valid_is_said(explorer: Explorer) -> None:
     explorer.click("#tab-success")
     explorer.choose("#success-mu", "2")

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { ProblemError } from "../../service/explorer/page/js/api.js";
 import { requestOf } from "../../service/explorer/page/js/assembly.js";
-import { SuccessMap, cellOf, checkedMap, mapRequestOf, mapText, orientationsOf, pathText, totalsOf } from "../../service/explorer/page/js/success_map.js";
+import { SuccessMap, cellOf, checkedMap, mapRequestOf, mapText, orientationsOf, pathText, storedMapText, totalsOf } from "../../service/explorer/page/js/success_map.js";
 import { criticalWords, mapWords } from "../../service/explorer/page/js/success_view.js";
 
 const GRID = { tilt_max: 4, tilt_step: 4 };
@@ -37,10 +37,53 @@ function computed(map) {
 
 test("a map's request goes into the link and comes back the same", () => {
   assert.equal(TEXT, "phases=2&roll=0&pitch=0&phase=0&mu=0.1&k_tilt=250&strategy=cw&unit=mm");
-  assert.deepEqual(mapRequestOf(TEXT), { phases: 2, request: { ...REQUEST, roll: "0", pitch: "0", phase: "0" } });
+  assert.deepEqual(mapRequestOf(TEXT), { stored: null, phases: 2, request: { ...REQUEST, roll: "0", pitch: "0", phase: "0" } });
   assert.equal(checkedMap(TEXT), TEXT);
   for (const text of ["", "phases=5&roll=0&pitch=0&phase=0&unit=mm", "phases=2", TEXT.replace("cw", "sideways"), `${TEXT}&phases=1`]) assert.equal(checkedMap(text), undefined, text);
   assert.equal(pathText(TEXT, { roll: 3, pitch: -2, phase: 180 }), "roll=3&pitch=-2&phase=180&mu=0.1&k_tilt=250&strategy=cw&unit=mm");
+});
+
+const DEVICE = { unit: "mm", k_lateral: 20, k_axial: 0, k_tilt: 250, k_twist: "rigid", stiffness: null, centre: 0, push: 10, about: "nut" };
+const STORED = { id: 7, device: DEVICE, strategy: "cw", mu: [0, 0.1], grid: { tilt_max: 1, tilt_step: 1, phase_step: 72 } };
+const STORED_TEXT = storedMapText(STORED, 0.1);
+
+/** A service with a stored map in pages of an orientation. */
+class Store {
+  get(path) {
+    if (path === "/v1/success-maps/7") return Promise.resolve(STORED);
+    const after = Number(new URL(path, "http://store").searchParams.get("after") ?? -1);
+    const cell = (phase, mu) => ({ phase, mu, outcome: "engaged", flags: [], bounded: false, torque: 1, tilt: 3, shift: 0.01, end: -90 });
+    const cells = [0, 36, 72, 144, 216, 288].flatMap((phase) => [cell(phase, 0), cell(phase, 0.1)]);
+    return Promise.resolve({ orientations: [{ roll: after, pitch: 0, cells }], next: after < 1 ? `${path.split("?")[0]}/orientations?after=${after + 1}` : null });
+  }
+}
+
+test("a stored map goes into the link with its device, one with a whole matrix does not", () => {
+  assert.equal(STORED_TEXT, "stored=7&phases=5&unit=mm&k_tilt=250&strategy=cw&mu=0.1&roll=0&pitch=0&phase=0");
+  assert.equal(checkedMap(STORED_TEXT), STORED_TEXT);
+  assert.equal(mapRequestOf(STORED_TEXT).stored, 7);
+  assert.equal(pathText(STORED_TEXT, { roll: 1, pitch: 0, phase: 72 }), "roll=1&pitch=0&phase=72&mu=0.1&k_tilt=250&strategy=cw&unit=mm");
+  assert.equal(storedMapText({ ...STORED, device: { ...DEVICE, stiffness: [[1]] } }, 0), null);
+});
+
+test("a stored map is read page by page, at its friction and the phases of its grid", async () => {
+  const map = new SuccessMap(new Store(), () => {});
+  map.follow(STORED_TEXT, 1, GRID, "in");
+  await computed(map);
+  assert.equal(map.value.problem, null);
+  assert.deepEqual(map.value.grid, STORED.grid);
+  assert.deepEqual([...map.value.cells.keys()], ["-1 0", "0 0", "1 0"]);
+  assert.deepEqual(map.value.cells.get("0 0").map(({ roll, phase, mu }) => [roll, phase, mu]), [0, 72, 144, 216, 288].map((phase) => [0, phase, 0.1]));
+});
+
+test("a number under which another map is stored is a problem, not that map", async () => {
+  for (const text of [STORED_TEXT.replace("k_tilt=250", "k_tilt=300"), STORED_TEXT.replace("mu=0.1", "mu=0.2")]) {
+    const map = new SuccessMap(new Store(), () => {});
+    map.follow(text, 1, GRID, "in");
+    await computed(map);
+    assert.match(map.value.problem, /stored map 7 is another one/);
+    assert.equal(map.value.cells.size, 0);
+  }
 });
 
 test("orientations near level come first, each once", () => {

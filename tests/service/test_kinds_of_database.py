@@ -27,7 +27,7 @@ Clients = tuple[TestClient, TestClient]
 MADE_UP, WITH_HISTORIES = "/v1/libraries/1", "/v1/libraries/2"
 OF_ONE_ANSWER = re.compile(r"\d{4}-\d\d-\d\dT[\d:.]+Z|urn:threadstate:request:\w+")
 READ = {
-    "/v1/success-maps": ["/v1/success-maps"],
+    "/v1/success-maps": ["/v1/success-maps", "/v1/success-maps?library=1", "/v1/success-maps?library=9"],
     "/v1/success-maps/{id}": ["/v1/success-maps/latest", "/v1/success-maps/1", "/v1/success-maps/9"],
     "/v1/success-maps/{id}/orientations": [
         "/v1/success-maps/1/orientations?unit=mm",

@@ -15,7 +15,8 @@ from harness.databases import Databases
 from service.jobs.schemas import JobDocument
 from service.success.schemas import GrowingMap, SuccessMapDetail, SuccessMapList, SuccessOrientationPage
 from tests.jobs.jobs import GRID, SUCCESS_INPUTS, made_up_orientation
-from tests.service.conftest import client_of
+from tests.service.conftest import client_of, store_library
+from tests.service.made_up_states import made_up_states
 from tests.service.success_map import store_success_map
 from tests.service.test_problems import problem
 from threadstate.access.keys import create_key
@@ -34,7 +35,7 @@ from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import OrientationMap
 from threadstate.success.summary_document import SummarisedOrientationDocument, summarised_document
 from threadstate.success.write import write_orientation
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.units import MILLIMETRES_PER_INCH
 
 pytestmark = pytest.mark.sqlite_alone
@@ -82,6 +83,17 @@ def test_published_maps_are_listed_with_what_they_were_computed_from(desk: Desk)
     assert (latest["phase_tolerance"], latest["mu_tolerance"], latest["point_limit"]) == (30.0, 0.01, 1000)
     assert latest["content_sha256"] == map_sha256(desk.orientations)
     assert latest["grid"] == {"tilt_max": 1.0, "tilt_step": 1.0, "phase_step": 180.0, "orientations": 9}
+
+
+def test_maps_of_the_pair_of_a_library_alone_are_listed(sqlite_databases: Databases) -> None:
+    database = sqlite_databases.migrated()
+    of_default = store_library(database, quarter_twenty_unc(), GRID, made_up_states).id
+    of_other = store_library(database, pair_by_designation("M6-6g/6H"), GRID, made_up_states).id
+    store_success_map(database)
+    with client_of(database) as client:
+        assert [one["id"] for one in client.get(f"{MAPS}?library={of_default}").json()["success_maps"]] == [1]
+        assert client.get(f"{MAPS}?library={of_other}").json() == {"success_maps": []}
+        assert "library 9 is not published" in (problem(client.get(f"{MAPS}?library=9"), 404).detail or "")
 
 
 def test_a_map_has_its_totals(desk: Desk) -> None:

@@ -81,9 +81,9 @@ def ask_success_map(
     return post(path_of("v1", "success-maps"), JobDocument, body, repeatable=True)
 
 
-def success_maps() -> Call[SuccessMapList]:
-    """All published success maps, the latest first."""
-    return get(path_of("v1", "success-maps"), SuccessMapList)
+def success_maps(*, library: LibraryName | None = None) -> Call[SuccessMapList]:
+    """All published success maps, the latest first; with ``library`` those of its pair."""
+    return get(path_of("v1", "success-maps"), SuccessMapList, library=library)
 
 
 def success_map(success_map: int | str = LATEST) -> Call[SuccessMapDetail]:

@@ -92,6 +92,15 @@ export function bodyOf(text, library) {
   };
 }
 
+/** What of a request a device document of the service is, texts by name; null where it has a whole stiffness matrix. */
+export function requestOfDevice(device) {
+  if (device.stiffness !== null) return null;
+  const text = (name) => String(device[name] ?? "");
+  const isGiven = (name) => text(name) !== convertedText(name, String(NUMBERS[name].default), "mm", device.unit);
+  const numbers = OF_DEVICE.filter((name) => Object.hasOwn(NUMBERS, name));
+  return { unit: device.unit, about: device.about, ...Object.fromEntries(numbers.map((name) => [name, isGiven(name) ? text(name) : ""])) };
+}
+
 /** Push (N), and height of the compliance centre in a unit, of a request. */
 export function deviceOf(text, unit) {
   const request = requestOf(text);

@@ -60,6 +60,8 @@ export class Model {
   /** The success map that the view asks for, and the one that is kept beside it. */
   success;
   keptSuccess;
+  /** The stored success maps of the library's pair, the latest first; null until they have arrived. */
+  storedMaps = null;
   /** Figures of libraries side by side, and the sections of the library's thread and of the view's: with `problem` where that has none. */
   comparison = null;
   profiles = null;
@@ -210,6 +212,7 @@ export class Model {
   /** Computes the success maps that the view asks for. */
   followSuccess({ library, unit, success, kept_success: kept }) {
     if (this.library.id !== library) return;
+    this.#request("storedMaps", `${library}`, async () => (await this.#api.get("/v1/success-maps", { library })).success_maps);
     this.success.follow(success, library, this.library.grid, unit);
     this.keptSuccess.follow(kept, library, this.library.grid, unit);
   }

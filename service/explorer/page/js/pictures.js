@@ -34,7 +34,7 @@ const TILT_FIELDS = ["roll", "pitch"];
 const NO_NETWORK = "No network: the library was computed by meshes, or the phase is undecided.";
 const NOT_IN_NETWORK = "This formation occurs at no orientation of the grid: the network does not have it. The way below is by turning alone.";
 /** Parts of the model that are seen in the tabs behind the first one alone. */
-const TAB_PARTS = ["statics", "jamming", "assembly", "progress", "success", "node", "path", "formations", "located", "measured", "comparison", "profiles"];
+const TAB_PARTS = ["statics", "jamming", "assembly", "progress", "success", "storedMaps", "node", "path", "formations", "located", "measured", "comparison", "profiles"];
 const BESIDE = ["beside_library", "beside_roll", "beside_pitch"];
 
 /** The pictures, and what is played in them. */
@@ -166,7 +166,7 @@ export class Pictures {
     if (part === "statics") this.#drawLoad();
     if (["assembly", "progress", "library"].includes(part)) this.#showAssembly();
     if (part === "assembly") this.#playAnswer();
-    if (part === "success") this.#showSuccess();
+    if (["success", "storedMaps"].includes(part)) this.#showSuccess();
     if (part === "jamming") this.#tabs.load.showJamming(this.#model.jamming);
     if (part === "node") this.#drawFollowing();
     if (part === "path") this.#drawPath();

@@ -1,6 +1,6 @@
-// Success maps of the page: how the paths of a device end over the orientations of the grid, computed a few at a time.
+// Success maps of the page: how the paths of a device end over orientations, computed a few at a time or read as stored.
 
-import { assemblyText, bodyOf, checkedAssembly, requestOf } from "./assembly.js";
+import { assemblyText, bodyOf, checkedAssembly, requestOf, requestOfDevice } from "./assembly.js";
 import { ProblemError } from "./api.js";
 import { tilts } from "./grid.js";
 
@@ -21,21 +21,33 @@ const LANES = 2;
 const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8];
 const TOLERANCE = 0.01;
 const UNAUTHORIZED = 401;
+/** What a map's text has before the device: the number of a stored map, and how many phases. */
+const HEAD = /^(?:stored=([0-9]{1,15})&)?phases=([0-9]{1,5})&/;
+/** Orientations of a stored map that are read at once. */
+const PAGE = 1000;
 
 /** The text of a map's request: how many phases, and the device, strategy and friction as `assembly.js` writes them. */
 export function mapText(phases, request) {
   return `phases=${phases}&${assemblyText({ ...request, roll: "0", pitch: "0", phase: "0" })}`;
 }
 
-/** A map's request: {phases, request}. */
+/** The text of a map that the service has stored, at one of its frictions; null where the page has no fields for its device. */
+export function storedMapText({ id, device, strategy, grid }, mu) {
+  const request = requestOfDevice(device);
+  return request && `stored=${id}&${mapText(Math.round(360 / grid.phase_step), { ...request, strategy, mu: mu === 0 ? "" : String(mu) })}`;
+}
+
+/** A map's request: {stored, phases, request}; `stored` is the number of a stored map, null where it is computed here. */
 export function mapRequestOf(text) {
-  return { phases: Number(new URLSearchParams(text).get("phases")), request: requestOf(assemblyOf(text)) };
+  const given = new URLSearchParams(text);
+  const stored = given.get("stored");
+  return { stored: stored && Number(stored), phases: Number(given.get("phases")), request: requestOf(assemblyOf(text)) };
 }
 
 /** The text where it is one as the page writes it, else undefined. */
 export function checkedMap(text) {
-  const phases = new URLSearchParams(text).getAll("phases");
-  const isKnown = phases.length === 1 && PHASE_COUNTS.includes(Number(phases[0]));
+  const [, stored, phases] = text.match(HEAD) ?? [];
+  const isKnown = stored === undefined ? PHASE_COUNTS.includes(Number(phases)) : Number(phases) > 0;
   return isKnown && checkedAssembly(assemblyOf(text)) !== undefined ? text : undefined;
 }
 
@@ -95,7 +107,7 @@ export function totalsOf(map) {
   };
 }
 
-/** One map: requested, filled in while it is computed, ended where it is no longer wanted. */
+/** One map: requested, filled in while it is computed or read, ended where it is no longer wanted. */
 export class SuccessMap {
   /** Null where nothing is asked for: {text, unit, grid, cells, isRunning, problem, errors}. */
   value = null;
@@ -112,7 +124,7 @@ export class SuccessMap {
     this.#changed = changed;
   }
 
-  /** Computes the map of a text with the pair of a library; the one before is ended. An empty text: none. */
+  /** Computes or reads the map of a text with the pair of a library; the one before is ended. An empty text: none. */
   follow(text, library, grid, unit) {
     const key = text === "" ? "" : `${library} ${text}`;
     if (key === this.#key) return;
@@ -121,7 +133,7 @@ export class SuccessMap {
     this.critical = null;
     this.value = text === "" ? null : { text, unit, library, grid, cells: new Map(), isRunning: true, problem: null, errors: [] };
     this.#changed();
-    if (this.value !== null) this.#compute(this.value, this.#running.signal);
+    if (this.value !== null) this.#fill(this.value, this.#running.signal);
   }
 
   /** Computes no further; what is there stays. */
@@ -133,6 +145,20 @@ export class SuccessMap {
       this.value.isRunning = false;
       this.#changed();
     }
+  }
+
+  async #fill(map, signal) {
+    try {
+      await (mapRequestOf(map.text).stored === null ? this.#compute(map, signal) : this.#read(map, signal));
+    } catch (error) {
+      if (signal.aborted) return;
+      this.#running.abort();
+      if (!(error instanceof ProblemError) || error.status === UNAUTHORIZED) map.problem = error.message;
+      else [map.problem, map.errors] = [error.message, error.errors];
+    }
+    if (this.value !== map || map.isRunning === false) return;
+    map.isRunning = false;
+    this.#changed();
   }
 
   async #compute(map, signal) {
@@ -149,19 +175,25 @@ export class SuccessMap {
     const lane = async () => {
       for (let next = left.shift(); next !== undefined && !signal.aborted; next = left.shift()) await take(next);
     };
-    try {
-      // Alone: what is refused is refused once.
-      await take(left.shift());
-      await Promise.all(Array.from({ length: LANES }, lane));
-    } catch (error) {
-      if (signal.aborted) return;
-      this.#running.abort();
-      if (!(error instanceof ProblemError) || error.status === UNAUTHORIZED) map.problem = error.message;
-      else [map.problem, map.errors] = [error.message, error.errors];
+    // Alone: what is refused is refused once.
+    await take(left.shift());
+    await Promise.all(Array.from({ length: LANES }, lane));
+  }
+
+  /** Reads a stored map; another one than the text says has been stored under its number elsewhere. */
+  async #read(map, signal) {
+    const { stored, phases, request } = mapRequestOf(map.text);
+    const address = `/v1/success-maps/${stored}`;
+    const found = await this.#api.get(address);
+    const mu = Number(request.mu);
+    if (!found.mu.includes(mu) || storedMapText(found, mu) !== map.text) throw new Error(`the stored map ${stored} is another one than that of the link`);
+    map.grid = found.grid;
+    for (let page = `${address}/orientations?limit=${PAGE}&unit=${map.unit}`; page !== null && !signal.aborted; ) {
+      const { orientations, next } = await this.#api.get(page);
+      for (const { roll, pitch, cells } of orientations) map.cells.set(keyOf({ roll, pitch }), ofGrid(cells, mu, phases).map((cell) => ({ roll, pitch, ...cell })));
+      if (!signal.aborted) this.#changed();
+      page = next;
     }
-    if (this.value !== map || map.isRunning === false) return;
-    map.isRunning = false;
-    this.#changed();
   }
 
   /** Narrows down the friction up to which all starting phases of an orientation engage. */
@@ -216,6 +248,12 @@ export class SuccessMap {
   }
 }
 
+/** Of the paths of an orientation those at a friction from the phases of the grid; a map has more beside boundaries. */
+function ofGrid(cells, mu, phases) {
+  const steps = (phase) => (phase * phases) / 360;
+  return cells.filter((cell) => cell.mu === mu && Math.abs(steps(cell.phase) - Math.round(steps(cell.phase))) < 1e-9);
+}
+
 function isOutOfTime(error) {
   return error instanceof ProblemError && error.type.endsWith("out-of-time");
 }
@@ -227,5 +265,5 @@ function unanswered(pose, { mu = 0 }) {
 }
 
 function assemblyOf(text) {
-  return text.replace(/^phases=[^&]*&/, "");
+  return text.replace(HEAD, "");
 }

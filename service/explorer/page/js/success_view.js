@@ -4,7 +4,7 @@ import { labelOf, NUMBERS, CHOICES } from "./assembly.js";
 import { textColourOn } from "./colours.js";
 import { tilts } from "./grid.js";
 import { byId, html } from "./html.js";
-import { OUTCOMES, PHASE_COUNTS, cellOf, isWhole, keyOf, mapRequestOf, mapText, pathText, totalsOf } from "./success_map.js";
+import { OUTCOMES, PHASE_COUNTS, cellOf, isWhole, keyOf, mapRequestOf, mapText, pathText, storedMapText, totalsOf } from "./success_map.js";
 import { picture, svg } from "./svg.js";
 import { angle, angleNumber, fixed, unitFactor } from "./units.js";
 
@@ -27,6 +27,8 @@ export class SuccessView {
   #chosen = null;
   #model = null;
   #view = null;
+  /** The stored maps that are listed, and the unit of their devices. */
+  #listed = { maps: null, unit: null };
 
   constructor({ map, cancel, keep, play, findCritical, requestOfDevice }) {
     this.#actions = { play };
@@ -37,6 +39,10 @@ export class SuccessView {
       this.#chosen = null;
       map(mapText(byId("success-phases").value, { ...this.#request(), mu: byId("success-mu").value.trim() }));
     });
+    byId("success-stored").addEventListener("change", () => {
+      this.#chosen = null;
+      map(byId("success-stored").value);
+    });
     byId("success-cancel").addEventListener("click", cancel);
     byId("success-keep").addEventListener("click", () => keep(this.#model.success.value.text));
     byId("success-drop").addEventListener("click", () => keep(""));
@@ -46,8 +52,8 @@ export class SuccessView {
   /** Takes over what a view asks for. */
   show({ success }) {
     if (success === "") return;
-    const { phases, request } = mapRequestOf(success);
-    byId("success-phases").value = phases;
+    const { stored, phases, request } = mapRequestOf(success);
+    if (stored === null) byId("success-phases").value = phases;
     byId("success-mu").value = request.mu;
   }
 
@@ -58,6 +64,7 @@ export class SuccessView {
     const { value, critical } = model.success;
     const kept = model.keptSuccess.value;
     const isRunning = value?.isRunning ?? false;
+    this.#listStored(model.storedMaps, view);
     byId("success-cancel").disabled = !isRunning;
     byId("success-keep").disabled = value === null || value.cells.size === 0;
     byId("success-drop").hidden = kept === null;
@@ -68,9 +75,21 @@ export class SuccessView {
     byId("success-text").textContent = value === null || value.cells.size === 0 ? "" : mapWords(value, view.unit);
     this.#drawMap(byId("success"), value, true);
     this.#drawMap(byId("success-kept"), kept, false);
-    byId("success-device").textContent = value === null ? "" : deviceWords(value.text, view.unit);
+    byId("success-device").textContent = value === null ? "" : mapNameWords(value.text, view.unit);
     byId("success-kept-text").textContent = kept === null ? "" : keptWords(kept, value, view.unit);
     this.#showCell(value, critical, view);
+  }
+
+  /** Lists the stored maps of the pair, each at each of its frictions, and marks the one that is shown. */
+  #listStored(maps, { success, unit }) {
+    const select = byId("success-stored");
+    byId("success-stored-field").hidden = maps === null || maps.length === 0;
+    if (maps === null) return;
+    if (this.#listed.maps !== maps || this.#listed.unit !== unit) {
+      this.#listed = { maps, unit };
+      select.replaceChildren(html("option", { value: "" }, "none"), ...maps.flatMap((one) => one.mu.map((mu) => storedOption(one, mu, unit))));
+    }
+    select.value = [...select.options].some(({ value }) => value === success) ? success : "";
   }
 
   #drawMap(frame, map, isMain) {
@@ -160,6 +179,14 @@ export class SuccessView {
   }
 }
 
+/** A stored map at a friction in one line. */
+function storedOption(map, mu, unit) {
+  const text = storedMapText(map, mu);
+  const phases = Math.round(360 / map.grid.phase_step);
+  const device = text === null ? `a device with a whole matrix, which the page has no fields for; ${CHOICES.strategy.values[map.strategy]}` : deviceWords(text, unit);
+  return html("option", { value: text ?? "", disabled: text === null }, `${map.id}: μ ${mu}, ${phases} ${phases > 1 ? "phases" : "phase"}, ${device}`);
+}
+
 function problemsOf(map) {
   if (map === null || map.problem === null) return [];
   const named = map.errors.map(({ location, value, valid }) => `${location} is ${value}; valid: ${valid}`);
@@ -213,8 +240,14 @@ function deviceWords(text, unit) {
   return `${given.length > 0 ? given.join(", ") : "the default device"}; ${strategy}${given.length > 0 && request.unit !== unit ? ` (lengths in ${request.unit})` : ""}`;
 }
 
+/** Which map it is, in words. */
+function mapNameWords(text, unit) {
+  const { stored } = mapRequestOf(text);
+  return `${stored === null ? "" : `stored map ${stored}: `}${deviceWords(text, unit)}`;
+}
+
 function keptWords(kept, map, unit) {
-  const words = `Kept for comparison: ${deviceWords(kept.text, unit)}: ${mapWords(kept, unit)}`;
+  const words = `Kept for comparison: ${mapNameWords(kept.text, unit)}: ${mapWords(kept, unit)}`;
   if (map === null) return words;
   const whole = (one) => new Set([...one.cells].filter(([, outcomes]) => isWhole(one, outcomes) && outcomes.every(({ outcome }) => outcome === "engaged")).map(([key]) => key));
   const [here, there] = [whole(map), whole(kept)];
