@@ -47,6 +47,12 @@ window.fetch = (address, options) => {
 """Has the service never answer for paths from other phases than 0."""
 
 
+DRAWN_AS_WIDE_AS_ITS_FRAME = """
+const frame = document.querySelector('#depth');
+return frame.querySelector('svg').viewBox.baseVal.width === frame.clientWidth;
+"""
+
+
 def filled(explorer: Explorer, frame: str = "#success") -> int:
     """How many cells of a map are computed."""
     return len(explorer.all(f"{frame} .cell rect:first-child:not(.none, .partial)"))
@@ -82,7 +88,7 @@ def test_from_an_empty_device_to_a_critical_friction(explorer: Explorer) -> None
     explorer.wait(lambda: filled(explorer) > 0, "no cell is filled in")
     whole(explorer)
     words = explorer.text("#success-text")
-    found = re.match(r"Of 9 orientations (\d) engage at", words)
+    found = re.match(r"Of 9 orientations (\d) engage from phase 0 at", words)
     assert found is not None, words
     assert explorer.text("#success-device").startswith("k tilt (N in/rad) 25")
     engaging = explorer.all('#success .cell[aria-label*=": engages"]')
@@ -104,6 +110,14 @@ def test_from_an_empty_device_to_a_critical_friction(explorer: Explorer) -> None
     assert last is not None
     assert "success=phases%3D1" in explorer.chromium.current_url
     assert (float(value_of(explorer, "#roll")), float(value_of(explorer, "#pitch"))) == (roll, pitch)
+    kept = explorer.text("#success-critical")
+    explorer.click("#success-keep")
+    explorer.choose("#device-k_tilt", "30")
+    explorer.click("#success-compute")
+    explorer.wait_for_text("#success-kept-text", kept)
+    whole(explorer)
+    assert filled(explorer, "#success-kept") == CELLS
+    assert explorer.one("#success-critical-find").is_enabled()
 
 
 def test_a_link_restores_the_map_and_what_it_says_is_what_is_computed(explorer: Explorer, tmp_path: Path) -> None:
@@ -116,7 +130,46 @@ def test_a_link_restores_the_map_and_what_it_says_is_what_is_computed(explorer: 
     assert rows[0].startswith("roll,pitch,phase,mu,outcome,flags,bounded,torque,tilt,shift,end,unit,strategy")
     assert len(rows) == 1 + CELLS
     assert any(row.startswith(f"0,-4,0,0,{outcome.value},") for row in rows[1:])
-    assert saved(explorer, "SVG", tmp_path).count("<rect") > CELLS
+    assert rows[0].endswith("push,k_lateral,k_axial,k_tilt,k_twist,centre,about,device_unit")
+    picture = saved(explorer, "SVG", tmp_path)
+    assert picture.count("<rect") > CELLS
+    rings = re.findall(r'<rect[^>]*stroke-width="[24]px"[^>]*>', picture)
+    assert len(rings) == 2 * CELLS
+    assert all('visibility="hidden"' in ring for ring in rings)
+    assert re.sub("<[^>]*>", " ", picture).count("1/4-20 UNC, the default device;") == 1
+
+
+def test_a_link_restores_the_square_and_the_device_of_the_map(explorer: Explorer) -> None:
+    of_path = "assembly=roll%3D0%26pitch%3D-4%26phase%3D0%26k_tilt%3D80%26unit%3Dmm&success_at=0%20-4"
+    explorer.open(f"/#{COMPUTED.replace('strategy', 'centre%3D0.1%26strategy')}&{of_path}")
+    whole(explorer)
+    explorer.wait_for_text("#success-cell", "paths from roll 0 deg, pitch ")
+    assert len(explorer.all("#success .cell.chosen")) == 1
+    assert (value_of(explorer, "#device-k_tilt"), float(value_of(explorer, "#device-centre"))) == ("", 0.1)
+    assert value_of(explorer, "#device-strategy") == "cw"
+    assert not explorer.one("#success-stale").is_displayed()
+    explorer.choose("#device-push", "20")
+    explorer.click("#tab-state")
+    explorer.click("#tab-success")
+    explorer.wait(lambda: explorer.one("#success-stale").is_displayed(), "another device is not seen")
+
+
+def test_what_is_refused_leaves_the_map_and_a_curve_that_comes_back_has_its_size(explorer: Explorer) -> None:
+    explorer.open(f"/#{COMPUTED}&assembly=roll%3D0%26pitch%3D-4%26phase%3D0%26strategy%3Dcw%26unit%3Din")
+    whole(explorer)
+    explorer.choose("#success-mu", "5")
+    explorer.click("#success-compute")
+    explorer.wait_for_text("#success-problem", "friction μ is 5; valid: less than or equal to 1")
+    assert filled(explorer) == CELLS
+    explorer.wait(lambda: explorer.one(".panel.turned").is_displayed(), "the path is not shown")
+    explorer.click("#tab-device")
+    explorer.choose("#device-push", "-1")
+    explorer.wait(lambda: explorer.one("#device-stale").is_displayed(), "the path is not said to be of other values")
+    explorer.click("#device-compute")
+    explorer.wait_for_text("#panel-device", "a force > 0")
+    explorer.wait(lambda: explorer.one("#depth svg").is_displayed(), "the curve does not come back")
+    explorer.wait(lambda: bool(explorer.run(DRAWN_AS_WIDE_AS_ITS_FRAME)), "the curve has another size than its frame")
+    assert ["400" in one for one in explorer.complaints()] == [True, True]
 
 
 def test_by_keys_alone_a_cell_is_chosen_and_a_map_kept_beside_another(explorer: Explorer) -> None:
@@ -199,6 +252,6 @@ def test_what_is_not_valid_is_said(explorer: Explorer) -> None:
     explorer.click("#tab-success")
     explorer.choose("#success-mu", "2")
     explorer.click("#success-compute")
-    explorer.wait_for_text("#success-problem", "mu")
+    explorer.wait_for_text("#success-problem", "friction μ is 2; valid: less than or equal to 1")
     assert filled(explorer) == 0
     assert ["400" in one for one in explorer.complaints()] == [True]

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { assemblyText, bodyOf, checkedAssembly, convertedText, defaultText, deviceOf, labelOf, progressText, refusedFields, requestOf } from "../../service/explorer/page/js/assembly.js";
+import { assemblyText, bodyOf, checkedAssembly, convertedText, defaultText, deviceOf, isSameRequest, labelOf, progressText, refusedFields, requestOf } from "../../service/explorer/page/js/assembly.js";
 import { eventsOf } from "../../service/explorer/page/js/events.js";
 
 const POSE = { roll: "1", pitch: "-2", phase: "10", unit: "mm" };
@@ -49,16 +49,24 @@ test("lengths are converted, and back again to the same text", () => {
 test("a refused value is reported at its field, anything else in a line of its own", () => {
   const errors = [
     { location: "body device k_tilt", value: "-1", valid: "a stiffness >= 0" },
-    { location: "body pose roll", value: "", valid: "Input should be a valid number" },
-    { location: "body device k_twist float", value: "soft", valid: "Input should be a valid number" },
-    { location: "body device k_twist literal['rigid']", value: "soft", valid: "Input should be 'rigid'" },
+    { location: "body pose roll", value: "", valid: "a valid number" },
+    { location: "body device k_twist float", value: "soft", valid: "a valid number" },
+    { location: "body device k_twist literal['rigid']", value: "soft", valid: "'rigid'" },
   ];
   assert.deepEqual(refusedFields("all", errors), {
     k_tilt: "-1 is not valid: a stiffness >= 0",
-    roll: "empty is not valid: Input should be a valid number",
-    k_twist: "soft is not valid: Input should be a valid number; Input should be 'rigid'",
+    roll: "empty is not valid: a valid number",
+    k_twist: "soft is not valid: a valid number; 'rigid'",
   });
   assert.deepEqual(refusedFields("the kernels are being compiled", []), { "": "the kernels are being compiled" });
+});
+
+test("requests are the same in whatever unit their lengths are", () => {
+  const one = { ...requestOf(""), k_tilt: "254", centre: "2.54", unit: "mm" };
+  const names = ["k_tilt", "centre", "k_twist", "strategy"];
+  assert.ok(isSameRequest(one, { ...one, k_tilt: "10", centre: "0.1", unit: "in" }, names));
+  for (const other of [{ centre: "2.55" }, { k_tilt: "" }, { k_twist: "rigid" }, { strategy: "cw" }]) assert.ok(!isSameRequest(one, { ...one, ...other }, names));
+  assert.ok(isSameRequest(one, { ...one, push: "5" }, names));
 });
 
 test("progress is said in words", () => {

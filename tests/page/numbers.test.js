@@ -6,6 +6,7 @@ import { stepLabels } from "../../service/explorer/page/js/path_view.js";
 import { nearestThreshold, stableShare } from "../../service/explorer/page/js/quantities.js";
 import { stateLine } from "../../service/explorer/page/js/terms.js";
 import { csvOf } from "../../service/explorer/page/js/csv.js";
+import { linesOf } from "../../service/explorer/page/js/save.js";
 import { angle, angleNumber, fixed, wrapAngle, length, percent, shortLength } from "../../service/explorer/page/js/units.js";
 import { wrapped } from "../../service/explorer/page/js/wrap.js";
 
@@ -73,4 +74,10 @@ test("a class is as certain as the nearest of its numbers", () => {
   assert.equal(nearestThreshold({ drop: null, embedment: null, pivot_offset: null }), null);
   assert.equal(stableShare({ stable_three_point: 3, quasi_stable_two_point: 1, unstable_two_point: 0 }), 0.75);
   assert.equal(stableShare({ stable_three_point: 0, quasi_stable_two_point: 0, unstable_two_point: 0 }), null);
+});
+
+test("a caption is put into lines of so many letters, longer words alone", () => {
+  assert.deepEqual(linesOf("", 10), []);
+  assert.deepEqual(linesOf("push (N) 15, k lateral 30; ccw", 12), ["push (N) 15,", "k lateral", "30; ccw"]);
+  assert.deepEqual(linesOf("a compensation b", 6), ["a", "compensation", "b"]);
 });

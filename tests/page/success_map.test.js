@@ -3,8 +3,9 @@ import { test } from "node:test";
 
 import { ProblemError } from "../../service/explorer/page/js/api.js";
 import { requestOf } from "../../service/explorer/page/js/assembly.js";
-import { SuccessMap, cellOf, checkedMap, mapRequestOf, mapText, orientationsOf, pathText, storedMapText, totalsOf } from "../../service/explorer/page/js/success_map.js";
-import { criticalWords, mapWords } from "../../service/explorer/page/js/success_view.js";
+import { SuccessMap, cellOf, checkedMap, keyOf, mapRequestOf, mapText, orientationsOf, pathText, storedMapText, totalsOf } from "../../service/explorer/page/js/success_map.js";
+import { criticalsWords, mapWords } from "../../service/explorer/page/js/success_words.js";
+import { successTable } from "../../service/explorer/page/js/tables.js";
 
 const GRID = { tilt_max: 4, tilt_step: 4 };
 const REQUEST = { ...requestOf(""), mu: "0.1", k_tilt: "250", strategy: "cw", unit: "mm" };
@@ -162,12 +163,65 @@ test("the critical friction of an orientation is bracketed to 0.01", async () =>
   for (const [critical, place, words] of [
     [0.17, { roll: 4, pitch: 0 }, /engages up to μ = 0\.1[67]\d*, does not snap at μ = 0\.1[78]/],
     [-1, { roll: 4, pitch: 0 }, /does not snap even without friction/],
-    [0, { roll: 0, pitch: 0 }, /engages up to μ = 0\.8, the largest that is tried/],
+    [0, { roll: 0, pitch: 0 }, /engages up to μ = 1, the largest that is tried/],
   ]) {
     const map = new SuccessMap(new Service(critical), () => {});
     map.follow(TEXT, 7, GRID, "in");
     await map.findCritical(place);
-    assert.match(criticalWords(map.critical), words);
-    if (critical > 0) assert.ok(map.critical.last <= critical && critical < map.critical.first && map.critical.first - map.critical.last < 0.0101);
+    const found = map.value.criticals.get(keyOf(place));
+    assert.match(criticalsWords(map.value), words);
+    if (critical > 0) assert.ok(found.last <= critical && critical < found.first && found.first - found.last < 0.0101);
   }
+});
+
+test("a critical friction that is cancelled says what is known", async () => {
+  const map = new SuccessMap(new Service(0.3), () => {});
+  map.follow(TEXT, 7, GRID, "in");
+  await computed(map);
+  const found = map.findCritical({ roll: 4, pitch: 0 });
+  assert.equal(map.isRunning, true);
+  map.cancel();
+  await found;
+  assert.equal(map.isRunning, false);
+  assert.equal(criticalsWords(map.value), "roll 4 deg, pitch 0 deg: engages up to μ = 0, the largest that is tried.");
+});
+
+test("a map that is kept is the same with its critical frictions, and is not computed again", async () => {
+  const service = new Service(0.17);
+  const map = new SuccessMap(service, () => {});
+  map.follow(TEXT, 7, GRID, "in");
+  await computed(map);
+  await map.findCritical({ roll: 4, pitch: 0 });
+  const asked = service.asked.length;
+  const kept = new SuccessMap(service, () => {});
+  kept.adopt(map);
+  kept.follow(TEXT, 7, GRID, "in");
+  map.follow(TEXT.replace("k_tilt=250", "k_tilt=300"), 7, GRID, "in");
+  map.cancel();
+  assert.equal(service.asked.length, asked + 1);
+  assert.equal(mapWords(kept.value, "in").slice(0, 32), "Of 9 orientations 9 engage from ");
+  assert.match(criticalsWords(kept.value), /^roll 4 deg, pitch 0 deg: engages up to/);
+});
+
+test("a refused map leaves the one before it, with the problem", async () => {
+  const service = new Service(1);
+  const map = new SuccessMap(service, () => {});
+  map.follow(TEXT, 7, GRID, "in");
+  await computed(map);
+  service.outcomes = () => Promise.reject(new ProblemError(400, { detail: "Invalid value", errors: [{ location: "body mu", value: "2", valid: "0 to 1" }] }));
+  map.follow(TEXT.replace("mu=0.1", "mu=2"), 7, GRID, "in");
+  await computed(map);
+  assert.deepEqual([map.value.text, map.value.cells.size, map.value.problem], [TEXT, 9, "Invalid value"]);
+});
+
+test("a table of a map is in the order of its orientations, with the device", async () => {
+  const map = new SuccessMap(new Service(1), () => {});
+  map.follow(TEXT, 7, GRID, "mm");
+  await computed(map);
+  const [head, first, second] = successTable({ success: map });
+  assert.deepEqual([head.indexOf("roll"), head.indexOf("strategy") + 1], [0, head.indexOf("push")]);
+  const value = (row, name) => row[head.indexOf(name)];
+  assert.deepEqual(["roll", "pitch", "phase"].map((name) => value(first, name)), [-4, -4, 0]);
+  assert.deepEqual(["roll", "pitch", "phase"].map((name) => value(second, name)), [-4, -4, 180]);
+  assert.deepEqual(["push", "k_lateral", "k_tilt", "k_twist", "centre", "about", "device_unit"].map((name) => value(first, name)), ["10", "20", "250", "rigid", "0", "nut", "mm"]);
 });

@@ -19,7 +19,7 @@ export const NUMBERS = {
   k_axial: { label: "k axial", unit: "N/L", power: -1, default: 0, help: "Stiffness along the nut's axis, from the height at the first contact." },
   k_tilt: { label: "k tilt", unit: "N L/rad", power: 1, default: 500, help: "Stiffness against turns about the commanded bolt's x and y." },
   k_twist: { label: "k twist", unit: "N L/rad", power: 1, default: "rigid", help: "Stiffness against turns about the commanded bolt's axis, or rigid." },
-  centre: { label: "centre", unit: "L", power: 1, default: 0, help: "Height of the compliance centre over the bolt's base; a negative one lies beyond the tip." },
+  centre: { label: "centre", unit: "L", power: 1, default: 0, help: "Height of the compliance centre over the plane of the bolt's end that enters the nut; as the bolt begins, that is about the nut's upper surface. Negative: below it, within the nut." },
 };
 /** Choices of the request, by name: its label, the values with their texts, the default first, and help. */
 export const CHOICES = {
@@ -99,6 +99,15 @@ export function requestOfDevice(device) {
   const isGiven = (name) => text(name) !== convertedText(name, String(NUMBERS[name].default), "mm", device.unit);
   const numbers = OF_DEVICE.filter((name) => Object.hasOwn(NUMBERS, name));
   return { unit: device.unit, about: device.about, ...Object.fromEntries(numbers.map((name) => [name, isGiven(name) ? text(name) : ""])) };
+}
+
+/** Whether two requests have the same values of these names, in whatever units of lengths. */
+export function isSameRequest(one, other, names) {
+  return names.every((name) => {
+    const [first, second] = [one, other].map((request) => (Object.hasOwn(NUMBERS, name) ? convertedText(name, request[name].trim(), request.unit, "mm") : request[name]));
+    const [number, near] = [first, second].map(parseDecimal);
+    return first === second || Math.abs(number - near) <= 10 ** -SHOWN_DIGITS * Math.abs(number);
+  });
 }
 
 /** Push (N), and height of the compliance centre in a unit, of a request. */

@@ -1,11 +1,12 @@
 // A held bolt that is turned: what is asked of it, how far its path is, how it ends, and its events.
 
-import { CHOICES, NUMBERS, assemblyText, convertedText, defaultText, labelOf, progressText, refusedFields, requestOf } from "./assembly.js";
+import { CHOICES, NUMBERS, assemblyText, convertedText, defaultText, isSameRequest, labelOf, progressText, refusedFields, requestOf } from "./assembly.js";
 import { byId, html } from "./html.js";
 import { MARGINS, eventText, forceSize, marginText, outcomeText, pointsOfEvents } from "./turned_path.js";
 import { angleNumber, fixed, unitFactor } from "./units.js";
 
 const POSE = ["roll", "pitch", "phase"];
+const ALL = [...Object.keys(NUMBERS), ...Object.keys(CHOICES)];
 const LONGEST = 40;
 /** Keys that lead from one event of the list to another: by so many, or to an end. */
 const STEPS = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity };
@@ -14,6 +15,8 @@ const STEPS = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity };
 export class DeviceView {
   #unit = null;
   #shown = null;
+  /** The request of the path that is shown; null: none is. */
+  #asked = null;
   #goTo;
   #points = [];
   /** Whether the answer was asked for here, and is brought into view when it is there. */
@@ -35,8 +38,10 @@ export class DeviceView {
     byId("device-reset").addEventListener("click", () => {
       for (const name of Object.keys(NUMBERS).filter((one) => !POSE.includes(one))) field(name).value = "";
       for (const [name, { values }] of Object.entries(CHOICES)) [field(name).value] = Object.keys(values);
+      this.#showStale();
     });
     byId("turned-events").addEventListener("keydown", (event) => this.#step(event));
+    byId("device-form").addEventListener("input", () => this.#showStale());
   }
 
   /** Shows the request of a view, where that is another one, and brings lengths into its unit. */
@@ -49,6 +54,15 @@ export class DeviceView {
   /** What the fields say, texts by name. */
   get request() {
     return this.#read();
+  }
+
+  /** Takes over the device and the strategy of a request. */
+  fillDevice(request) {
+    const { unit } = this.request;
+    for (const name of ALL) {
+      if (!POSE.includes(name) && name !== "mu") field(name).value = Object.hasOwn(NUMBERS, name) ? convertedText(name, request[name], request.unit, unit) : request[name];
+    }
+    this.#showStale();
   }
 
   /** Takes over the pose of a view. */
@@ -70,6 +84,8 @@ export class DeviceView {
     if (path === null) byId("turned-contacts").replaceChildren();
     byId("turned-numbers").replaceChildren(...(path?.margins ? [margins(path, unit)] : []));
     this.#listEvents(path, unit);
+    this.#asked = path === null ? null : asked;
+    this.#showStale();
     if (isRunning || !this.#isAwaited) return;
     this.#isAwaited = false;
     if (path !== null) byId("turned-outcome").scrollIntoView({ block: "nearest" });
@@ -81,6 +97,11 @@ export class DeviceView {
     const buttons = [...byId("turned-events").querySelectorAll("button")];
     const last = this.#points.findLastIndex((point) => point <= at);
     buttons.forEach((button, k) => button.setAttribute("aria-current", k === last));
+  }
+
+  /** Says where the path that is shown is of other values than the fields have. */
+  #showStale() {
+    byId("device-stale").hidden = this.#asked === null || isSameRequest(requestOf(this.#asked), this.request, ALL);
   }
 
   #listEvents(path, unit) {
@@ -116,12 +137,12 @@ export class DeviceView {
   }
 
   #read() {
-    return { ...Object.fromEntries([...Object.keys(NUMBERS), ...Object.keys(CHOICES)].map((name) => [name, field(name).value])), unit: this.#unit };
+    return { ...Object.fromEntries(ALL.map((name) => [name, field(name).value])), unit: this.#unit };
   }
 
   #fill(request) {
     this.#unit = request.unit;
-    for (const name of [...Object.keys(NUMBERS), ...Object.keys(CHOICES)]) field(name).value = request[name];
+    for (const name of ALL) field(name).value = request[name];
   }
 
   #showUnit(unit) {
@@ -135,7 +156,7 @@ export class DeviceView {
 
   #showFaults(faults) {
     byId("device-problem").replaceChildren(...(faults[""] ? [html("li", {}, faults[""])] : []));
-    for (const name of [...Object.keys(NUMBERS), ...Object.keys(CHOICES)]) {
+    for (const name of ALL) {
       const fault = byId(`device-${name}-fault`);
       fault.textContent = faults[name] ?? "";
       field(name).setAttribute("aria-invalid", Boolean(faults[name]));

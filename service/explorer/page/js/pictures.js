@@ -113,9 +113,12 @@ export class Pictures {
           this.#followSuccess();
         },
         cancel: () => this.#model.success.cancel(),
-        keep: (text) => view.set({ kept_success: text }),
+        keep: (isKept) => {
+          if (isKept) this.#model.keptSuccess.adopt(this.#model.success);
+          view.set({ kept_success: isKept ? this.#model.success.value.text : "" });
+        },
         play: (assembly, { roll, pitch, phase }) => {
-          view.set({ roll, pitch, phase: wrapAngle(phase) });
+          view.set({ roll, pitch, phase: wrapAngle(phase), success_at: `${roll} ${pitch}` });
           this.#playsNext = true;
           this.#compute(assembly);
         },
@@ -189,7 +192,7 @@ export class Pictures {
     if (has(...TILT_FIELDS, "phase")) this.#tabs?.device.takePose(this.#view.value);
     if (has("tab")) this.#showTab();
     if (has("assembly", "library", "unit")) this.#followAssembly();
-    if (has("success", "kept_success", "library", "unit")) this.#followSuccess();
+    if (has("success", "success_at", "kept_success", "library", "unit")) this.#followSuccess();
     if (has("assembly", "unit")) this.#showAssembly();
     if (has("point")) this.#showPoint();
     if (has("thread", "library", "unit")) this.#followThreads();

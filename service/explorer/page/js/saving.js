@@ -4,6 +4,8 @@ import { requestOf } from "./assembly.js";
 import { html } from "./html.js";
 import { showToast } from "./messages.js";
 import { lastStage } from "./resting.js";
+import { mapRequestOf } from "./success_map.js";
+import { mapNameWords, mapWords } from "./success_words.js";
 import { saveFile, savePng, saveSvg, saveTable } from "./save.js";
 import { comparisonTable, depthTable, followingTable, formationTable, intervalTable, jammingTable, mapTable, pathTable, poseTable, stateTable, successTable, turnedTable } from "./tables.js";
 
@@ -38,6 +40,11 @@ const NAMES = {
   compared: "threads",
 };
 
+/** What a picture is of, where its own words do not say so. */
+const CAPTIONS = {
+  success: ({ success, library }, { unit }) => `${library.designation}, ${mapNameWords(success.value.text, unit)}. ${mapWords(success.value, unit)}`,
+};
+
 /** Fills every place for save buttons; `sceneOf` returns the scene, or null. */
 export function wireSaving(model, view, sceneOf) {
   for (const place of document.querySelectorAll("[data-save]")) {
@@ -50,16 +57,21 @@ export function wireSaving(model, view, sceneOf) {
     };
     const picture = () => document.querySelector(PICTURES[panel]);
     if (PICTURES[panel]) {
-      button("SVG", async () => saveSvg(name(), picture()));
-      button("PNG", async () => savePng(name(), picture()));
+      const caption = () => CAPTIONS[panel]?.(model, view.value) ?? "";
+      button("SVG", async () => saveSvg(name(), picture(), caption()));
+      button("PNG", async () => savePng(name(), picture(), caption()));
     }
     if (panel === "scene") button("PNG", async () => saveFile(`${name()}.png`, await sceneOf().png(), "image/png"));
     if (TABLES[panel]) button("CSV", async () => saveTable(name(), TABLES[panel](model, view.value)));
   }
 }
 
-/** A file name with library, orientation and phase: those of the view, or of the pose at which a held bolt settles. */
-function fileName(what, { library, state }, view) {
+/** A file name with library, orientation and phase, those of the view or of the pose at which a held bolt settles; of a success map with strategy and friction. */
+function fileName(what, { library, state, success }, view) {
+  if (what === NAMES.success && success.value !== null) {
+    const { request, phases } = mapRequestOf(success.value.text);
+    return `${library.slug}_${what}_${request.strategy}_mu${request.mu || 0}_phases${phases}`;
+  }
   const { stage } = view;
   const { roll, pitch, phase } = what === NAMES.turned ? requestOf(view.assembly) : view;
   const staged = what === NAMES.scene && state?.state ? `_stage${Math.min(stage, lastStage(state.state)).toFixed(1)}` : "";

@@ -8,15 +8,15 @@ export function sizeOf(frame, least) {
   };
 }
 
-/** Calls `changed` whenever the size of one of the frames has changed. */
+/** Calls `changed` whenever the size of one of the frames has changed, or one is seen again: what it holds may have been drawn unseen. */
 export function followSize(frames, changed) {
   const sizes = new Map(frames.map((frame) => [frame, `${frame.clientWidth} ${frame.clientHeight}`]));
   const observer = new ResizeObserver((entries) => {
     for (const { target } of entries) {
       const size = `${target.clientWidth} ${target.clientHeight}`;
-      if (sizes.get(target) === size || target.clientWidth === 0) continue;
+      if (sizes.get(target) === size) continue;
       sizes.set(target, size);
-      changed(target);
+      if (target.clientWidth > 0) changed(target);
     }
   });
   frames.forEach((frame) => observer.observe(frame));

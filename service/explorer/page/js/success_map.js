@@ -18,7 +18,7 @@ export const OUTCOMES = {
 /** Requests at once: as many as the least machine has processors. */
 const LANES = 2;
 /** Frictions at which a critical one is bracketed before it is bisected, and how far. */
-const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8];
+const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8, 1];
 const TOLERANCE = 0.01;
 const UNAUTHORIZED = 401;
 /** What a map's text has before the device: the number of a stored map, and how many phases. */
@@ -109,10 +109,11 @@ export function totalsOf(map) {
 
 /** One map: requested, filled in while it is computed or read, ended where it is no longer wanted. */
 export class SuccessMap {
-  /** Null where nothing is asked for: {text, unit, grid, cells, isRunning, problem, errors}. */
+  /**
+   * Null where nothing is asked for: {text, unit, library, grid, cells, criticals, isRunning, problem, errors}. The critical
+   * frictions, by orientation, are those that were asked for: {roll, pitch, last, first, outcome, isRunning}.
+   */
   value = null;
-  /** The critical friction of an orientation: {roll, pitch, last, first, outcome, isRunning}; null: not asked for. */
-  critical = null;
   #api;
   #changed;
   #key = "";
@@ -126,14 +127,27 @@ export class SuccessMap {
 
   /** Computes or reads the map of a text with the pair of a library; the one before is ended. An empty text: none. */
   follow(text, library, grid, unit) {
-    const key = text === "" ? "" : `${library} ${text}`;
+    const key = keyOfMap(text, library);
     if (key === this.#key) return;
     this.cancel();
     this.#key = key;
-    this.critical = null;
-    this.value = text === "" ? null : { text, unit, library, grid, cells: new Map(), isRunning: true, problem: null, errors: [] };
+    const before = this.value;
+    this.value = text === "" ? null : { text, unit, library, grid, cells: new Map(), criticals: new Map(), isRunning: true, problem: null, errors: [] };
     this.#changed();
-    if (this.value !== null) this.#fill(this.value, this.#running.signal);
+    if (this.value !== null) this.#fill(this.value, before, this.#running.signal);
+  }
+
+  /** Takes over what is there of another map. */
+  adopt({ value }) {
+    this.cancel();
+    this.#key = keyOfMap(value.text, value.library);
+    this.value = { ...value, cells: new Map(value.cells), criticals: new Map(value.criticals), isRunning: false, problem: null, errors: [] };
+    this.#changed();
+  }
+
+  /** Whether something is being computed. */
+  get isRunning() {
+    return this.value !== null && (this.value.isRunning || [...this.value.criticals.values()].some((one) => one.isRunning));
   }
 
   /** Computes no further; what is there stays. */
@@ -147,7 +161,8 @@ export class SuccessMap {
     }
   }
 
-  async #fill(map, signal) {
+  /** Where it is refused before anything is there, the map before it stays, with the problem. */
+  async #fill(map, before, signal) {
     try {
       await (mapRequestOf(map.text).stored === null ? this.#compute(map, signal) : this.#read(map, signal));
     } catch (error) {
@@ -158,6 +173,7 @@ export class SuccessMap {
     }
     if (this.value !== map || map.isRunning === false) return;
     map.isRunning = false;
+    if (map.problem !== null && map.cells.size === 0 && before !== null) this.value = { ...before, problem: map.problem, errors: map.errors };
     this.#changed();
   }
 
@@ -202,7 +218,8 @@ export class SuccessMap {
     const bracketing = (this.#bracketing = new AbortController());
     const map = this.value;
     const poses = posesOf(place, mapRequestOf(map.text).phases);
-    const found = (this.critical = { ...place, last: null, first: null, outcome: null, isRunning: true });
+    const found = { ...place, last: null, first: null, outcome: null, isRunning: true };
+    map.criticals.set(keyOf(place), found);
     this.#changed();
     const engagesAt = async (mu) => {
       const { engaged, count, worst } = cellOf(await this.#outcomes(map, poses, mu, bracketing.signal));
@@ -222,7 +239,7 @@ export class SuccessMap {
       if (!bracketing.signal.aborted) found.problem = error.message;
     }
     found.isRunning = false;
-    if (this.critical === found) this.#changed();
+    this.#changed();
   }
 
   /** How the paths from poses end; one that takes longer than the service's time limit is undecided. */
@@ -262,6 +279,10 @@ function isOutOfTime(error) {
 function unanswered(pose, { mu = 0 }) {
   const nothing = { torque: null, tilt: null, shift: null, end: null };
   return { ...pose, mu, outcome: "undecided", flags: ["no answer in time"], bounded: false, ...nothing };
+}
+
+function keyOfMap(text, library) {
+  return text === "" ? "" : `${library} ${text}`;
 }
 
 function assemblyOf(text) {

@@ -1,10 +1,11 @@
 // The tab of success maps: where a device assembles the pair, cell by cell, and beside another device.
 
-import { labelOf, NUMBERS, CHOICES } from "./assembly.js";
+import { CHOICES, NUMBERS, isSameRequest, labelOf } from "./assembly.js";
 import { textColourOn } from "./colours.js";
 import { tilts } from "./grid.js";
 import { byId, html } from "./html.js";
-import { OUTCOMES, PHASE_COUNTS, cellOf, isWhole, keyOf, mapRequestOf, mapText, pathText, storedMapText, totalsOf } from "./success_map.js";
+import { OUTCOMES, PHASE_COUNTS, cellOf, isWhole, keyOf, mapRequestOf, mapText, orientationsOf, pathText, storedMapText } from "./success_map.js";
+import { OF_MAP, criticalsWords, deviceWords, mapNameWords, mapWords, placeWords } from "./success_words.js";
 import { picture, svg } from "./svg.js";
 import { angle, angleNumber, fixed, unitFactor } from "./units.js";
 
@@ -19,65 +20,80 @@ const SHADES = ["#bcd9e6", "#7db4d0", "#3f8fbf", "#0b5f99"];
 const NONE_ENGAGES = "#f4e3d3";
 const STEPS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-/** The panel; `map` and `keep` are called with a map's text, `play` with the text of a path and the pose where it starts. */
+/** How far in from its corner the mark of a square goes that ends otherwise in the kept map. */
+const CORNER = 9;
+
+/** The panel; `map` is called with a map's text, `keep` with whether one is kept, `play` with the text of a path and the pose where it starts. */
 export class SuccessView {
   #actions;
   #request;
-  /** The cell that was chosen, and the one that has the focus among all: {roll, pitch}. */
-  #chosen = null;
+  /** The text of the map that the fields are of. */
+  #filled = "";
   #model = null;
   #view = null;
   /** The stored maps that are listed, and the unit of their devices. */
   #listed = { maps: null, unit: null };
 
-  constructor({ map, cancel, keep, play, findCritical, requestOfDevice }) {
-    this.#actions = { play };
+  constructor({ map, cancel, keep, play, findCritical, requestOfDevice, fillDevice }) {
+    this.#actions = { play, fillDevice };
     this.#request = requestOfDevice;
     byId("success-phases").replaceChildren(...PHASE_COUNTS.map((count) => html("option", { value: count }, String(count))));
     byId("success-form").addEventListener("submit", (event) => {
       event.preventDefault();
-      this.#chosen = null;
-      map(mapText(byId("success-phases").value, { ...this.#request(), mu: byId("success-mu").value.trim() }));
+      this.#filled = this.#askedText();
+      map(this.#filled);
     });
-    byId("success-stored").addEventListener("change", () => {
-      this.#chosen = null;
-      map(byId("success-stored").value);
-    });
+    byId("success-stored").addEventListener("change", () => map(byId("success-stored").value));
     byId("success-cancel").addEventListener("click", cancel);
-    byId("success-keep").addEventListener("click", () => keep(this.#model.success.value.text));
-    byId("success-drop").addEventListener("click", () => keep(""));
+    byId("success-keep").addEventListener("click", () => keep(true));
+    byId("success-drop").addEventListener("click", () => keep(false));
     byId("success-critical-find").addEventListener("click", () => findCritical(this.#chosen));
   }
 
-  /** Takes over what a view asks for. */
-  show({ success }) {
+  /** Takes over what a view asks for: the fields, those of the device too, are of its map. */
+  show({ success, tab, assembly }) {
+    if (success === this.#filled) return;
+    this.#filled = success;
     if (success === "") return;
     const { stored, phases, request } = mapRequestOf(success);
     if (stored === null) byId("success-phases").value = phases;
     byId("success-mu").value = request.mu;
+    // Beside a path that is seen the fields are of that.
+    if (tab !== "device" || assembly === "") this.#actions.fillDevice(request);
+  }
+
+  /** The text of the map that the fields ask for. */
+  #askedText() {
+    return mapText(byId("success-phases").value, { ...this.#request(), mu: byId("success-mu").value.trim() });
+  }
+
+  /** The orientation that the view has chosen, {roll, pitch}; null where none is. */
+  get #chosen() {
+    return placeOf(this.#view.success_at);
   }
 
   /** Draws what is known of both maps. */
   draw(model, view) {
     this.#model = model;
     this.#view = view;
-    const { value, critical } = model.success;
+    const { value } = model.success;
     const kept = model.keptSuccess.value;
     const isRunning = value?.isRunning ?? false;
     this.#listStored(model.storedMaps, view);
-    byId("success-cancel").disabled = !isRunning;
-    byId("success-keep").disabled = value === null || value.cells.size === 0;
+    byId("success-cancel").disabled = !model.success.isRunning;
+    byId("success-keep").disabled = value === null || value.cells.size === 0 || isRunning;
     byId("success-drop").hidden = kept === null;
     byId("success-progress").hidden = !isRunning;
     if (isRunning) byId("success-bar").max = tilts(value.grid).length ** 2 * mapRequestOf(value.text).phases;
     if (isRunning) byId("success-bar").value = [...value.cells.values()].flat().length;
-    byId("success-problem").replaceChildren(...problemsOf(value));
+    byId("success-problem").replaceChildren(...problemsOf(value, view.unit));
     byId("success-text").textContent = value === null || value.cells.size === 0 ? "" : mapWords(value, view.unit);
-    this.#drawMap(byId("success"), value, true);
-    this.#drawMap(byId("success-kept"), kept, false);
+    this.#drawMap(byId("success"), value, kept);
+    this.#drawMap(byId("success-kept"), kept, null);
     byId("success-device").textContent = value === null ? "" : mapNameWords(value.text, view.unit);
+    byId("success-stale").hidden = value === null || isOfDevice(value.text, this.#askedText());
     byId("success-kept-text").textContent = kept === null ? "" : keptWords(kept, value, view.unit);
-    this.#showCell(value, critical, view);
+    this.#showCell(value, view);
   }
 
   /** Lists the stored maps of the pair, each at each of its frictions, and marks the one that is shown. */
@@ -92,7 +108,9 @@ export class SuccessView {
     select.value = [...select.options].some(({ value }) => value === success) ? success : "";
   }
 
-  #drawMap(frame, map, isMain) {
+  /** Draws a map; the main one marks where the map beside it ends otherwise. */
+  #drawMap(frame, map, beside) {
+    const isMain = frame.id === "success";
     if (map === null) {
       frame.replaceChildren();
       return;
@@ -101,28 +119,30 @@ export class SuccessView {
     const angles = tilts(map.grid);
     const size = angles.length * SIDE;
     const name = isMain ? "Success map" : "Success map that is kept";
-    const root = picture(Math.max(LEFT + size + 4, LEGEND_WIDTH), size + BELOW + 30, name, { class: "map success-map", role: "group" });
+    const root = picture(Math.max(LEFT + size + 4, LEGEND_WIDTH), size + BELOW + 46, name, { class: "map success-map", role: "group" });
     root.append(svg("defs", {}, svg("pattern", { id: `hatch-${frame.id}`, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, [
       svg("rect", { width: 6, height: 6, fill: "#e8e8e8" }),
       svg("rect", { width: 2, height: 6, fill: "#9a9a9a" }),
     ])));
     const cells = svg("g", { role: "grid", "aria-label": "orientations by pitch and roll" });
-    const stop = this.#chosen ?? { roll: 0, pitch: 0 };
+    const isThere = this.#chosen !== null && [this.#chosen.roll, this.#chosen.pitch].every((tilt) => angles.includes(tilt));
+    const stop = isThere ? this.#chosen : { roll: 0, pitch: 0 };
     [...angles].reverse().forEach((pitch, row) => {
       const line = svg("g", { role: "row" });
-      angles.forEach((roll, column) => line.append(this.#cell(map, { roll, pitch }, LEFT + column * SIDE, row * SIDE + 2, { isMain, hatch: `url(#hatch-${frame.id})`, stop })));
+      angles.forEach((roll, column) => line.append(this.#cell(map, { roll, pitch }, LEFT + column * SIDE, row * SIDE + 2, { isMain, beside, hatch: `url(#hatch-${frame.id})`, stop })));
       cells.append(line);
     });
     if (isMain) cells.addEventListener("keydown", (event) => this.#step(event, angles));
-    root.append(cells, ...axesOf(angles, size), ...legendOf(size, `url(#hatch-${frame.id})`));
+    root.append(cells, ...axesOf(angles, size), ...legendOf(size, `url(#hatch-${frame.id})`, map));
     frame.replaceChildren(root);
     if (hadFocus) frame.querySelector('.cell[tabindex="0"]')?.focus();
   }
 
-  #cell(map, place, x, y, { isMain, hatch, stop }) {
+  #cell(map, place, x, y, { isMain, beside, hatch, stop }) {
     const outcomes = map.cells.get(keyOf(place));
     const isPartial = outcomes !== undefined && !isWhole(map, outcomes);
-    const words = cellWords(place, outcomes, isPartial);
+    const change = changeOf(map, beside, place);
+    const words = `${cellWords(place, outcomes, isPartial)}${change === 0 ? "" : change > 0 ? "; not in the kept map" : "; it does in the kept map"}`;
     const isStop = isMain && stop.roll === place.roll && stop.pitch === place.pitch;
     const element = svg("g", {
       role: "gridcell", class: isMain && this.#chosen !== null && isStop ? "cell chosen" : "cell", tabindex: isStop ? 0 : -1, "aria-label": words, "data-roll": place.roll, "data-pitch": place.pitch,
@@ -134,6 +154,7 @@ export class SuccessView {
     const kind = look.fill === null ? "none" : isPartial ? "partial" : null;
     element.append(svg("rect", { ...box, fill: look.fill, class: kind }), svg("title", {}, words));
     if (look.text !== "" && !isPartial) element.append(svg("text", { x: x + SIDE / 2, y: y + SIDE / 2 + 4.5, "text-anchor": "middle", fill: look.ink }, look.text));
+    if (change !== 0) element.append(svg("path", { class: "changed", d: `M${x + SIDE - 1} ${y + 1}v${CORNER}l${-CORNER} ${-CORNER}z` }));
     if (isMain) {
       const frame = { x: x + 2, y: y + 2, width: SIDE - 4, height: SIDE - 4 };
       element.append(svg("rect", { ...frame, class: "frame-out" }), svg("rect", { ...frame, class: "frame-in" }));
@@ -145,9 +166,7 @@ export class SuccessView {
   #choose(map, place) {
     const outcomes = map.cells.get(keyOf(place));
     if (outcomes === undefined) return;
-    this.#chosen = place;
     const start = { ...place, phase: cellOf(outcomes).worst.phase };
-    this.draw(this.#model, this.#view);
     this.#actions.play(pathText(map.text, start), start);
   }
 
@@ -171,11 +190,11 @@ export class SuccessView {
     cell.focus();
   }
 
-  #showCell(map, critical, { unit }) {
+  #showCell(map, { unit }) {
     const outcomes = this.#chosen === null ? undefined : map?.cells.get(keyOf(this.#chosen));
-    byId("success-critical-find").disabled = outcomes === undefined || (critical?.isRunning ?? false);
+    byId("success-critical-find").disabled = outcomes === undefined;
     byId("success-cell").replaceChildren(...(outcomes === undefined ? [] : [cellTable(this.#chosen, outcomes, unitFactor(map.unit, unit), unit)]));
-    byId("success-critical").textContent = critical === null ? "" : criticalWords(critical);
+    byId("success-critical").textContent = map === null ? "" : criticalsWords(map);
   }
 }
 
@@ -187,9 +206,32 @@ function storedOption(map, mu, unit) {
   return html("option", { value: text ?? "", disabled: text === null }, `${map.id}: μ ${mu}, ${phases} ${phases > 1 ? "phases" : "phase"}, ${device}`);
 }
 
-function problemsOf(map) {
+/** The orientation of a text as the view has it, {roll, pitch}; null where it is none. */
+export function placeOf(text) {
+  const [roll, pitch] = text.split(" ").map(Number);
+  return text === "" || pitch === undefined ? null : { roll, pitch };
+}
+
+/** Whether a map is of the device and the strategy that another text asks for. */
+function isOfDevice(text, asked) {
+  return isSameRequest(mapRequestOf(text).request, mapRequestOf(asked).request, OF_MAP);
+}
+
+/** Whether all paths from a place engage here and not in the map beside it (1), there and not here (-1), or neither is known (0). */
+function changeOf(map, beside, place) {
+  const engages = [map, beside].map((one) => {
+    const outcomes = one?.cells.get(keyOf(place));
+    return outcomes !== undefined && isWhole(one, outcomes) ? outcomes.every(({ outcome }) => outcome === "engaged") : null;
+  });
+  return engages.includes(null) ? 0 : Number(engages[0]) - Number(engages[1]);
+}
+
+function problemsOf(map, unit) {
   if (map === null || map.problem === null) return [];
-  const named = map.errors.map(({ location, value, valid }) => `${location} is ${value}; valid: ${valid}`);
+  const named = map.errors.map(({ location, value, valid }) => {
+    const name = Object.keys(NUMBERS).find((one) => location.split(" ").includes(one));
+    return `${name ? labelOf(name, unit) : location} is ${value}; valid: ${valid}`;
+  });
   return (named.length > 0 ? named : [map.problem]).map((text) => html("li", {}, text));
 }
 
@@ -202,10 +244,6 @@ function lookOf(outcomes, hatch) {
   return { fill, text, ink: fill === hatch ? "#000000" : textColourOn(fill) };
 }
 
-function placeWords({ roll, pitch }) {
-  return `roll ${angle(roll)}, pitch ${angle(pitch)}`;
-}
-
 function cellWords(place, outcomes, isPartial) {
   if (outcomes === undefined) return `${placeWords(place)}: not computed yet`;
   if (isPartial) return `${cellWords(place, outcomes, false)}, from phase ${outcomes.map(({ phase }) => angle(phase)).join(", ")} so far`;
@@ -214,57 +252,12 @@ function cellWords(place, outcomes, isPartial) {
   return `${placeWords(place)}: ${OUTCOMES[worst.outcome].name} from phase ${angle(worst.phase)}${count > 1 ? `; ${engaged} of ${count} engage` : ""}`;
 }
 
-function needsWords({ torque, tilt, shift }, factor, unit) {
-  return `up to ${fixed(torque * factor, 3)} N ${unit} of torque, ${fixed(tilt, 2)} deg of tilt and ${fixed(shift * factor, 4)} ${unit} of shift`;
-}
-
-/** What a map says, in words. */
-export function mapWords(map, unit) {
-  const totals = totalsOf(map);
-  const { request, phases } = mapRequestOf(map.text);
-  const of = totals.done < totals.orientations ? `${totals.done} computed so far (of ${totals.orientations})` : `${totals.orientations} orientations`;
-  const from = phases > 1 ? ` from each of ${phases} phases` : "";
-  if (totals.done === 0) return `From phase 0 alone ${map.cells.size} orientations are computed so far (of ${totals.orientations}): small squares.`;
-  const open = totals.undecided > 0 ? `; ${totals.undecided} are undecided` : "";
-  const least = totals.failure === null ? "" : ` The least tilt that fails: ${placeWords(totals.failure)}, which ${OUTCOMES[totals.failure.worst.outcome].name}.`;
-  const needs = totals.engaged > 0 ? ` Paths that engage ask for ${needsWords(totals, unitFactor(map.unit, unit), unit)}.` : "";
-  return `Of ${of} ${totals.engaged} engage${from} at μ = ${request.mu === "" ? "0" : request.mu}${open}.${least}${needs}`;
-}
-
-/** What of a map's device differs from the default, in words. */
-function deviceWords(text, unit) {
-  const { request } = mapRequestOf(text);
-  const numbers = Object.keys(NUMBERS).filter((name) => !["roll", "pitch", "phase", "mu"].includes(name) && request[name] !== "");
-  const given = numbers.map((name) => `${labelOf(name, request.unit)} ${request[name]}`);
-  const strategy = CHOICES.strategy.values[request.strategy];
-  return `${given.length > 0 ? given.join(", ") : "the default device"}; ${strategy}${given.length > 0 && request.unit !== unit ? ` (lengths in ${request.unit})` : ""}`;
-}
-
-/** Which map it is, in words. */
-function mapNameWords(text, unit) {
-  const { stored } = mapRequestOf(text);
-  return `${stored === null ? "" : `stored map ${stored}: `}${deviceWords(text, unit)}`;
-}
-
 function keptWords(kept, map, unit) {
-  const words = `Kept for comparison: ${mapNameWords(kept.text, unit)}: ${mapWords(kept, unit)}`;
+  const words = ["Kept for comparison:", `${mapNameWords(kept.text, unit)}:`, mapWords(kept, unit), criticalsWords(kept)].filter((one) => one !== "").join(" ");
   if (map === null) return words;
-  const whole = (one) => new Set([...one.cells].filter(([, outcomes]) => isWhole(one, outcomes) && outcomes.every(({ outcome }) => outcome === "engaged")).map(([key]) => key));
-  const [here, there] = [whole(map), whole(kept)];
-  const more = [...here].filter((key) => kept.cells.has(key) && !there.has(key)).length;
-  const fewer = [...there].filter((key) => map.cells.has(key) && !here.has(key)).length;
-  return `${words} Beside it the map above engages at ${more} more and ${fewer} fewer.`;
-}
-
-/** A critical friction in words. */
-export function criticalWords({ roll, pitch, last, first, outcome, isRunning, problem }) {
-  const place = placeWords({ roll, pitch });
-  if (problem) return `${place}: ${problem}`;
-  if (isRunning) return `${place}: between ${last ?? 0} and ${first ?? "…"} so far …`;
-  if (last === null) return `${place}: ${OUTCOMES[outcome].name} even without friction.`;
-  if (first === null) return `${place}: engages up to μ = ${last}, the largest that is tried.`;
-  const certain = outcome === "undecided" ? "no certain answer at" : `${OUTCOMES[outcome].name} at`;
-  return `${place}: engages up to μ = ${last}, ${certain} μ = ${first}.`;
+  const changes = orientationsOf(kept.grid).map((place) => changeOf(map, kept, place));
+  const count = (change) => changes.filter((one) => one === change).length;
+  return `${words} Beside it the other map engages at ${count(1)} more and ${count(-1)} fewer: squares with a mark.`;
 }
 
 function cellTable(place, outcomes, factor, unit) {
@@ -295,12 +288,14 @@ function axesOf(angles, size) {
   ];
 }
 
-function legendOf(size, hatch) {
+function legendOf(size, hatch, map) {
   const entries = [[NONE_ENGAGES, "none", 52], [SHADES[1], "some", 56], [SHADES[3], "all engage", 86], [hatch, "undecided", 80]];
   let x = LEFT;
-  return entries.flatMap(([fill, text, width]) => {
+  const found = new Set([...map.cells.values()].flat().map(({ outcome }) => outcome));
+  const signs = Object.keys(OUTCOMES).filter((name) => found.has(name)).map((name) => `${OUTCOMES[name].letter} ${OUTCOMES[name].name}`);
+  return [...entries.flatMap(([fill, text, width]) => {
     const at = x;
     x += width;
     return [svg("rect", { x: at, y: size + 42, width: 13, height: 13, fill }), svg("text", { x: at + 17, y: size + 53 }, text)];
-  });
+  }), svg("text", { x: LEFT, y: size + 72 }, signs.join("   "))];
 }

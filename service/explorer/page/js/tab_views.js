@@ -19,7 +19,7 @@ export function tabViews({ choosePhase, choosePose, chooseFormation, observe, me
   return {
     load: new LoadView(load),
     device: deviceView,
-    success: new SuccessView({ ...success, requestOfDevice: () => deviceView.request }),
+    success: new SuccessView({ ...success, requestOfDevice: () => deviceView.request, fillDevice: (request) => deviceView.fillDevice(request) }),
     turned: new TurnedPathView(device.goTo, player),
     disks: new DisksView(byId("disks"), choosePhase),
     follows: new FollowsView(byId("follows"), chooseFormation),

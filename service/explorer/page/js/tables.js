@@ -5,6 +5,7 @@ import { mapValues } from "./map_view.js";
 import { QUANTITIES } from "./quantities.js";
 import { restHeight } from "./resting.js";
 import { curvesOf } from "./turned_path.js";
+import { defaultText } from "./assembly.js";
 import { mapRequestOf } from "./success_map.js";
 
 /** The map's cells. */
@@ -113,14 +114,17 @@ function poseRows(name, { rotation, translation }, unit) {
   ];
 }
 
-/** The paths of a success map: lengths and torques in the unit of the map. */
+/** The paths of a success map by orientation, with the device as it was given: lengths and torques in the unit of the map. */
 export function successTable({ success: { value } }) {
   const { request } = mapRequestOf(value.text);
   const names = ["outcome", "flags", "bounded", "torque", "tilt", "shift", "end"];
-  const rows = [...value.cells.values()].flat().map((one) => [
-    one.roll, one.pitch, one.phase, one.mu, ...names.map((name) => (name === "flags" ? one.flags.join(" ") : one[name])), value.unit, request.strategy,
+  const ofDevice = ["push", "k_lateral", "k_axial", "k_tilt", "k_twist", "centre"];
+  const device = [...ofDevice.map((name) => request[name] || defaultText(name, request.unit)), request.about, request.unit];
+  const paths = [...value.cells.values()].flat().sort((a, b) => a.roll - b.roll || a.pitch - b.pitch || a.phase - b.phase);
+  const rows = paths.map((one) => [
+    one.roll, one.pitch, one.phase, one.mu, ...names.map((name) => (name === "flags" ? one.flags.join(" ") : one[name])), value.unit, request.strategy, ...device,
   ]);
-  return [["roll", "pitch", "phase", "mu", ...names, "unit", "strategy"], ...rows];
+  return [["roll", "pitch", "phase", "mu", ...names, "unit", "strategy", ...ofDevice, "about", "device_unit"], ...rows];
 }
 
 /** The figures of libraries side by side. */

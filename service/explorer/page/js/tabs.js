@@ -7,6 +7,7 @@ export const TABS = ["state", "load", "device", "success", "regions", "follows",
 /** Lets the tabs set the view: by a click, and by arrows, Home and End. */
 export function wireTabs(view) {
   for (const name of TABS) tabOf(name).addEventListener("click", () => view.set({ tab: name }));
+  byId("skip").addEventListener("click", () => tabOf(view.value.tab).focus());
   byId("tabs").addEventListener("keydown", (event) => {
     const next = tabAfter(event.key, view.value.tab);
     if (next === null) return;

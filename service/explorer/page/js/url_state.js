@@ -50,6 +50,7 @@ const READERS = {
   assembly: { read: checkedAssembly, valid: "a pose and a device as the page writes them" },
   point: { read: (text) => (/^[0-9]{1,6}$/.test(text) ? Number(text) : undefined), valid: "the number of a point" },
   success: { read: checkedMap, valid: "a success map as the page writes it" },
+  success_at: { read: (text) => (text.split(" ").length === 2 && text.split(" ").every((one) => tilt.read(one) !== undefined) ? text : undefined), valid: "a roll and a pitch" },
   kept_success: { read: checkedMap, valid: "a success map as the page writes it" },
   thread: {
     read: (text) => (text.trim() !== "" && text.length <= THREAD_LENGTH ? text.trim() : undefined),

@@ -42,6 +42,8 @@ export const DEFAULTS = Object.freeze({
   /** The success map that is asked for, as `success_map.js` writes it, and the one that is kept beside it. */
   success: "",
   kept_success: "",
+  /** The orientation that is chosen in it, as "roll pitch". */
+  success_at: "",
   /** Designation of a thread whose section is shown beside the library's. */
   thread: "",
 });
