@@ -195,7 +195,11 @@ def _refused_by_schema(one: Any, body: Any) -> ProblemItem:
     if one["type"] == "json_invalid":
         place = int(one["loc"][1])
         return ProblemItem(location=location, value=_short(body[place:]), valid=_short(f"JSON: {one['ctx']['error']}"))
-    return ProblemItem(location=location, value=_short(str(one.get("input", ""))), valid=_short(one["msg"].removeprefix("Input should be ")))
+    return ProblemItem(
+        location=location,
+        value=_short(str(one.get("input", ""))),
+        valid=_short(one["msg"].removeprefix("Input should be ")),
+    )
 
 
 def _invalid_value(_request: Request, error: Any) -> Response:
