@@ -15,7 +15,7 @@ from rich.progress import Progress
 from studies.stability.findings import in_order, workers
 from studies.success.halved import Confirmed, confirmed, halved, sides
 from studies.success.page import HEADING, picture_name, section, share_picture
-from studies.success.study import StudiedMap, studied_inputs
+from studies.success.study import PHASES, StudiedMap, studied_inputs
 from worker.success.run import computed_map_with_progress
 
 ROOT = Path(__file__).parents[2]
@@ -27,10 +27,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.success", description=__doc__)
     parser.add_argument("--workers", type=int, default=1, help="processes [%(default)s]")
     parser.add_argument("--into", type=Path, default=ROOT / "data" / "success", help="folder of maps [data/success]")
+    parser.add_argument("--friction-phases", type=int, default=PHASES, help="starting phases with friction [%(default)s]")
     arguments = parser.parse_args()
     arguments.into.mkdir(parents=True, exist_ok=True)
     maps: list[StudiedMap] = []
-    for inputs in studied_inputs():
+    for inputs in studied_inputs(arguments.friction_phases):
         path = arguments.into / f"{inputs.strategy.value}-{inputs.sha256[:12]}.map"
         maps.append(StudiedMap(inputs, computed_map_with_progress(inputs, arguments.workers, path).orientations))
         _write(maps, [])

@@ -14,8 +14,8 @@ from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import OrientationMap
 from threadstate.thread.catalogue import quarter_twenty_unc
 
-GRID = Grid(4.0, 1.0, 15.0)
-"""All 81 orientations of the default grid, from 24 phases; boundaries between them are narrowed."""
+PHASES = 24
+"""Starting phases of all 81 orientations of the default grid; boundaries between them are narrowed."""
 TOLERANCE_DEG = 4.0
 FRICTIONS = (0.1, 0.2, 0.3)
 
@@ -33,14 +33,22 @@ class StudiedMap:
         return map_sha256(self.orientations)
 
 
-def studied_inputs() -> list[SuccessInputs]:
+def studied_inputs(friction_phases: int = PHASES) -> list[SuccessInputs]:
     """What the maps are computed from: frictionless ones, then those with friction, each by both strategies.
 
-    With friction critical frictions are those between the frictions of the map.
+    With friction there may be fewer starting phases; critical frictions are those between the frictions of the map.
     """
     pair, device = quarter_twenty_unc(), default_device()
     return [
-        SuccessInputs(pair, device, strategy, GRID, frictions, phase_tolerance_deg=TOLERANCE_DEG, mu_tolerance=0.1)
-        for frictions in ((0.0,), FRICTIONS)
+        SuccessInputs(
+            pair,
+            device,
+            strategy,
+            Grid(4.0, 1.0, 360.0 / phases),
+            frictions,
+            phase_tolerance_deg=TOLERANCE_DEG,
+            mu_tolerance=0.1,
+        )
+        for frictions, phases in (((0.0,), PHASES), (FRICTIONS, friction_phases))
         for strategy in Strategy
     ]
