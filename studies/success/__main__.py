@@ -27,7 +27,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.success", description=__doc__)
     parser.add_argument("--workers", type=int, default=1, help="processes [%(default)s]")
     parser.add_argument("--into", type=Path, default=ROOT / "data" / "success", help="folder of maps [data/success]")
-    parser.add_argument("--friction-phases", type=int, default=PHASES, help="starting phases with friction [%(default)s]")
+    parser.add_argument(
+        "--friction-phases", type=int, default=PHASES, help="starting phases with friction [%(default)s]"
+    )
     arguments = parser.parse_args()
     arguments.into.mkdir(parents=True, exist_ok=True)
     maps: list[StudiedMap] = []
