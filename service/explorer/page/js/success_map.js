@@ -18,7 +18,7 @@ export const OUTCOMES = {
 /** Requests at once: as many as the least machine has processors. */
 const LANES = 2;
 /** Frictions at which a critical one is bracketed before it is bisected, and how far. */
-const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8, 1];
+const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8];
 const TOLERANCE = 0.01;
 const UNAUTHORIZED = 401;
 /** What a map's text has before the device: the number of a stored map, and how many phases. */
