@@ -65,7 +65,8 @@ test("requests are the same in whatever unit their lengths are", () => {
   const one = { ...requestOf(""), k_tilt: "254", centre: "2.54", unit: "mm" };
   const names = ["k_tilt", "centre", "k_twist", "strategy"];
   assert.ok(isSameRequest(one, { ...one, k_tilt: "10", centre: "0.1", unit: "in" }, names));
-  for (const other of [{ centre: "2.55" }, { k_tilt: "" }, { k_twist: "rigid" }, { strategy: "cw" }]) assert.ok(!isSameRequest(one, { ...one, ...other }, names));
+  assert.ok(isSameRequest({ ...one, centre: "0", k_twist: "rigid" }, { ...one, centre: "" }, names));
+  for (const other of [{ centre: "2.55" }, { k_tilt: "" }, { k_twist: "5" }, { strategy: "cw" }]) assert.ok(!isSameRequest(one, { ...one, ...other }, names));
   assert.ok(isSameRequest(one, { ...one, push: "5" }, names));
 });
 

@@ -101,10 +101,11 @@ export function requestOfDevice(device) {
   return { unit: device.unit, about: device.about, ...Object.fromEntries(numbers.map((name) => [name, isGiven(name) ? text(name) : ""])) };
 }
 
-/** Whether two requests have the same values of these names, in whatever units of lengths. */
+/** Whether two requests have the same values of these names, in whatever units of lengths; what is left empty has its default. */
 export function isSameRequest(one, other, names) {
+  const inMm = (request, name) => (request[name].trim() === "" ? String(NUMBERS[name].default) : convertedText(name, request[name].trim(), request.unit, "mm"));
   return names.every((name) => {
-    const [first, second] = [one, other].map((request) => (Object.hasOwn(NUMBERS, name) ? convertedText(name, request[name].trim(), request.unit, "mm") : request[name]));
+    const [first, second] = [one, other].map((request) => (Object.hasOwn(NUMBERS, name) ? inMm(request, name) : request[name]));
     const [number, near] = [first, second].map(parseDecimal);
     return first === second || Math.abs(number - near) <= 10 ** -SHOWN_DIGITS * Math.abs(number);
   });

@@ -142,7 +142,7 @@ export class SuccessView {
     const outcomes = map.cells.get(keyOf(place));
     const isPartial = outcomes !== undefined && !isWhole(map, outcomes);
     const change = changeOf(map, beside, place);
-    const words = `${cellWords(place, outcomes, isPartial)}${change === 0 ? "" : change > 0 ? "; not in the kept map" : "; it does in the kept map"}`;
+    const words = `${cellWords(place, outcomes, isPartial)}${change === 0 ? "" : change > 0 ? "; does not engage in the kept map" : "; engages in the kept map"}`;
     const isStop = isMain && stop.roll === place.roll && stop.pitch === place.pitch;
     const element = svg("g", {
       role: "gridcell", class: isMain && this.#chosen !== null && isStop ? "cell chosen" : "cell", tabindex: isStop ? 0 : -1, "aria-label": words, "data-roll": place.roll, "data-pitch": place.pitch,

@@ -1,11 +1,11 @@
 // What is drawn, as tables.
 
+import { defaultText } from "./assembly.js";
 import { firstHeight } from "./curve.js";
 import { mapValues } from "./map_view.js";
 import { QUANTITIES } from "./quantities.js";
 import { restHeight } from "./resting.js";
 import { curvesOf } from "./turned_path.js";
-import { defaultText } from "./assembly.js";
 import { mapRequestOf } from "./success_map.js";
 
 /** The map's cells. */
