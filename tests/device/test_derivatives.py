@@ -174,3 +174,42 @@ def test_the_crossing_of_both_edges_is_no_place_where_the_overlap_goes_on_rising
             ]
             assert max(beside) < found[gk.G_VALUE] + 1e-15
     assert seen >= 200
+
+
+def test_derivatives_of_a_point_that_stays_are_those_of_its_own_depth() -> None:
+    """Away from the deepest point, too: that of an edge or thread 0.03 rad beside it."""
+    pair = quarter_twenty_unc()
+    bolt, nut = pair.bolt.packed, pair.nut.packed
+    rng = np.random.default_rng(2)
+    seen: set[int] = set()
+    h = 1e-6
+
+    def depth(search: Search, q: Floats, kind: int, theta: float, z: float) -> Floats:
+        place, gap = np.zeros(ck.PLACE_SIZE), np.zeros(gk.GAP_SIZE)
+        ck.set_place(q, search.device, place)
+        gk.set_gap(kind, theta, z, True, place, search.device, bolt, nut, np.empty(gk.GAP_WORK), gap)
+        return gap
+
+    for _ in range(40):
+        roll, pitch, phase = rng.uniform([-4.0, -4.0, -30.0], [4.0, 4.0, 30.0])
+        search = Search(pair, commanded_rotation(roll, pitch, phase, About.NUT))
+        q = np.concatenate(
+            [rng.uniform(-0.02, 0.02, 3), rng.uniform(-0.004, 0.004, 2), [CENTRE + rng.uniform(-0.012, 0.002)]]
+        )
+        for found in search.places(q, 0.01).copy():
+            kind = int(found[gk.G_PAIR])
+            if kind == EDGE_EDGE or kind in seen:
+                continue
+            at = (kind, found[gk.G_THETA] + 0.03, found[gk.G_Z])
+            here = depth(search, q, *at)
+            beside = [(depth(search, q + s, *at), depth(search, q - s, *at)) for s in h * np.eye(6)]
+            slopes = np.array([(after[gk.G_VALUE] - before[gk.G_VALUE]) / (2.0 * h) for after, before in beside])
+            gradients = slice(gk.G_GRADIENT, gk.G_GRADIENT + 6)
+            bends = np.array([(after[gradients] - before[gradients]) / (2.0 * h) for after, before in beside])
+            hessian = here[gk.G_HESSIAN : gk.G_HESSIAN + 36].reshape(6, 6)
+            if not here[gk.G_VALUE] < found[gk.G_VALUE] or np.abs(hessian).max() > 300.0:
+                continue
+            assert np.abs(here[gradients] - slopes).max() < 1e-6
+            assert np.abs(hessian - bends).max() < 1e-5 * np.abs(hessian).max()
+            seen.add(kind)
+    assert seen == {EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD}

@@ -22,7 +22,7 @@ from threadstate.device import assemble
 from threadstate.device._places_kernel import new_threads
 from threadstate.device._rest_kernel import AT_REST, new_work
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, ContactMotion, Held, PathEventKind
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, ContactMotion, Held, PathEventKind
 from threadstate.device.branches import MOST_PATHS, MOST_STARTS, SAME, Followed, FollowedLeg, PlannedLeg, all_paths
 from threadstate.device.command import command_numbers, strip_numbers
 from threadstate.device.equilibrium import BALANCED, balance
@@ -323,25 +323,30 @@ def test_a_bolt_that_settles_in_several_places_is_ambiguous_but_may_have_one_out
 
 def test_after_a_snap_contacts_slide_back_in_the_shortest_step() -> None:
     """Their forces turn round at once: what the longer steps find begins the shorter ones."""
-    path = assemble_pose(UNC, -4.0, -4.0, 0.0, mu=0.2)
+    path = assemble_pose(UNC, -2.0, -4.0, 30.0, mu=0.3)
     assert path.outcome is AssemblyOutcome.ENGAGED
     snap = next(event for event in path.events if event.kind is PathEventKind.SNAP)
     at = next(i for i, point in enumerate(path.points) if point.phase_deg == snap.phase_deg)
     assert abs(path.points[at + 1].phase_deg - snap.phase_deg) < 0.01
-    assert path.points[at + 1].motions == (ContactMotion.SLIDES,) * 2
+    assert path.points[at + 1].motions == (ContactMotion.SLIDES, ContactMotion.SLIDES, ContactMotion.STICKS)
     assert len(path.points) < 1000
     assert path.points[at + 1].solutions == 1
 
 
-def test_after_a_fall_without_friction_it_grows_from_none() -> None:
-    """No step of this fall goes on where edges graze, and friction does not hold the bolt there."""
-    path = assemble_pose(UNC, -4.0, -2.0, 120.0, strategy=Strategy.CW, mu=0.2)
-    assert path.outcome is AssemblyOutcome.ENGAGED
-    bare = [
+def bare_falls(path: AssemblyPath) -> list[int]:
+    """The points of a path to which the bolt has fallen without friction."""
+    return [
         i
         for i, point in enumerate(path.points)
         if point.solutions == 0 and all(friction(contact) < 1e-9 * PUSH for contact in point.contacts)
     ]
+
+
+def test_after_a_fall_without_friction_it_grows_from_none() -> None:
+    """No step of this fall goes on where edges graze, and friction does not hold the bolt there."""
+    path = assemble_pose(UNC, -3.0, 1.0, 330.0, mu=0.2)
+    assert path.outcome is AssemblyOutcome.NO_SNAP
+    bare = bare_falls(path)
     assert bare
     assert all(path.points[i + 1].solutions == 1 for i in bare)
     after = path.points[bare[0] + 1]
@@ -351,6 +356,14 @@ def test_after_a_fall_without_friction_it_grows_from_none() -> None:
     assert sliding
     for contact in sliding:
         assert friction(contact) == pytest.approx(0.2 * float(np.dot(contact.force, contact.normal)), abs=1e-7 * PUSH)
+
+
+def test_a_path_that_falls_without_friction_again_and_again_is_undecided() -> None:
+    """Its contacts wedge it in with more than a hundred times the push."""
+    path = assemble_pose(UNC, 4.0, -1.0, 120.0, strategy=Strategy.CW, mu=0.2)
+    assert (path.outcome, path.flags) == (AssemblyOutcome.UNDECIDED, (SettledFlag.UNSETTLED,))
+    last = len(path.points) - 1
+    assert bare_falls(path) == list(range(last + 1 - fk.MOST_BARE, last + 1))
 
 
 @pytest.mark.parametrize(("is_jammed", "is_whole"), [(False, True), (True, True), (False, False)])

@@ -36,7 +36,7 @@ from threadstate.device._friction_step_kernel import (
     solve_step,
     touching_contacts,
 )
-from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT
+from threadstate.device._gap_kernel import G_NORM, G_NORMAL
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -50,6 +50,7 @@ from threadstate.device._modes_kernel import (
     OVERLAP,
     STICKS,
     ModesWork,
+    set_contact,
 )
 from threadstate.device._places_kernel import find_places, lowest_height
 from threadstate.device._rest_kernel import AT_REST, DEEPEST, FLUSH, SLIPPED, Work, free_coordinates, set_metric
@@ -60,7 +61,7 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-LONGEST_WAY = 1e-2
+LONGEST_WAY = 2e-3
 """How far (nominal radii) the bolt goes in a step of a fall."""
 
 FIRST_DRAG, LEAST_DRAG, LARGEST_DRAG, LOWERED = 100.0, 0.1, 1e8, 4.0
@@ -262,11 +263,10 @@ def frictionless_contacts(found: int, push: float, work: Work, contacts: Array) 
         if force > LOADED * push:
             if count == MOST_CONTACTS:
                 return count + 1
+            set_contact(places[j], contacts[count])
             for h in range(3):
-                contacts[count, K_POINT + h] = places[j, G_POINT + h]
-                contacts[count, K_NORMAL + h] = places[j, G_NORMAL + h]
                 contacts[count, K_FORCE + h] = force * places[j, G_NORMAL + h]
                 contacts[count, K_SLIP + h] = 0.0
-            contacts[count, K_MODE], contacts[count, K_PAIR] = STICKS, places[j, G_PAIR]
+            contacts[count, K_MODE] = STICKS
             count += 1
     return count

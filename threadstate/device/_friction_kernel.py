@@ -222,45 +222,74 @@ def unexplained(before: Array, after: Array) -> float:
 
 
 @kernel()
-def add_branches(
-    i: int, number: int, q: Array, setting: Setting, solutions: Solutions, path: Path, branches: Branches
-) -> int:
-    """Adds a branch for each of the step's other solutions that its work explains, to point i; how many there are.
+def set_branch(
+    k: int,
+    number: int,
+    phase: float,
+    push: float,
+    i: int,
+    b: int,
+    setting: Setting,
+    solutions: Solutions,
+    path: Path,
+    branch: Path,
+) -> bool:
+    """Sets row b of a branch to a step's solution k, one of a number, from point i on; whether its work explains it.
 
     One that it does not is a finite way off: no motion without a jump leads there.
     """
     command, device, bolt = setting[0], setting[1], setting[3]
     places, all_contacts, counts = solutions
     points, point_contacts = path
-    rows, row_contacts, indices = branches
     losses = np.zeros(4)
-    before = points[i - 1]
+    contacts = all_contacts[k].copy()
+    losses[0] = friction_loss(int(points[i, P_COUNT]), point_contacts[i], int(counts[k]), contacts)
+    losses[2] = number
+    count = kept(int(counts[k]), contacts, command[M_PUSH])
+    add_path_point(b, phase, push, ON_CONTACTS, places[k], count, contacts, losses, command, device, branch)
+    return abs(unexplained(points[i], branch[0][b])) <= ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR]
+
+
+@kernel()
+def has_several(
+    number: int,
+    phase: float,
+    push: float,
+    i: int,
+    q: Array,
+    setting: Setting,
+    solutions: Solutions,
+    path: Path,
+    spare: Path,
+) -> bool:
+    """Whether a step from point i has another solution than ``q`` that no jump leads to."""
+    device = setting[1]
+    for k in range(number):
+        if distance(q, solutions[0][k], device) < DISTINCT * device[D_SCALE]:
+            continue
+        if set_branch(k, number, phase, push, i, 0, setting, solutions, path, spare):
+            return True
+    return False
+
+
+@kernel()
+def add_branches(
+    i: int, number: int, q: Array, setting: Setting, solutions: Solutions, path: Path, branches: Branches
+) -> int:
+    """Adds a branch for each of the step's other solutions that no jump leads to, to point i; how many there are."""
+    device = setting[1]
+    points = path[0]
+    rows, row_contacts, indices = branches
     total = 0
     while total < MAX_BRANCHES and indices[total] >= 0:
         total += 1
     added = 0
     for k in range(number):
-        if distance(q, places[k], device) < DISTINCT * device[D_SCALE]:
+        if distance(q, solutions[0][k], device) < DISTINCT * device[D_SCALE]:
             continue
         b = min(total, MAX_BRANCHES - 1)
-        contacts = all_contacts[k]
-        losses[0] = friction_loss(int(before[P_COUNT]), point_contacts[i - 1], int(counts[k]), contacts)
-        losses[2] = number
-        count = kept(int(counts[k]), contacts, command[M_PUSH])
-        add_path_point(
-            b,
-            points[i, P_PHASE],
-            points[i, P_PUSH],
-            ON_CONTACTS,
-            places[k],
-            count,
-            contacts,
-            losses,
-            command,
-            device,
-            (rows, row_contacts),
-        )
-        if abs(unexplained(before, rows[b])) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR]:
+        phase, push = points[i, P_PHASE], points[i, P_PUSH]
+        if not set_branch(k, number, phase, push, i - 1, b, setting, solutions, path, (rows, row_contacts)):
             continue
         added += 1
         if total < MAX_BRANCHES:
@@ -335,6 +364,7 @@ def follow_friction(
     before, losses = np.empty(PLACE_SIZE), np.zeros(4)
     known_size, known_count, known_contacts = 0.0, 0, np.empty((MOST_CANDIDATES, K_SIZE))
     known_begin, known_end = np.empty(COORDINATES), np.empty(COORDINATES)
+    spare = (np.empty((1, POINT_SIZE)), np.empty((1, MOST_CANDIDATES, K_SIZE)))
     branches[2][:] = -1
     set_phase(phases[0], command, device)
     if begun > 0:
@@ -380,9 +410,11 @@ def follow_friction(
                 copy_numbers(q, known_end)
                 for c in range(next_count):
                     copy_numbers(contacts[c], known_contacts[c])
-        # Of solutions while it is turned those a finite way off end as steps get shorter.
-        has_several = turns and ended == GOES_ON and losses[2] > 1.0
-        if size > least and not bridging and (ended == SHORTER or has_several):
+        is_several = turns and ended == GOES_ON and losses[2] > 1.0
+        if is_several and size > least:
+            phase = phases[0] + target * turn
+            is_several = has_several(int(losses[2]), phase, push, i, q, setting, solutions, path, spare)
+        if size > least and not bridging and (ended == SHORTER or is_several):
             is_shortened = is_shortened or ended == SHORTER
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, least)

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers
+from threadstate.contact._stage_kernel import THREAD_THREAD
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_SCALE,
@@ -20,7 +21,7 @@ from threadstate.device._chart_kernel import (
     set_place,
 )
 from threadstate.device._friction_rest_kernel import rests
-from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, GAP_SIZE
+from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_THETA, G_VALUE, G_Z, GAP_SIZE
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -30,6 +31,8 @@ from threadstate.device._modes_kernel import (
     K_PAIR,
     K_POINT,
     K_SLIP,
+    K_THETA,
+    K_Z,
     MOST_CANDIDATES,
     MOST_CONTACTS,
     OPENS,
@@ -70,8 +73,14 @@ DISTINCT = 1e-6
 SAME_CONTACT = 0.03
 """Points of two contacts (nominal radii) that are nearer to each other are one contact's."""
 
-MOST_MOVES = 3
-"""How often contacts of a mode move to places close by."""
+MOST_MOVES, MOST_RIDGE_MOVES = 3, 8
+"""How often contacts of a mode move to places close by, and how often where they are frozen."""
+
+BESIDE_ON_RIDGE = 1e-3
+"""Points (nominal radii) that are nearer to each other are one contact's where contacts are frozen."""
+
+MOST_RIDGE_CANDIDATES = 6
+"""The most contacts of which the modes are enumerated where contacts are frozen."""
 
 STEP_REACH = 2e-2
 """How far (nominal radii) the bolt may go in a step beside where the hand carries it."""
@@ -95,21 +104,18 @@ Setting = tuple[Array, Array, Array, Array, Array, Threads, Work, ModesWork]
 
 
 @kernel()
-def add_candidate(count: int, point: Array, normal: Array, pair: float, r: float, contacts: Array) -> int:
-    """Adds a contact to a step's, unless one is there already; their number then, one more than there is room for."""
+def add_candidate(count: int, gap: Array, device: Array, apart: float, contacts: Array) -> int:
+    """Adds a place of overlap to a step's contacts, unless one is nearer than ``apart`` (nominal radii) to it already.
+
+    Returns their number then, one more than there is room for.
+    """
     for i in range(count):
-        apart = 0.0
-        for h in range(3):
-            apart += (contacts[i, K_POINT + h] - point[h]) ** 2
-        if math.sqrt(apart) < SAME_CONTACT * r:
+        if is_same(contacts[i], gap, apart * device[D_SCALE]):
             return count
     if count < MOST_CANDIDATES:
         for h in range(K_SIZE):
             contacts[count, h] = 0.0
-        for h in range(3):
-            contacts[count, K_POINT + h] = point[h]
-            contacts[count, K_NORMAL + h] = normal[h]
-        contacts[count, K_PAIR] = pair
+        set_contact(gap, contacts[count])
     return count + 1
 
 
@@ -174,9 +180,10 @@ def enumerate_modes(
 ) -> tuple[int, bool]:
     """Sets every solution of a step: their number, and whether one that would be overlaps beside its contacts.
 
-    ``met`` is set to where the last such one does. ``q`` is the bolt before the step, ``carried`` where the hand
-    carries it, ``free`` where it would be without friction, ``before`` the pose before. A bolt that is turned has at
-    most two contacts that stick, and pivots about the line between them; one that falls may have more.
+    ``met`` is set to where the last such one does, or the one that overlaps least where contacts are frozen. ``q`` is
+    the bolt before the step, ``carried`` where the hand carries it, ``free`` where it would be without friction,
+    ``before`` the pose before. A bolt that is turned has at most two contacts that stick, and pivots about the line
+    between them; one that falls may have more.
     """
     _, device, _, bolt, nut, threads, _, modes_work = setting
     places, search = modes_work.places, modes_work.search
@@ -188,7 +195,9 @@ def enumerate_modes(
     place = np.empty(PLACE_SIZE)
     for j in range(COORDINATES):
         start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
-    total, has_met = 0, False
+    total, has_met, least = 0, False, math.inf
+    is_frozen = modes_work.frozen[0] == 1
+    apart = (BESIDE_ON_RIDGE if is_frozen else SAME_CONTACT) * r
     most_sticking = MOST_CONTACTS if modes_work.drag[0, 0] > 0.0 else 2
     if not turns:
         set_place(q, device, place)
@@ -236,10 +245,10 @@ def enumerate_modes(
         if beside >= 0:
             is_known = False
             for c in range(count):
-                is_known = is_known or is_same(candidates[c], places[beside], r)
-            if not is_known:
+                is_known = is_known or is_same(candidates[c], places[beside], apart)
+            if not (is_known or (is_frozen and places[beside, G_VALUE] > least)):
                 copy_numbers(places[beside], met)
-                has_met = True
+                has_met, least = True, places[beside, G_VALUE]
         else:
             total = add_solution(total, trial, count, contacts, device, solutions)
     return total, has_met
@@ -267,8 +276,9 @@ def solve_moved(
     _, device, _, bolt, nut, threads, _, modes_work = setting
     places, search = modes_work.places, modes_work.search
     r, falls = device[D_SCALE], modes_work.drag[0, 0] > 0.0
-    place = np.empty(PLACE_SIZE)
-    moves = 0
+    place, move = np.empty(PLACE_SIZE), np.zeros(4)
+    last_moved, moves = -1, 0
+    is_frozen = modes_work.frozen[0] == 1
     while True:
         status = solve_mode(
             modes, count, mu, found, q, push, unit, before, device, bolt, nut, threads, contacts, modes_work
@@ -279,24 +289,57 @@ def solve_moved(
         set_place(q, device, place)
         found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
         beside = overlap_beside(modes, count, r, found, contacts, places)
-        moved = -1
-        for c in range(count):
-            if beside >= 0 and modes[c] != OPENS and is_same(contacts[c], places[beside], r):
-                moved = c
-        if moved < 0 or moves == MOST_MOVES:
+        moved = moved_contact(modes, count, is_frozen, places[beside], r, contacts) if beside >= 0 else -1
+        if moved < 0 or moves == (MOST_RIDGE_MOVES if is_frozen else MOST_MOVES):
             return SOLVED, beside
+        if is_frozen:
+            move_on_ridge(places[beside], moved == last_moved, move, contacts[moved])
         for h in range(3):
             contacts[moved, K_POINT + h] = places[beside, G_POINT + h]
+        last_moved = moved
         moves += 1
 
 
 @kernel()
-def is_same(contact: Array, gap: Array, r: float) -> bool:
-    """Whether a place is so near to a contact that it is that contact's."""
+def moved_contact(modes: Indices, count: int, is_frozen: bool, gap: Array, r: float, contacts: Array) -> int:
+    """Which contact has moved to a place of overlap, -1 if none is near; of frozen ones only along the threads."""
+    moved, nearest = -1, SAME_CONTACT * r
+    for c in range(count):
+        if modes[c] == OPENS or (is_frozen and not (contacts[c, K_PAIR] == gap[G_PAIR] == THREAD_THREAD)):
+            continue
+        apart = 0.0
+        for h in range(3):
+            apart += (contacts[c, K_POINT + h] - gap[G_POINT + h]) ** 2
+        if math.sqrt(apart) < nearest:
+            moved, nearest = c, math.sqrt(apart)
+    return moved
+
+
+@kernel()
+def move_on_ridge(gap: Array, has_moved: bool, move: Array, contact: Array) -> None:
+    """Moves a frozen contact to a place of overlap, or to where the line through its last two moves has none.
+
+    The bolt rolls along a ridge that is nearly level: with the contact at one end it is deepest at the other.
+    ``move`` has where the contact was before its last move, and that move: azimuth and height each.
+    """
+    theta, z = contact[K_THETA], contact[K_Z]
+    by_theta = (gap[G_THETA] - theta + math.pi) % TWO_PI - math.pi
+    by_z = gap[G_Z] - z
+    to_theta, to_z = theta + by_theta, gap[G_Z]
+    if has_moved and by_theta * move[2] < 0.0:
+        part = move[2] / (move[2] - by_theta)
+        to_theta, to_z = move[0] + part * (theta - move[0]), move[1] + part * (z - move[1])
+    move[0], move[1], move[2], move[3] = theta, z, by_theta, by_z
+    contact[K_THETA], contact[K_Z] = to_theta, to_z
+
+
+@kernel()
+def is_same(contact: Array, gap: Array, most: float) -> bool:
+    """Whether a place is nearer to a contact than so far, and so that contact's."""
     apart = 0.0
     for h in range(3):
         apart += (contact[K_POINT + h] - gap[G_POINT + h]) ** 2
-    return math.sqrt(apart) < SAME_CONTACT * r
+    return math.sqrt(apart) < most
 
 
 @kernel()
@@ -374,21 +417,8 @@ def add_free_contacts(total: int, found: int, push: float, device: Array, work: 
     places, multipliers = work[0], work[15]
     for j in range(found):
         if multipliers[j] * places[j, G_NORM] > LOADED * push:
-            total = min(add_candidate_at(total, places[j], device, candidates), MOST_CANDIDATES)
+            total = min(add_candidate(total, places[j], device, SAME_CONTACT, candidates), MOST_CANDIDATES)
     return total
-
-
-@kernel()
-def add_candidate_at(total: int, gap: Array, device: Array, candidates: Array) -> int:
-    """Adds a place of overlap to a step's contacts, as :func:`add_candidate`."""
-    return add_candidate(
-        total,
-        gap[G_POINT : G_POINT + 3],
-        gap[G_NORMAL : G_NORMAL + 3],
-        gap[G_PAIR],
-        device[D_SCALE],
-        candidates,
-    )
 
 
 @kernel()
@@ -424,15 +454,44 @@ def solve_step(
     """
     command, device = setting[0], setting[1]
     met = np.empty(GAP_SIZE)
+    is_frozen = setting[7].frozen[0] == 1
     while True:
         number, has_met = enumerate_modes(
             q, q, free, before, push, command[M_PUSH], mu, turns, total, candidates, setting, solutions, met
         )
         known = total
         if has_met:
-            total = add_candidate_at(total, met, device, candidates)
-        if total == known or total > MOST_CANDIDATES:
+            total = add_candidate(total, met, device, BESIDE_ON_RIDGE if is_frozen else SAME_CONTACT, candidates)
+        if total == known or total > (MOST_RIDGE_CANDIDATES if is_frozen else MOST_CANDIDATES):
             return number, total
+        if is_frozen and number > 0:
+            return number, known
+
+
+@kernel()
+def solve_on_ridges(
+    q: Array,
+    before: Array,
+    push: float,
+    mu: float,
+    count: int,
+    contacts: Array,
+    candidates: Array,
+    setting: Setting,
+    solutions: Solutions,
+) -> tuple[int, int]:
+    """Sets solutions of a step of which contacts of the threads stay at points of the bolt, as :func:`solve_step`.
+
+    On a ridge that is nearly level they roll to and fro, and the places that Newton's method follows run away or
+    vanish; at points that stay it has room, and those are moved from one solution to the next.
+    """
+    work = setting[7]
+    for c in range(count):
+        copy_numbers(contacts[c], candidates[c])
+    work.frozen[0] = 1
+    number, total = solve_step(q, q, before, push, mu, True, count, candidates, setting, solutions)
+    work.frozen[0] = 0
+    return number, total
 
 
 @kernel()
@@ -555,6 +614,8 @@ def step_with_friction(
         ramps = number == 0 and turns and found > 0 and total <= MOST_CANDIDATES
         if ramps and ramp_friction(free, found, before, push, command[M_PUSH], mu, total, candidates, setting):
             number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
+    if number == 0 and turns and begins_anew:
+        number, total = solve_on_ridges(q, before, push, mu, count, contacts, candidates, setting, solutions)
     losses[2] = number
     if number == 0 or total > MOST_CANDIDATES:
         return SHORTER, 0

@@ -196,9 +196,22 @@ def set_point_derivatives(of_bolt: bool, arm: Array, place: Array, out: Array) -
 
 @kernel()
 def set_gap(
-    pair: int, theta: float, z: float, place: Array, device: Array, bolt: Array, nut: Array, work: Array, gap: Array
+    pair: int,
+    theta: float,
+    z: float,
+    stays: bool,
+    place: Array,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    work: Array,
+    gap: Array,
 ) -> None:
-    """Sets a place of overlap whose deepest point is known, with all derivatives by the coordinates."""
+    """Sets a place of overlap whose deepest point is known, with all derivatives by the coordinates.
+
+    Where it ``stays`` they are those of the depth of this point of the part, which the deepest one may leave behind; a
+    crossing of edges never does.
+    """
     of_bolt = not (pair == BASE_EDGE or pair == THREAD_EDGE)
     on_thread = pair == THREAD_THREAD
     sigma = 1.0 if of_bolt else -1.0
@@ -300,7 +313,7 @@ def set_gap(
         for i in range(6):
             for j in range(6):
                 hessian[i, j] += mixed[0, i] * moves[j] + moves[i] * mixed[0, j] + twice[0] * moves[i] * moves[j]
-    elif on_thread:
+    elif on_thread and not stays:
         determinant = twice[0] * twice[1] - twice[2] * twice[2]
         for i in range(6):
             for j in range(6):
@@ -308,7 +321,7 @@ def set_gap(
                     mixed[0, i] * (twice[1] * mixed[0, j] - twice[2] * mixed[1, j])
                     + mixed[1, i] * (twice[0] * mixed[1, j] - twice[2] * mixed[0, j])
                 ) / determinant
-    elif -twice[0] > LEAST_BEND * bolt[pk.R_MAJOR]:
+    elif not stays and -twice[0] > LEAST_BEND * bolt[pk.R_MAJOR]:
         for i in range(6):
             for j in range(6):
                 hessian[i, j] -= mixed[0, i] * mixed[0, j] / twice[0]

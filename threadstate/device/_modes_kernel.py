@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._stage_kernel import THREAD_THREAD
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_SCALE,
@@ -36,7 +37,9 @@ from threadstate.device._gap_kernel import (
     G_NORMAL,
     G_PAIR,
     G_POINT,
+    G_THETA,
     G_VALUE,
+    G_Z,
     GAP_SIZE,
     GAP_WORK,
     set_gap,
@@ -116,9 +119,12 @@ REACH = 5e-3
 
 # A contact of a step: point in the nut's frame, unit normal into the bolt, force on the bolt (N), slip of the bolt's
 # point over the nut in the step, what it does, pair of features, the nut's axis (0: x, 1: y) that its tangents are made
-# of, and the force before the step.
-K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_AXIS, K_HELD = 0, 3, 6, 9, 12, 13, 14, 15
-CONTACT_SIZE = 18
+# of, the force before the step, and where on its edge or thread the point is: azimuth and height.
+K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_AXIS, K_HELD, K_THETA, K_Z = 0, 3, 6, 9, 12, 13, 14, 15, 18, 19
+CONTACT_SIZE = 20
+
+FROZEN_PLACES = MAX_PLACES + 1
+"""Where in the list of places those of frozen contacts begin."""
 
 
 class ModesWork(NamedTuple):
@@ -126,7 +132,8 @@ class ModesWork(NamedTuple):
 
     ``drag`` is the force over the unit that resists the way from ``begun``, by free coordinates as lengths over the
     nominal radius. ``guess`` (6) is where a step may end whose contacts do what the ``guessed[0]`` first of
-    ``guessed_contacts`` do; their forces are those to begin with.
+    ``guessed_contacts`` do; their forces are those to begin with. Where ``frozen[0]`` is 1 contacts of the threads stay
+    at their points of the bolt within an iteration: on a ridge that is nearly level the deepest point runs away.
     """
 
     places: Array
@@ -142,6 +149,7 @@ class ModesWork(NamedTuple):
     guess: Array
     guessed_contacts: Array
     guessed: Indices
+    frozen: Indices
 
 
 SOLVED, UNSOLVED = range(2)
@@ -151,7 +159,7 @@ SOLVED, UNSOLVED = range(2)
 def new_modes_work() -> ModesWork:
     """The arrays of a step of a bolt that does not fall."""
     return ModesWork(
-        np.empty((MAX_PLACES + 1, GAP_SIZE)),
+        np.empty((FROZEN_PLACES + MOST_CANDIDATES, GAP_SIZE)),
         np.empty(PLACES_WORK),
         np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
         np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
@@ -163,6 +171,7 @@ def new_modes_work() -> ModesWork:
         np.zeros(COORDINATES),
         np.zeros(COORDINATES),
         np.zeros((MOST_CANDIDATES, CONTACT_SIZE)),
+        np.zeros(1, dtype=np.int64),
         np.zeros(1, dtype=np.int64),
     )
 
@@ -247,13 +256,17 @@ def tangent(which: int, contact: Array) -> tuple[float, float, float]:
 
 
 @kernel()
-def match_places(
-    modes: Indices, count: int, contacts: Array, found: int, places: Array, r: float, indices: Array
-) -> bool:
+def match_places(modes: Indices, count: int, contacts: Array, found: int, r: float, work: ModesWork) -> bool:
     """Sets which place each contact is now, the nearest one, -1 of one that opens and has none; False where another has
-    none.
+    none. Where contacts are frozen each begins at its own.
     """
+    places, indices = work.places, work.indices
     for i in range(count):
+        if work.frozen[0] == 1 and modes[i] != OPENS:
+            indices[i] = FROZEN_PLACES + i
+            gap = places[FROZEN_PLACES + i]
+            gap[G_PAIR], gap[G_THETA], gap[G_Z] = contacts[i, K_PAIR], contacts[i, K_THETA], contacts[i, K_Z]
+            continue
         best, nearest = -1, SAME_POINT * r
         for j in range(found):
             taken = False
@@ -274,6 +287,7 @@ def match_places(
 def follow_places(
     modes: Indices,
     count: int,
+    begin: bool,
     place: Array,
     device: Array,
     bolt: Array,
@@ -281,17 +295,24 @@ def follow_places(
     threads: Threads,
     work: ModesWork,
 ) -> bool:
-    """Sets the places of the contacts that stay anew, from where they were; False where one is not found near by."""
+    """Sets the places of the contacts that stay anew, from where they were; False where one is not found near by.
+
+    They ``begin`` at places that have been found at this pose, or at their own where contacts are frozen.
+    """
     places, search, indices = work.places, work.search, work.indices
     gap_work = search[W_GAP : W_GAP + GAP_WORK]
+    is_frozen = work.frozen[0] == 1
     for c in range(count):
-        if modes[c] == OPENS:
+        if modes[c] == OPENS or (begin and not is_frozen):
             continue
         gap = places[int(indices[c])]
-        pair, theta, z = place_near(gap, place, bolt, nut, threads, search[W_JET : W_JET + EDGE_JET_SIZE])
-        if pair == NOWHERE:
-            return False
-        set_gap(pair, theta, z, place, device, bolt, nut, gap_work, gap)
+        pair, theta, z = int(gap[G_PAIR]), gap[G_THETA], gap[G_Z]
+        stays = is_frozen and pair == THREAD_THREAD
+        if not (begin or stays):
+            pair, theta, z = place_near(gap, place, bolt, nut, threads, search[W_JET : W_JET + EDGE_JET_SIZE])
+            if pair == NOWHERE:
+                return False
+        set_gap(pair, theta, z, stays, place, device, bolt, nut, gap_work, gap)
     return True
 
 
@@ -417,7 +438,7 @@ def set_contact(gap: Array, contact: Array) -> None:
     for h in range(3):
         contact[K_POINT + h] = gap[G_POINT + h]
         contact[K_NORMAL + h] = gap[G_NORMAL + h]
-    contact[K_PAIR] = gap[G_PAIR]
+    contact[K_PAIR], contact[K_THETA], contact[K_Z] = gap[G_PAIR], gap[G_THETA], gap[G_Z]
 
 
 @kernel()
@@ -519,10 +540,9 @@ def solve_mode(
     at ``q``. The contacts have the forces to begin with, and those before the step.
     """
     matrix, spare, residual, unknowns = work.matrix, work.spare, work.residual, work.unknowns
-    places, indices = work.places, work.indices
     n = free_coordinates(device)
     r = device[D_SCALE]
-    if not match_places(modes, count, contacts, found, places, r, indices):
+    if not match_places(modes, count, contacts, found, r, work):
         return UNSOLVED
     place = np.empty(PLACE_SIZE)
     step = np.empty(MOST_UNKNOWNS)
@@ -530,11 +550,12 @@ def solve_mode(
     expected = np.zeros(MOST_UNKNOWNS)
     start = q.copy()
     set_place(q, device, place)
+    follow_places(modes, count, True, place, device, bolt, nut, threads, work)
     rho = set_first_unknowns(modes, count, mu, unit, r, n, before, place, contacts, work)
     taken_before = math.inf
     for iteration in range(ITERATIONS):
         set_place(q, device, place)
-        if iteration > 0 and not follow_places(modes, count, place, device, bolt, nut, threads, work):
+        if iteration > 0 and not follow_places(modes, count, False, place, device, bolt, nut, threads, work):
             return UNSOLVED
         size = set_equations(modes, count, mu, rho, False, q, push, unit, place, before, device, contacts, work)
         worst = largest(size, residual)

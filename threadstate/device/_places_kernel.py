@@ -281,7 +281,7 @@ def add_place(
     """
     if count == MAX_PLACES:
         return count, -1
-    set_gap(pair, theta, z, place, device, bolt, nut, work[W_GAP : W_GAP + GAP_WORK], places[count])
+    set_gap(pair, theta, z, False, place, device, bolt, nut, work[W_GAP : W_GAP + GAP_WORK], places[count])
     near = 1e-7 * bolt[pk.R_MAJOR]
     for i in range(count):
         apart = 0.0
