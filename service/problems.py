@@ -18,6 +18,7 @@ from starlette.routing import Match
 
 from service.kernels import KernelsCompilingError
 from service.request_scope import INSTANCE_PREFIX, current_request_id
+from service.valid_ranges import valid_range
 from threadstate.access.keys import KeyRefusedError, ScopeRefusedError
 from threadstate.errors import (
     InvalidValueError,
@@ -38,6 +39,8 @@ RETRY_AFTER_S = 5
 """Seconds until a retry after the database failed."""
 KERNELS_RETRY_AFTER_S = 30
 """Seconds until a retry while kernels are being compiled."""
+_OUT_OF_RANGE = frozenset({"greater_than", "greater_than_equal", "less_than", "less_than_equal", "finite_number"})
+"""Kinds of refused values, as pydantic names them, that a range with both bounds is said of."""
 NO_HEADERS: Mapping[str, str] = MappingProxyType({})
 
 
@@ -184,21 +187,24 @@ def _refused_parameter(_request: Request, error: Any) -> Response:
     return problem_response(error.kind, f"query parameter {_short(error.name)!r}; valid: {error.valid}", [item])
 
 
-def _validation(_request: Request, error: Any) -> Response:
-    items = [_refused_by_schema(one, error.body) for one in error.errors()[:10]]
+def _validation(request: Request, error: Any) -> Response:
+    items = [_refused_by_schema(request, one, error.body) for one in error.errors()[:10]]
     detail = "; ".join(f"{item.location} is {item.value!r}: {item.valid}" for item in items)
     return problem_response(INVALID_VALUE, detail, items)
 
 
-def _refused_by_schema(one: Any, body: Any) -> ProblemItem:
+def _refused_by_schema(request: Request, one: Any, body: Any) -> ProblemItem:
     location = " ".join(_short(str(part)) for part in one["loc"])
     if one["type"] == "json_invalid":
         place = int(one["loc"][1])
         return ProblemItem(location=location, value=_short(body[place:]), valid=_short(f"JSON: {one['ctx']['error']}"))
+    valid = None
+    if one["type"] in _OUT_OF_RANGE:
+        valid = valid_range(request.app.openapi(), request.scope["route"].path, request.method, one["loc"])
     return ProblemItem(
         location=location,
         value=_short(str(one.get("input", ""))),
-        valid=_short(one["msg"].removeprefix("Input should be ")),
+        valid=_short(valid or one["msg"].removeprefix("Input should be ")),
     )
 
 

@@ -159,7 +159,7 @@ def test_what_is_refused_leaves_the_map_and_a_curve_that_comes_back_has_its_size
     whole(explorer)
     explorer.choose("#success-mu", "5")
     explorer.click("#success-compute")
-    explorer.wait_for_text("#success-problem", "friction μ is 5; valid: less than or equal to 1")
+    explorer.wait_for_text("#success-problem", "friction μ is 5; valid: from 0 to 1")
     assert filled(explorer) == CELLS
     explorer.wait(lambda: explorer.one(".panel.turned").is_displayed(), "the path is not shown")
     explorer.click("#tab-device")
@@ -252,6 +252,6 @@ def test_what_is_not_valid_is_said(explorer: Explorer) -> None:
     explorer.click("#tab-success")
     explorer.choose("#success-mu", "2")
     explorer.click("#success-compute")
-    explorer.wait_for_text("#success-problem", "friction μ is 2; valid: less than or equal to 1")
+    explorer.wait_for_text("#success-problem", "friction μ is 2; valid: from 0 to 1")
     assert filled(explorer) == 0
     assert ["400" in one for one in explorer.complaints()] == [True]

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import pytest
@@ -7,6 +8,7 @@ from fastapi.testclient import TestClient
 
 from service.app import LARGEST_BODY_BYTES, create_app
 from service.problems import KINDS, Problem
+from service.valid_ranges import valid_range
 from tests.service.conftest import StoredLibrary, client_of
 from threadstate.library.schema import SCHEMA_REVISION
 from threadstate.settings import read_settings
@@ -120,3 +122,44 @@ def test_body_too_large_is_refused(client: TestClient) -> None:
 
 def test_kinds_have_names_of_their_own() -> None:
     assert len({kind.name for kind in KINDS}) == len(KINDS)
+
+
+@pytest.mark.parametrize(
+    ("body", "location", "valid"),
+    [
+        ({"mu": 3}, "body mu", "from 0 to 1"),
+        ({"mu": -1}, "body mu", "from 0 to 1"),
+        ({"longest_step": 0}, "body longest_step", "from 0.25 to 2"),
+        ({"pose": {"roll": 1, "pitch": 1, "phase": 1e9}}, "body pose phase", "from -36000 to 36000"),
+    ],
+)
+def test_a_number_out_of_range_is_told_both_bounds(
+    client: TestClient, body: dict[str, Any], location: str, valid: str
+) -> None:
+    asked = {"pose": {"roll": 1, "pitch": 1, "phase": 1}, **body}
+    (error,) = problem(client.post("/v1/assemblies", json=asked), 400).errors
+    assert (error.location, error.valid) == (location, valid)
+
+
+@pytest.mark.parametrize(
+    ("schema", "location", "valid"),
+    [
+        ({"anyOf": [{"type": "string"}, {"exclusiveMinimum": 0}]}, (), "greater than 0"),
+        ({"exclusiveMinimum": 0, "maximum": 2.5}, (), "greater than 0 and less than or equal to 2.5"),
+        ({"$ref": "#/components/schemas/Row"}, (1,), "from 3 to 4"),
+        ({"$ref": "#/components/schemas/Row"}, (7,), "from 1 to 2"),
+        ({"properties": {"x": {"minimum": 0, "maximum": 9}}}, ("x", "constrained-float"), "from 0 to 9"),
+        ({"minimum": 0, "maximum": sys.float_info.max}, (), "greater than or equal to 0"),
+        ({"type": "number"}, (), None),
+    ],
+)
+def test_ranges_are_those_of_the_described_schemas(
+    schema: dict[str, Any], location: tuple[Any, ...], valid: str | None
+) -> None:
+    row = {"prefixItems": [{}, {"minimum": 3, "maximum": 4}], "items": {"minimum": 1, "maximum": 2}}
+    content = {"application/json": {"schema": schema}}
+    description = {
+        "paths": {"/v1/x": {"post": {"requestBody": {"content": content}}}},
+        "components": {"schemas": {"Row": row}},
+    }
+    assert valid_range(description, "/v1/x", "POST", ("body", *location)) == valid

@@ -138,7 +138,7 @@ def test_any_pose_has_the_diagram_of_a_stored_one(solved_client: TestClient) -> 
         ({"contacts": "1;2"}, "contacts", "whole numbers"),
         ({"window": "1"}, "window", "two numbers"),
         ({"window": "0,1"}, "window", "above 0"),
-        ({"tolerance": "1"}, "query tolerance", "less than or equal to 0.1"),
+        ({"tolerance": "1"}, "query tolerance", "from 1e-08 to 0.1"),
         ({"force": "0,0,1"}, "force", "z below 0"),
         ({"format": "png"}, "query format", "'json' or 'svg'"),
     ],
