@@ -56,6 +56,16 @@ def test_a_path_that_comes_to_a_known_one_ends_as_it_does_alone(
     assert outcomes is None or found == outcomes
 
 
+def test_a_path_that_ends_at_an_overlap_of_a_known_one_is_followed_alone() -> None:
+    """The known path's step to that phase left overlaps of 1e-9 nominal radii, which no end may have."""
+    known = KnownPaths()
+    for phase in (0.0, 15.0, 30.0):
+        assemble_pose(UNC, 2.0, 1.0, phase, strategy=Strategy.CW, mu=0.3, known=known)
+    path = assemble_pose(UNC, 2.0, 1.0, 60.0, strategy=Strategy.CW, mu=0.3, known=known)
+    assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
+    assert path == assemble_pose(UNC, 2.0, 1.0, 60.0, strategy=Strategy.CW, mu=0.3)
+
+
 def test_what_a_path_takes_from_a_known_one_are_its_points_whole_turns_later() -> None:
     known = KnownPaths()
     first = assemble_pose(UNC, 1.0, -3.0, 0.0, mu=0.2, known=known)

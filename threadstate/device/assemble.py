@@ -28,7 +28,7 @@ from threadstate.device.assembly_model import (
     PathEventKind,
 )
 from threadstate.device.assembly_outcome import Ending, outcome_of
-from threadstate.device.branches import FollowedLeg, KnownPaths, PlannedLeg, all_paths
+from threadstate.device.branches import Followed, FollowedLeg, KnownPaths, PlannedLeg, all_paths
 from threadstate.device.command import (
     LONGEST_STEP_DEG,
     LONGEST_STEP_WITH_FRICTION_DEG,
@@ -131,14 +131,14 @@ def assemble_pose(
     path = path_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch, longest_step_deg=longest)
     if isinstance(path, SettledState):
         return _unsettled(path, strategy, mu)
-    followed = all_paths(path, phase, [growing_push(held), *plan], known)
-    ends = []
-    for legs in followed.paths:
-        start = settled_with_friction(held, wanted[0], path, legs[0].rows)
-        if start.outcome is Outcome.SETTLED:
-            ends.append(_path(pair, held, start, strategy, mu, _with_friction(path, legs[1:])))
-        else:
-            ends.append(_unsettled(start, strategy, mu))
+    alone = path.copy()
+    plan.insert(0, growing_push(held))
+    followed = all_paths(path, phase, plan, known)
+    ends = _ends(path, held, wanted[0], strategy, followed)
+    if known and any(end.points and SettledFlag.OVERLAP in end.flags for end in ends):
+        # A point of a known path may overlap by as much as a step leaves where the certificate of an end does not.
+        followed = all_paths(alone, phase, plan)
+        ends = _ends(alone, held, wanted[0], strategy, followed)
     first = ends[0]
     if known is not None and first.outcome is not AssemblyOutcome.UNDECIDED:
         known.add(followed)
@@ -148,6 +148,20 @@ def assemble_pose(
     if followed.is_whole and all(end.outcome is first.outcome for end in ends):
         return first
     return replace(first, outcome=AssemblyOutcome.UNDECIDED, flags=(SettledFlag.AMBIGUOUS,))
+
+
+def _ends(
+    path: FrictionPath, held: Device, pose_deg: Floats, strategy: Strategy, followed: Followed
+) -> list[AssemblyPath]:
+    """The paths with friction that have been followed from a pose (deg); ``path`` is the bolt of the first."""
+    ends = []
+    for legs in followed.paths:
+        start = settled_with_friction(held, pose_deg, path, legs[0].rows)
+        if start.outcome is Outcome.SETTLED:
+            ends.append(_path(path.pair, held, start, strategy, path.mu, _with_friction(path, legs[1:])))
+        else:
+            ends.append(_unsettled(start, strategy, path.mu))
+    return ends
 
 
 def _unsettled(start: SettledState, strategy: Strategy, mu: float) -> AssemblyPath:
