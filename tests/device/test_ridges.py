@@ -52,7 +52,7 @@ def falls(path: AssemblyPath) -> int:
 def test_a_bolt_rolls_along_the_root_of_the_nut_and_engages() -> None:
     """Its crest lies along the nut's root on four places: Newton's method followed none of them, and it fell and fell.
 
-    So it crept until it had no more points; the brute force engages, too (study of success maps).
+    So it crept until it had no more points; the brute force engages, too (decision 44).
     """
     path = assemble_pose(UNC, -3.0, -1.0, 0.0, mu=0.2)
     assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
