@@ -21,7 +21,7 @@ STEP_DEG = 0.5
 PUSH_STEPS = 32
 SNAP_DROP, SNAP_SPAN_DEG = 0.05, 3.0
 """A descent by so many thread pitches within so much turn."""
-COUNTER_DEG, CLOCKWISE_DEG, JUDGED_DEG = 360.0, 270.0, 90.0
+CLOCKWISE_DEG, JUDGED_DEG = 270.0, 90.0
 LEAD_SHARE = 0.05
 """How far the height may be from the lead's line, over the lead of the last 90 deg."""
 BESIDE_PLAY = 1e-3
@@ -79,10 +79,10 @@ def followed_to_end(
     pose_deg: tuple[float, float, float],
     mu: float,
     *,
-    counter: bool,
+    counter_deg: float,
     step_deg: float = STEP_DEG,
 ) -> tuple[End, list[Point]]:
-    """How a bolt ends that settles at a pose and is turned, ``counter`` clockwise first or clockwise at once."""
+    """How a bolt ends that settles at a pose and is turned, by ``counter_deg`` counter-clockwise at most, or by 0."""
     follower = Follower(pair, hand, pose_deg, mu)
     limits = Limits.of(pair)
     slip = pair.fit.bolt_major_diameter / pair.nominal_diameter
@@ -92,10 +92,10 @@ def followed_to_end(
     try:
         for k in range(1, PUSH_STEPS + 1):
             _stepped(follower, follower.phase, k / PUSH_STEPS, points, slip)
-        if counter:
-            snap, snap_deg = _until_snap(follower, points, slip, limits, step_deg)
+        if counter_deg > 0.0:
+            snap, snap_deg = _until_snap(follower, points, slip, limits, counter_deg, step_deg)
         outcome = "no_snap"
-        if not counter or snap >= 1.0:
+        if counter_deg == 0.0 or snap >= 1.0:
             began = len(points)
             phase = follower.phase
             steps = round(CLOCKWISE_DEG / step_deg)
@@ -122,13 +122,13 @@ def _stepped(follower: Follower, phase: float, push: float, points: list[Point],
 
 
 def _until_snap(
-    follower: Follower, points: list[Point], slip: float, limits: Limits, step_deg: float
+    follower: Follower, points: list[Point], slip: float, limits: Limits, counter_deg: float, step_deg: float
 ) -> tuple[float, float]:
     """The largest descent over the one of a snap, and the phase (deg) of the snap if there is one."""
     began, phase = len(points), follower.phase
     span = round(SNAP_SPAN_DEG / step_deg)
     largest = 0.0
-    for k in range(1, round(COUNTER_DEG / step_deg) + 1):
+    for k in range(1, round(counter_deg / step_deg) + 1):
         _stepped(follower, phase + math.radians(k * step_deg), 1.0, points, slip)
         recent = points[max(began - 1, len(points) - 1 - span) :]
         drop = max(float(point.origin[2]) for point in recent) - float(points[-1].origin[2])

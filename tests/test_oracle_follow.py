@@ -44,7 +44,7 @@ def test_without_friction_the_torque_is_the_change_of_potential() -> None:
 
 @pytest.mark.slow
 def test_a_bolt_that_snaps_follows_the_lead() -> None:
-    end, points = followed_to_end(PAIR, HAND, (0.0, -4.0, 330.0), 0.1, counter=True)
+    end, points = followed_to_end(PAIR, HAND, (0.0, -4.0, 330.0), 0.1, counter_deg=360.0)
     assert end.outcome == "engaged"
     assert end.snap_deg == pytest.approx(358.0, abs=1.5)
     assert points[-181].origin[2] - points[-1].origin[2] == pytest.approx(LEAD / 4.0, rel=0.01)
@@ -52,5 +52,5 @@ def test_a_bolt_that_snaps_follows_the_lead() -> None:
 
 @pytest.mark.slow
 def test_a_bolt_that_leans_away_finds_no_thread() -> None:
-    end, _ = followed_to_end(PAIR, HAND, (0.0, 4.0, 0.0), 0.0, counter=True)
+    end, _ = followed_to_end(PAIR, HAND, (0.0, 4.0, 0.0), 0.0, counter_deg=360.0)
     assert end.outcome == "no_snap"

@@ -280,8 +280,9 @@ def _friction_section(maps: Maps) -> str:
         for strategy in comparison.strategies
     ]
     words = _paragraph(
-        f"The default, a loose pair and a device that is stiff against tilt at mu = {number_text(MU)}, of "
-        f"{FRICTION_GRID.orientation_count} orientations: rolls and pitches of {tilts} deg, from starting phase 0. "
+        "The default, a loose pair, a device that is stiff against tilt and one that turns farther until the snap, at "
+        f"mu = {number_text(MU)}, of {FRICTION_GRID.orientation_count} orientations: rolls and pitches of {tilts} deg, "
+        "from starting phase 0. "
         "The rows without friction are those of the same orientations. No other device or pair was computed with "
         "friction here; the default one has been, by both strategies and at three frictions, for [its success "
         "maps](success.md#measured-the-default-device)."
@@ -315,5 +316,7 @@ WORDS = {
     "sizes": "Scaled devices have lengths in proportion to the nominal diameter at the same push: `k_lateral` is\n"
     "divided by the ratio of diameters, `k_tilt` multiplied by it. The travel allowed is not scaled.",
     "about": "`nut` turns the tilt round with the phase, `bolt` leaves it in space.",
+    "ccw-turn": "A turn that ends before the snap leaves the bolt on the nut, however well it is held. From phase 0\n"
+    "snaps that come soon after a whole turn are missed by 360 deg.",
 }
 """What a reader needs beside the numbers."""

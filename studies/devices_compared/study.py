@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from studies.success.study import StudiedMap
+from studies.success.study import FARTHER_DEG, StudiedMap
 from threadstate.device.document import device_document, device_from_document
 from threadstate.device.model import About, Device, default_device
 from threadstate.device.settle import check_pair
@@ -39,6 +39,7 @@ TILT_STIFFNESSES = (50.0, 125.0, 250.0, 500.0, 1000.0, 2000.0)
 """N mm/rad."""
 LATERAL_STIFFNESSES = (2.0, 5.0, 20.0, 80.0, 320.0)
 """N/mm."""
+CCW_TURNS_DEG = (180.0, 345.0, 360.0, 375.0, FARTHER_DEG, 450.0)
 CLASSES = ("3A/3B", "2A/2B", "1A/1B")
 POSITIONS = ("at maximum material", "at minimum material")
 SHARP = "2A/2B with sharp corners"
@@ -204,18 +205,25 @@ def comparisons() -> tuple[Comparison, ...]:
             "about",
             tuple(Variant(about.value, held(about=about.value)) for about in About),
         ),
+        Comparison(
+            "ccw-turn",
+            "How far the hand turns until the snap",
+            "ccw_turn (deg)",
+            tuple(Variant(number_text(turn), held(ccw_turn=turn)) for turn in CCW_TURNS_DEG),
+        ),
         Comparison("classes", "Classes of 1/4-20 UNC at both ends of their tolerances", "pair", _classes()),
         Comparison("sizes", "Sizes", "pair and device", _sizes()),
     )
 
 
 def friction_comparison() -> Comparison:
-    """What is computed with friction, too: the default, a loose pair and the stiffest device."""
+    """What is computed with friction, too: the default, a loose pair, the stiffest device and a farther turn."""
     loose, high_tilt = f"{DEFAULT_PAIR}-2A/2B at minimum material", TILT_STIFFNESSES[-1]
     variants = (
         DEFAULT,
         Variant("2A/2B at minimum material", default_device(), loose),
         Variant(f"k_tilt {number_text(high_tilt)} N mm/rad", held(k_tilt=high_tilt)),
+        Variant(f"ccw_turn {number_text(FARTHER_DEG)} deg", held(ccw_turn=FARTHER_DEG)),
     )
     return Comparison("friction", "With friction", "device and friction", variants)
 

@@ -14,7 +14,7 @@ from rich.progress import Progress
 
 from studies.stability.findings import in_order, workers
 from studies.success.halved import Confirmed, confirmed, halved, sides
-from studies.success.page import HEADING, picture_name, section, share_picture
+from studies.success.page import HEADING, picture_name, pictured, section, share_picture
 from studies.success.study import PHASES, StudiedMap, studied_inputs
 from worker.success.run import computed_map_with_progress
 
@@ -53,9 +53,8 @@ def _write(maps: Sequence[StudiedMap], checks: Sequence[Confirmed]) -> None:
     PAGE.write_text(head + section(maps, checks))
     folder = PAGE.with_suffix("")
     folder.mkdir(exist_ok=True)
-    for one in maps:
-        if one.inputs.frictions == (0.0,):
-            (folder / f"{picture_name(one)}.svg").write_text(share_picture(one))
+    for one in pictured(maps):
+        (folder / f"{picture_name(one)}.svg").write_text(share_picture(one))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from studies.pictures import FAINT, INK, picture
 from studies.success.halved import Confirmed
 from studies.success.study import StudiedMap
 from threadstate.device.assembly_model import AssemblyOutcome
-from threadstate.device.strategy import Strategy
+from threadstate.device.model import WHOLE_TURN_DEG
 from threadstate.numbers import number_text
 from threadstate.success.model import CriticalFriction
 from threadstate.success.summary import grid_cells, map_counts, orientation_summary, tilt_area
@@ -36,14 +36,18 @@ def section(maps: Sequence[StudiedMap], checks: Sequence[Confirmed] = ()) -> str
         *_critical(maps),
         *(_halved(maps, checks) if checks else []),
     ]
-    pictures = [one for one in maps if one.inputs.frictions == (0.0,)]
-    for one in pictures:
+    for one in pictured(maps):
         name = picture_name(one)
         lines += [
             "",
             f"![Share of the starting phases that engage, over roll and pitch, by {name}.](success/{name}.svg)",
         ]
     return "\n".join(lines) + "\n"
+
+
+def pictured(maps: Sequence[StudiedMap]) -> list[StudiedMap]:
+    """The maps that have a picture: the frictionless ones of a whole turn."""
+    return [one for one in maps if one.inputs.frictions == (0.0,) and one.inputs.device.ccw_turn_deg == WHOLE_TURN_DEG]
 
 
 def picture_name(one: StudiedMap) -> str:
@@ -95,7 +99,7 @@ def _words(maps: Sequence[StudiedMap]) -> list[str]:
         phases = f"{grid.phase_count} starting phases" if grid.phase_count > 1 else "one starting phase"
         frictions = _listed(one.inputs.frictions)
         lines.append(
-            f"- `{one.inputs.strategy.value}`, mu {frictions}: {len(one.orientations)} orientations, {phases}, "
+            f"- {one.name}, mu {frictions}: {len(one.orientations)} orientations, {phases}, "
             f"at most {one.inputs.point_limit:,} points a turn; content hash `{one.content_sha256[:12]}`."
         )
     return lines
@@ -114,7 +118,7 @@ def _counts(maps: Sequence[StudiedMap]) -> list[str]:
             some = sum(summary.engaged > 0 for summary in summaries)
             decided = sum(summary.undecided == 0 for summary in summaries)
             numbers = (area.orientations, area.engaged, area.around_level, area.largest, some, decided)
-            lines.append(f"| `{one.inputs.strategy.value}` | {number_text(mu)} | {' | '.join(map(str, numbers))} |")
+            lines.append(f"| {one.name} | {number_text(mu)} | {' | '.join(map(str, numbers))} |")
     return lines
 
 
@@ -139,10 +143,7 @@ def _needs(maps: Sequence[StudiedMap]) -> list[str]:
                 )
             ]
             texts = ["-" if need is None else f"{need:.3g}" for need in needs]
-            lines.append(
-                f"| `{one.inputs.strategy.value}` | {number_text(mu)} | {len(engaged)} of {len(cells)} | "
-                f"{' | '.join(texts)} |"
-            )
+            lines.append(f"| {one.name} | {number_text(mu)} | {len(engaged)} of {len(cells)} | {' | '.join(texts)} |")
     return lines
 
 
@@ -161,29 +162,27 @@ def _reasons(maps: Sequence[StudiedMap]) -> list[str]:
             reasons += [f"{counts.bounded} bounded"] if counts.bounded else []
             undecided = dict(counts.outcomes).get(AssemblyOutcome.UNDECIDED, 0)
             words = ", ".join(reasons) if undecided else "-"
-            lines.append(f"| `{one.inputs.strategy.value}` | {number_text(mu)} | {outcomes} | {words} |")
+            lines.append(f"| {one.name} | {number_text(mu)} | {outcomes} | {words} |")
     return lines
 
 
 def _critical(maps: Sequence[StudiedMap]) -> list[str]:
-    lines = []
-    for strategy in Strategy:
-        for one in maps:
-            if one.inputs.strategy is not strategy or len(one.inputs.frictions) == 1:
-                continue
-            lines += [
-                "",
-                f"Critical friction by `{strategy.value}`, from the frictions of the map:",
-                "",
-                "| roll | pitch | critical friction |",
-                "|---|---|---|",
-                *(
-                    f"| {number_text(found.roll_deg)} | {number_text(found.pitch_deg)} | "
-                    f"{critical_words(found.critical)} |"
-                    for found in one.orientations
-                ),
-            ]
-    return lines
+    with_friction = [one for one in maps if len(one.inputs.frictions) > 1]
+    if not with_friction:
+        return []
+    rows = zip(*(one.orientations for one in with_friction), strict=True)
+    return [
+        "",
+        "Critical friction, from the frictions of the maps:",
+        "",
+        f"| roll | pitch | {' | '.join(one.name for one in with_friction)} |",
+        f"|{'---|' * (2 + len(with_friction))}",
+        *(
+            f"| {number_text(row[0].roll_deg)} | {number_text(row[0].pitch_deg)} | "
+            f"{' | '.join(critical_words(found.critical) for found in row)} |"
+            for row in rows
+        ),
+    ]
 
 
 def _halved(maps: Sequence[StudiedMap], checks: Sequence[Confirmed]) -> list[str]:
@@ -202,7 +201,7 @@ def _halved(maps: Sequence[StudiedMap], checks: Sequence[Confirmed]) -> list[str
             for side, cell in check.changed
         )
         lines.append(
-            f"| `{one.inputs.strategy.value}` | {_listed(one.inputs.frictions)} | {check.boundaries} | {check.paths} | "
+            f"| {one.name} | {_listed(one.inputs.frictions)} | {check.boundaries} | {check.paths} | "
             f"{otherwise or 'none'} |"
         )
     return lines

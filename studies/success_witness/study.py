@@ -61,5 +61,6 @@ def done(number: int) -> Compared:
     outcome = "undecided" if by_solver.outcome is None else by_solver.outcome.value
     hand = Hand(np.array(device.stiffness), device.centre, device.push)
     began = time.process_time()
-    end, _ = followed_to_end(pair, hand, pose_deg, mu, counter=strategy is Strategy.CCW_THEN_CW)
+    counter_deg = device.ccw_turn_deg if strategy is Strategy.CCW_THEN_CW else 0.0
+    end, _ = followed_to_end(pair, hand, pose_deg, mu, counter_deg=counter_deg)
     return Compared(strategy, pose_deg, mu, outcome, end, time.process_time() - began)

@@ -83,6 +83,25 @@ def test_a_whole_turn_without_a_snap(paths: list[AssemblyPath]) -> None:
         assert path.points[-1].phase_deg == pytest.approx(path.points[0].phase_deg + 360.0)
 
 
+def test_a_snap_beyond_a_whole_turn_needs_a_hand_that_turns_farther() -> None:
+    """A level bolt from phase 0 snaps at 360.51 deg; what is before the end of the shorter turn stays as it is."""
+    device = replace(DEVICE, ccw_turn_deg=390.0)
+    whole, farther = (assemble_pose(UNC, 0.0, 0.0, 0.0, one) for one in (DEVICE, device))
+    assert whole.outcome is AssemblyOutcome.NO_SNAP
+    assert farther.outcome is AssemblyOutcome.ENGAGED
+    (snap,) = [event for event in farther.events if event.kind is PathEventKind.SNAP]
+    assert 360.5 < snap.phase_deg < 360.52
+    alike = [point for point in whole.points if point.phase_deg < 358.0]
+    assert list(farther.points[: len(alike)]) == alike
+
+
+def test_a_left_hand_bolt_is_turned_the_other_way_as_far() -> None:
+    left = replace(UNC, hand=Hand.LEFT)
+    path = assemble_pose(left, 0.0, 4.0, 0.0, replace(DEVICE, ccw_turn_deg=45.0))
+    assert path.outcome is AssemblyOutcome.NO_SNAP
+    assert path.points[-1].phase_deg == pytest.approx(-45.0)
+
+
 def test_forces_and_moments_balance_at_each_point(paths: list[AssemblyPath]) -> None:
     """Across the nut's axis; the moment of the tilt's springs is that of the contacts about the bolt's axes."""
     k_lateral, k_tilt = HELD.stiffness[3][3], HELD.stiffness[0][0]

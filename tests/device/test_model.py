@@ -52,11 +52,13 @@ def test_units_convert_there_and_back() -> None:
 def test_all_keys_are_read(tmp_path: Path) -> None:
     path = tmp_path / "device.json"
     path.write_text(
-        '{"unit": "in", "k_lateral": 1, "k_axial": 2.5, "k_tilt": 3, "k_twist": 4, "centre": -5, "push": 6}'
+        '{"unit": "in", "k_lateral": 1, "k_axial": 2.5, "k_tilt": 3, "k_twist": 4, "centre": -5, '
+        '"push": 6, "ccw_turn": 390}'
     )
     device = read_device(path)
     assert np.array_equal(np.diag(device.stiffness), [3.0, 3.0, 4.0, 1.0, 1.0, 2.5])
     assert (device.centre, device.push, device.twist_is_rigid, device.about) == (-5.0, 6.0, False, About.NUT)
+    assert device.ccw_turn_deg == 390.0
     full = device_from_document({"unit": "mm", "stiffness": changed((0, 4, 0.5), (4, 0, 0.5)), "about": "bolt"})
     assert full.stiffness[0][4] == 0.5
     assert (full.twist_is_rigid, full.about, full.push) == (False, About.BOLT, 10.0)
@@ -79,6 +81,9 @@ def test_all_keys_are_read(tmp_path: Path) -> None:
         ({"unit": "mm", "push": float("inf")}, "push"),
         ({"unit": "mm", "centre": float("nan")}, "centre"),
         ({"unit": "mm", "about": "hand"}, "about"),
+        ({"unit": "mm", "ccw_turn": 0.5}, "ccw_turn"),
+        ({"unit": "mm", "ccw_turn": 450.5}, "ccw_turn"),
+        ({"unit": "mm", "ccw_turn": float("nan")}, "ccw_turn"),
         ({"unit": "mm", "spring": 1.0}, "spring"),
         ({"unit": "mm", "stiffness": UNIT[:5]}, "stiffness"),
         ({"unit": "mm", "stiffness": [row[:5] for row in UNIT]}, "stiffness"),
@@ -108,7 +113,7 @@ def test_a_zero_stiffness_is_allowed() -> None:
     "values",
     [
         {"unit": "mm"},
-        {"unit": "in", "k_twist": 3.5, "about": "bolt", "centre": -0.0},
+        {"unit": "in", "k_twist": 3.5, "about": "bolt", "centre": -0.0, "ccw_turn": 390},
         {"unit": "mm", "stiffness": changed((0, 4, 0.5), (4, 0, 0.5)), "push": 1.0 / 3.0},
         {"unit": "mm", "stiffness": changed((2, 2, 0.0), (0, 0, 2.0)), "k_twist": "rigid"},
     ],
@@ -137,5 +142,6 @@ def test_equal_devices_have_one_document() -> None:
             "centre": 0.0,
             "push": 10.0,
             "about": "nut",
+            "ccw_turn": 360.0,
         }
     )

@@ -17,7 +17,7 @@ test("a request goes into the link without its defaults and comes back the same"
 test("a link has a pose, a unit, and numbers and choices that the page knows", () => {
   const text = assemblyText({ ...requestOf(""), ...POSE });
   assert.equal(text, "roll=1&pitch=-2&phase=10&unit=mm");
-  for (const more of ["&mu=0.1", "&k_twist=rigid", "&about=bolt", "&centre=-2e0"]) assert.equal(checkedAssembly(text + more), text + more);
+  for (const more of ["&mu=0.1", "&k_twist=rigid", "&about=bolt", "&ccw_turn=390", "&centre=-2e0"]) assert.equal(checkedAssembly(text + more), text + more);
   for (const more of ["&mu=x", "&k_tilt=rigid", "&about=me", "&unit=ft", "&roll=2", "&spring=1", "&push="]) assert.equal(checkedAssembly(text + more), undefined, more);
   assert.equal(checkedAssembly("roll=1&pitch=-2&phase=10"), undefined);
 });

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from studies.success.halved import Side, confirmed, halved, sides
-from studies.success.page import HEADING, critical_words, section, share_picture
+from studies.success.page import HEADING, critical_words, pictured, section, share_picture
 from studies.success.study import StudiedMap, studied_inputs
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.device.model import SettledFlag
@@ -48,9 +48,10 @@ def maps() -> list[StudiedMap]:
     return [studied(inputs) for inputs in studied_inputs()]
 
 
-def test_the_study_has_both_strategies_without_friction_and_with_it() -> None:
-    found = {(one.strategy, one.frictions) for one in studied_inputs()}
-    assert found == {(strategy, mu) for strategy in Strategy for mu in ((0.0,), (0.1, 0.2, 0.3))}
+def test_the_study_has_both_strategies_and_a_farther_turn_without_friction_and_with_it() -> None:
+    found = {(one.strategy, one.device.ccw_turn_deg, one.frictions) for one in studied_inputs()}
+    turns = {(Strategy.CCW_THEN_CW, 360.0), (Strategy.CW, 360.0), (Strategy.CCW_THEN_CW, 390.0)}
+    assert found == {(*turn, mu) for turn in turns for mu in ((0.0,), (0.1, 0.2, 0.3))}
 
 
 def test_the_section_counts_what_the_maps_hold(maps: list[StudiedMap]) -> None:
@@ -61,7 +62,10 @@ def test_the_section_counts_what_the_maps_hold(maps: list[StudiedMap]) -> None:
     assert "| `cw` | 0 | 12 of 18 | 0.25 | 1.5 | 0.002 |" in text
     assert "| `cw` | 0.1 | 12 engaged, 4 idle, 2 undecided | 1 `flush`, 1 bounded |" in text
     assert "| `cw` | 0.3 | 12 engaged, 6 idle | - |" in text
-    assert "| -1 | 0 | 0.1 to 0.2 (idle) |" in text
+    assert "| `ccw_then_cw` through 390 deg | 0.3 | 12 of 18 | 0.25 | 1.5 | 0.002 |" in text
+    assert "| roll | pitch | `ccw_then_cw` | `cw` | `ccw_then_cw` through 390 deg |" in text
+    assert f"| -1 | 0 {3 * '| 0.1 to 0.2 (idle) '}|" in text
+    assert text.count(".svg") == len(pictured(maps)) == 2
     assert "success/ccw_then_cw.svg" in text
 
 

@@ -58,6 +58,7 @@ def test_devices_are_tried_and_what_is_said_of_them_is_what_paths_do(command_lin
         (("--max-shift", "-1"), "max_shift is -1"),
         (("--mu", "0.2,0.1"), "ascend"),
         (("--vary", "push=-5:5"), "push is"),
+        (("--vary", "ccw_turn=300:500"), "ccw_turn is"),
         (("--pair", "M6 with chamfer"), "chamfer"),
     ],
 )

@@ -63,10 +63,10 @@ __all__ = ["assemble_pose"]
 
 Floats = NDArray[np.float64]
 
-COUNTER_CLOCKWISE_DEG, CLOCKWISE_DEG = 360.0, 270.0
+CLOCKWISE_DEG = 270.0
 
 LEAST_LONGEST_STEP_DEG = 0.25
-"""The least longest step: with shorter ones a turn of 360 deg has more points than a leg has room for."""
+"""The least longest step: with shorter ones the farthest turn has more points than a leg has room for."""
 
 EVENTS = {
     tk.GAINED: PathEventKind.GAINED,
@@ -120,7 +120,7 @@ def assemble_pose(
     rotations, rows = settled_rows(pair, held, numbers, wanted)
     row = tuple(part[0] for part in rows)
     command = command_numbers(held, float(wanted[0, 0]), float(wanted[0, 1]), float(row[0][sk.R_HEIGHT]), longest)
-    plan = plan_of(pair, strategy, held.push)
+    plan = plan_of(pair, strategy, held)
     phase = math.radians(wanted[0, 2])
     if mu == 0.0:
         start = settled_state(pair, held, numbers, wanted[0], rotations[0], row)
@@ -209,12 +209,13 @@ class Course:
         )
 
 
-def plan_of(pair: Pair, strategy: Strategy, push: float) -> list[PlannedLeg]:
+def plan_of(pair: Pair, strategy: Strategy, device: Device) -> list[PlannedLeg]:
     """The turns of a strategy. A left-hand bolt is turned the other way round."""
     hand = math.copysign(1.0, pair.lead)
-    plan = [PlannedLeg(-math.radians(CLOCKWISE_DEG) * hand, (push, push))]
+    pushes = (device.push, device.push)
+    plan = [PlannedLeg(-math.radians(CLOCKWISE_DEG) * hand, pushes)]
     if strategy is Strategy.CCW_THEN_CW:
-        plan.insert(0, PlannedLeg(math.radians(COUNTER_CLOCKWISE_DEG) * hand, (push, push), stops_at_snap=True))
+        plan.insert(0, PlannedLeg(math.radians(device.ccw_turn_deg) * hand, pushes, stops_at_snap=True))
     return plan
 
 

@@ -20,7 +20,7 @@ class AssemblyOutcome(StrEnum):
     JAMMED = "jammed"
     """No equilibrium goes on, or the torque has passed its limit."""
     NO_SNAP = "no_snap"
-    """A whole turn counter-clockwise without a snap."""
+    """The counter-clockwise turn, by default a whole one, ends without a snap."""
     IDLE = "idle"
     """None of these: the bolt turns on the nut without following the thread."""
     SLIPPED = "slipped"

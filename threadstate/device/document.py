@@ -33,7 +33,7 @@ DIAGONAL = ("k_lateral", "k_axial", "k_tilt", "k_twist")
 class DeviceDocument(BaseModel):
     """A device as a document (docs/device.md): what it leaves out is as of the default device.
 
-    Lengths are in ``unit``; forces in N, angles in rad: N a length, N times a length a rad.
+    Lengths are in ``unit``, forces in N; stiffnesses in N a length, N times a length a rad; ``ccw_turn`` in degrees.
     """
 
     model_config = ConfigDict(extra="forbid")
@@ -47,6 +47,7 @@ class DeviceDocument(BaseModel):
     centre: Number | None = None
     push: Number | None = None
     about: About | None = None
+    ccw_turn: Number | None = None
 
 
 def device_from_document(values: Mapping[str, Any]) -> Device:
@@ -64,6 +65,7 @@ def device_from_document(values: Mapping[str, Any]) -> Device:
     centre = default.centre if document.centre is None else document.centre
     push = default.push if document.push is None else document.push
     about = document.about or default.about
+    ccw_turn_deg = default.ccw_turn_deg if document.ccw_turn is None else document.ccw_turn
     if document.stiffness is not None:
         for name in DIAGONAL[:3]:
             if getattr(document, name) is not None:
@@ -71,7 +73,7 @@ def device_from_document(values: Mapping[str, Any]) -> Device:
         if document.k_twist not in (None, RIGID):
             raise InvalidValueError("k_twist", document.k_twist, f'"{RIGID}" or left out beside stiffness')
         rows = tuple(tuple(row) for row in document.stiffness)
-        return Device(rows, centre, push, document.unit, document.k_twist == RIGID, about)
+        return Device(rows, centre, push, document.unit, document.k_twist == RIGID, about, ccw_turn_deg)
     stiffness = default.stiffness
     twist = document.k_twist
     return diagonal_device(
@@ -83,6 +85,7 @@ def device_from_document(values: Mapping[str, Any]) -> Device:
         push=push,
         unit=document.unit,
         about=about,
+        ccw_turn_deg=ccw_turn_deg,
     )
 
 
@@ -102,7 +105,12 @@ def device_document(device: Device) -> dict[str, Any]:
         rigid = {"k_twist": RIGID} if device.twist_is_rigid else {}
         named = {**rigid, "stiffness": [list(row) for row in stiffness]}
     values = {**named, "centre": device.centre, "push": device.push}
-    return {"unit": device.unit.value, **_positive_zeros(values), "about": device.about.value}
+    return {
+        "unit": device.unit.value,
+        **_positive_zeros(values),
+        "about": device.about.value,
+        "ccw_turn": float(device.ccw_turn_deg),
+    }
 
 
 def _positive_zeros(value: Any) -> Any:

@@ -18,6 +18,10 @@ LARGEST_NUMBER = 1e12
 """Of a stiffness, a push or a length: what is larger overflows where they are multiplied."""
 ANY_NUMBER = f"-{number_text(LARGEST_NUMBER)} to {number_text(LARGEST_NUMBER)}"
 
+WHOLE_TURN_DEG = 360.0
+LEAST_CCW_TURN_DEG, LARGEST_CCW_TURN_DEG = 1.0, 450.0
+"""From a whole turn on the command is what it was: beyond it the bolt only finds a snap that comes late."""
+
 LEAST_EIGENVALUE = -1e-9
 """Of a stiffness with ones on its diagonal: what is above it is round-off of zero."""
 
@@ -41,10 +45,11 @@ class Device:
     ``stiffness`` is 6 x 6 by rows: the rotation vector of the deviation, in the commanded bolt's axes, then the shift
     of the compliance centre, in the nut's axes. ``centre`` is the height of the compliance centre over the bolt's base.
     With ``twist_is_rigid`` the third component of the rotation vector is zero, and so are its row and column.
+    ``ccw_turn_deg`` is how far the hand turns counter-clockwise at most, until the snap; of a left-hand bolt clockwise.
 
     Raises:
-        InvalidValueError: a number is not finite, the push is not positive, or the stiffness is not 6 x 6, not
-            symmetric or indefinite.
+        InvalidValueError: a number is not finite, the push is not positive, the stiffness is not 6 x 6, not
+            symmetric or indefinite, or the turn is not of 1 to 450 deg.
     """
 
     stiffness: Stiffness
@@ -53,12 +58,16 @@ class Device:
     unit: LengthUnit
     twist_is_rigid: bool = True
     about: About = About.NUT
+    ccw_turn_deg: float = WHOLE_TURN_DEG
 
     def __post_init__(self) -> None:
         if not abs(self.centre) <= LARGEST_NUMBER:
             raise InvalidValueError("centre", self.centre, f"a length, {ANY_NUMBER}")
         if not 0.0 < self.push <= LARGEST_NUMBER:
             raise InvalidValueError("push", self.push, f"a force > 0 in N, up to {number_text(LARGEST_NUMBER)}")
+        if not LEAST_CCW_TURN_DEG <= self.ccw_turn_deg <= LARGEST_CCW_TURN_DEG:
+            valid = f"{number_text(LEAST_CCW_TURN_DEG)} to {number_text(LARGEST_CCW_TURN_DEG)} deg"
+            raise InvalidValueError("ccw_turn", self.ccw_turn_deg, valid)
         object.__setattr__(self, "stiffness", _checked_stiffness(self.stiffness, rigid=self.twist_is_rigid))
 
     def in_unit(self, unit: LengthUnit) -> Device:
@@ -82,6 +91,7 @@ def diagonal_device(
     push: float,
     unit: LengthUnit,
     about: About = About.NUT,
+    ccw_turn_deg: float = WHOLE_TURN_DEG,
 ) -> Device:
     """The device of four stiffnesses; ``k_twist`` None: rigid. Units and errors as of :class:`Device`.
 
@@ -94,7 +104,7 @@ def diagonal_device(
             raise InvalidValueError(name, value, f"a stiffness >= 0, up to {number_text(LARGEST_NUMBER)}{rigid}")
     diagonal = (k_tilt, k_tilt, k_twist or 0.0, k_lateral, k_lateral, k_axial)
     stiffness = tuple(tuple(value if i == j else 0.0 for j in range(6)) for i, value in enumerate(diagonal))
-    return Device(stiffness, centre, push, unit, k_twist is None, about)
+    return Device(stiffness, centre, push, unit, k_twist is None, about, ccw_turn_deg)
 
 
 def default_device() -> Device:

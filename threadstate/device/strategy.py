@@ -9,6 +9,6 @@ class Strategy(StrEnum):
     """How the hand turns the bolt (forces, section 5)."""
 
     CCW_THEN_CW = "ccw_then_cw"
-    """Counter-clockwise until the snap or through 360 deg, then clockwise through 270 deg."""
+    """Counter-clockwise until the snap, by default through no more than 360 deg, then clockwise through 270 deg."""
     CW = "cw"
     """Clockwise through 270 deg at once."""

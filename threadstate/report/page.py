@@ -13,7 +13,7 @@ from threadstate.report.html import code_block, items, paragraph, section, table
 from threadstate.report.map_section import map_section, orientations_section, worst_section
 from threadstate.report.path_section import path_section
 from threadstate.report.style import STYLE
-from threadstate.report.words import STRATEGIES, answer, counted, exact, friction_words, reasons
+from threadstate.report.words import answer, counted, exact, friction_words, reasons, turning
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 
@@ -64,7 +64,7 @@ def _subtitle(report: Report) -> str:
     """What the report is of, and its date."""
     inputs = report.inputs
     return (
-        f"{inputs.pair.designation}, {inputs.pair.fit.name}. The hand {STRATEGIES[inputs.strategy]} "
+        f"{inputs.pair.designation}, {inputs.pair.fit.name}. The hand {turning(inputs.strategy, inputs.device)} "
         f"({inputs.strategy.value}). {report.date.isoformat()}."
     )
 

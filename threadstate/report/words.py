@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
 from threadstate.device.assembly_model import AssemblyOutcome
+from threadstate.device.model import Device
 from threadstate.device.strategy import Strategy
 from threadstate.numbers import number_text
 from threadstate.report.contents import FrictionPart, Report
@@ -21,12 +22,6 @@ LEAST_WITHOUT_EXPONENT = 1e-7
 NEWTON = "N\N{NO-BREAK SPACE}"
 """Before a unit of length, from which no line breaks it off: a torque or an energy."""
 
-STRATEGIES = {
-    Strategy.CCW_THEN_CW: "turns counter-clockwise until the bolt snaps in, or through 360 deg, then clockwise "
-    "through 270 deg",
-    Strategy.CW: "turns clockwise through 270 deg at once",
-}
-
 FAILURES = {
     AssemblyOutcome.ENGAGED: "engages",
     AssemblyOutcome.CROSS_THREADED: "cross-threads",
@@ -36,6 +31,14 @@ FAILURES = {
     AssemblyOutcome.SLIPPED: "slips off the nut",
     AssemblyOutcome.UNDECIDED: "has no certain outcome",
 }
+
+
+def turning(strategy: Strategy, device: Device) -> str:
+    """What a hand does by a strategy."""
+    if strategy is Strategy.CW:
+        return "turns clockwise through 270 deg at once"
+    farthest = exact(device.ccw_turn_deg)
+    return f"turns counter-clockwise until the bolt snaps in, or through {farthest} deg, then clockwise through 270 deg"
 
 
 def exact(value: float) -> str:

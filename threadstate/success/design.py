@@ -22,7 +22,7 @@ from threadstate.numbers import number_text
 from threadstate.success.model import Cell, OrientationMap
 from threadstate.success.summary import grid_cells
 
-NAMES = ("k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "push")
+NAMES = ("k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "push", "ccw_turn")
 """What of a device can be varied."""
 DIGITS = 3
 """Significant digits of a device that is tried: one that can be written down."""

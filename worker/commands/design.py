@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 LARGEST_SEARCH = 10_000
 VARIED_MM = (("k_lateral", 1.0, 500.0), ("k_tilt", 20.0, 5000.0), ("centre", -10.0, 10.0))
 """What is varied by default, and how far, with lengths in mm."""
-POWERS = {"k_lateral": -1, "k_axial": -1, "k_tilt": 1, "k_twist": 1, "centre": 1, "push": 0}
+POWERS = {"k_lateral": -1, "k_axial": -1, "k_tilt": 1, "k_twist": 1, "centre": 1, "push": 0, "ccw_turn": 0}
 """The power of length in what can be varied."""
 
 

@@ -88,6 +88,7 @@ class Device(Answer):
     centre: float | None = None
     push: float | None = None
     about: About | None = None
+    ccw_turn: float | None = None
 
 
 class SettledLibrary(Answer):

@@ -20,13 +20,14 @@ export const NUMBERS = {
   k_tilt: { label: "k tilt", unit: "N L/rad", power: 1, default: 500, help: "Stiffness against turns about the commanded bolt's x and y." },
   k_twist: { label: "k twist", unit: "N L/rad", power: 1, default: "rigid", help: "Stiffness against turns about the commanded bolt's axis, or rigid." },
   centre: { label: "centre", unit: "L", power: 1, default: 0, help: "Height of the compliance centre over the plane of the bolt's end that enters the nut; as the bolt begins, that is about the nut's upper surface. Negative: below it, within the nut." },
+  ccw_turn: { label: "ccw turn (deg)", power: 0, default: 360, help: "How far the hand turns counter-clockwise at most until the snap, 1 to 450 deg. A snap that comes soon after a whole turn is missed by 360." },
 };
 /** Choices of the request, by name: its label, the values with their texts, the default first, and help. */
 export const CHOICES = {
   strategy: {
     label: "strategy",
     values: { ccw_then_cw: "ccw, then cw", cw: "cw at once" },
-    help: "Counter-clockwise until the snap or through 360 deg, and from there clockwise through 270 deg; or clockwise through 270 deg at once. A left-hand bolt is turned the other way round.",
+    help: "Counter-clockwise until the snap or through the ccw turn, and from there clockwise through 270 deg; or clockwise through 270 deg at once. A left-hand bolt is turned the other way round.",
   },
   about: {
     label: "tilt of the hand",
@@ -35,7 +36,8 @@ export const CHOICES = {
   },
 };
 const POSE = ["roll", "pitch", "phase"];
-const OF_DEVICE = ["push", "k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "about"];
+/** The numbers of a device, without those of the pose and the contacts. */
+export const DEVICE_NUMBERS = ["push", "k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "ccw_turn"];
 
 /** The label of a number, with the unit of lengths. */
 export function labelOf(name, unit) {
@@ -87,7 +89,7 @@ export function bodyOf(text, library) {
   return {
     library,
     pose: Object.fromEntries(POSE.map((name) => [name, value(name)])),
-    device: { unit: request.unit, ...part(OF_DEVICE) },
+    device: { unit: request.unit, ...part([...DEVICE_NUMBERS, "about"]) },
     ...part(["strategy", "mu"]),
   };
 }
@@ -97,8 +99,7 @@ export function requestOfDevice(device) {
   if (device.stiffness !== null) return null;
   const text = (name) => String(device[name] ?? "");
   const isGiven = (name) => text(name) !== convertedText(name, String(NUMBERS[name].default), "mm", device.unit);
-  const numbers = OF_DEVICE.filter((name) => Object.hasOwn(NUMBERS, name));
-  return { unit: device.unit, about: device.about, ...Object.fromEntries(numbers.map((name) => [name, isGiven(name) ? text(name) : ""])) };
+  return { unit: device.unit, about: device.about, ...Object.fromEntries(DEVICE_NUMBERS.map((name) => [name, isGiven(name) ? text(name) : ""])) };
 }
 
 /** Whether two requests have the same values of these names, in whatever units of lengths; what is left empty has its default. */

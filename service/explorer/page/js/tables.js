@@ -1,6 +1,6 @@
 // What is drawn, as tables.
 
-import { defaultText } from "./assembly.js";
+import { DEVICE_NUMBERS, defaultText } from "./assembly.js";
 import { firstHeight } from "./curve.js";
 import { mapValues } from "./map_view.js";
 import { QUANTITIES } from "./quantities.js";
@@ -118,13 +118,12 @@ function poseRows(name, { rotation, translation }, unit) {
 export function successTable({ success: { value } }) {
   const { request } = mapRequestOf(value.text);
   const names = ["outcome", "flags", "bounded", "torque", "tilt", "shift", "end"];
-  const ofDevice = ["push", "k_lateral", "k_axial", "k_tilt", "k_twist", "centre"];
-  const device = [...ofDevice.map((name) => request[name] || defaultText(name, request.unit)), request.about, request.unit];
+  const device = [...DEVICE_NUMBERS.map((name) => request[name] || defaultText(name, request.unit)), request.about, request.unit];
   const paths = [...value.cells.values()].flat().sort((a, b) => a.roll - b.roll || a.pitch - b.pitch || a.phase - b.phase);
   const rows = paths.map((one) => [
     one.roll, one.pitch, one.phase, one.mu, ...names.map((name) => (name === "flags" ? one.flags.join(" ") : one[name])), value.unit, request.strategy, ...device,
   ]);
-  return [["roll", "pitch", "phase", "mu", ...names, "unit", "strategy", ...ofDevice, "about", "device_unit"], ...rows];
+  return [["roll", "pitch", "phase", "mu", ...names, "unit", "strategy", ...DEVICE_NUMBERS, "about", "device_unit"], ...rows];
 }
 
 /** The figures of libraries side by side. */
