@@ -9,11 +9,6 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import Progress
-
-from studies.stability.findings import in_order, workers
-from studies.success.halved import Confirmed, confirmed, halved, sides
 from studies.success.page import HEADING, picture_name, pictured, section, share_picture
 from studies.success.study import PHASES, StudiedMap, studied_inputs
 from worker.success.run import computed_map_with_progress
@@ -36,21 +31,14 @@ def main() -> None:
     for inputs in studied_inputs(arguments.friction_phases):
         path = arguments.into / f"{inputs.strategy.value}-{inputs.sha256[:12]}.map"
         maps.append(StudiedMap(inputs, computed_map_with_progress(inputs, arguments.workers, path).orientations))
-        _write(maps, [])
-    with workers(arguments.workers) as pool, Progress(console=Console(stderr=True)) as progress:
-        checks = []
-        for one in maps:
-            beside = sides(one)
-            cells = list(in_order(pool, halved, beside, progress, f"half the step, {one.inputs.strategy.value}"))
-            checks.append(confirmed(one, beside, cells))
-    _write(maps, checks)
+        _write(maps)
 
 
-def _write(maps: Sequence[StudiedMap], checks: Sequence[Confirmed]) -> None:
+def _write(maps: Sequence[StudiedMap]) -> None:
     """Write the section and the pictures, of the maps that there are so far."""
     text = PAGE.read_text()
     head = text[: text.index(HEADING)] if HEADING in text else f"{text}\n"
-    PAGE.write_text(head + section(maps, checks))
+    PAGE.write_text(head + section(maps))
     folder = PAGE.with_suffix("")
     folder.mkdir(exist_ok=True)
     for one in pictured(maps):

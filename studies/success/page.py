@@ -8,10 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from studies.pictures import FAINT, INK, picture
-from studies.success.halved import Confirmed
 from studies.success.study import StudiedMap
 from threadstate.device.assembly_model import AssemblyOutcome
-from threadstate.device.model import WHOLE_TURN_DEG
+from threadstate.device.model import WHOLE_TURN_DEG, SettledFlag
 from threadstate.numbers import number_text
 from threadstate.success.model import CriticalFriction
 from threadstate.success.summary import grid_cells, map_counts, orientation_summary, tilt_area
@@ -22,8 +21,8 @@ SHADES = ("#bcd9e6", "#7db4d0", "#3f8fbf", "#0b5f99")
 """By the part of the starting phases that engages: up to a quarter, a half, three quarters, and all."""
 
 
-def section(maps: Sequence[StudiedMap], checks: Sequence[Confirmed] = ()) -> str:
-    """The section in Markdown, from its heading on; with ``checks`` of the maps, in their order, once there are any."""
+def section(maps: Sequence[StudiedMap]) -> str:
+    """The section in Markdown, from its heading on."""
     lines = [
         HEADING.rstrip("\n"),
         *_words(maps),
@@ -34,7 +33,7 @@ def section(maps: Sequence[StudiedMap], checks: Sequence[Confirmed] = ()) -> str
         "",
         *_reasons(maps),
         *_critical(maps),
-        *(_halved(maps, checks) if checks else []),
+        *_boundaries(maps),
     ]
     for one in pictured(maps):
         name = picture_name(one)
@@ -185,25 +184,27 @@ def _critical(maps: Sequence[StudiedMap]) -> list[str]:
     ]
 
 
-def _halved(maps: Sequence[StudiedMap], checks: Sequence[Confirmed]) -> list[str]:
+def _boundaries(maps: Sequence[StudiedMap]) -> list[str]:
     lines = [
         "",
-        "Both sides of each boundary with two certain outcomes, followed again with half the step:",
+        "Boundaries of outcome whose both sides end so with half the step, and paths beside boundaries that do not:",
         "",
-        "| strategy | mu | boundaries | paths beside them | that end otherwise |",
-        "|---|---|---|---|---|",
+        "| strategy | mu | boundaries | paths that end otherwise |",
+        "|---|---|---|---|",
     ]
-    for one, check in zip(maps, checks, strict=True):
-        otherwise = ", ".join(
-            f"roll {number_text(side.roll_deg)}, pitch {number_text(side.pitch_deg)}, phase "
-            f"{number_text(side.cell.phase_deg)}, mu {number_text(side.cell.mu)}: {side.cell.outcome.value}, then "
-            f"{cell.outcome.value}"
-            for side, cell in check.changed
-        )
-        lines.append(
-            f"| {one.name} | {_listed(one.inputs.frictions)} | {check.boundaries} | {check.paths} | "
-            f"{otherwise or 'none'} |"
-        )
+    for one in maps:
+        for mu in one.inputs.frictions:
+            boundaries = [boundary for found in one.orientations for boundary in found.boundaries if boundary.mu == mu]
+            certain = sum(
+                AssemblyOutcome.UNDECIDED not in (boundary.outcome_before, boundary.outcome_after)
+                for boundary in boundaries
+            )
+            otherwise = sum(
+                cell.mu == mu and SettledFlag.STEP_DEPENDENT in cell.flags
+                for found in one.orientations
+                for cell in found.cells
+            )
+            lines.append(f"| {one.name} | {number_text(mu)} | {certain} | {otherwise} |")
     return lines
 
 

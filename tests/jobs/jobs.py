@@ -39,7 +39,12 @@ def made_up_orientation(inputs: SuccessInputs, index: int) -> OrientationMap:
         return Cell(phase_deg, mu, AssemblyOutcome.ENGAGED, (), False, 0.25 + index, 3.0, 0.001, -90.0)
 
     found = mapped_cells(
-        made_up, inputs.grid.phases_deg, inputs.frictions, inputs.phase_tolerance_deg, inputs.mu_tolerance
+        made_up,
+        lambda _: True,
+        inputs.grid.phases_deg,
+        inputs.frictions,
+        inputs.phase_tolerance_deg,
+        inputs.mu_tolerance,
     )
     return OrientationMap(index, orientation.roll_deg, orientation.pitch_deg, *found)
 

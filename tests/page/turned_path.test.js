@@ -92,7 +92,7 @@ test("events, points and ends are said in words", () => {
   assert.equal(pointText(ANSWER.path, 3), "point 4 of 6, phase 50 deg, 2 contacts");
   assert.equal(outcomeText(ANSWER, "mm"), "The bolt engages. Margin of the height on the lead: 4.8 %.");
   assert.equal(outcomeText({ ...ANSWER, outcome: "cross_threaded" }, "mm"), "Cross-threaded: the bolt follows the lead, but not in phase. Margin of the play in phase: −0.50000 mm.");
-  assert.equal(outcomeText({ ...ANSWER, outcome: "undecided", flags: ["many_contacts"], margins: null }, "mm"), "Undecided (more than five contacts with friction).");
+  assert.equal(outcomeText({ ...ANSWER, outcome: "undecided", flags: ["many_contacts"], margins: null }, "mm"), "Undecided (more than eight contacts with friction).");
 });
 
 test("plots are beside each other where there is room, and the last one fills its row", () => {

@@ -51,7 +51,9 @@ def orientations() -> tuple[OrientationMap, ...]:
     for index in range(GRID.orientation_count):
         one = GRID.orientation(index)
         compute = partial(cell, one.roll_deg, one.pitch_deg)
-        parts = mapped_cells(compute, GRID.phases_deg, FRICTIONS, INPUTS.phase_tolerance_deg, INPUTS.mu_tolerance)
+        parts = mapped_cells(
+            compute, lambda _: True, GRID.phases_deg, FRICTIONS, INPUTS.phase_tolerance_deg, INPUTS.mu_tolerance
+        )
         found.append(OrientationMap(index, one.roll_deg, one.pitch_deg, *parts))
     return tuple(found)
 

@@ -6,14 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from studies.success.halved import Side, confirmed, halved, sides
 from studies.success.page import HEADING, critical_words, pictured, section, share_picture
 from studies.success.study import StudiedMap, studied_inputs
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.device.model import SettledFlag
 from threadstate.device.strategy import Strategy
 from threadstate.library.grid import Grid
-from threadstate.success.bounded import bounded_cell
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import Cell, CriticalFriction, OrientationMap, PhaseBoundary
 
@@ -92,28 +90,18 @@ def test_a_picture_has_every_orientation_and_marks_the_undecided(maps: list[Stud
     assert drawn.count(">1<") + drawn.count(">2<") >= 7
 
 
-def test_both_sides_of_certain_boundaries_are_looked_at_once(maps: list[StudiedMap]) -> None:
+def test_boundaries_are_counted_apart_from_paths_that_hang_on_the_step(maps: list[StudiedMap]) -> None:
     one = maps[0]
+    first = one.orientations[2]
     boundaries = (
         PhaseBoundary(0.0, 0.0, 180.0, ENGAGED, IDLE),
         PhaseBoundary(0.0, 180.0, 360.0, IDLE, ENGAGED),
     )
-    certain = replace(one.orientations[2], boundaries=boundaries)
-    open_ended = replace(one.orientations[0], boundaries=(PhaseBoundary(0.0, 0.0, 180.0, ENGAGED, UNDECIDED),))
-    bounded = StudiedMap(one.inputs, [certain, open_ended])
-    beside = sides(bounded)
-    assert [(side.cell.phase_deg, side.cell.outcome) for side in beside] == [(0.0, ENGAGED), (180.0, IDLE)]
-    again = [beside[0].cell, replace(beside[1].cell, outcome=ENGAGED)]
-    check = confirmed(bounded, beside, again)
-    assert (check.boundaries, check.paths, len(check.changed)) == (2, 2, 1)
-    text = section([one], [check])
-    assert (
-        f"| `{one.inputs.strategy.value}` | 0 | 2 | 2 | roll -1, pitch 1, phase 180, mu 0: idle, then engaged |" in text
-    )
-
-
-@pytest.mark.slow
-def test_half_the_step_ends_a_path_alike() -> None:
-    inputs = studied_inputs()[0]
-    cell = bounded_cell(inputs.pair, inputs.device, inputs.strategy, (0.0, -4.0, 300.0), 0.0, inputs.point_limit)
-    assert halved(Side(inputs, 0.0, -4.0, cell)).outcome is cell.outcome is ENGAGED
+    open_ended = (PhaseBoundary(0.0, 0.0, 180.0, ENGAGED, UNDECIDED),)
+    doubtful = replace(first.cells[1], outcome=UNDECIDED, flags=(SettledFlag.STEP_DEPENDENT,))
+    orientations = [
+        replace(first, boundaries=boundaries),
+        replace(first, cells=(first.cells[0], doubtful), boundaries=open_ended),
+    ]
+    text = section([StudiedMap(one.inputs, orientations)])
+    assert "| `ccw_then_cw` | 0 | 2 | 1 |" in text

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from threading import Event
+from typing import Any
 
 import pytest
 
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, PathEvent
-from threadstate.device.model import default_device
+from threadstate.device.branches import KnownPaths
+from threadstate.device.model import SettledFlag, default_device
 from threadstate.device.strategy import Strategy
 from threadstate.device.watch import PathStoppedError
 from threadstate.library.grid import Grid
+from threadstate.success import compute
 from threadstate.success.bounded import BoundedWatch, bounded_cell, cell_of
 from threadstate.success.compute import computed_orientation
+from threadstate.success.model import Cell
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 PAIR, DEVICE = quarter_twenty_unc(), default_device()
@@ -88,3 +92,24 @@ def test_the_paths_of_a_map_are_those_of_single_assemblies(strategy: Strategy) -
     outcomes = [cell.outcome for cell in found.cells]
     changes = sum(one is not other for one, other in zip(outcomes, [*outcomes[1:], outcomes[0]], strict=True))
     assert len(found.boundaries) == changes
+
+
+def test_paths_beside_a_boundary_are_followed_again_alone_with_half_the_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One of them ends otherwise: with friction and without it."""
+    asked: list[tuple[float, float, int, float | None, bool]] = []
+
+    def followed(*given: Any, known: KnownPaths | None = None) -> Cell:
+        (_, _, phase_deg), mu, point_limit, *step = given[3:]
+        longest_step_deg = step[0] if step else None
+        asked.append((phase_deg, mu, point_limit, longest_step_deg, known is not None))
+        engages = phase_deg < 200.0 or (phase_deg > 200.0 and longest_step_deg is not None)
+        outcome = AssemblyOutcome.ENGAGED if engages else AssemblyOutcome.IDLE
+        return Cell(phase_deg, mu, outcome, (), False, None, None, None, None)
+
+    monkeypatch.setattr(compute, "bounded_cell", followed)
+    found = computed_orientation(PAIR, DEVICE, Strategy.CW, GRID, (0.0, 0.3), 120.0, 1.0, 900, 0)
+    again = [one for one in asked if one[3] is not None]
+    assert again == [
+        (phase, mu, 1800, step, False) for mu, step in ((0.0, 1.0), (0.3, 0.5)) for phase in (120.0, 240.0, 0.0)
+    ]
+    assert [cell.phase_deg for cell in found.cells if cell.flags == (SettledFlag.STEP_DEPENDENT,)] == [240.0, 240.0]

@@ -47,7 +47,7 @@ def made_up(values: tuple[float, ...], frictions: tuple[float, ...] = FRICTIONS,
             outcome = AssemblyOutcome.ENGAGED if engages else AssemblyOutcome.NO_SNAP
             return Cell(phase_deg, mu, outcome, (), False, 1.0 + mu, 2.0 + 0.1 * index, 0.01 * far, 0.0)
 
-        cells = mapped_cells(cell, GRID.phases_deg, frictions, 360.0, 1.0)
+        cells = mapped_cells(cell, lambda _: True, GRID.phases_deg, frictions, 360.0, 1.0)
         orientations.append(OrientationMap(index, orientation.roll_deg, orientation.pitch_deg, *cells))
     return candidate_of(values, default_device(), orientations, GRID, frictions, limits)
 
@@ -106,7 +106,9 @@ def test_what_might_engage_is_counted_and_does_not_count_as_success() -> None:
         return Cell(phase_deg, mu, outcome, (), False, 1.0, 1.0, 0.0, 0.0)
 
     grid = Grid(0.0, 1.0, 180.0)
-    orientations = [OrientationMap(0, 0.0, 0.0, *mapped_cells(cell, grid.phases_deg, (0.0,), 360.0, 1.0))]
+    orientations = [
+        OrientationMap(0, 0.0, 0.0, *mapped_cells(cell, lambda _: True, grid.phases_deg, (0.0,), 360.0, 1.0))
+    ]
     found = candidate_of((1.0,), default_device(), orientations, grid, (0.0,), Limits())
     assert (found.engaged, found.undecided, found.worst_critical, found.mean_critical) == ((0,), (1,), None, 0.0)
 

@@ -193,6 +193,8 @@ class SettledFlag(StrEnum):
     """With friction, more contacts than have their modes enumerated."""
     OVERLAP = "overlap"
     """An overlap at the end could not be excluded."""
+    STEP_DEPENDENT = "step_dependent"
+    """Of a success map's path beside a boundary: with half the step it ends otherwise."""
     TILTED = "tilted"
     """The bolt tilted by more than the flank's half-angle, where its thread can meet the nut's surface."""
     UNBALANCED = "unbalanced"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 
 from threadstate.device.branches import KnownPaths
+from threadstate.device.command import LONGEST_STEP_DEG, LONGEST_STEP_WITH_FRICTION_DEG
 from threadstate.device.model import Device
 from threadstate.device.strategy import Strategy
 from threadstate.library.grid import Grid
@@ -36,5 +37,13 @@ def computed_orientation(
         pose_deg = (orientation.roll_deg, orientation.pitch_deg, phase_deg)
         return bounded_cell(pair, device, strategy, pose_deg, mu, point_limit, known=known[mu])
 
-    cells, boundaries, critical = mapped_cells(compute, grid.phases_deg, frictions, phase_tolerance_deg, mu_tolerance)
+    def ends_alike(cell: Cell) -> bool:
+        pose_deg = (orientation.roll_deg, orientation.pitch_deg, cell.phase_deg)
+        longest_deg = LONGEST_STEP_WITH_FRICTION_DEG if cell.mu > 0.0 else LONGEST_STEP_DEG
+        again = bounded_cell(pair, device, strategy, pose_deg, cell.mu, 2 * point_limit, 0.5 * longest_deg)
+        return again.outcome is cell.outcome
+
+    cells, boundaries, critical = mapped_cells(
+        compute, ends_alike, grid.phases_deg, frictions, phase_tolerance_deg, mu_tolerance
+    )
     return OrientationMap(index, orientation.roll_deg, orientation.pitch_deg, cells, boundaries, critical)

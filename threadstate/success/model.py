@@ -48,7 +48,8 @@ class PhaseBoundary:
     """Two starting phases of unlike outcomes at one friction, between which no other was computed.
 
     ``to_deg`` is the larger one, 360 deg or more beyond the last phase of the grid. The two are as near to each other
-    as the map's tolerance, unless the outcome of one is ``undecided``: such a gap is not narrowed.
+    as the map's tolerance, and both end so with half the step, unless the outcome of one is ``undecided``: such a gap
+    is not narrowed.
     """
 
     mu: float

@@ -1,13 +1,17 @@
-"""The search of an orientation's map: a grid of paths, bisected where outcomes differ.
+"""The search of an orientation's map: a grid of paths, bisected where outcomes differ, confirmed on both sides.
 
-It knows neither device nor kernels: how a path ends is asked of a function of phase and friction.
+It knows neither device nor kernels: how a path ends is asked of a function of phase and friction, and whether a path
+of half the step ends alike of another.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
+from threadstate.device.assembly_model import AssemblyOutcome
+from threadstate.device.model import SettledFlag
 from threadstate.success.model import Cell, CriticalFriction, PhaseBoundary
 
 TURN_DEG = 360.0
@@ -15,6 +19,7 @@ TURN_DEG = 360.0
 
 def mapped_cells(
     compute: Callable[[float, float], Cell],
+    ends_alike: Callable[[Cell], bool],
     phases_deg: Sequence[float],
     frictions: Sequence[float],
     phase_tolerance_deg: float,
@@ -23,8 +28,9 @@ def mapped_cells(
     """All paths of an orientation, by friction and phase, its boundaries of outcome and its critical friction.
 
     At each of ``frictions`` (ascending) a path starts from each phase (ascending, evenly over the turn). ``compute``
-    gives the path from a phase at a friction; each is asked for once. Which paths are computed depends on outcomes
-    alone.
+    gives the path from a phase at a friction; each is asked for once. Where two neighbours have unlike certain
+    outcomes, ``ends_alike`` says of each whether it ends so with half the step: one that does not becomes undecided.
+    Which paths are computed depends on outcomes alone.
     """
     cells: dict[tuple[float, float], Cell] = {}
 
@@ -36,31 +42,52 @@ def mapped_cells(
     for mu in frictions:
         for phase_deg in phases_deg:
             cell(phase_deg, mu)
-    boundaries = tuple(
-        boundary for mu in frictions for boundary in _phase_boundaries(cell, phases_deg, mu, phase_tolerance_deg)
-    )
+    boundaries: list[PhaseBoundary] = []
+    for mu in frictions:
+        _narrow(cell, phases_deg, mu, phase_tolerance_deg)
+        along = [cells[key] for key in sorted(cells) if key[0] == mu]
+        for one in _beside_boundaries(along):
+            if not ends_alike(one):
+                flags = (*one.flags, SettledFlag.STEP_DEPENDENT)
+                cells[mu, one.phase_deg] = replace(one, outcome=AssemblyOutcome.UNDECIDED, flags=flags)
+        boundaries += _boundaries([cells[mu, one.phase_deg] for one in along])
     critical = _critical_friction(cell, phases_deg, frictions, mu_tolerance)
-    return tuple(cells[key] for key in sorted(cells)), boundaries, critical
+    return tuple(cells[key] for key in sorted(cells)), tuple(boundaries), critical
 
 
-def _phase_boundaries(
-    cell: Callable[[float, float], Cell], phases_deg: Sequence[float], mu: float, tolerance_deg: float
-) -> list[PhaseBoundary]:
-    """Boundaries of outcome along the phase, ascending; the last gap of the turn leads back to the first phase."""
-    found = []
-    # The gaps still to be looked at, the next one last.
-    gaps = list(reversed(list(pairwise([*phases_deg, phases_deg[0] + TURN_DEG]))))
+def _narrow(cell: Callable[[float, float], Cell], phases_deg: Sequence[float], mu: float, tolerance_deg: float) -> None:
+    """Asks for paths between those of unlike certain outcomes, until they are as near as the tolerance."""
+    gaps = list(pairwise([*phases_deg, phases_deg[0] + TURN_DEG]))
     while gaps:
         start_deg, end_deg = gaps.pop()
         before, after = cell(start_deg % TURN_DEG, mu), cell(end_deg % TURN_DEG, mu)
-        if before.outcome is after.outcome:
-            continue
-        if end_deg - start_deg <= tolerance_deg or not (before.is_decided and after.is_decided):
-            found.append(PhaseBoundary(mu, start_deg, end_deg, before.outcome, after.outcome))
-            continue
-        middle_deg = 0.5 * (start_deg + end_deg)
-        gaps += [(middle_deg, end_deg), (start_deg, middle_deg)]
+        if end_deg - start_deg > tolerance_deg and _differ_certainly(before, after):
+            middle_deg = 0.5 * (start_deg + end_deg)
+            gaps += [(middle_deg, end_deg), (start_deg, middle_deg)]
+
+
+def _beside_boundaries(along: Sequence[Cell]) -> list[Cell]:
+    """Of all paths at one friction, by phase, those beside one of another certain outcome, each once."""
+    pairs = [(before, after) for before, after in _neighbours(along) if _differ_certainly(before, after)]
+    return list({one.phase_deg: one for pair in pairs for one in pair}.values())
+
+
+def _boundaries(along: Sequence[Cell]) -> list[PhaseBoundary]:
+    """The boundaries between all paths at one friction, ascending; the last gap of the turn leads to the first path."""
+    found = []
+    for before, after in _neighbours(along):
+        if before.outcome is not after.outcome:
+            end_deg = after.phase_deg + (0.0 if after.phase_deg > before.phase_deg else TURN_DEG)
+            found.append(PhaseBoundary(before.mu, before.phase_deg, end_deg, before.outcome, after.outcome))
     return found
+
+
+def _neighbours(along: Sequence[Cell]) -> list[tuple[Cell, Cell]]:
+    return list(pairwise([*along, along[0]]))
+
+
+def _differ_certainly(before: Cell, after: Cell) -> bool:
+    return before.outcome is not after.outcome and before.is_decided and after.is_decided
 
 
 def _critical_friction(

@@ -160,7 +160,8 @@ const REASONS = {
   unbalanced: "the forces do not balance device and push",
   unstable: "the equilibrium is no minimum",
   ambiguous: "a step with friction had several solutions",
-  many_contacts: "more than five contacts with friction",
+  many_contacts: "more than eight contacts with friction",
+  step_dependent: "with half the step it ends otherwise",
 };
 /** Which margin an outcome rests on first. */
 const DECISIVE = { engaged: "lead", cross_threaded: "play", jammed: "torque", no_snap: "snap", slipped: "offset" };
