@@ -10,7 +10,7 @@ from matplotlib.patches import Rectangle
 from studies.pictures import FAINT, INK, picture
 from studies.success.study import StudiedMap
 from threadstate.device.assembly_model import AssemblyOutcome
-from threadstate.device.model import WHOLE_TURN_DEG, SettledFlag
+from threadstate.device.model import SettledFlag
 from threadstate.numbers import number_text
 from threadstate.success.model import CriticalFriction
 from threadstate.success.summary import grid_cells, map_counts, orientation_summary, tilt_area
@@ -45,8 +45,8 @@ def section(maps: Sequence[StudiedMap]) -> str:
 
 
 def pictured(maps: Sequence[StudiedMap]) -> list[StudiedMap]:
-    """The maps that have a picture: the frictionless ones of a whole turn."""
-    return [one for one in maps if one.inputs.frictions == (0.0,) and one.inputs.device.ccw_turn_deg == WHOLE_TURN_DEG]
+    """The maps that have a picture: the frictionless ones."""
+    return [one for one in maps if one.inputs.frictions == (0.0,)]
 
 
 def picture_name(one: StudiedMap) -> str:

@@ -46,15 +46,15 @@ class StudiedMap:
 def studied_inputs(friction_phases: int = PHASES) -> list[SuccessInputs]:
     """What the maps are computed from: frictionless ones, then those with friction, each by both strategies.
 
-    After them there are those of a hand that turns farther until the snap. With friction there may be fewer starting
-    phases; critical frictions are those between the frictions of the map.
+    The last one is that, with friction, of a hand that turns farther until the snap. With friction there may be fewer
+    starting phases; critical frictions are those between the frictions of the map.
     """
     device = default_device()
     farther = replace(device, ccw_turn_deg=FARTHER_DEG)
     without, with_friction = ((0.0,), PHASES), (FRICTIONS, friction_phases)
     return [
         *(_inputs(device, strategy, *rest) for rest in (without, with_friction) for strategy in Strategy),
-        *(_inputs(farther, Strategy.CCW_THEN_CW, *rest) for rest in (without, with_friction)),
+        _inputs(farther, Strategy.CCW_THEN_CW, *with_friction),
     ]
 
 

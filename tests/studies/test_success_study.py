@@ -48,8 +48,11 @@ def maps() -> list[StudiedMap]:
 
 def test_the_study_has_both_strategies_and_a_farther_turn_without_friction_and_with_it() -> None:
     found = {(one.strategy, one.device.ccw_turn_deg, one.frictions) for one in studied_inputs()}
-    turns = {(Strategy.CCW_THEN_CW, 360.0), (Strategy.CW, 360.0), (Strategy.CCW_THEN_CW, 390.0)}
-    assert found == {(*turn, mu) for turn in turns for mu in ((0.0,), (0.1, 0.2, 0.3))}
+    without, with_friction = (0.0,), (0.1, 0.2, 0.3)
+    assert found == {
+        *((strategy, 360.0, mu) for strategy in Strategy for mu in (without, with_friction)),
+        (Strategy.CCW_THEN_CW, 390.0, with_friction),
+    }
 
 
 def test_the_section_counts_what_the_maps_hold(maps: list[StudiedMap]) -> None:
