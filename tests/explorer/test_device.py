@@ -134,6 +134,18 @@ def test_every_flag_of_a_path_has_its_words(repository_root: Path) -> None:
     assert set(re.findall(r"^  (\w+): ", reasons, re.MULTILINE)) == set(SettledFlag)
 
 
+def test_a_refused_value_leaves_the_path_that_is_shown(explorer: Explorer) -> None:
+    explorer.open(f"/#{COMPUTED}&point=3")
+    explorer.wait_for_text("#turned-readout", "point 4 of")
+    choose_device(explorer, k_tilt="-5")
+    explorer.click("#device-compute")
+    explorer.wait_for_text("#device-k_tilt-fault", "-5.0 is not valid: a stiffness >= 0")
+    assert explorer.one("#turned-outcome").is_displayed()
+    explorer.wait_for_text("#turned-readout", "point 1 of")
+    assert explorer.one("#device-stale").is_displayed()
+    assert len(explorer.complaints()) == 1
+
+
 def test_what_is_not_valid_is_said_beside_its_field(explorer: Explorer) -> None:
     explorer.click("#tab-device")
     choose_device(explorer, k_tilt="-5")
@@ -144,6 +156,7 @@ def test_what_is_not_valid_is_said_beside_its_field(explorer: Explorer) -> None:
     explorer.click("#device-compute")
     explorer.wait_for_text("#device-mu-fault", "much is not valid")
     assert explorer.text("#device-k_tilt-fault") == ""
+    assert not explorer.one("#turned-outcome").is_displayed()
     complaints = explorer.complaints()
     assert len(complaints) == 2
     assert all("400 (Bad Request)" in one for one in complaints)

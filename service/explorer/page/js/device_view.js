@@ -84,11 +84,11 @@ export class DeviceView {
     if (path === null) byId("turned-contacts").replaceChildren();
     byId("turned-numbers").replaceChildren(...(path?.margins ? [margins(path, unit)] : []));
     this.#listEvents(path, unit);
-    this.#asked = path === null ? null : asked;
+    this.#asked = path === null ? null : assembly.text;
     this.#showStale();
     if (isRunning || !this.#isAwaited) return;
     this.#isAwaited = false;
-    if (path !== null) byId("turned-outcome").scrollIntoView({ block: "nearest" });
+    if (path !== null && !assembly.problem) byId("turned-outcome").scrollIntoView({ block: "nearest" });
   }
 
   /** Marks the last event that has happened at a point, and lists the contacts there. */

@@ -205,8 +205,9 @@ export class Model {
     if (this.library.id !== library) return;
     const key = `${library} ${assembly} ${this.#assemblies}`;
     if (this.#requested.get("assembly") === key) return;
+    const before = this.assembly?.library === library ? this.assembly : null;
     this.#endAssembly();
-    this.#request("assembly", key, () => (assembly === "" ? null : this.#assembled(bodyOf(assembly, library), unit)));
+    this.#request("assembly", key, () => (assembly === "" ? null : this.#assembled(assembly, library, unit, before)));
   }
 
   /** Computes the success maps that the view asks for. */
@@ -228,7 +229,8 @@ export class Model {
     this.progress = null;
   }
 
-  async #assembled(body, unit) {
+  /** The path of a request's text; of one that is refused the problem, beside the path `before`. */
+  async #assembled(text, library, unit, before) {
     const running = new AbortController();
     this.#assembling = running;
     const progressed = (progress) => {
@@ -237,10 +239,11 @@ export class Model {
       this.#onPart("progress");
     };
     try {
-      return { path: await this.#api.assemble(body, unit, { signal: running.signal, progressed }) };
+      const path = await this.#api.assemble(bodyOf(text, library), unit, { signal: running.signal, progressed });
+      return { path, text, library };
     } catch (error) {
       if (!(error instanceof ProblemError) || error.status === UNAUTHORIZED) throw error;
-      return { problem: error.message, errors: error.errors };
+      return { ...before, problem: error.message, errors: error.errors };
     }
   }
 

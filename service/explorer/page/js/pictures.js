@@ -277,7 +277,7 @@ export class Pictures {
 
   /** Plays a path that a cell of a success map has asked for. */
   #playAnswer() {
-    if (!this.#playsNext || this.#turned() === null) return;
+    if (!this.#playsNext || this.#turned() === null || this.#model.assembly.problem) return;
     this.#playsNext = false;
     this.#tabs.turned.play();
   }
@@ -462,7 +462,7 @@ export class Pictures {
     const readout = pointText(turned.path, at);
     const point = { pose: turned.path.pose[at], contacts: turned.path.contacts[at] };
     const nominal = pair.nominal_diameter * unitFactor(unit, turned.unit);
-    this.scene.showPoint(point, deviceOf(value.assembly, turned.unit), value, nominal, `the path of the held bolt, ${readout}`);
+    this.scene.showPoint(point, deviceOf(this.#model.assembly.text, turned.unit), value, nominal, `the path of the held bolt, ${readout}`);
     byId("scene-readout").textContent = readout;
   }
 

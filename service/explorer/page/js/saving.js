@@ -67,13 +67,13 @@ export function wireSaving(model, view, sceneOf) {
 }
 
 /** A file name with library, orientation and phase, those of the view or of the pose at which a held bolt settles; of a success map with strategy and friction. */
-function fileName(what, { library, state, success }, view) {
+function fileName(what, { library, state, success, assembly }, view) {
   if (what === NAMES.success && success.value !== null) {
     const { request, phases } = mapRequestOf(success.value.text);
     return `${library.slug}_${what}_${request.strategy}_mu${request.mu || 0}_phases${phases}`;
   }
   const { stage } = view;
-  const { roll, pitch, phase } = what === NAMES.turned ? requestOf(view.assembly) : view;
+  const { roll, pitch, phase } = what === NAMES.turned ? requestOf(assembly.text) : view;
   const staged = what === NAMES.scene && state?.state ? `_stage${Math.min(stage, lastStage(state.state)).toFixed(1)}` : "";
   return `${library.slug}_${what}_roll${roll}_pitch${pitch}_phase${phase}${staged}`;
 }
