@@ -133,7 +133,7 @@ def list_success_maps(request: Request, connection: ReadConnection, library: Pai
 @router.get("/success-maps/{id}", summary="One success map", response_model=SuccessMapDetail, responses=NOT_MODIFIED)
 def get_success_map(request: Request, connection: ReadConnection, found: IdentifiedMap) -> Response:
     """A success map with its device, and how many of its orientations engage at each friction."""
-    totals = totals_documents(orientations_of_map(connection, found.id), found.inputs.grid, found.inputs.frictions)
+    totals = totals_documents(orientations_of_map(connection, found.id), found.inputs)
     document = {**success_map_document(found).model_dump(mode="json"), "summary": totals}
     return json_response(request, document, {"Content-Location": f"/v1/success-maps/{found.id}"})
 
@@ -212,7 +212,7 @@ def get_growing_map(request: Request, connection: ReadConnection, job_id: JobId,
         "job": job.id,
         "chunks": job.chunk_count,
         "unit": shown.value,
-        "summary": totals_documents(orientations, inputs.grid, inputs.frictions),
+        "summary": totals_documents(orientations, inputs),
         "orientations": [summarised_document(one, inputs.grid, inputs.frictions, factor) for one in orientations],
     }
     return json_response(request, document, {UNIT_HEADER: shown.value})

@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 from threadstate.device.assembly_model import AssemblyOutcome
-from threadstate.device.model import SettledFlag
+from threadstate.device.model import SettledFlag, default_device
+from threadstate.device.strategy import Strategy
 from threadstate.library.grid import Grid
 from threadstate.success.document import (
     document_text,
@@ -17,8 +18,12 @@ from threadstate.success.document import (
     orientation_from_document,
     orientation_sha256,
 )
+from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import Cell, CriticalFriction, OrientationMap, PhaseBoundary
-from threadstate.success.summary import map_counts, orientation_summary, tilt_area
+from threadstate.success.summary import LateSnaps, late_snaps, map_counts, orientation_summary, tilt_area
+from threadstate.success.summary_document import totals_documents
+from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.thread.hand import Hand
 
 ENGAGED, IDLE, UNDECIDED = AssemblyOutcome.ENGAGED, AssemblyOutcome.IDLE, AssemblyOutcome.UNDECIDED
 GRID = Grid(2.0, 1.0, 180.0)
@@ -119,3 +124,38 @@ def test_the_hash_of_a_map_does_not_depend_on_the_order_in_which_it_was_computed
     found = grid_map({(2, 2)})
     assert map_sha256(found) == map_sha256(found[::-1])
     assert map_sha256(found) != map_sha256(grid_map({(2, 3)}))
+
+
+def test_paths_that_end_soon_before_a_snap_of_others_are_counted() -> None:
+    """Of the first orientation others snap at 361.5 deg, of the second at 340; of the third none snaps."""
+    grid = Grid(1.0, 1.0, 120.0)
+    inputs = SuccessInputs(quarter_twenty_unc(), default_device(), Strategy.CCW_THEN_CW, grid, (0.1,))
+
+    def path(phase_deg: float, snap_deg: float | None) -> Cell:
+        outcome = AssemblyOutcome.NO_SNAP if snap_deg is None else ENGAGED
+        end_deg = phase_deg + 360.0 if snap_deg is None else snap_deg - 270.0
+        return Cell(phase_deg, 0.1, outcome, (), False, 1.0, 1.0, 1.0, end_deg)
+
+    snaps = ((None, 361.5, 361.0), (None, 340.0, 340.0), (None, None, None))
+    found = [
+        OrientationMap(i, 0.0, 0.0, tuple(map(path, grid.phases_deg, row)), (), NONE) for i, row in enumerate(snaps)
+    ]
+    late = late_snaps(found, inputs, 0.1)
+    assert (late.paths, late.turn_deg) == (1, 361.0)
+    farther = replace(inputs, device=replace(inputs.device, ccw_turn_deg=361.25))
+    assert late_snaps(found, farther, 0.1).turn_deg == 361.5
+    (totals,) = totals_documents(found, inputs)
+    assert (totals["late_snaps"], totals["late_snap_turn"]) == (1, 361.0)
+    assert late_snaps(found[2:], inputs, 0.1) == LateSnaps(0.1, 0, None)
+
+
+def test_a_left_hand_bolt_is_turned_the_other_way_to_its_snap() -> None:
+    grid = Grid(1.0, 1.0, 180.0)
+    pair = replace(quarter_twenty_unc(), hand=Hand.LEFT)
+    inputs = SuccessInputs(pair, default_device(), Strategy.CCW_THEN_CW, grid, (0.1,))
+    cells = (
+        Cell(0.0, 0.1, AssemblyOutcome.NO_SNAP, (), False, 1.0, 1.0, 1.0, -360.0),
+        Cell(180.0, 0.1, ENGAGED, (), False, 1.0, 1.0, 1.0, -2.0 + 270.0),
+    )
+    found = [OrientationMap(0, 0.0, 0.0, cells, (), NONE)]
+    assert late_snaps(found, inputs, 0.1) == LateSnaps(0.1, 1, 362.0)

@@ -51,7 +51,7 @@ from threadstate.device.settle import (
     settled_state,
     vector_of,
 )
-from threadstate.device.strategy import Strategy
+from threadstate.device.strategy import CLOCKWISE_DEG, Strategy
 from threadstate.device.watch import PathWatch
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
@@ -62,8 +62,6 @@ from threadstate.thread.pair import Pair
 __all__ = ["assemble_pose"]
 
 Floats = NDArray[np.float64]
-
-CLOCKWISE_DEG = 270.0
 
 LEAST_LONGEST_STEP_DEG = 0.25
 """The least longest step: with shorter ones the farthest turn has more points than a leg has room for."""

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from enum import StrEnum
 
+CLOCKWISE_DEG = 270.0
+"""How far the hand turns clockwise at the end."""
+
 
 class Strategy(StrEnum):
     """How the hand turns the bolt (forces, section 5)."""

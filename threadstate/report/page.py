@@ -90,6 +90,8 @@ def _sure(report: Report) -> Iterator[str]:
             f"friction to {exact(inputs.mu_tolerance)}, where both ends have a certain outcome. Two starting phases "
             "that end alike are not looked between, nor are two orientations: a window narrower than the grid can be "
             "missed.",
+            "The two paths beside a boundary end so with half the step, too; one that does not is undecided, and "
+            "step dependent.",
             "That the bolt engages at every friction below a critical one is not proved: only those that were "
             f"computed are known.{_reentering(report)}",
             f"A path with more than {inputs.point_limit:,} points in one turn is not followed to its end. It is "

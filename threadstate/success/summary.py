@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from threadstate.device.assembly_model import AssemblyOutcome
+from threadstate.device.model import LARGEST_CCW_TURN_DEG, WHOLE_TURN_DEG
+from threadstate.device.strategy import CLOCKWISE_DEG
 from threadstate.library.grid import Grid
+from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import Cell, OrientationMap
 
 
@@ -68,6 +72,20 @@ class MapCounts:
     bounded: int
 
 
+@dataclass(frozen=True, slots=True)
+class LateSnaps:
+    """Paths of a map that end without a snap, though a hand that turns farther meets one at a friction.
+
+    ``paths`` is how many: the bolt of the same orientation snaps from other starting phases, and engages, at a phase
+    that a turn of at most 450 deg reaches. ``turn_deg`` reaches that of each of them, None where there are none. That
+    the bolt of such a path would snap there as well is likely, not computed.
+    """
+
+    mu: float
+    paths: int
+    turn_deg: float | None
+
+
 def orientation_summary(found: OrientationMap, grid: Grid, mu: float) -> OrientationSummary:
     """The summary of an orientation at a friction of the map."""
     cells = grid_cells(found, grid, mu)
@@ -110,6 +128,22 @@ def map_counts(orientations: Sequence[OrientationMap], grid: Grid, mu: float) ->
         tuple(sorted(flags.items())),
         sum(cell.is_bounded for cell in cells),
     )
+
+
+def late_snaps(orientations: Sequence[OrientationMap], inputs: SuccessInputs, mu: float) -> LateSnaps:
+    """The paths of the grid that end soon before a snap, at a friction of a map by ``ccw_then_cw``."""
+    hand = math.copysign(1.0, inputs.pair.lead)
+    turns_deg = []
+    for found in orientations:
+        cells = grid_cells(found, inputs.grid, mu)
+        snaps_deg = [one.end_deg + CLOCKWISE_DEG * hand for one in cells if one.engages and one.end_deg is not None]
+        for one in cells:
+            if one.outcome is AssemblyOutcome.NO_SNAP and snaps_deg:
+                turn_deg = inputs.device.ccw_turn_deg
+                beyond = min((hand * (snap_deg - one.phase_deg) - turn_deg) % WHOLE_TURN_DEG for snap_deg in snaps_deg)
+                turns_deg.append(turn_deg + beyond)
+    reached = [turn_deg for turn_deg in turns_deg if turn_deg <= LARGEST_CCW_TURN_DEG]
+    return LateSnaps(mu, len(reached), max(reached, default=None))
 
 
 def grid_cells(found: OrientationMap, grid: Grid, mu: float) -> list[Cell]:

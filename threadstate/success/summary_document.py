@@ -9,13 +9,18 @@ from typing_extensions import TypedDict
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.library.grid import Grid
 from threadstate.success.document import CellDocument, OrientationDocument, cell_document, orientation_document
+from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import Cell, OrientationMap
 from threadstate.success.scaled import scaled_cell, scaled_orientation
-from threadstate.success.summary import map_counts, orientation_summary, tilt_area
+from threadstate.success.summary import late_snaps, map_counts, orientation_summary, tilt_area
 
 
 class FrictionTotalsDocument(TypedDict):
-    """A map at one friction: how many orientations engage from every phase, and how all paths end."""
+    """A map at one friction: how many orientations engage from every phase, and how all paths end.
+
+    ``late_snaps`` paths end without a snap that others of their orientation meet; a turn of ``late_snap_turn`` degrees
+    reaches those. Null where there are none.
+    """
 
     mu: float
     orientations: int
@@ -26,6 +31,8 @@ class FrictionTotalsDocument(TypedDict):
     outcomes: dict[AssemblyOutcome, int]
     flags: dict[str, int]
     bounded: int
+    late_snaps: int
+    late_snap_turn: float | None
 
 
 class PhaseSummaryDocument(TypedDict):
@@ -59,14 +66,14 @@ def outcome_document(roll_deg: float, pitch_deg: float, cell: Cell, factor: floa
     return {"roll": roll_deg + 0.0, "pitch": pitch_deg + 0.0, **cell_document(scaled_cell(cell, factor))}
 
 
-def totals_documents(
-    orientations: Sequence[OrientationMap], grid: Grid, frictions: Sequence[float]
-) -> list[FrictionTotalsDocument]:
+def totals_documents(orientations: Sequence[OrientationMap], inputs: SuccessInputs) -> list[FrictionTotalsDocument]:
     """The totals of a map at each of its frictions; ``area`` is that of the largest set, in square degrees."""
     found: list[FrictionTotalsDocument] = []
-    for mu in frictions:
+    grid = inputs.grid
+    for mu in inputs.frictions:
         area = tilt_area(orientations, grid, mu)
         counts = map_counts(orientations, grid, mu)
+        late = late_snaps(orientations, inputs, mu)
         found.append(
             {
                 "mu": mu + 0.0,
@@ -78,6 +85,8 @@ def totals_documents(
                 "outcomes": dict(counts.outcomes),
                 "flags": dict(counts.flags),
                 "bounded": counts.bounded,
+                "late_snaps": late.paths,
+                "late_snap_turn": late.turn_deg,
             }
         )
     return found

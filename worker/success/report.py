@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 from threadstate.numbers import number_text
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.map_file import inputs_document
 from threadstate.success.model import CriticalFriction, OrientationMap
 from threadstate.success.scaled import scaled_orientation
-from threadstate.success.summary import map_counts, orientation_summary, tilt_area
+from threadstate.success.summary import late_snaps, map_counts, orientation_summary, tilt_area
 from threadstate.success.summary_document import summarised_document, totals_documents
 from threadstate.units import LengthUnit, conversion_factor
 from worker.output import print_json, print_line
@@ -25,7 +27,7 @@ def print_map_json(inputs: SuccessInputs, result: SuccessResult, elapsed_s: floa
             "unit": unit,
             "computed": result.computed,
             "elapsed_s": round(elapsed_s, 3),
-            "summary": totals_documents(orientations, inputs.grid, inputs.frictions),
+            "summary": totals_documents(orientations, inputs),
             "orientations": [summarised_document(one, inputs.grid, inputs.frictions) for one in orientations],
         }
     )
@@ -45,6 +47,13 @@ def print_map(inputs: SuccessInputs, result: SuccessResult, elapsed_s: float, un
         numbers = (area.orientations, area.engaged, area.around_level, area.largest)
         totals.add_row(number_text(mu), *map(str, numbers), words)
     totals.print()
+    for mu in inputs.frictions:
+        late = late_snaps(orientations, inputs, mu)
+        if late.turn_deg is not None:
+            print_line(
+                f"mu {number_text(mu)}: {late.paths} {'path ends' if late.paths == 1 else 'paths end'} before a snap "
+                f"that others of the orientation meet; a ccw_turn of {math.ceil(late.turn_deg)} deg reaches it"
+            )
     print_line("")
     rows = table(
         "roll",

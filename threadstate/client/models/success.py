@@ -94,7 +94,11 @@ class SummarisedOrientation(Answer):
 
 
 class FrictionTotals(Answer):
-    """A map at one friction: how many orientations engage from every phase, and how all paths end."""
+    """A map at one friction: how many orientations engage from every phase, and how all paths end.
+
+    ``late_snaps`` paths end without a snap that others of their orientation meet; a turn of ``late_snap_turn`` degrees
+    reaches those.
+    """
 
     mu: float
     orientations: int
@@ -105,6 +109,8 @@ class FrictionTotals(Answer):
     outcomes: dict[AssemblyOutcome, int]
     flags: dict[str, int]
     bounded: int
+    late_snaps: int
+    late_snap_turn: float | None
 
 
 class SuccessMap(Answer):
