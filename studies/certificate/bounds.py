@@ -67,20 +67,20 @@ def claims(one: Box, kernels: Kernels = COMPILED) -> Claims:
         tau,
         b,
         (
-            (phi[3], phi[4]),
-            (phi[5] - phi[6], phi[5] + phi[6]),
-            (-phi[7], phi[7]),
-            (phi[1] - phi[8], phi[1] + phi[8]),
-            (phi[2] - phi[9], phi[2] + phi[9]),
-            (g[3], g[4]),
-            (g[5] - g[6], g[5] + g[6]),
-            (-g[7], g[7]),
-            (g[1] - g[8], g[1] + g[8]),
+            (phi.tt_low, phi.tt_high),
+            (phi.tv - phi.tv_var, phi.tv + phi.tv_var),
+            (-phi.vv, phi.vv),
+            (phi.by_theta - phi.theta_change, phi.by_theta + phi.theta_change),
+            (phi.by_tau - phi.tau_change, phi.by_tau + phi.tau_change),
+            (g.tt_low, g.tt_high),
+            (g.tv - g.tv_var, g.tv + g.tv_var),
+            (-g.vv, g.vv),
+            (g.by_theta - g.theta_change, g.by_theta + g.theta_change),
             (depth, float("inf")),
         ),
         tuple(
             (value - error, value + error)
-            for value, error in (*zip(phi[:3], phi[10:], strict=True), *zip(g[:3], g[9:], strict=True))
+            for value, error in (*zip(phi[:3], phi[10:], strict=True), *zip(g[:3], g[10:], strict=True))
         ),
         int(box_class),
         p,

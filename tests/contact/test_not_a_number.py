@@ -19,6 +19,7 @@ from threadstate.contact._edge_search_kernel import no_onset_from_contact
 from threadstate.contact._entry_kernel import half_space
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
 from threadstate.contact._lift_kernel import inside_until
+from threadstate.contact._range_kernel import Ranges
 from threadstate.contact._stage_kernel import CONTACT_SIZE, rotation, set_motions
 from threadstate.contact._surface_kernel import meets_surface_first
 from threadstate.thread import _profile_kernel as pk
@@ -70,7 +71,8 @@ def test_no_box_is_excluded_by_nan() -> None:
         a, b = 10.0 ** rng.uniform(-6, -0.5, 2)
 
         def box_class(values: Floats, a: float = a, b: float = b) -> float:
-            phi, g = tuple(values[:13].tolist()), tuple(values[13:].tolist())
+            phi = Ranges(*values[:13].tolist())
+            g = Ranges(*np.insert(values[13:], 9, math.inf).tolist())
             return float(box.classify_box(a, b, phi, g, -1.0, P)[0])
 
         for i in range(25):

@@ -28,7 +28,7 @@ from studies.certificate.cases import FORMS, STAGES, Box, pair_of, random_boxes,
 from studies.certificate.page import HEADING, section
 from studies.certificate.profiles import ball_profile
 from studies.certificate.study import Found, audit_boxes, failures
-from threadstate.contact import _branchless_kernel, _frame_kernel, _range_kernel
+from threadstate.contact import _branchless_kernel, _curve_point_kernel, _range_kernel
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._edge_kernel import Box as SearchBox
@@ -37,8 +37,8 @@ from threadstate.contact._geometry_kernel import M_COPLANAR, PATH_SIZE
 
 FAULTS = {
     "a growth of less than e - 1, and of nothing": (
-        "misaligned = (misaligned + sine * sine + change_by_time",
-        "misaligned = 0.2 * (misaligned + sine * sine + change_by_time",
+        "misaligned = (misaligned + sine * sine + change.by_time",
+        "misaligned = 0.2 * (misaligned + sine * sine + change.by_time",
     ),
     "F' with a tenth of its term of r": (
         "+ r_bound * (misaligned * (1.0 + 3.0",
@@ -59,7 +59,7 @@ FAULTS = {
     "no term of R1 in g'": ("(a * (r_bound + 3.0 * r1_bound)", "(a * r_bound"),
     "g's sine at the end of a turn in both planes": (
         "sine_g = smaller(math.sqrt(m1z * m1z + m2z * m2z) + turning_moving * b, 1.0)",
-        "sine_g = sine",
+        "sine_g = math.sqrt(edge.m1z * edge.m1z + edge.m2z * edge.m2z)",
     ),
     "a third of the change of V": ("d_v = speed_bound *", "d_v = 0.3 * speed_bound *"),
     "T that changes by its direction alone, half": (
@@ -70,8 +70,8 @@ FAULTS = {
     "a radius that is never small": ("near_axis = radius - move < 0.5 * r_minor", "near_axis = False"),
     "a hundredth of the round-off": ("position_error = base_error", "position_error = 0.01 * base_error"),
     "a fortieth of the round-off of values": (
-        "        gradient_bound * position_error,\n        theta_error,",
-        "        0.025 * gradient_bound * position_error,\n        theta_error,",
+        "        gradient_bound * change.position_error,\n        theta_error,",
+        "        0.025 * gradient_bound * change.position_error,\n        theta_error,",
     ),
 }
 """Of the ranges' kernel, a text and the fault that replaces it."""
@@ -98,7 +98,7 @@ def with_fault(text: str, fault: str) -> Kernels:
     module = ModuleType("faulty")
     plain = source.replace(text, fault).replace("@kernel(contract=True, forceinline=True)\n", "")
     exec(compile(plain, "faulty", "exec"), vars(module))
-    for other in (_branchless_kernel, _frame_kernel):
+    for other in (_branchless_kernel, _curve_point_kernel):
         for name, function in vars(other).items():
             if hasattr(function, "py_func") and hasattr(module, name):
                 setattr(module, name, function.py_func)

@@ -9,14 +9,15 @@ functions over a box admit no onset of any kind the box is excluded.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import Numbers, larger, profile_numbers, smaller
+from threadstate.contact._branchless_kernel import larger, profile_numbers, smaller
 from threadstate.contact._frame_kernel import motion_numbers
-from threadstate.contact._range_kernel import error_beside, ranges, size_numbers
+from threadstate.contact._range_kernel import Ranges, error_beside, ranges, size_numbers
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -62,22 +63,115 @@ OVERLAP = 2.0**-51
 """A box is evaluated longer by so much of its time: neighbours overlap though the middle and half of it are rounded."""
 
 
+class Sizes(NamedTuple):
+    """Bounds over a box on the sizes of g's or phi's second derivatives by theta, and by theta and tau.
+
+    Then on how far the first derivatives by theta and tau vary from the middle.
+    """
+
+    tt: float
+    tv: float
+    theta_var: float
+    tau_var: float
+
+
 @kernel(contract=True, forceinline=True)
-def tangency(a: float, b: float, of_one: Numbers, slope_error: float, remainder: float) -> tuple[bool, bool]:
+def sizes_over(a: float, b: float, of_one: Ranges) -> Sizes:
+    """The sizes of g's or phi's derivatives over a box."""
+    tt = larger(of_one.tt_high, -of_one.tt_low)
+    tv = abs(of_one.tv) + of_one.tv_var
+    return Sizes(
+        tt,
+        tv,
+        smaller(tt * a + tv * b + of_one.theta_error, of_one.theta_change),
+        smaller(tv * a + of_one.vv * b + of_one.tau_error, of_one.tau_change),
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def phi_over(a: float, b: float, phi: Ranges, size: Sizes) -> tuple[float, float, float, float]:
+    """The least and the largest phi in a box; bounds on its slope by theta, and on how far time changes it."""
+    theta_bound = abs(phi.by_theta) + phi.theta_error + size.tv * b
+    peak_offset = smaller(theta_bound / -phi.tt_high if phi.tt_high < 0.0 else a, a)
+    time_change = abs(phi.by_tau) * b + smaller(phi.tau_error + 0.5 * phi.vv * b, phi.tau_change) * b
+    azimuth_change = (abs(phi.by_theta) + phi.theta_change) * a
+    rise = theta_bound * peak_offset + 0.5 * phi.tt_high * peak_offset * peak_offset
+    fall = theta_bound * a - 0.5 * smaller(phi.tt_low, 0.0) * a * a
+    high = phi.value + time_change + smaller(rise, azimuth_change) + phi.error
+    low = phi.value - time_change - smaller(fall, azimuth_change) - phi.error
+    return low, high, theta_bound, time_change
+
+
+@kernel(contract=True, forceinline=True)
+def g_over(a: float, b: float, g: Ranges, size: Sizes) -> tuple[float, float]:
+    """The least and the largest g in a box."""
+    time_change = (abs(g.by_tau) + g.tau_error) * b + 0.5 * g.vv * b * b
+    azimuth_change = (abs(g.by_theta) + g.theta_change) * a
+    linear_change = (abs(g.by_theta) + g.theta_error) * a + size.tv * a * b
+    rise = linear_change + 0.5 * larger(g.tt_high, 0.0) * a * a
+    fall = linear_change - 0.5 * smaller(g.tt_low, 0.0) * a * a
+    high = g.value + time_change + smaller(rise, azimuth_change) + g.error
+    low = g.value - time_change - smaller(fall, azimuth_change) - g.error
+    return low, high
+
+
+@kernel(contract=True, forceinline=True)
+def jacobian(phi: Ranges, g: Ranges, phi_size: Sizes, g_size: Sizes) -> tuple[float, float]:
+    """The determinant of the derivatives of (g, phi) in the middle of a box, and how far it varies over the box."""
+    jac = g.by_tau * phi.by_theta - phi.by_tau * g.by_theta
+    jac_var = (
+        g_size.tau_var * (abs(phi.by_theta) + phi_size.theta_var)
+        + abs(g.by_tau) * phi_size.theta_var
+        + phi_size.tau_var * (abs(g.by_theta) + g_size.theta_var)
+        + abs(phi.by_tau) * g_size.theta_var
+    )
+    return jac, jac_var
+
+
+@kernel(contract=True, forceinline=True)
+def remainders(a: float, b: float, phi: Ranges, g: Ranges, phi_size: Sizes, g_size: Sizes) -> tuple[float, float]:
+    """What phi and g may differ by, in a box, from their linear expansions."""
+    of_g = (
+        smaller(0.5 * g_size.tt * a + g_size.tv * b + g.theta_error, g.theta_change) * a
+        + (0.5 * g.vv * b + g.tau_error) * b
+        + g.error
+    )
+    of_phi = (
+        smaller(
+            (0.5 * phi_size.tt * a + phi_size.tv * b + phi.theta_error) * a + (0.5 * phi.vv * b + phi.tau_error) * b,
+            phi.theta_change * a + phi.tau_change * b,
+        )
+        + phi.error
+    )
+    return of_phi, of_g
+
+
+@kernel(contract=True, forceinline=True)
+def excludes_edge_root(a: float, b: float, phi: Ranges, g: Ranges, jac: float, of_phi: float, of_g: float) -> bool:
+    """Whether the linear expansions of g and phi with their remainders exclude a common zero in a box."""
+    return abs(g.value * phi.by_tau - phi.value * g.by_tau) > a * abs(jac) + of_g * abs(phi.by_tau) + of_phi * abs(
+        g.by_tau
+    ) or abs(g.value * phi.by_theta - phi.value * g.by_theta) > b * abs(jac) + of_g * abs(phi.by_theta) + of_phi * abs(
+        g.by_theta
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def tangency(a: float, b: float, of_one: Ranges, remainder: float) -> tuple[bool, bool]:
     """Whether the linear expansions of a function and of its slope exclude a common zero in a box.
 
-    Then whether the time blurs the height of a peak more than the azimuth. ``of_one`` is the function in the middle,
-    its derivatives by theta and tau, the range of the second one by theta, the mixed one and its variation, a bound on
-    the second one by tau; ``remainder`` is what the function may differ by from its expansion.
+    Then whether the time blurs the height of a peak more than the azimuth. ``remainder`` is what the function may
+    differ by from its expansion.
     """
-    value, slope, rate, tt_low, tt_high, tv_mid, tv_var, vv_bound = of_one
+    value, slope, rate = of_one.value, of_one.by_theta, of_one.by_tau
+    tt_low, tt_high, tv_mid, tv_var = of_one.tt_low, of_one.tt_high, of_one.tv, of_one.tv_var
     tt_mid, tt_var = 0.5 * (tt_low + tt_high), 0.5 * (tt_high - tt_low)
-    slope_remainder = tt_var * a + tv_var * b + slope_error
+    slope_remainder = tt_var * a + tv_var * b + of_one.theta_error
     det = slope * tv_mid - rate * tt_mid
     excluded = abs(rate * slope - value * tv_mid) > a * abs(det) + remainder * abs(tv_mid) + slope_remainder * abs(
         rate
     ) or abs(tt_mid * value - slope * slope) > b * abs(det) + remainder * abs(tt_mid) + slope_remainder * abs(slope)
-    by_time = b * (abs(det) + 0.5 * vv_bound * b * abs(tt_mid) + tv_var * abs(slope))
+    by_time = b * (abs(det) + 0.5 * of_one.vv * b * abs(tt_mid) + tv_var * abs(slope))
     by_theta = a * (
         (0.5 * larger(tt_high, -tt_low) * a + (abs(tv_mid) + tv_var) * b) * abs(tt_mid) + tt_var * abs(slope)
     )
@@ -85,139 +179,103 @@ def tangency(a: float, b: float, of_one: Numbers, slope_error: float, remainder:
 
 
 @kernel(contract=True, forceinline=True)
-def classify_box(
-    a: float, b: float, of_phi: Numbers, of_g: Numbers, depth: float, p: float
-) -> tuple[float, float, float]:
-    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`, the least g in it, and
-    whether to split it by time (1) or by azimuth (0) where that leaves it undecided.
+def splits_edge_by_time(a: float, b: float, phi: Ranges, g: Ranges, phi_size: Sizes, g_size: Sizes, jac: float) -> bool:
+    """Whether the time blurs the height of a peak on the edge more than the azimuth."""
+    by_time = b * abs(jac) + 0.5 * b * b * (g.vv * abs(phi.by_theta) + phi.vv * abs(g.by_theta))
+    by_theta = a * (
+        (0.5 * g_size.tt * a + g_size.tv * b) * abs(phi.by_theta)
+        + (0.5 * phi_size.tt * a + phi_size.tv * b) * abs(g.by_theta)
+    )
+    return by_time > by_theta
 
-    In names, ``tt``, ``tv`` and ``vv`` are second derivatives by theta twice, theta and tau, tau twice; ``bound`` is a
-    bound on the size, ``var`` on the variation from the value in the middle, ``low`` and ``high`` are the range.
+
+@kernel(contract=True, forceinline=True)
+def splits_by_time(
+    a: float,
+    b: float,
+    phi: Ranges,
+    g: Ranges,
+    phi_size: Sizes,
+    g_size: Sizes,
+    weights: tuple[float, float],
+    theta_bound: float,
+    time_change: float,
+) -> bool:
+    """Whether the time adds more than the azimuth to the relative uncertainty of g, phi and their slopes.
+
+    ``weights`` are 0 or 1 for phi and g; ``theta_bound`` and ``time_change`` are phi's (:func:`phi_over`).
     """
-    phi, phi_theta, phi_tau, phi_tt_low, phi_tt_high, phi_tv_mid, phi_tv_var, phi_vv_bound = of_phi[:8]
-    phi_theta_change, phi_tau_change, phi_error, phi_theta_error, phi_tau_error = of_phi[8:]
-    g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound, g_theta_change = of_g[:9]
-    g_error, g_theta_error, g_tau_error = of_g[9:]
-    phi_tv_bound = abs(phi_tv_mid) + phi_tv_var
-    g_tv_bound = abs(g_tv_mid) + g_tv_var
-    phi_tt_bound = larger(phi_tt_high, -phi_tt_low)
-    g_tt_bound = larger(g_tt_high, -g_tt_low)
-    phi_theta_bound = abs(phi_theta) + phi_theta_error + phi_tv_bound * b
-    peak_offset = smaller(phi_theta_bound / -phi_tt_high if phi_tt_high < 0.0 else a, a)
-    phi_time_change = abs(phi_tau) * b + smaller(phi_tau_error + 0.5 * phi_vv_bound * b, phi_tau_change) * b
-    phi_azimuth_change = (abs(phi_theta) + phi_theta_change) * a
-    phi_rise = phi_theta_bound * peak_offset + 0.5 * phi_tt_high * peak_offset * peak_offset
-    phi_fall = phi_theta_bound * a - 0.5 * smaller(phi_tt_low, 0.0) * a * a
-    phi_high = phi + phi_time_change + smaller(phi_rise, phi_azimuth_change) + phi_error
-    phi_low = phi - phi_time_change - smaller(phi_fall, phi_azimuth_change) - phi_error
-    g_time_change = (abs(g_tau) + g_tau_error) * b + 0.5 * g_vv_bound * b * b
-    g_azimuth_change = (abs(g_theta) + g_theta_change) * a
-    g_linear_change = (abs(g_theta) + g_theta_error) * a + g_tv_bound * a * b
-    g_rise = g_linear_change + 0.5 * larger(g_tt_high, 0.0) * a * a
-    g_fall = g_linear_change - 0.5 * smaller(g_tt_low, 0.0) * a * a
-    g_high = g + g_time_change + smaller(g_rise, g_azimuth_change) + g_error
-    g_low = g - g_time_change - smaller(g_fall, g_azimuth_change) - g_error
-    phi_theta_var = smaller(phi_tt_bound * a + phi_tv_bound * b + phi_theta_error, phi_theta_change)
-    phi_tau_var = smaller(phi_tv_bound * a + phi_vv_bound * b + phi_tau_error, phi_tau_change)
-    g_theta_var = smaller(g_tt_bound * a + g_tv_bound * b + g_theta_error, g_theta_change)
-    g_tau_var = g_tv_bound * a + g_vv_bound * b + g_tau_error
-    phi_monotonic = abs(phi_theta) > phi_theta_var
-    g_monotonic = abs(g_theta) > g_theta_var
-    all_outside = phi_high < 0.0 or g_high < 0.0 or depth > p
-    # The Jacobian determinant of (g, phi); a root of either pair of equations is excluded where the linear expansion
-    # with its remainder has none in the box.
-    jac = g_tau * phi_theta - phi_tau * g_theta
-    jac_var = (
-        g_tau_var * (abs(phi_theta) + phi_theta_var)
-        + abs(g_tau) * phi_theta_var
-        + phi_tau_var * (abs(g_theta) + g_theta_var)
-        + abs(phi_tau) * g_theta_var
-    )
-    remainder_g = (
-        smaller(0.5 * g_tt_bound * a + g_tv_bound * b + g_theta_error, g_theta_change) * a
-        + (0.5 * g_vv_bound * b + g_tau_error) * b
-        + g_error
-    )
-    remainder_phi = (
-        smaller(
-            (0.5 * phi_tt_bound * a + phi_tv_bound * b + phi_theta_error) * a
-            + (0.5 * phi_vv_bound * b + phi_tau_error) * b,
-            phi_theta_change * a + phi_tau_change * b,
-        )
-        + phi_error
-    )
-    edge_root_excluded = abs(g * phi_tau - phi * g_tau) > a * abs(jac) + remainder_g * abs(
-        phi_tau
-    ) + remainder_phi * abs(g_tau) or abs(g * phi_theta - phi * g_theta) > b * abs(jac) + remainder_g * abs(
-        phi_theta
-    ) + remainder_phi * abs(g_theta)
-    thread_root_excluded, thread_by_time = tangency(
-        a,
-        b,
-        (phi, phi_theta, phi_tau, phi_tt_low, phi_tt_high, phi_tv_mid, phi_tv_var, phi_vv_bound),
-        phi_theta_error,
-        remainder_phi,
-    )
-    plane_root_excluded, plane_by_time = tangency(
-        a,
-        b,
-        (g, g_theta, g_tau, g_tt_low, g_tt_high, g_tv_mid, g_tv_var, g_vv_bound),
-        g_theta_error,
-        remainder_g,
-    )
-    # At most one onset: the peak is unique, and rises or falls at all times.
-    peak_edge = phi_monotonic and g_monotonic
-    peak_thread = g_low > 0.0 and phi_tt_high < 0.0
-    peak_plane = phi_low > 0.0 and g_tt_high < 0.0
-    one_edge = peak_edge and abs(jac) > jac_var
-    one_thread = peak_thread and abs(phi_tau) > phi_tau_var
-    one_plane = peak_plane and abs(g_tau) > g_tau_var
-    edge_peak_sinks = one_edge and jac * (phi_theta - g_theta) < 0.0
-    thread_peak_is_open = phi - (phi_tau + phi_tau_error + 0.5 * phi_vv_bound * b) * b > phi_error
-    plane_peak_is_open = g - (g_tau + g_tau_error + 0.5 * g_vv_bound * b) * b > g_error
-    thread_peak_no_onset = one_thread and (phi_tau < 0.0 or thread_peak_is_open)
-    plane_peak_no_onset = one_plane and (g_tau < 0.0 or plane_peak_is_open)
-    no_edge = (
-        g_low > 0.0
-        or phi_low > 0.0
-        or (peak_edge and phi_theta * g_theta > 0.0)
-        or edge_root_excluded
-        or edge_peak_sinks
-    )
-    no_thread = phi_monotonic or phi_tt_low > 0.0 or phi_low > 0.0 or thread_peak_no_onset or thread_root_excluded
-    no_plane = g_monotonic or g_tt_low > 0.0 or g_low > 0.0 or plane_peak_no_onset or plane_root_excluded
-    excluded = no_edge and no_thread and no_plane
-    # Where to split: by the variable that contributes more to the uncertainty of a peak's height, or else to the
-    # relative uncertainty of the undecided functions.
-    edge_by_time = b * abs(jac) + 0.5 * b * b * (g_vv_bound * abs(phi_theta) + phi_vv_bound * abs(g_theta))
-    edge_by_theta = a * (
-        (0.5 * g_tt_bound * a + g_tv_bound * b) * abs(phi_theta)
-        + (0.5 * phi_tt_bound * a + phi_tv_bound * b) * abs(g_theta)
-    )
-    phi_weight = 0.0 if phi_monotonic and not g_monotonic else 1.0
-    g_weight = 0.0 if g_low > 0.0 or (g_monotonic and not phi_monotonic) else 1.0
-    size_phi, size_phi_theta = abs(phi) + 1e-30, abs(phi_theta) + 1e-30
-    size_g, size_g_theta = abs(g) + 1e-30, abs(g_theta) + 1e-30
+    phi_weight, g_weight = weights
+    size_phi, size_phi_theta = abs(phi.value) + 1e-30, abs(phi.by_theta) + 1e-30
+    size_g, size_g_theta = abs(g.value) + 1e-30, abs(g.by_theta) + 1e-30
     phi_value_weight = phi_weight * size_phi_theta * size_g * size_g_theta
     phi_slope_weight = phi_weight * size_phi * size_g * size_g_theta
     g_value_weight = g_weight * size_phi * size_phi_theta * size_g_theta
     g_slope_weight = g_weight * size_phi * size_phi_theta * size_g
-    uncertainty_by_theta = (
-        phi_theta_bound * phi_value_weight
-        + phi_tt_bound * phi_slope_weight
-        + abs(g_theta) * g_value_weight
-        + g_tt_bound * g_slope_weight
+    by_theta = (
+        theta_bound * phi_value_weight
+        + phi_size.tt * phi_slope_weight
+        + abs(g.by_theta) * g_value_weight
+        + g_size.tt * g_slope_weight
     ) * a
-    uncertainty_by_time = (
-        phi_time_change * phi_value_weight
-        + phi_tv_bound * b * phi_slope_weight
-        + abs(g_tau) * b * g_value_weight
-        + g_tv_bound * b * g_slope_weight
+    by_time = (
+        time_change * phi_value_weight
+        + phi_size.tv * b * phi_slope_weight
+        + abs(g.by_tau) * b * g_value_weight
+        + g_size.tv * b * g_slope_weight
     )
-    by_time = uncertainty_by_time > uncertainty_by_theta
+    return by_time > by_theta
+
+
+@kernel(contract=True, forceinline=True)
+def classify_box(a: float, b: float, phi: Ranges, g: Ranges, depth: float, p: float) -> tuple[float, float, float]:
+    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`, the least g in it, and
+    whether to split it by time (1) or by azimuth (0) where that leaves it undecided.
+
+    It is split by the variable that contributes more to the uncertainty of a peak's height, or else to the relative
+    uncertainty of the undecided functions. The function is long: it is the list of the cases, each named once.
+    """
+    phi_size, g_size = sizes_over(a, b, phi), sizes_over(a, b, g)
+    phi_low, phi_high, theta_bound, time_change = phi_over(a, b, phi, phi_size)
+    g_low, g_high = g_over(a, b, g, g_size)
+    phi_monotonic = abs(phi.by_theta) > phi_size.theta_var
+    g_monotonic = abs(g.by_theta) > g_size.theta_var
+    all_outside = phi_high < 0.0 or g_high < 0.0 or depth > p
+    jac, jac_var = jacobian(phi, g, phi_size, g_size)
+    remainder_phi, remainder_g = remainders(a, b, phi, g, phi_size, g_size)
+    edge_root_excluded = excludes_edge_root(a, b, phi, g, jac, remainder_phi, remainder_g)
+    thread_root_excluded, thread_by_time = tangency(a, b, phi, remainder_phi)
+    plane_root_excluded, plane_by_time = tangency(a, b, g, remainder_g)
+    # At most one onset: the peak is unique, and rises or falls at all times.
+    peak_edge = phi_monotonic and g_monotonic
+    peak_thread = g_low > 0.0 and phi.tt_high < 0.0
+    peak_plane = phi_low > 0.0 and g.tt_high < 0.0
+    one_edge = peak_edge and abs(jac) > jac_var
+    one_thread = peak_thread and abs(phi.by_tau) > phi_size.tau_var
+    one_plane = peak_plane and abs(g.by_tau) > g_size.tau_var
+    edge_peak_sinks = one_edge and jac * (phi.by_theta - g.by_theta) < 0.0
+    thread_peak_is_open = phi.value - (phi.by_tau + phi.tau_error + 0.5 * phi.vv * b) * b > phi.error
+    plane_peak_is_open = g.value - (g.by_tau + g.tau_error + 0.5 * g.vv * b) * b > g.error
+    thread_peak_no_onset = one_thread and (phi.by_tau < 0.0 or thread_peak_is_open)
+    plane_peak_no_onset = one_plane and (g.by_tau < 0.0 or plane_peak_is_open)
+    no_edge = (
+        g_low > 0.0
+        or phi_low > 0.0
+        or (peak_edge and phi.by_theta * g.by_theta > 0.0)
+        or edge_root_excluded
+        or edge_peak_sinks
+    )
+    no_thread = phi_monotonic or phi.tt_low > 0.0 or phi_low > 0.0 or thread_peak_no_onset or thread_root_excluded
+    no_plane = g_monotonic or g.tt_low > 0.0 or g_low > 0.0 or plane_peak_no_onset or plane_root_excluded
+    excluded = no_edge and no_thread and no_plane
+    weights = (
+        0.0 if phi_monotonic and not g_monotonic else 1.0,
+        0.0 if g_low > 0.0 or (g_monotonic and not phi_monotonic) else 1.0,
+    )
+    by_time = splits_by_time(a, b, phi, g, phi_size, g_size, weights, theta_bound, time_change)
     by_time = plane_by_time if peak_plane else by_time
     by_time = thread_by_time if peak_thread else by_time
-    by_time = edge_by_time > edge_by_theta if peak_edge else by_time
+    by_time = splits_edge_by_time(a, b, phi, g, phi_size, g_size, jac) if peak_edge else by_time
     box_class = PEAK_PLANE if peak_plane else UNDECIDED_BOX
     box_class = PEAK_THREAD if peak_thread else box_class
     box_class = PEAK_EDGE if peak_edge else box_class
@@ -226,6 +284,27 @@ def classify_box(
     box_class = ONE_EDGE if one_edge else box_class
     box_class = EXCLUDED if excluded else box_class
     return ALL_OUTSIDE if all_outside else box_class, g_low, 1.0 if by_time else 0.0
+
+
+@kernel(contract=True, forceinline=True)
+def with_value(of_one: Ranges, value: float, error: float) -> Ranges:
+    """Ranges of which the value in the middle and its error are known better; NaN: they are not."""
+    is_known = not math.isnan(value)
+    return Ranges(
+        value if is_known else of_one.value,
+        of_one.by_theta,
+        of_one.by_tau,
+        of_one.tt_low,
+        of_one.tt_high,
+        of_one.tv,
+        of_one.tv_var,
+        of_one.vv,
+        of_one.theta_change,
+        of_one.tau_change,
+        error if is_known else of_one.error,
+        of_one.theta_error,
+        of_one.tau_error,
+    )
 
 
 @kernel(contract=True)
@@ -241,10 +320,9 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
         start, end = boxes[X_START + i], boxes[X_END + i]
         tau, b = 0.5 * (start + end), 0.5 * (end - start) + OVERLAP * abs(end)
         of_phi, of_g, depth = ranges(boxes[X_THETA + i], a, tau, b, x_axis, y_axis, origin, rest, curve, solid, sizes)
-        g, phi = boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i]
         error = error_beside(tau, sizes) * boxes[X_GAP + i]
-        of_g = of_g if math.isnan(g) else (g, *of_g[1:9], error, *of_g[10:])
-        of_phi = of_phi if math.isnan(phi) else (phi, *of_phi[1:10], error, *of_phi[11:])
-        boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = classify_box(a, b, of_phi, of_g, depth, p)
-        boxes[X_DEPTH + i] = smaller(of_phi[0], of_g[0])
-        boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = of_phi[3], of_phi[4]
+        g = with_value(of_g, boxes[X_G_BESIDE + i], error)
+        phi = with_value(of_phi, boxes[X_PHI_BESIDE + i], error)
+        boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = classify_box(a, b, phi, g, depth, p)
+        boxes[X_DEPTH + i] = smaller(phi.value, g.value)
+        boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = phi.tt_low, phi.tt_high

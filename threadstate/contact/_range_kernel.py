@@ -16,27 +16,14 @@ parts, whose g and phi nearly vanish too.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import (
-    Numbers,
-    azimuth,
-    larger,
-    radius_and_slope,
-    second_derivative_range,
-    sine_cosine,
-    smaller,
-)
-from threadstate.contact._frame_kernel import (
-    cylindrical_components,
-    linear_combination,
-    motion_coefficients,
-    moved_vector,
-    vector_rate,
-)
+from threadstate.contact._branchless_kernel import Numbers, larger, second_derivative_range, smaller
+from threadstate.contact._curve_point_kernel import CurvePoint, PhiPoint, curve_at, phi_at
 from threadstate.contact._geometry_kernel import M_KIND, M_OFF, M_POINT, TWO_PI
 from threadstate.thread import _profile_kernel as pk
 
@@ -51,6 +38,91 @@ LARGEST_MISALIGNMENT = 0.25
 
 GROWTH = 1.72
 """exp(x) <= 1 + GROWTH x for 0 <= x <= 1: it is more than e - 1."""
+
+
+class Ranges(NamedTuple):
+    """Of g or phi over a box: the value in its middle, and what bounds it elsewhere.
+
+    ``by_theta`` and ``by_tau`` are its derivatives in the middle. ``tt_low`` to ``tt_high`` is the range of the second
+    one by theta; ``tv`` is the mixed one in the middle, ``tv_var`` bounds its variation, ``vv`` the size of the second
+    one by tau. ``theta_change`` and ``tau_change`` bound how far the derivatives by theta and tau change, infinite for
+    g's by tau: at a corner, where second derivatives are large, these are what bounds the function. ``error``,
+    ``theta_error`` and ``tau_error`` bound the round-off of the value and of its two derivatives; that of all else is
+    a part of the bounds.
+    """
+
+    value: float
+    by_theta: float
+    by_tau: float
+    tt_low: float
+    tt_high: float
+    tv: float
+    tv_var: float
+    vv: float
+    theta_change: float
+    tau_change: float
+    error: float
+    theta_error: float
+    tau_error: float
+
+
+class Changes(NamedTuple):
+    """Bounds over a box, from its middle on (docs/certificate.md, section 3).
+
+    ``c1`` bounds T, ``r2`` the size of r'', ``speed`` V; ``d_r1`` how far r' changes and ``c2_a`` how far T does in its
+    own frame; ``position_error`` and ``velocity_error`` round-off; ``move`` how far the point goes; ``inverse_r`` is
+    the largest 1 / r, ``k_r`` and ``helix`` the absolute k / r and one more; ``azimuth`` and ``directions`` how far the
+    solid's and both parts' directions turn, ``by_time`` the latter by time alone; ``d_t`` and ``d_v`` how far T and V
+    change.
+    """
+
+    c1: float
+    r2: float
+    speed: float
+    d_r1: float
+    c2_a: float
+    position_error: float
+    velocity_error: float
+    move: float
+    inverse_r: float
+    k_r: float
+    helix: float
+    azimuth: float
+    directions: float
+    by_time: float
+    d_t: float
+    d_v: float
+
+
+class Alignment(NamedTuple):
+    """Whether two parts are so nearly coaxial that the :func:`third_derivative_bounds` hold, and these."""
+
+    aligned: bool
+    radial_3: float
+    helical_3: float
+    factor_r: float
+    factor_s: float
+
+
+class Helix(NamedTuple):
+    """The helical coordinate s and the solid's profile f over a box (docs/certificate.md, section 5).
+
+    ``d_s_theta`` and ``d_s_tau`` are how far s_T and s_V change, ``s_theta_low``, ``s_theta_high`` and ``s_tau_high``
+    bounds on their sizes; ``f2_low`` to ``f2_high`` is the range of f'', ``f2`` bounds its size, ``d_f1`` how far f'
+    changes, ``steep`` the size of f' and ``gradient`` that of grad phi.
+    """
+
+    d_s_theta: float
+    d_s_tau: float
+    s_theta_low: float
+    s_theta_high: float
+    s_tau_high: float
+    f2_low: float
+    f2_high: float
+    f2: float
+    d_f1: float
+    steep: float
+    gradient: float
 
 
 @kernel(contract=True, forceinline=True)
@@ -123,6 +195,308 @@ def third_derivative_bounds(
 
 
 @kernel(contract=True, forceinline=True)
+def changes_over(
+    a: float, b: float, tau: float, turning: float, edge: CurvePoint, middle: PhiPoint, sizes: Numbers
+) -> Changes:
+    """How far position, directions and speed of the curve, and the solid's directions, change over a box at most."""
+    k, r_bound, r1_bound, _, r_minor, base_error, error_by_time, rate_error = sizes
+    v_ = edge.v
+    c1 = math.sqrt(r_bound * r_bound + r1_bound * r1_bound)
+    r2_bound = larger(edge.r2_high, -edge.r2_low)
+    speed = math.sqrt(v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2])
+    speed_bound = speed + turning * c1 * a
+    # Over a corner r' changes by no more than it can as a whole, however large r'' is there.
+    d_r1 = smaller(r2_bound * a, 2.0 * r1_bound)
+    position_error = base_error + error_by_time * abs(tau)
+    move = c1 * a + speed_bound * b + 2.0 * position_error
+    r_low = larger(middle.radius - move, 0.5 * r_minor)
+    inverse_r = 1.0 / r_low
+    k_r_bound = abs(k) * inverse_r
+    azimuth_change = move * inverse_r
+    direction_change = a + turning * b + azimuth_change
+    change_by_time = b * (turning + speed_bound * inverse_r)
+    c2_a = d_r1 + (r_bound + 2.0 * r1_bound) * a
+    d_t = c1 * direction_change + d_r1 + r1_bound * a
+    d_v = speed_bound * direction_change + speed_bound - speed
+    v_error = turning * (position_error + rate_error) + 2.0 * position_error * speed_bound * inverse_r
+    return Changes(
+        c1,
+        r2_bound,
+        speed_bound,
+        d_r1,
+        c2_a,
+        position_error,
+        v_error,
+        move,
+        inverse_r,
+        k_r_bound,
+        1.0 + k_r_bound,
+        azimuth_change,
+        direction_change,
+        change_by_time,
+        d_t,
+        d_v,
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def near_alignment(
+    a: float, b: float, turning: float, edge: CurvePoint, middle: PhiPoint, change: Changes, sizes: Numbers
+) -> Alignment:
+    """What bounds third derivatives where both parts are nearly coaxial."""
+    r_bound, r1_bound = sizes[1], sizes[2]
+    inverse_r = change.inverse_r
+    sine = smaller(math.sqrt(edge.m1z * edge.m1z + edge.m2z * edge.m2z) + turning * b, 1.0)
+    # P_t, Q_r, 1 - T_t / r grow by azimuth at a rate in proportion to themselves (Gronwall).
+    rate = 1.0 + inverse_r * (change.r2 + (1.0 + 0.5 * LARGEST_MISALIGNMENT) * r_bound + 2.0 * r1_bound)
+    misaligned = larger(abs(middle.p[1]), abs(middle.qr)) + abs(1.0 - middle.t[1] * middle.inverse)
+    misaligned = misaligned + 8.0 * change.position_error * inverse_r
+    misaligned = (misaligned + sine * sine + change.by_time * (1.0 + 2.0 * change.c1 * inverse_r)) * (
+        1.0 + GROWTH * rate * a
+    )
+    radial_3, helical_3, factor_r, factor_s = third_derivative_bounds(
+        misaligned, sine, change.r2, r_bound, r1_bound, inverse_r, change.k_r
+    )
+    aligned = rate * a < 1.0 and misaligned < LARGEST_MISALIGNMENT
+    return Alignment(aligned, radial_3, helical_3, factor_r, factor_s)
+
+
+@kernel(contract=True, forceinline=True)
+def helix_over(
+    a: float,
+    b: float,
+    turning: float,
+    middle: PhiPoint,
+    change: Changes,
+    near: Alignment,
+    sizes: Numbers,
+    solid: Numbers,
+) -> Helix:
+    """The helical coordinate of the curve, and with it f' and f'', over a box."""
+    r_bound, r1_bound, cot = sizes[1], sizes[2], sizes[3]
+    _, _, ts = middle.t
+    _, _, vs = middle.v
+    _, _, ps = middle.p
+    c1, r2_bound, inverse_r, k_r_bound, helix = change.c1, change.r2, change.inverse_r, change.k_r, change.helix
+    s_tt = helix * ((r_bound + 2.0 * r1_bound + r2_bound) * change.directions + r1_bound * a + 2.0 * change.d_r1) + (
+        2.0 * k_r_bound * inverse_r * c1 * (change.d_t + c1 * change.azimuth)
+    )
+    near_s_tt = (near.helical_3 + r2_bound * near.factor_s) * a + (
+        helix * (r_bound + 2.0 * r1_bound + r2_bound) + 2.0 * k_r_bound * inverse_r * c1 * c1
+    ) * change.by_time
+    s_tt = abs(middle.flat_s_tt) + r2_bound * abs(ps) + (smaller(near_s_tt, s_tt) if near.aligned else s_tt)
+    s_tv = turning * c1 * helix + k_r_bound * c1 * change.speed * inverse_r
+    s_vv = turning * change.speed * helix + k_r_bound * change.speed * change.speed * inverse_r
+    s_error = change.position_error * (1.0 + c1 * inverse_r) * helix
+    d_s_theta = s_error + smaller(
+        s_tt * a + s_tv * b,
+        (abs(ps) + helix * change.directions) * change.d_r1 + helix * (r1_bound * a + c1 * change.directions),
+    )
+    s_theta_high = abs(ts) + d_s_theta
+    d_s_tau = s_tv * a + s_vv * b + helix * change.velocity_error
+    s_tau_high = abs(vs) + d_s_tau
+    reach = s_theta_high * a + s_tau_high * b
+    f2_low, f2_high = second_derivative_range(middle.u, reach, middle.rises, solid)
+    f2 = larger(f2_high, -f2_low)
+    d_f1 = smaller(f2 * reach, 2.0 * cot)
+    steep = smaller(abs(middle.f1) + d_f1, cot)
+    return Helix(
+        d_s_theta,
+        d_s_tau,
+        larger(abs(ts) - d_s_theta, 0.0),
+        s_theta_high,
+        s_tau_high,
+        f2_low,
+        f2_high,
+        f2,
+        d_f1,
+        steep,
+        1.0 + steep * helix,
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def variations(
+    a: float,
+    b: float,
+    turning: float,
+    middle: PhiPoint,
+    change: Changes,
+    near: Alignment,
+    over: Helix,
+    sizes: Numbers,
+) -> tuple[float, float, float]:
+    """By how much the second derivatives of phi, without the terms of r'' and f'', vary over a box."""
+    r_bound, r1_bound = sizes[1], sizes[2]
+    tr, tt, _ = middle.t
+    vr, vt, _ = middle.v
+    c1, inverse_r, k_r_bound, speed_bound = change.c1, change.inverse_r, change.k_r, change.speed
+    d_t, d_v, gradient_bound, steep = change.d_t, change.d_v, over.gradient, over.steep
+    radius_change = smaller(((abs(tr) + d_t) * a + (abs(vr) + d_v) * b) * inverse_r, change.azimuth)
+    curvature_factor = inverse_r * (1.0 + 2.0 * steep * k_r_bound)
+    tt_error = 4.0 * gradient_bound * change.position_error * (1.0 + c1 * inverse_r) ** 2
+    var_tt = (
+        gradient_bound * ((r_bound + 2.0 * r1_bound) * change.directions + r1_bound * a + 2.0 * change.d_r1)
+        + inverse_r * (2.0 * c1 * d_t + c1 * c1 * radius_change)
+        + 2.0 * steep * k_r_bound * inverse_r * (c1 * d_t + c1 * c1 * radius_change)
+    )
+    near_tt = (near.radial_3 + steep * near.helical_3) * a + (
+        gradient_bound * (r_bound + 2.0 * r1_bound) + 2.0 * inverse_r * c1 * c1 * (1.0 + steep * k_r_bound)
+    ) * change.by_time
+    var_tt = (smaller(near_tt, var_tt) if near.aligned else var_tt) + over.d_f1 * abs(middle.flat_s_tt) + tt_error
+    var_tv = (
+        gradient_bound * turning * (c1 * change.directions + change.c2_a)
+        + curvature_factor * (c1 * d_v + speed_bound * d_t + c1 * speed_bound * radius_change)
+        + over.d_f1 * (abs(middle.ws) + middle.k_rr * abs(tr * vt + tt * vr))
+        + 4.0 * gradient_bound * (1.0 + c1 * inverse_r) * change.velocity_error
+    )
+    var_vv = (
+        gradient_bound * turning * d_v
+        + curvature_factor * (2.0 * speed_bound * d_v + speed_bound * speed_bound * radius_change)
+        + over.d_f1 * (abs(middle.a_s) + 2.0 * middle.k_rr * abs(vr * vt))
+        + 4.0 * gradient_bound * (turning + speed_bound * inverse_r) * change.velocity_error
+    )
+    return var_tt, var_tv, var_vv
+
+
+@kernel(contract=True, forceinline=True)
+def phi_ranges(
+    a: float,
+    sigma: float,
+    edge: CurvePoint,
+    middle: PhiPoint,
+    change: Changes,
+    near: Alignment,
+    over: Helix,
+    varied: tuple[float, float, float],
+) -> Ranges:
+    """The ranges of phi, as :func:`ranges` has them; ``varied`` are the :func:`variations`."""
+    var_tt, var_tv, var_vv = varied
+    _, _, ts = middle.t
+    _, _, vs = middle.v
+    pr, _, ps = middle.p
+    r2_low, r2_high, f1, gradient_bound = edge.r2_low, edge.r2_high, middle.f1, over.gradient
+    s_theta_low, s_theta_high, s_tau_high = over.s_theta_low, over.s_theta_high, over.s_tau_high
+    f2_low, f2_high, f2 = over.f2_low, over.f2_high, over.f2
+    # The terms of r'' and f'': r'' times grad phi . P, less f'' s_U s_V.
+    along = pr - f1 * ps
+    near_along = (near.factor_r + over.steep * near.factor_s) * a + gradient_bound * change.by_time
+    var_along = gradient_bound * change.directions
+    var_along = (smaller(near_along, var_along) if near.aligned else var_along) + over.d_f1 * abs(ps)
+    along_high = along + var_along
+    along_low = along - var_along
+    bend_high = larger(
+        larger(r2_high * along_high, r2_high * along_low), larger(r2_low * along_high, r2_low * along_low)
+    )
+    bend_low = smaller(
+        smaller(r2_high * along_high, r2_high * along_low), smaller(r2_low * along_high, r2_low * along_low)
+    )
+    rounded = 32.0 * UNIT * (larger(bend_high, -bend_low) + f2 * s_theta_high * s_theta_high + var_tt)
+    tt_high = middle.flat_tt + var_tt + bend_high + rounded
+    tt_low = middle.flat_tt - var_tt + bend_low - rounded
+    tt_high -= f2_low * (s_theta_high * s_theta_high if f2_low < 0.0 else s_theta_low * s_theta_low)
+    tt_low -= f2_high * (s_theta_high * s_theta_high if f2_high > 0.0 else s_theta_low * s_theta_low)
+    tv_mid = middle.flat_tv - 0.5 * (f2_low + f2_high) * ts * vs
+    tv_var = var_tv + 0.5 * (f2_high - f2_low) * abs(ts * vs) + f2 * (s_theta_high * s_tau_high - abs(ts * vs))
+    vv = abs(middle.flat_vv) + var_vv + f2 * s_tau_high * s_tau_high
+    outward = sigma > 0.0
+    theta_error = gradient_bound * (1.0 + 2.0 * change.c1 * change.inverse_r) * change.position_error
+    tau_error = gradient_bound * change.velocity_error
+    return Ranges(
+        sigma * middle.phi,
+        sigma * middle.phi_t,
+        sigma * middle.phi_v,
+        tt_low if outward else -tt_high,
+        tt_high if outward else -tt_low,
+        sigma * tv_mid,
+        tv_var,
+        vv,
+        change.d_t + over.d_f1 * s_theta_high + abs(f1) * over.d_s_theta + theta_error,
+        change.d_v + over.d_f1 * s_tau_high + abs(f1) * over.d_s_tau + tau_error,
+        gradient_bound * change.position_error,
+        theta_error,
+        tau_error,
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def known_by_radius(phi: Ranges, sigma: float, radius: float, move: float, r_minor: float) -> Ranges:
+    """The ranges of phi, or those that the radius alone gives where the curve comes near the solid's axis.
+
+    There phi bends without bound, but its sign is known.
+    """
+    near_axis = radius - move < 0.5 * r_minor
+    depth_there = r_minor - radius - move
+    unknown = 0.0 if depth_there > 0.0 else math.inf
+    return Ranges(
+        (-sigma * depth_there if depth_there > 0.0 else 0.0) if near_axis else phi.value,
+        0.0 if near_axis else phi.by_theta,
+        0.0 if near_axis else phi.by_tau,
+        -unknown if near_axis else phi.tt_low,
+        unknown if near_axis else phi.tt_high,
+        0.0 if near_axis else phi.tv,
+        0.0 if near_axis else phi.tv_var,
+        0.0 if near_axis else phi.vv,
+        unknown if near_axis else phi.theta_change,
+        0.0 if near_axis else phi.tau_change,
+        0.0 if near_axis else phi.error,
+        0.0 if near_axis else phi.theta_error,
+        0.0 if near_axis else phi.tau_error,
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def g_ranges(
+    a: float,
+    b: float,
+    x_axis: Numbers,
+    y_axis: Numbers,
+    origin: Numbers,
+    rest: Numbers,
+    edge: CurvePoint,
+    change: Changes,
+    sizes: Numbers,
+) -> Ranges:
+    """The ranges of g, as :func:`ranges` has them.
+
+    Where the axis lies in both planes its sign stays that of the start, whose value is used instead.
+    """
+    turning, sigma, moving = rest[0], rest[1], rest[2]
+    _, r_bound, r1_bound, _, _, _, _, rate_error = sizes
+    r, dr, r2_low, r2_high = edge.r, edge.dr, edge.r2_low, edge.r2_high
+    position_error, d_r1, c1, r2_bound = change.position_error, change.d_r1, change.c1, change.r2
+    m1z = edge.m1z if moving > 0.0 else x_axis[2]
+    m2z = edge.m2z if moving > 0.0 else y_axis[2]
+    height = edge.height if moving > 0.0 else origin[2]
+    turning_moving = turning * moving
+    p_g = -sigma * (m1z * edge.cos_theta + m2z * edge.sin_theta)
+    q_g = -sigma * (m2z * edge.cos_theta - m1z * edge.sin_theta)
+    sine_g = smaller(math.sqrt(m1z * m1z + m2z * m2z) + turning_moving * b, 1.0)
+    tilting = sine_g * a + turning_moving * b
+    var_g = sine_g * (a * (r_bound + 3.0 * r1_bound) + 2.0 * r2_bound * a) + turning_moving * b * (
+        r_bound + 2.0 * r1_bound
+    )
+    var_g += r2_bound * (tilting + 32.0 * UNIT) + 4.0 * position_error
+    flat_g = 2.0 * dr * q_g - r * p_g
+    g_tau_error = turning_moving * (position_error + rate_error)
+    return Ranges(
+        r * p_g - sigma * height,
+        dr * p_g + r * q_g,
+        -sigma * edge.v[2] * moving,
+        flat_g - var_g + (r2_low if p_g > 0.0 else r2_high) * p_g,
+        flat_g + var_g + (r2_high if p_g > 0.0 else r2_low) * p_g,
+        -sigma * edge.w[2] * turning_moving,
+        turning_moving * (change.c2_a + c1 * b + 4.0 * position_error),
+        turning_moving * (abs(edge.a[2]) + c1 * a + change.speed * b + 4.0 * (position_error + rate_error)),
+        d_r1 * (abs(p_g) + tilting) + r1_bound * sine_g * a + c1 * tilting + position_error,
+        math.inf,
+        position_error,
+        position_error,
+        g_tau_error,
+    )
+
+
+@kernel(contract=True, forceinline=True)
 def ranges(
     theta: float,
     a: float,
@@ -135,234 +509,21 @@ def ranges(
     curve: Numbers,
     solid: Numbers,
     sizes: Numbers,
-) -> tuple[Numbers, Numbers, float]:
+) -> tuple[Ranges, Ranges, float]:
     """The ranges of phi and g over theta +- a, tau +- b, and the least depth below the solid's plane.
 
     ``x_axis`` to ``rest`` are the :func:`motion_numbers`, ``curve`` and ``solid`` the :func:`profile_numbers`,
-    ``sizes`` the :func:`size_numbers`. Of either function: its value in the middle, its derivatives there by theta and
-    tau, bounds from below and above on the second derivative by theta, the mixed one (in the middle, and a bound on its
-    variation), a bound on the size of the second by tau, and one on how far the derivative by theta changes, of phi
-    also that by tau: at a corner, where second derivatives are large, these are what bounds the function. Then the
-    bounds on the round-off of the value and of its two derivatives; those on all else are parts of the bounds.
+    ``sizes`` the :func:`size_numbers`.
     """
-    turning, sigma, moving, ax, ay, az = rest
-    k, r_bound, r1_bound, cot, r_minor, base_error, error_by_time, rate_error = sizes
-    c1 = math.sqrt(r_bound * r_bound + r1_bound * r1_bound)
-    # The edge curve: r, r', the range of r''.
-    sin_theta, cos_theta = sine_cosine(theta)
-    r, slope, u, curve_rises = radius_and_slope(-k * theta, curve)
-    dr = -k * slope
-    r2_low, r2_high = second_derivative_range(u, abs(k) * a, curve_rises, curve)
-    r2_low *= k * k
-    r2_high *= k * k
-    r2_bound = larger(r2_high, -r2_low)
-    # Where it is at tau, and its derivatives.
-    by_sine, by_versine, d_sine, d_versine = motion_coefficients(tau, turning)
-    m1, m2, place_o = (
-        moved_vector(x_axis, by_sine, by_versine),
-        moved_vector(y_axis, by_sine, by_versine),
-        moved_vector(origin, by_sine, by_versine),
-    )
-    n1, n2, speed_o = (
-        vector_rate(x_axis, d_sine, d_versine),
-        vector_rate(y_axis, d_sine, d_versine),
-        vector_rate(origin, d_sine, d_versine),
-    )
-    p_ = linear_combination(m1, m2, cos_theta, sin_theta)
-    q_ = linear_combination(m2, m1, cos_theta, -sin_theta)
-    p_tau = linear_combination(n1, n2, cos_theta, sin_theta)
-    q_tau = linear_combination(n2, n1, cos_theta, -sin_theta)
-    x, y, z = r * p_[0] + place_o[0], r * p_[1] + place_o[1], r * p_[2] + place_o[2]
-    t_ = (dr * p_[0] + r * q_[0], dr * p_[1] + r * q_[1], dr * p_[2] + r * q_[2])
-    v_ = (r * p_tau[0] + speed_o[0], r * p_tau[1] + speed_o[1], r * p_tau[2] + speed_o[2])
-    w_ = (dr * p_tau[0] + r * q_tau[0], dr * p_tau[1] + r * q_tau[1], dr * p_tau[2] + r * q_tau[2])
-    a_ = (
-        (ay * v_[2] - az * v_[1]) * turning,
-        (az * v_[0] - ax * v_[2]) * turning,
-        (ax * v_[1] - ay * v_[0]) * turning,
-    )
-    # phi in the middle; its second derivatives without the terms of r'' and f''.
-    radius = math.sqrt(x * x + y * y)
-    inverse = 1.0 / radius
-    rx, ry = x * inverse, y * inverse
-    k_r = k * inverse
-    k_rr = k_r * inverse
-    f, f1, u, rises = radius_and_slope(z - k * azimuth(x, y, radius), solid)
-    tr, tt, ts = cylindrical_components(t_, rx, ry, k_r)
-    vr, vt, vs = cylindrical_components(v_, rx, ry, k_r)
-    pr, pt, ps = cylindrical_components(p_, rx, ry, k_r)
-    qr, _, qs = cylindrical_components(q_, rx, ry, k_r)
-    wr, _, ws = cylindrical_components(w_, rx, ry, k_r)
-    ar, _, a_s = cylindrical_components(a_, rx, ry, k_r)
-    phi, phi_t, phi_v = radius - f, tr - f1 * ts, vr - f1 * vs
-    flat_s_tt = -r * ps + 2.0 * dr * qs + 2.0 * k_rr * tr * tt
-    flat_tt = -r * pr + 2.0 * dr * qr + tt * tt * inverse - f1 * flat_s_tt
-    flat_tv = wr - f1 * ws + tt * vt * inverse - f1 * k_rr * (tr * vt + tt * vr)
-    flat_vv = ar - f1 * a_s + vt * vt * inverse - 2.0 * f1 * k_rr * vr * vt
-    # Bounds on the speed of the curve in the box, and on the change of its directions and of the solid's.
-    speed = math.sqrt(v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2])
-    speed_bound = speed + turning * c1 * a
-    # Over a corner r' changes by no more than it can as a whole, however large r'' is there.
-    d_r1 = smaller(r2_bound * a, 2.0 * r1_bound)
-    c2_a = d_r1 + (r_bound + 2.0 * r1_bound) * a
-    position_error = base_error + error_by_time * abs(tau)
-    move = c1 * a + speed_bound * b + 2.0 * position_error
-    r_low = larger(radius - move, 0.5 * r_minor)
-    inverse_r = 1.0 / r_low
-    k_r_bound = abs(k) * inverse_r
-    azimuth_change = move * inverse_r
-    direction_change = a + turning * b + azimuth_change
-    change_by_time = b * (turning + speed_bound * inverse_r)
-    sine = smaller(math.sqrt(m1[2] * m1[2] + m2[2] * m2[2]) + turning * b, 1.0)
-    # P_t, Q_r, 1 - T_t / r grow by azimuth at a rate in proportion to themselves (Gronwall).
-    rate = 1.0 + inverse_r * (r2_bound + (1.0 + 0.5 * LARGEST_MISALIGNMENT) * r_bound + 2.0 * r1_bound)
-    misaligned = larger(abs(pt), abs(qr)) + abs(1.0 - tt * inverse) + 8.0 * position_error * inverse_r
-    misaligned = (misaligned + sine * sine + change_by_time * (1.0 + 2.0 * c1 * inverse_r)) * (1.0 + GROWTH * rate * a)
-    aligned = rate * a < 1.0 and misaligned < LARGEST_MISALIGNMENT
-    radial_3, helical_3, factor_r, factor_s = third_derivative_bounds(
-        misaligned, sine, r2_bound, r_bound, r1_bound, inverse_r, k_r_bound
-    )
-    # The helical coordinate, and with it f' and f'', over the box.
-    d_t = c1 * direction_change + d_r1 + r1_bound * a
-    d_v = speed_bound * direction_change + speed_bound - speed
-    helix = 1.0 + k_r_bound
-    s_tt = helix * ((r_bound + 2.0 * r1_bound + r2_bound) * direction_change + r1_bound * a + 2.0 * d_r1) + (
-        2.0 * k_r_bound * inverse_r * c1 * (d_t + c1 * azimuth_change)
-    )
-    near_s_tt = (helical_3 + r2_bound * factor_s) * a + (
-        helix * (r_bound + 2.0 * r1_bound + r2_bound) + 2.0 * k_r_bound * inverse_r * c1 * c1
-    ) * change_by_time
-    s_tt = abs(flat_s_tt) + r2_bound * abs(ps) + (smaller(near_s_tt, s_tt) if aligned else s_tt)
-    s_tv = turning * c1 * helix + k_r_bound * c1 * speed_bound * inverse_r
-    s_vv = turning * speed_bound * helix + k_r_bound * speed_bound * speed_bound * inverse_r
-    # Round-off: of the helical coordinate, of vectors along the curve, of velocities.
-    s_error = position_error * (1.0 + c1 * inverse_r) * helix
-    v_error = turning * (position_error + rate_error) + 2.0 * position_error * speed_bound * inverse_r
-    d_s_theta = s_error + smaller(
-        s_tt * a + s_tv * b,
-        (abs(ps) + helix * direction_change) * d_r1 + helix * (r1_bound * a + c1 * direction_change),
-    )
-    s_theta_high = abs(ts) + d_s_theta
-    d_s_tau = s_tv * a + s_vv * b + helix * v_error
-    s_tau_high = abs(vs) + d_s_tau
-    s_theta_low = larger(abs(ts) - d_s_theta, 0.0)
-    reach = s_theta_high * a + s_tau_high * b
-    f2_low, f2_high = second_derivative_range(u, reach, rises, solid)
-    f2 = larger(f2_high, -f2_low)
-    d_f1 = smaller(f2 * reach, 2.0 * cot)
-    steep = smaller(abs(f1) + d_f1, cot)
-    gradient_bound = 1.0 + steep * helix
-    # Variation of the second derivatives without the terms of r'' and f''.
-    radius_change = smaller(((abs(tr) + d_t) * a + (abs(vr) + d_v) * b) * inverse_r, azimuth_change)
-    curvature_factor = inverse_r * (1.0 + 2.0 * steep * k_r_bound)
-    tt_error = 4.0 * gradient_bound * position_error * (1.0 + c1 * inverse_r) ** 2
-    var_tt = (
-        gradient_bound * ((r_bound + 2.0 * r1_bound) * direction_change + r1_bound * a + 2.0 * d_r1)
-        + inverse_r * (2.0 * c1 * d_t + c1 * c1 * radius_change)
-        + 2.0 * steep * k_r_bound * inverse_r * (c1 * d_t + c1 * c1 * radius_change)
-    )
-    near_tt = (radial_3 + steep * helical_3) * a + (
-        gradient_bound * (r_bound + 2.0 * r1_bound) + 2.0 * inverse_r * c1 * c1 * (1.0 + steep * k_r_bound)
-    ) * change_by_time
-    var_tt = (smaller(near_tt, var_tt) if aligned else var_tt) + d_f1 * abs(flat_s_tt) + tt_error
-    var_tv = (
-        gradient_bound * turning * (c1 * direction_change + c2_a)
-        + curvature_factor * (c1 * d_v + speed_bound * d_t + c1 * speed_bound * radius_change)
-        + d_f1 * (abs(ws) + k_rr * abs(tr * vt + tt * vr))
-        + 4.0 * gradient_bound * (1.0 + c1 * inverse_r) * v_error
-    )
-    var_vv = (
-        gradient_bound * turning * d_v
-        + curvature_factor * (2.0 * speed_bound * d_v + speed_bound * speed_bound * radius_change)
-        + d_f1 * (abs(a_s) + 2.0 * k_rr * abs(vr * vt))
-        + 4.0 * gradient_bound * (turning + speed_bound * inverse_r) * v_error
-    )
-    # The terms of r'' and f'': r'' times grad phi . P, less f'' s_U s_V.
-    along = pr - f1 * ps
-    near_along = (factor_r + steep * factor_s) * a + gradient_bound * change_by_time
-    var_along = gradient_bound * direction_change
-    var_along = (smaller(near_along, var_along) if aligned else var_along) + d_f1 * abs(ps)
-    along_high = along + var_along
-    along_low = along - var_along
-    bend_high = larger(
-        larger(r2_high * along_high, r2_high * along_low), larger(r2_low * along_high, r2_low * along_low)
-    )
-    bend_low = smaller(
-        smaller(r2_high * along_high, r2_high * along_low), smaller(r2_low * along_high, r2_low * along_low)
-    )
-    rounded = 32.0 * UNIT * (larger(bend_high, -bend_low) + f2 * s_theta_high * s_theta_high + var_tt)
-    tt_high = flat_tt + var_tt + bend_high + rounded
-    tt_low = flat_tt - var_tt + bend_low - rounded
-    tt_high -= f2_low * (s_theta_high * s_theta_high if f2_low < 0.0 else s_theta_low * s_theta_low)
-    tt_low -= f2_high * (s_theta_high * s_theta_high if f2_high > 0.0 else s_theta_low * s_theta_low)
-    tv_mid = flat_tv - 0.5 * (f2_low + f2_high) * ts * vs
-    tv_var = var_tv + 0.5 * (f2_high - f2_low) * abs(ts * vs) + f2 * (s_theta_high * s_tau_high - abs(ts * vs))
-    vv = abs(flat_vv) + var_vv + f2 * s_tau_high * s_tau_high
-    outward = sigma > 0.0
-    theta_error = gradient_bound * (1.0 + 2.0 * c1 * inverse_r) * position_error
-    tau_error = gradient_bound * v_error
-    of_phi = (
-        sigma * phi,
-        sigma * phi_t,
-        sigma * phi_v,
-        tt_low if outward else -tt_high,
-        tt_high if outward else -tt_low,
-        sigma * tv_mid,
-        tv_var,
-        vv,
-        d_t + d_f1 * s_theta_high + abs(f1) * d_s_theta + theta_error,
-        d_v + d_f1 * s_tau_high + abs(f1) * d_s_tau + tau_error,
-        gradient_bound * position_error,
-        theta_error,
-        tau_error,
-    )
-    # Where the curve comes near the solid's axis phi bends without bound, but its sign is known from the radius alone.
-    near_axis = radius - move < 0.5 * r_minor
-    depth_there = r_minor - radius - move
-    unknown = 0.0 if depth_there > 0.0 else math.inf
-    of_phi = (
-        (-sigma * depth_there if depth_there > 0.0 else 0.0) if near_axis else of_phi[0],
-        0.0 if near_axis else of_phi[1],
-        0.0 if near_axis else of_phi[2],
-        -unknown if near_axis else of_phi[3],
-        unknown if near_axis else of_phi[4],
-        0.0 if near_axis else of_phi[5],
-        0.0 if near_axis else of_phi[6],
-        0.0 if near_axis else of_phi[7],
-        unknown if near_axis else of_phi[8],
-        0.0 if near_axis else of_phi[9],
-        0.0 if near_axis else of_phi[10],
-        0.0 if near_axis else of_phi[11],
-        0.0 if near_axis else of_phi[12],
-    )
-    # g; where the axis lies in both planes its sign stays that of the start, whose value is used instead.
-    m1z = m1[2] if moving > 0.0 else x_axis[2]
-    m2z = m2[2] if moving > 0.0 else y_axis[2]
-    height = place_o[2] if moving > 0.0 else origin[2]
-    turning_moving = turning * moving
-    p_g = -sigma * (m1z * cos_theta + m2z * sin_theta)
-    q_g = -sigma * (m2z * cos_theta - m1z * sin_theta)
-    sine_g = smaller(math.sqrt(m1z * m1z + m2z * m2z) + turning_moving * b, 1.0)
-    tilting = sine_g * a + turning_moving * b
-    var_g = sine_g * (a * (r_bound + 3.0 * r1_bound) + 2.0 * r2_bound * a) + turning_moving * b * (
-        r_bound + 2.0 * r1_bound
-    )
-    var_g += r2_bound * (tilting + 32.0 * UNIT) + 4.0 * position_error
-    flat_g = 2.0 * dr * q_g - r * p_g
-    g_tau_error = turning_moving * (position_error + rate_error)
-    of_g = (
-        r * p_g - sigma * height,
-        dr * p_g + r * q_g,
-        -sigma * v_[2] * moving,
-        flat_g - var_g + (r2_low if p_g > 0.0 else r2_high) * p_g,
-        flat_g + var_g + (r2_high if p_g > 0.0 else r2_low) * p_g,
-        -sigma * w_[2] * turning_moving,
-        turning_moving * (c2_a + c1 * b + 4.0 * position_error),
-        turning_moving * (abs(a_[2]) + c1 * a + speed_bound * b + 4.0 * (position_error + rate_error)),
-        d_r1 * (abs(p_g) + tilting) + r1_bound * sine_g * a + c1 * tilting + position_error,
-        position_error,
-        position_error,
-        g_tau_error,
-    )
-    sag = c2_a * a + turning * (c1 * a + speed_bound * b) * b + position_error * (1.0 + a + b)
-    return of_phi, of_g, -sigma * z - abs(t_[2]) * a - abs(v_[2]) * b - sag
+    turning, sigma = rest[0], rest[1]
+    edge = curve_at(theta, a, tau, x_axis, y_axis, origin, rest, curve, sizes[0])
+    middle = phi_at(edge, sizes[0], solid)
+    change = changes_over(a, b, tau, turning, edge, middle, sizes)
+    near = near_alignment(a, b, turning, edge, middle, change, sizes)
+    over = helix_over(a, b, turning, middle, change, near, sizes, solid)
+    varied = variations(a, b, turning, middle, change, near, over, sizes)
+    of_phi = phi_ranges(a, sigma, edge, middle, change, near, over, varied)
+    of_phi = known_by_radius(of_phi, sigma, middle.radius, change.move, sizes[4])
+    of_g = g_ranges(a, b, x_axis, y_axis, origin, rest, edge, change, sizes)
+    sag = change.c2_a * a + turning * (change.c1 * a + change.speed * b) * b + change.position_error * (1.0 + a + b)
+    return of_phi, of_g, -sigma * edge.place[2] - abs(edge.t[2]) * a - abs(edge.v[2]) * b - sag

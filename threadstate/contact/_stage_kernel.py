@@ -347,6 +347,45 @@ def is_known(x: float, y: float, z: float, known: Array, known_count: int, bolt:
     return False
 
 
+@kernel()
+def list_thread_contacts(
+    tangency_count: int,
+    on_surface_count: int,
+    known: Array,
+    known_count: int,
+    bolt: Array,
+    on_surface: Array,
+    work: Work,
+    count: int,
+    out: Array,
+) -> int:
+    """Adds the contacts of threads to those found, without the known ones; returns how many there are then."""
+    tangencies = work.tangencies
+    for i in range(tangency_count):
+        x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
+        if not is_known(x, y, z, known, known_count, bolt):
+            time, azimuth = tangencies[i, tk.T_TIME], tangencies[i, tk.T_THETA]
+            count = insert_contact(Contact(time, THREAD_THREAD, azimuth, math.atan2(y, x), x, y, z), count, out)
+    for i in range(on_surface_count):
+        x, y = on_surface[i, tk.T_X], on_surface[i, tk.T_Y]
+        time, azimuth = on_surface[i, tk.T_TIME], on_surface[i, tk.T_THETA]
+        count = insert_contact(Contact(time, THREAD_SURFACE, azimuth, math.atan2(y, x), x, y, 0.0), count, out)
+    return count
+
+
+@kernel()
+def may_lack_ties(count: int, bolt_count: int, nut_count: int, tie_tolerance: float, work: Work, out: Array) -> bool:
+    """Whether a list of contacts is full before those that tie with the earliest one are all in it."""
+    if count == 0:
+        return False
+    tie_end = out[0, K_TIME] + tie_tolerance
+    return (
+        may_be_truncated(out, count, tie_end)
+        or may_be_truncated(work.bolt_found, bolt_count, tie_end)
+        or may_be_truncated(work.nut_found, nut_count, tie_end)
+    )
+
+
 def earliest(
     pose: Array,
     is_turn: bool,
@@ -407,26 +446,14 @@ def earliest(
         if rectangles_evaluated == OVERFLOW:
             return 0, UNRESOLVED, best
     count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
-    for i in range(tangency_count):
-        x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
-        if not is_known(x, y, z, known, known_count, bolt):
-            time, azimuth = tangencies[i, tk.T_TIME], tangencies[i, tk.T_THETA]
-            count = insert_contact(Contact(time, THREAD_THREAD, azimuth, math.atan2(y, x), x, y, z), count, out)
-    for i in range(on_surface_count):
-        x, y = on_surface[i, tk.T_X], on_surface[i, tk.T_Y]
-        time, azimuth = on_surface[i, tk.T_TIME], on_surface[i, tk.T_THETA]
-        count = insert_contact(Contact(time, THREAD_SURFACE, azimuth, math.atan2(y, x), x, y, 0.0), count, out)
+    count = list_thread_contacts(
+        tangency_count, on_surface_count, known, known_count, bolt, on_surface, work, count, out
+    )
     # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best
-    if count > 0:
-        tie_end = out[0, K_TIME] + tie_tolerance
-        if (
-            may_be_truncated(out, count, tie_end)
-            or may_be_truncated(work.bolt_found, bolt_count, tie_end)
-            or may_be_truncated(work.nut_found, nut_count, tie_end)
-        ):
-            return count, UNRESOLVED, best
+    if may_lack_ties(count, bolt_count, nut_count, tie_tolerance, work, out):
+        return count, UNRESOLVED, best
     return count, RESOLVED, best
 
 
