@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+import time
 from collections import defaultdict
 from typing import Annotated
 
@@ -29,6 +31,7 @@ from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit, conversion_factor
 
 LARGEST_POSE_COUNT = 100
+LARGEST_TIME_S = 3600.0
 
 
 class OutcomesRequest(RequestOfPair):
@@ -56,6 +59,11 @@ class OutcomesRequest(RequestOfPair):
     )
     point_limit: Annotated[int, Field(ge=POINT_LIMITS[0], le=POINT_LIMITS[1])] = Field(
         default=POINT_LIMIT, description="points of a turn beyond which a path is undecided"
+    )
+    time_limit: Annotated[float, Field(gt=0.0, le=LARGEST_TIME_S, allow_inf_nan=False)] | None = Field(
+        default=None,
+        description="seconds after which paths that have not ended are undecided, bounded; without it the request is "
+        "refused once the service's own limit has passed",
     )
     device: DeviceDocument | None = Field(
         default=None, description="the device; what it leaves out is as of the default one"
@@ -90,8 +98,9 @@ async def outcomes(request: Request, body: OutcomesRequest, unit: UnitQuery = No
     shown = unit or asked.pair.unit
     factor = conversion_factor(asked.pair.unit, shown)
     known: defaultdict[tuple[float, float], KnownPaths] = defaultdict(KnownPaths)
+    ends_s = time.monotonic() + (math.inf if body.time_limit is None else body.time_limit)
     found = [
-        await run_in_threadpool(_outcome, asked.pair, body, device, pose, known[pose.roll, pose.pitch], factor)
+        await run_in_threadpool(_outcome, asked.pair, body, device, pose, known[pose.roll, pose.pitch], factor, ends_s)
         for pose in body.poses
     ]
     answer = {
@@ -106,8 +115,18 @@ async def outcomes(request: Request, body: OutcomesRequest, unit: UnitQuery = No
 
 
 def _outcome(
-    pair: Pair, body: OutcomesRequest, device: Device, pose: PoseToSolve, known: KnownPaths, factor: float
+    pair: Pair,
+    body: OutcomesRequest,
+    device: Device,
+    pose: PoseToSolve,
+    known: KnownPaths,
+    factor: float,
+    ends_s: float,
 ) -> OutcomeDocument:
+    """How the path from a pose ends; ``ends_s`` is when it has to, by the monotonic clock."""
     pose_deg = (pose.roll, pose.pitch, pose.phase)
-    cell = bounded_cell(pair, device, body.strategy, pose_deg, body.mu, body.point_limit, known=known)
+    left_s = ends_s - time.monotonic()
+    cell = bounded_cell(
+        pair, device, body.strategy, pose_deg, body.mu, body.point_limit, known=known, time_limit_s=left_s
+    )
     return outcome_document(pose.roll, pose.pitch, cell, factor)

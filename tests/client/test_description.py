@@ -66,6 +66,7 @@ ARGUMENTS: dict[str, object] = {
     "phase_tolerance": 2.0,
     "mu_tolerance": 0.01,
     "point_limit": 500,
+    "time_limit": 5.0,
     "falls": 1,
     "libraries": [7, "m6"],
     "part": "bolt",

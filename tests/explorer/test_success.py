@@ -205,7 +205,7 @@ def test_a_path_that_takes_too_long_is_undecided_and_the_map_goes_on(explorer: E
     explorer.wait_for_text("#success-cell", "paths from roll 4")
     (answered, not_answered) = explorer.all("#success-cell tbody tr")
     assert "undecided" not in answered.text
-    assert "undecided, no answer in time" in not_answered.text
+    assert "undecided, not followed to its end" in not_answered.text
 
 
 def test_paths_from_the_first_phase_come_first_as_small_squares(explorer: Explorer) -> None:

@@ -71,6 +71,13 @@ def test_a_path_beyond_the_limit_is_undecided_and_says_so(client: TestClient) ->
     assert (found["outcome"], found["bounded"], found["torque"]) == ("undecided", True, None)
 
 
+def test_paths_that_take_longer_than_their_time_are_undecided(client: TestClient) -> None:
+    """The first path takes a thousand times the time, the second one has none left."""
+    outcomes = client.post(PATH, json=body(time_limit=1e-4)).json()["outcomes"]
+    assert [(one["outcome"], one["bounded"], one["torque"]) for one in outcomes] == [("undecided", True, None)] * 2
+    assert client.post(PATH, json=body(time_limit=600.0)).json() == client.post(PATH, json=body()).json()
+
+
 @pytest.mark.parametrize(
     ("changed", "named"),
     [
@@ -79,6 +86,8 @@ def test_a_path_beyond_the_limit_is_undecided_and_says_so(client: TestClient) ->
         ({"poses": [{"roll": 11, "pitch": 0, "phase": 0}]}, "roll"),
         ({"mu": 1.5}, "mu"),
         ({"point_limit": 5}, "point_limit"),
+        ({"time_limit": 0}, "time_limit"),
+        ({"time_limit": 3601}, "time_limit"),
         ({"device": {"unit": "mm", "push": -1}}, "body device push"),
         ({"turns": 2}, "turns"),
     ],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
@@ -21,20 +23,23 @@ LOOK_S = 0.02
 
 
 class BoundedWatch(PathWatch):
-    """A watch that ends a path of which one leg has more points than a limit.
+    """A watch that ends a path of which one leg has more points than a limit, or that takes longer than a time.
 
     A leg only gains points. One that was stopped beyond the limit and one that was not looked at in time therefore end
-    alike: the outcome does not depend on time.
+    alike: without a time the outcome does not depend on time.
     """
 
-    def __init__(self, point_limit: int) -> None:
+    def __init__(self, point_limit: int, time_limit_s: float = math.inf) -> None:
         super().__init__()
         self._point_limit = point_limit
+        self._ends_s = time.monotonic() + time_limit_s
         self._leg: RunningLeg | None = None
 
     @property
     def is_over(self) -> bool:
-        """Whether the leg that is followed, or was last, has more points than the limit."""
+        """Whether the leg that is followed, or was last, has more points than the limit, or the time has passed."""
+        if time.monotonic() > self._ends_s:
+            return True
         return self._leg is not None and self._leg.reached()[0] > self._point_limit
 
     def begin_leg(self, leg: RunningLeg) -> None:
@@ -46,10 +51,10 @@ class BoundedWatch(PathWatch):
         """The kernel has returned.
 
         Raises:
-            PathStoppedError: the leg has more points than the limit.
+            PathStoppedError: the leg has more points than the limit, or the time has passed.
         """
         if self.is_over:
-            raise PathStoppedError("the path has more points than its limit")
+            raise PathStoppedError("the path has more points than its limit, or takes longer")
         super().end_leg()
 
     @contextmanager
@@ -79,16 +84,17 @@ def bounded_cell(
     point_limit: int,
     longest_step_deg: float | None = None,
     known: KnownPaths | None = None,
+    time_limit_s: float = math.inf,
 ) -> Cell:
     """The cell of the path from a commanded pose (roll, pitch, phase in degrees) at a friction.
 
     ``longest_step_deg`` is the path's longest step; None: that of :func:`threadstate.device.assemble.assemble_pose`, as
-    are the ``known`` paths.
+    are the ``known`` paths. A path that takes more than ``time_limit_s`` seconds is bounded, too.
 
     Raises:
         InvalidValueError: as :func:`threadstate.device.assemble.assemble_pose`.
     """
-    watch = BoundedWatch(point_limit)
+    watch = BoundedWatch(point_limit, time_limit_s)
     phase_deg = pose_deg[2]
     try:
         with watch.looking():

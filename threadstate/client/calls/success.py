@@ -25,6 +25,7 @@ def outcomes(
     strategy: str | None = None,
     mu: float | None = None,
     point_limit: int | None = None,
+    time_limit: float | None = None,
     device: Mapping[str, Any] | None = None,
     designation: str | None = None,
     library: LibraryName | None = None,
@@ -33,7 +34,7 @@ def outcomes(
     """How the paths end that start at 1 to 100 poses (roll, pitch, phase), without the paths themselves.
 
     The arguments are those of :func:`assemble`; a path with more points in a turn than ``point_limit`` (None: 1,000) is
-    undecided.
+    undecided, as is what has not ended after ``time_limit`` seconds (None: the request is refused then).
     """
     body = {
         "designation": designation,
@@ -42,6 +43,7 @@ def outcomes(
         "strategy": strategy,
         "mu": None if mu is None else float(mu),
         "point_limit": point_limit,
+        "time_limit": time_limit,
         "device": None if device is None else dict(device),
     }
     # Nothing is stored: repeatable.

@@ -17,6 +17,8 @@ export const OUTCOMES = {
 };
 /** Requests at once: as many as the least machine has processors. */
 const LANES = 2;
+/** Seconds after which a path is not followed any more: below the service's own time limit. */
+const TIME_S = 20;
 /** Frictions at which a critical one is bracketed before it is bisected, and how far. */
 const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8];
 const TOLERANCE = 0.01;
@@ -242,26 +244,23 @@ export class SuccessMap {
     this.#changed();
   }
 
-  /** How the paths from poses end; one that takes longer than the service's time limit is undecided. */
+  /** How the paths from poses end; one that alone takes longer than its time, or the service's time limit, is undecided. */
   async #outcomes({ text, library, unit }, poses, mu, signal) {
-    const body = { ...bodyOf(assemblyOf(text), library), ...(mu !== null && { mu }) };
+    const body = { ...bodyOf(assemblyOf(text), library), ...(mu !== null && { mu }), time_limit: TIME_S };
     delete body.pose;
-    try {
-      return await this.#api.outcomes({ ...body, poses }, unit, signal);
-    } catch (error) {
-      if (!isOutOfTime(error)) throw error;
-      if (poses.length === 1) return [unanswered(poses[0], body)];
-    }
-    const found = [];
-    for (const pose of poses) {
+    const asked = async (some) => {
       try {
-        found.push(...(await this.#api.outcomes({ ...body, poses: [pose] }, unit, signal)));
+        return await this.#api.outcomes({ ...body, poses: some }, unit, signal);
       } catch (error) {
         if (!isOutOfTime(error)) throw error;
-        found.push(unanswered(pose, body));
+        return some.map((pose) => unanswered(pose, body));
       }
-    }
-    return found;
+    };
+    const found = await asked(poses);
+    if (poses.length === 1) return found;
+    const again = [];
+    for (const [k, one] of found.entries()) again.push(...(one.bounded ? await asked([poses[k]]) : [one]));
+    return again;
   }
 }
 
@@ -278,7 +277,7 @@ function isOutOfTime(error) {
 /** The outcome of a path that the service has no time for. */
 function unanswered(pose, { mu = 0 }) {
   const nothing = { torque: null, tilt: null, shift: null, end: null };
-  return { ...pose, mu, outcome: "undecided", flags: ["no answer in time"], bounded: false, ...nothing };
+  return { ...pose, mu, outcome: "undecided", flags: [], bounded: true, ...nothing };
 }
 
 function keyOfMap(text, library) {

@@ -263,8 +263,8 @@ function keptWords(kept, map, unit) {
 function cellTable(place, outcomes, factor, unit) {
   const head = ["phase", "outcome", `torque (N ${unit})`, "tilt (deg)", `shift (${unit})`];
   const number = (value, digits) => (value === null ? "" : fixed(value, digits));
-  const rows = outcomes.map(({ phase, outcome, flags, torque, tilt, shift }) => [
-    angleNumber(phase), [OUTCOMES[outcome].name, ...flags].join(", "),
+  const rows = outcomes.map(({ phase, outcome, flags, bounded, torque, tilt, shift }) => [
+    angleNumber(phase), [OUTCOMES[outcome].name, ...flags, ...(bounded ? ["not followed to its end"] : [])].join(", "),
     number(torque === null ? null : torque * factor, 3), number(tilt, 2), number(shift === null ? null : shift * factor, 4),
   ]);
   return html("table", {}, [
