@@ -154,7 +154,7 @@ def test_a_link_restores_the_square_and_the_device_of_the_map(explorer: Explorer
     explorer.wait(lambda: explorer.one("#success-stale").is_displayed(), "another device is not seen")
 
 
-def test_what_is_refused_leaves_the_map_and_a_curve_that_comes_back_has_its_size(explorer: Explorer) -> None:
+def test_what_is_refused_leaves_map_and_path_and_a_curve_that_comes_back_has_its_size(explorer: Explorer) -> None:
     explorer.open(f"/#{COMPUTED}&assembly=roll%3D0%26pitch%3D-4%26phase%3D0%26strategy%3Dcw%26unit%3Din")
     whole(explorer)
     explorer.choose("#success-mu", "5")
@@ -167,6 +167,8 @@ def test_what_is_refused_leaves_the_map_and_a_curve_that_comes_back_has_its_size
     explorer.wait(lambda: explorer.one("#device-stale").is_displayed(), "the path is not said to be of other values")
     explorer.click("#device-compute")
     explorer.wait_for_text("#panel-device", "a force > 0")
+    assert explorer.one(".panel.turned").is_displayed()
+    explorer.click("#tab-state")
     explorer.wait(lambda: explorer.one("#depth svg").is_displayed(), "the curve does not come back")
     explorer.wait(lambda: bool(explorer.run(DRAWN_AS_WIDE_AS_ITS_FRAME)), "the curve has another size than its frame")
     assert ["400" in one for one in explorer.complaints()] == [True, True]

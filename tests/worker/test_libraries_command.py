@@ -99,7 +99,7 @@ def test_libraries_of_settled_states_are_listed_with_their_devices(command_line:
     code, _, err = command_line.here("libraries", "--settled")
     assert (code, "run `threadstate rebuild-settled`" in err) == (0, True)
     device = {"unit": "mm", "k_lateral": 5.0, "k_axial": 0.0, "k_tilt": 250.0, "k_twist": "rigid"}
-    device |= {"centre": 0.0, "push": 4.0, "about": "nut"}
+    device |= {"centre": 0.0, "push": 4.0, "about": "nut", "ccw_turn": 360.0}
     store_settled(command_line.database)
     store_settled(command_line.database, device=device_from_document(device))
     latest, first = json.loads(command_line.out("libraries", "--settled", "--json"))["settled"]
