@@ -30,6 +30,8 @@ MOST_TORQUE = 20.0
 """Over push times nominal radius."""
 MOST_LOOSE = 20
 """Steps of the hand in a row that do not balance, after which nothing is said of the end."""
+MOST_LINEAR_STEPS = 100_000
+"""Of a path: some go to and fro for an hour."""
 
 
 @dataclass(frozen=True)
@@ -54,19 +56,24 @@ class End:
 
 @dataclass(frozen=True)
 class Limits:
-    """What the rules allow, lengths in nominal radii: thread pitch, axial play to either side, nut's minor diameter."""
+    """What the rules allow: in nominal radii thread pitch, axial play to either side, the nut's minor diameter, and the
+    way across; linear steps of a path.
+    """
 
     pitch: float
     play: float
     minor: float
+    slip: float
+    linear_steps: int
 
     @classmethod
-    def of(cls, pair: Pair) -> Limits:
+    def of(cls, pair: Pair, linear_steps: int = MOST_LINEAR_STEPS) -> Limits:
         """Those of a pair."""
         r = pair.nominal_diameter / 2.0
         slack = (pair.fit.nut_pitch_diameter - pair.fit.bolt_pitch_diameter) / 2.0
         play = slack * math.tan(math.radians(pair.form.flank_half_angle_deg))
-        return cls(pair.thread_pitch / r, play / r, pair.fit.nut_minor_diameter / r)
+        slip = pair.fit.bolt_major_diameter / pair.nominal_diameter
+        return cls(pair.thread_pitch / r, play / r, pair.fit.nut_minor_diameter / r, slip, linear_steps)
 
 
 class StoppedError(Exception):
@@ -81,26 +88,29 @@ def followed_to_end(
     *,
     counter_deg: float,
     step_deg: float = STEP_DEG,
+    most_linear_steps: int = MOST_LINEAR_STEPS,
 ) -> tuple[End, list[Point]]:
-    """How a bolt ends that settles at a pose and is turned, by ``counter_deg`` counter-clockwise at most, or by 0."""
+    """How a bolt ends that settles at a pose and is turned, by ``counter_deg`` counter-clockwise at most, or by 0.
+
+    Nothing is said of the end, ``undecided``, after so many linear steps, or too many loose steps of the hand.
+    """
     follower = Follower(pair, hand, pose_deg, mu)
-    limits = Limits.of(pair)
-    slip = pair.fit.bolt_major_diameter / pair.nominal_diameter
+    limits = Limits.of(pair, most_linear_steps)
     points: list[Point] = []
     snap, snap_deg = math.nan, math.nan
     lead, play, tilt = math.nan, math.nan, math.nan
     try:
         for k in range(1, PUSH_STEPS + 1):
-            _stepped(follower, follower.phase, k / PUSH_STEPS, points, slip)
+            _stepped(follower, follower.phase, k / PUSH_STEPS, points, limits)
         if counter_deg > 0.0:
-            snap, snap_deg = _until_snap(follower, points, slip, limits, counter_deg, step_deg)
+            snap, snap_deg = _until_snap(follower, points, limits, counter_deg, step_deg)
         outcome = "no_snap"
         if counter_deg == 0.0 or snap >= 1.0:
             began = len(points)
             phase = follower.phase
             steps = round(CLOCKWISE_DEG / step_deg)
             for k in range(1, steps + 1):
-                _stepped(follower, phase - math.radians(k * step_deg), 1.0, points, slip)
+                _stepped(follower, phase - math.radians(k * step_deg), 1.0, points, limits)
             lead, play, tilt = judged(points[began:], limits)
             outcome = _named(lead, play, tilt)
     except StoppedError as stopped:
@@ -110,26 +120,28 @@ def followed_to_end(
     return End(outcome, lead, play, tilt, snap, snap_deg, torque, nearly, loose), points
 
 
-def _stepped(follower: Follower, phase: float, push: float, points: list[Point], slip: float) -> None:
+def _stepped(follower: Follower, phase: float, push: float, points: list[Point], limits: Limits) -> None:
     point = follower.step(phase, push)
     points.append(point)
-    if math.hypot(point.origin[0], point.origin[1]) > slip:
+    if math.hypot(point.origin[0], point.origin[1]) > limits.slip:
         raise StoppedError("slipped")
     if abs(point.torque) > MOST_TORQUE:
         raise StoppedError("jammed")
     if len(points) >= MOST_LOOSE and all(one.loose for one in points[-MOST_LOOSE:]):
         raise StoppedError("undecided")
+    if sum(one.linear_steps for one in points) > limits.linear_steps:
+        raise StoppedError("undecided")
 
 
 def _until_snap(
-    follower: Follower, points: list[Point], slip: float, limits: Limits, counter_deg: float, step_deg: float
+    follower: Follower, points: list[Point], limits: Limits, counter_deg: float, step_deg: float
 ) -> tuple[float, float]:
     """The largest descent over the one of a snap, and the phase (deg) of the snap if there is one."""
     began, phase = len(points), follower.phase
     span = round(SNAP_SPAN_DEG / step_deg)
     largest = 0.0
     for k in range(1, round(counter_deg / step_deg) + 1):
-        _stepped(follower, phase + math.radians(k * step_deg), 1.0, points, slip)
+        _stepped(follower, phase + math.radians(k * step_deg), 1.0, points, limits)
         recent = points[max(began - 1, len(points) - 1 - span) :]
         drop = max(float(point.origin[2]) for point in recent) - float(points[-1].origin[2])
         if points[-1].below:

@@ -54,3 +54,10 @@ def test_a_bolt_that_snaps_follows_the_lead() -> None:
 def test_a_bolt_that_leans_away_finds_no_thread() -> None:
     end, _ = followed_to_end(PAIR, HAND, (0.0, 4.0, 0.0), 0.0, counter_deg=360.0)
     assert end.outcome == "no_snap"
+
+
+def test_a_path_of_too_many_linear_steps_is_undecided() -> None:
+    """It is followed until then: the push grows in 32 steps, of at least one linear step each."""
+    end, points = followed_to_end(PAIR, HAND, (0.0, 4.0, 0.0), 0.0, counter_deg=360.0, most_linear_steps=50)
+    assert end.outcome == "undecided"
+    assert sum(point.linear_steps for point in points[:-1]) <= 50 < sum(point.linear_steps for point in points)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from harness.markdown import table
+from oracle.outcomes import MOST_LINEAR_STEPS
 from studies.success_witness.study import FRICTIONS, Compared
 from threadstate.device.strategy import Strategy
 from threadstate.numbers import number_text
@@ -32,7 +33,8 @@ A step of the hand balances if no more than 1e-5 of the push is left of its damp
 radii; after 25 linear steps 1e-2 and 1e-4 are enough, and the step is *nearly* balanced. One that would go farther than
 0.009 nominal radii, or does not balance, is a fall: small steps at the same command, with a drag that is lowered as the
 bolt slows down. With 20 *loose* ones in a row, that balance neither way, the witness says nothing of the end: its
-linear steps know no curvature, and go to and fro where edges lie along each other. It confirms outcomes as far as its
+linear steps know no curvature, and go to and fro where edges lie along each other; nor after {MOST_LINEAR_STEPS:,}
+linear steps of a path. It confirms outcomes as far as its
 margins go; it is no bound.
 
 Of the first {len(cells):,} cells {sum(one.is_decided for one in cells):,} have an outcome by both, of which

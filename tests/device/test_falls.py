@@ -186,11 +186,11 @@ def test_weights_are_found_beside_the_hulls_outline(inside: float) -> None:
     middle = 0.5 * (points[3, :2] + points[4, :2])
     x, y = (1.0 - inside) * middle
     weights = np.empty(40)
-    assert sl.set_weights(40, points, x, y, 1.0, weights)
+    assert sl.set_weights(40, points, x, y, 1.0, np.zeros(2), weights)
     assert weights.min() >= 0.0
     assert weights @ points[:, :2] == pytest.approx((x, y), abs=1e-11)
-    assert not sl.set_weights(40, points, *(1.001 * middle), 1.0, weights)
-    assert sl.set_weights_inside(40, points, *(1.001 * middle), 1.0, weights)
+    assert not sl.set_weights(40, points, *(1.001 * middle), 1.0, np.zeros(2), weights)
+    assert sl.set_weights_inside(40, points, *(1.001 * middle), 1.0, np.zeros(2), weights)
 
 
 def test_a_leg_that_has_begun_goes_on_as_it_did() -> None:

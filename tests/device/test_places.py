@@ -57,6 +57,22 @@ def found(place: Floats, reach: float, threads: pl.Threads) -> Floats:
     return places[:count]
 
 
+def test_samples_of_both_edges_have_the_lesser_of_g_and_phi() -> None:
+    """Of a tilted pose, all round, as at single points of the edges."""
+    cos, sin = math.cos(0.05), math.sin(0.05)
+    place = place_of(np.array([[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]]), np.array([0.01, -0.02, -0.03]))
+    threads = pl.new_threads(BOLT)
+    pl.set_samples(pl.FINE, BOLT, NUT, threads.samples)
+    number = pl.SAMPLES * pl.FINE
+    for of_bolt, curve, solid, begin in ((True, BOLT, NUT, 0), (False, NUT, BOLT, 2 * number)):
+        points = threads.samples[pl.S_POINTS + begin :]
+        depths = np.empty(number)
+        pl.set_depths(of_bolt, number, place, points, points[number:], solid, depths)
+        expected = [gk.edge_depth(of_bolt, 2.0 * math.pi * i / number, place, curve, solid) for i in range(number)]
+        assert depths == pytest.approx(expected, abs=1e-14)
+        assert depths.min() < 0.0 < depths.max()
+
+
 @pytest.fixture(scope="module")
 def path() -> AssemblyPath:
     """A path on which two maxima of the threads lie between two azimuths of the search's grid."""

@@ -56,7 +56,7 @@ def ring(count: int) -> Floats:
 def test_the_pressure_is_positive_and_has_its_centre(x: float, y: float) -> None:
     """Also near the hull's border: the weights of greatest entropy, each ``exp`` of a linear function."""
     points, weights = ring(300), np.zeros(pk.POINTS)
-    assert sl.set_weights(300, points, x, y, 1.0, weights)
+    assert sl.set_weights(300, points, x, y, 1.0, np.zeros(2), weights)
     assert weights[:300].min() > 0.0
     assert weights[:300].sum() == pytest.approx(1.0, abs=1e-12)
     assert weights[:300] @ points[:300, :2] == pytest.approx([x, y], abs=1e-11)
@@ -66,8 +66,19 @@ def test_the_pressure_is_positive_and_has_its_centre(x: float, y: float) -> None
     assert plane @ fitted == pytest.approx(logarithms, abs=1e-9)
 
 
+def test_the_pressure_does_not_depend_on_the_rates_with_which_the_search_begins() -> None:
+    """Those of a centre near by are set, and lead to the same weights."""
+    points, weights, others = ring(300), np.zeros(pk.POINTS), np.zeros(pk.POINTS)
+    rates = np.zeros(2)
+    assert sl.set_weights(300, points, 0.35, -0.25, 1.0, rates, weights)
+    assert np.abs(rates).min() > 0.1
+    assert sl.set_weights(300, points, 0.4, -0.2, 1.0, rates, weights)
+    assert sl.set_weights(300, points, 0.4, -0.2, 1.0, np.zeros(2), others)
+    assert weights[:300] == pytest.approx(others[:300], rel=1e-9)
+
+
 def test_a_centre_outside_the_points_has_no_pressure() -> None:
-    assert not sl.set_weights(300, ring(300), 1.05, 0.6, 1.0, np.zeros(pk.POINTS))
+    assert not sl.set_weights(300, ring(300), 1.05, 0.6, 1.0, np.zeros(2), np.zeros(pk.POINTS))
 
 
 @pytest.mark.parametrize("phase_deg", [150.0, 250.0])
@@ -101,7 +112,7 @@ def test_friction_balances_the_hand_where_the_bolt_slides_to(turn_deg: float) ->
     ck.set_place(level, numbers, place)
     points, weights = np.zeros((pk.POINTS, pk.POINT_SIZE)), np.zeros(pk.POINTS)
     count = pk.patch_points(before_at(before, place), BOLT, NUT, points)
-    assert sl.set_weights(count, points, lying[sl.L_X], lying[sl.L_Y], R, weights)
+    assert sl.set_weights(count, points, lying[sl.L_X], lying[sl.L_Y], R, np.zeros(2), weights)
     now = np.column_stack([points[:count, :2], np.zeros(count)])
     turned = before[:9].reshape(3, 3) @ place[:9].reshape(3, 3).T
     slips = now - (before[12:15] + (now - place[12:15]) @ turned.T)

@@ -189,7 +189,7 @@ def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
     classify_boxes(count, edge.motion, edge.curve, edge.solid, boxes)
 
 
-@kernel()
+@kernel(allocates=False)
 def evaluate_box(box: Box, edge: Edge, boxes: Array) -> float:
     """The class of a single box, which is set as the first one of ``boxes``."""
     set_box_at(box, 0, boxes)
@@ -203,7 +203,7 @@ def contact_distance(theta: float, kept: Array) -> float:
     return abs(nearest_contact(theta, kept)[0])
 
 
-@kernel()
+@kernel(allocates=False)
 def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edge, scratch: Array) -> tuple[bool, bool]:
     """Whether the bend of phi from the nearest contact to a box excludes a tangency with the thread in it.
 
@@ -256,7 +256,7 @@ def onset_only_outside(box_class: int, box: Box, edge: Edge, scratch: Array, jet
     return place == ROOT_INSIDE and (abs(t - theta) >= half or tau <= start or tau >= end)
 
 
-@kernel()
+@kernel(allocates=False)
 def is_the_one(box_class: int, box: Box, t: float, tau: float, edge: Edge, scratch: Array) -> bool:
     """Whether a root in a box, or beside it, is the only one there: the box widened to it has at most one, too."""
     theta, half, start, end = box

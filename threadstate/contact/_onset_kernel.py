@@ -58,7 +58,7 @@ NO_ROOT, ROOT_INSIDE, ROOT_BESIDE, ROOT_AT_SIDE = range(4)
 """Where Newton's method ends: at no root, in the box, certainly beside it, beside it by less than its round-off."""
 
 
-@kernel()
+@kernel(allocates=False)
 def set_jet(
     theta: float, tau: float, motion: Array, curve_profile: Array, solid_profile: Array, path: Array, jet: Array
 ) -> None:
@@ -113,7 +113,7 @@ def set_jet(
     jet[J_G_THETA_TAU] = -sigma * wz
 
 
-@kernel()
+@kernel(allocates=False)
 def set_jet_beside(theta: float, tau: float, edge: Edge, jet: Array) -> None:
     """The same; beside earlier contacts g and phi are differences from them."""
     set_jet(theta, tau, edge.motion, edge.curve, edge.solid, edge.path, jet)
@@ -155,7 +155,7 @@ def onset_step(
     return det, (f1 * b - f0 * d) / det, (f0 * c - f1 * a) / det, t_error, tau_error
 
 
-@kernel()
+@kernel(allocates=False)
 def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[int, float, float]:
     """The one onset or end of overlap in a box, or near it, by Newton's method: where it is, its azimuth and time.
 
@@ -240,7 +240,7 @@ def wedge_components(motion: Array, tau: float, wedge: Array, nx: float, ny: flo
     return dot(ax, ay, az, nx, ny, nz), dot(bx, by, bz, nx, ny, nz)
 
 
-@kernel()
+@kernel(allocates=False)
 def edges_separated(curve_theta: float, solid_theta: float, tau: float, edge: Edge, wedge: Array) -> bool:
     """Whether at a crossing of two edges a plane separates the two wedges."""
     sigma = edge.motion[M_SIGMA]
@@ -315,7 +315,7 @@ def rises(kind: int, jet: Array) -> bool:
     return jet[J_PHI_TAU] > 0.0 if kind == ONE_THREAD else jet[J_G_TAU] > 0.0
 
 
-@kernel()
+@kernel(allocates=False)
 def is_contact(kind: int, theta: float, tau: float, edge: Edge, jet: Array, wedge: Array) -> bool:
     """Whether at an onset the wedge at the edge point is outside the other part; else an overlap is open already."""
     sigma = edge.motion[M_SIGMA]

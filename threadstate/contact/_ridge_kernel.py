@@ -106,7 +106,7 @@ FAR = 1.5
 """That is known before the maximum is located where by second derivatives it is so many times as far."""
 
 
-@kernel()
+@kernel(allocates=False)
 def nearby_maximum(
     theta: float, z: float, time_range: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
@@ -150,7 +150,7 @@ def nearby_maximum(
     return theta, z, False
 
 
-@kernel()
+@kernel(allocates=False)
 def ridge_bracket(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, float]:
@@ -171,7 +171,7 @@ def ridge_bracket(
         w *= 4.0
 
 
-@kernel()
+@kernel(allocates=False)
 def ridge_point(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, bool]:
@@ -194,7 +194,7 @@ def ridge_point(
             high = middle
 
 
-@kernel()
+@kernel(allocates=False)
 def bracketed_maximum(
     theta: float, z: float, step: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
@@ -233,7 +233,7 @@ def bracketed_maximum(
             after, z_after = middle, z_middle
 
 
-@kernel()
+@kernel(allocates=False)
 def is_far(theta: float, z: float, placement: Array, bolt: Array, nut: Array, time_range: float, jet: Array) -> bool:
     """Whether by its second derivatives phi has a maximum near (theta, z) from which, by its rate, it does not reach
     zero within ``time_range``.
@@ -247,7 +247,7 @@ def is_far(theta: float, z: float, placement: Array, bolt: Array, nut: Array, ti
     return abs(jet[TJ_PHI] + rise) > time_range * jet[TJ_RATE]
 
 
-@kernel()
+@kernel(allocates=False)
 def follow_maximum(
     theta: float,
     z: float,

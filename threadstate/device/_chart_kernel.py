@@ -36,7 +36,7 @@ TERMS = 9
 """Terms of the series in the square of the angle; up to 1 rad the first one left out is below 1e-18."""
 
 
-@kernel()
+@kernel(allocates=False)
 def angle_functions(angle2: float) -> tuple[float, float, float, float]:
     """``a = (1 - cos t) / t^2``, ``b = (t - sin t) / t^3``, ``a' / t`` and ``b' / t`` of the square of an angle."""
     a, b, a1, b1 = 0.0, 0.0, 0.0, 0.0
@@ -55,37 +55,36 @@ def angle_functions(angle2: float) -> tuple[float, float, float, float]:
     return a, b, a1, b1
 
 
-@kernel()
+@kernel(allocates=False)
+def set_turn(x: float, y: float, z: float, u: float, v: float, turn: Array) -> None:
+    """Sets ``I + u [e] + v [e]^2`` of a rotation vector e."""
+    turn[0] = 1.0 - v * (y * y + z * z)
+    turn[1] = v * x * y - u * z
+    turn[2] = v * x * z + u * y
+    turn[3] = v * x * y + u * z
+    turn[4] = 1.0 - v * (x * x + z * z)
+    turn[5] = v * y * z - u * x
+    turn[6] = v * x * z - u * y
+    turn[7] = v * y * z + u * x
+    turn[8] = 1.0 - v * (x * x + y * y)
+
+
+@kernel(allocates=False)
 def set_place(q: Array, device: Array, place: Array) -> None:
     """Sets rotation, translation, centre and the chart's derivatives at coordinates ``q``."""
     x, y, z = q[0], q[1], q[2]
     angle2 = x * x + y * y + z * z
     a, b, a1, b1 = angle_functions(angle2)
     # exp(e) = I + s [e] + a [e]^2 with s = 1 - b t^2, and J = I - a [e] + b [e]^2.
-    s = 1.0 - b * angle2
-    turn = np.empty(9)
-    for sign in range(2):
-        u = s if sign == 0 else -a
-        v = a if sign == 0 else b
-        turn[0] = 1.0 - v * (y * y + z * z)
-        turn[1] = v * x * y - u * z
-        turn[2] = v * x * z + u * y
-        turn[3] = v * x * y + u * z
-        turn[4] = 1.0 - v * (x * x + z * z)
-        turn[5] = v * y * z - u * x
-        turn[6] = v * x * z - u * y
-        turn[7] = v * y * z + u * x
-        turn[8] = 1.0 - v * (x * x + y * y)
-        if sign == 0:
-            for i in range(3):
-                for j in range(3):
-                    total = 0.0
-                    for m in range(3):
-                        total += device[D_ROTATION + 3 * i + m] * turn[3 * m + j]
-                    place[N_ROTATION + 3 * i + j] = total
-        else:
-            for i in range(9):
-                place[N_JACOBIAN + i] = turn[i]
+    turn = place[N_JACOBIAN : N_JACOBIAN + 9]
+    set_turn(x, y, z, 1.0 - b * angle2, a, turn)
+    for i in range(3):
+        for j in range(3):
+            total = 0.0
+            for m in range(3):
+                total += device[D_ROTATION + 3 * i + m] * turn[3 * m + j]
+            place[N_ROTATION + 3 * i + j] = total
+    set_turn(x, y, z, -a, b, turn)
     for i in range(3):
         place[N_CENTRE + i] = q[3 + i]
         place[N_OFFSET + i] = q[3 + i] - device[D_CENTRE] * place[3 * i + 2]
@@ -96,7 +95,7 @@ def set_place(q: Array, device: Array, place: Array) -> None:
     place[N_FUNCTIONS + 3] = b1
 
 
-@kernel()
+@kernel(allocates=False)
 def second_order(place: Array, i: int, j: int, out: Array) -> None:
     """Sets ``Q`` of two unit vectors of the coordinates ``e``: the second derivative of ``w`` there."""
     e = place[N_VECTOR : N_VECTOR + 3]
@@ -128,7 +127,7 @@ def second_order(place: Array, i: int, j: int, out: Array) -> None:
         out[2] += 0.5 * (-a1 * along * cz + b1 * along * ccz + b * fz)
 
 
-@kernel()
+@kernel(allocates=False)
 def to_chart(place: Array, gradient: Array, hessian: Array, scratch: Array) -> None:
     """Brings a gradient and a Hessian by ``(w, C)`` to the coordinates ``(e, C)``, in place."""
     jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
@@ -159,7 +158,7 @@ def to_chart(place: Array, gradient: Array, hessian: Array, scratch: Array) -> N
         gradient[i] = jacobian[i] * x + jacobian[3 + i] * y + jacobian[6 + i] * z
 
 
-@kernel()
+@kernel(allocates=False)
 def set_deviation(q: Array, device: Array, deviation: Array) -> None:
     """Sets the deviation from the command: the rotation vector, then the centre's shift."""
     for i in range(3):
@@ -167,7 +166,7 @@ def set_deviation(q: Array, device: Array, deviation: Array) -> None:
         deviation[3 + i] = q[3 + i] - device[D_PLACE + i]
 
 
-@kernel()
+@kernel(allocates=False)
 def elastic_energy(q: Array, device: Array, gradient: Array) -> float:
     """The elastic energy, and sets its gradient by ``q``."""
     energy = 0.0

@@ -22,8 +22,8 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._friction_rest_kernel import rests
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_PAIR, G_POINT, G_THETA, G_VALUE, G_Z, GAP_SIZE
-from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
+    AS_LISTED,
     K_FORCE,
     K_HELD,
     K_MODE,
@@ -45,10 +45,12 @@ from threadstate.device._modes_kernel import (
     UNSOLVED,
     ModesWork,
     cones_hold,
+    follow_contacts,
     overlap_beside,
     set_contact,
     solve_mode,
 )
+from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._places_kernel import Threads, find_places
 from threadstate.device._rest_kernel import (
     AT_REST,
@@ -103,7 +105,7 @@ Setting = tuple[Array, Array, Array, Array, Array, Threads, Work, ModesWork]
 """Command, device, strip, bolt, nut, and the work of searches, descents and modes."""
 
 
-@kernel()
+@kernel(allocates=False)
 def add_candidate(count: int, gap: Array, device: Array, apart: float, contacts: Array) -> int:
     """Adds a place of overlap to a step's contacts, unless one is nearer than ``apart`` (nominal radii) to it already.
 
@@ -119,7 +121,7 @@ def add_candidate(count: int, gap: Array, device: Array, apart: float, contacts:
     return count + 1
 
 
-@kernel()
+@kernel(allocates=False)
 def friction_of(contact: Array) -> float:
     """The size of a contact's force across its normal."""
     normal, square = 0.0, 0.0
@@ -129,7 +131,7 @@ def friction_of(contact: Array) -> float:
     return math.sqrt(max(square - normal * normal, 0.0))
 
 
-@kernel()
+@kernel(allocates=False)
 def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Array) -> float:
     """The work that friction takes in a step: the mean of its sizes before and after, over the slip.
 
@@ -146,7 +148,7 @@ def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Arra
     return loss
 
 
-@kernel()
+@kernel(allocates=False)
 def add_solution(total: int, q: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
     """Adds a solution of a step unless the bolt is there in one already; their number then."""
     places, all_contacts, counts = solutions
@@ -206,9 +208,9 @@ def enumerate_modes(
         )
         if rests(q, push, mu, touching, contacts, device):
             total = add_solution(total, q, touching, contacts, device, solutions)
-    set_place(start, device, place)
-    found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
-    at_start = places[:found].copy()
+    modes[:] = SLIPS
+    found = places_of_contacts(modes, count, candidates, start, setting)
+    at_start = places[: max(found, count)].copy()
     guessed_code = match_guess(count, candidates, r, modes_work, matches)
     for code in range(3**count):
         rest, sticking, touching = code, 0, 0
@@ -231,13 +233,12 @@ def enumerate_modes(
                 copy_numbers(modes_work.guess, trial)
                 for c in range(count):
                     if matches[c] >= 0:
-                        copy_numbers(modes_work.guessed_contacts[matches[c], 0:K_SLIP], contacts[c, 0:K_SLIP])
-                set_place(trial, device, place)
-                near = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
+                        copy_guess(is_frozen, modes_work.guessed_contacts[matches[c]], contacts[c])
+                near = places_of_contacts(modes, count, contacts, trial, setting)
             else:
                 copy_numbers(start, trial)
                 near = found
-                for j in range(found):
+                for j in range(len(at_start)):
                     copy_numbers(at_start[j], places[j])
             status, beside = solve_moved(modes, count, mu, near, carried, trial, push, unit, before, setting, contacts)
         if status != SOLVED:
@@ -252,6 +253,31 @@ def enumerate_modes(
         else:
             total = add_solution(total, trial, count, contacts, device, solutions)
     return total, has_met
+
+
+@kernel(allocates=False)
+def copy_guess(is_frozen: bool, guessed: Array, contact: Array) -> None:
+    """Sets point, normal and force of a contact to those of a guess, and where on its edge or thread it is, unless it
+    is frozen.
+    """
+    copy_numbers(guessed[0:K_SLIP], contact[0:K_SLIP])
+    if not is_frozen:
+        contact[K_PAIR], contact[K_THETA], contact[K_Z] = guessed[K_PAIR], guessed[K_THETA], guessed[K_Z]
+
+
+@kernel()
+def places_of_contacts(modes: Indices, count: int, contacts: Array, q: Array, setting: Setting) -> int:
+    """Sets the places with which a mode begins at ``q``: AS_LISTED, or the number of those that a search has found
+    where a contact cannot be followed; none where contacts are frozen, which have their own.
+    """
+    _, device, _, bolt, nut, threads, _, work = setting
+    if work.frozen[0] == 1:
+        return 0
+    place = np.empty(PLACE_SIZE)
+    set_place(q, device, place)
+    if follow_contacts(modes, count, contacts, place, device, bolt, nut, threads, work):
+        return AS_LISTED
+    return find_places(REACH * device[D_SCALE], place, device, bolt, nut, threads, work.search, work.places)
 
 
 @kernel()
@@ -300,7 +326,7 @@ def solve_moved(
         moves += 1
 
 
-@kernel()
+@kernel(allocates=False)
 def moved_contact(modes: Indices, count: int, is_frozen: bool, gap: Array, r: float, contacts: Array) -> int:
     """Which contact has moved to a place of overlap, -1 if none is near; of frozen ones only along the threads."""
     moved, nearest = -1, SAME_CONTACT * r
@@ -315,7 +341,7 @@ def moved_contact(modes: Indices, count: int, is_frozen: bool, gap: Array, r: fl
     return moved
 
 
-@kernel()
+@kernel(allocates=False)
 def move_on_ridge(gap: Array, has_moved: bool, move: Array, contact: Array) -> None:
     """Moves a frozen contact to a place of overlap, or to where the line through its last two moves has none.
 
@@ -333,7 +359,7 @@ def move_on_ridge(gap: Array, has_moved: bool, move: Array, contact: Array) -> N
     contact[K_THETA], contact[K_Z] = to_theta, to_z
 
 
-@kernel()
+@kernel(allocates=False)
 def is_same(contact: Array, gap: Array, most: float) -> bool:
     """Whether a place is nearer to a contact than so far, and so that contact's."""
     apart = 0.0
@@ -342,7 +368,7 @@ def is_same(contact: Array, gap: Array, most: float) -> bool:
     return math.sqrt(apart) < most
 
 
-@kernel()
+@kernel(allocates=False)
 def match_guess(count: int, candidates: Array, r: float, work: ModesWork, matches: Indices) -> int:
     """Sets which contact of the guess each candidate is, -1 where none; the number of the guess's modes, -1 if it does
     not fit.
@@ -367,7 +393,7 @@ def match_guess(count: int, candidates: Array, r: float, work: ModesWork, matche
     return code if matched > 0 and matched == int(work.guessed[0]) else -1
 
 
-@kernel()
+@kernel(allocates=False)
 def set_guess(
     part: float, q: Array, begun: Array, reached: Array, count: int, contacts: Array, work: ModesWork
 ) -> None:
@@ -382,7 +408,7 @@ def set_guess(
         copy_numbers(contacts[c], work.guessed_contacts[c])
 
 
-@kernel()
+@kernel(allocates=False)
 def touching_contacts(found: int, places: Array, contacts: Array) -> int:
     """Sets contacts without forces at the ``found`` places, as many as there is room for; their number."""
     count = min(found, MOST_CONTACTS)
@@ -393,7 +419,7 @@ def touching_contacts(found: int, places: Array, contacts: Array) -> int:
     return count
 
 
-@kernel()
+@kernel(allocates=False)
 def chosen(total: int, carried: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
     """Which solution the path goes on with: that of the modes before, else the one nearest to ``carried``."""
     places, all_contacts, counts = solutions
@@ -411,7 +437,7 @@ def chosen(total: int, carried: Array, count: int, contacts: Array, device: Arra
     return best
 
 
-@kernel()
+@kernel(allocates=False)
 def add_free_contacts(total: int, found: int, push: float, device: Array, work: Work, candidates: Array) -> int:
     """Adds the contacts of a bolt without friction, as many as there is room for; the number of candidates then."""
     places, multipliers = work[0], work[15]
@@ -421,7 +447,7 @@ def add_free_contacts(total: int, found: int, push: float, device: Array, work: 
     return total
 
 
-@kernel()
+@kernel(allocates=False)
 def kept(count: int, contacts: Array, push: float) -> int:
     """Moves the contacts that carry a force to the front; their number."""
     used = 0
@@ -468,7 +494,7 @@ def solve_step(
             return number, known
 
 
-@kernel()
+@kernel(allocates=False)
 def solve_on_ridges(
     q: Array,
     before: Array,

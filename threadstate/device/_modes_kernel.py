@@ -31,7 +31,6 @@ from threadstate.device._chart_kernel import (
     set_place,
 )
 from threadstate.device._gap_kernel import (
-    EDGE_JET_SIZE,
     G_HESSIAN,
     G_NORM,
     G_NORMAL,
@@ -44,12 +43,11 @@ from threadstate.device._gap_kernel import (
     GAP_WORK,
     set_gap,
 )
-from threadstate.device._place_near_kernel import NOWHERE, place_near
+from threadstate.device._place_near_kernel import follow_place, is_one_place
 from threadstate.device._places_kernel import (
     MAX_PLACES,
     PLACES_WORK,
     W_GAP,
-    W_JET,
     Threads,
 )
 from threadstate.device._rest_kernel import coordinate, free_coordinates, scale
@@ -123,6 +121,9 @@ REACH = 5e-3
 K_POINT, K_NORMAL, K_FORCE, K_SLIP, K_MODE, K_PAIR, K_AXIS, K_HELD, K_THETA, K_Z = 0, 3, 6, 9, 12, 13, 14, 15, 18, 19
 CONTACT_SIZE = 20
 
+AS_LISTED = -1
+"""Instead of a number of places: they are those of the contacts, one after the other."""
+
 FROZEN_PLACES = MAX_PLACES + 1
 """Where in the list of places those of frozen contacts begin."""
 
@@ -176,7 +177,7 @@ def new_modes_work() -> ModesWork:
     )
 
 
-@kernel()
+@kernel(allocates=False)
 def solve_linear(n: int, matrix: Array) -> bool:
     """Solves n equations in place, the right side in column n; False where they are singular."""
     for i in range(n):
@@ -200,7 +201,7 @@ def solve_linear(n: int, matrix: Array) -> bool:
     return True
 
 
-@kernel()
+@kernel(allocates=False)
 def set_velocities(point: Array, place: Array, device: Array, out: Array) -> None:
     """Sets the velocity of the bolt's point by each free coordinate, as lengths: 3 rows."""
     n = free_coordinates(device)
@@ -221,27 +222,26 @@ def set_velocities(point: Array, place: Array, device: Array, out: Array) -> Non
         out[0, i], out[1, i], out[2, i] = wy * az - wz * ay, wz * ax - wx * az, wx * ay - wy * ax
 
 
-@kernel()
+@kernel(allocates=False)
 def set_slip(before: Array, place: Array, contact: Array) -> None:
     """Sets the slip of a contact: how far the bolt's point there has come along the nut's tangent plane."""
-    x = np.empty(3)
-    for i in range(3):
-        x[i] = contact[K_POINT + i] - place[N_CENTRE + i]
-    # In the bolt's axes, then where it was before.
-    b = np.empty(3)
-    for i in range(3):
-        b[i] = place[N_ROTATION + i] * x[0] + place[N_ROTATION + 3 + i] * x[1] + place[N_ROTATION + 6 + i] * x[2]
+    x = contact[K_POINT] - place[N_CENTRE]
+    y = contact[K_POINT + 1] - place[N_CENTRE + 1]
+    z = contact[K_POINT + 2] - place[N_CENTRE + 2]
     along = 0.0
     for i in range(3):
-        row = N_ROTATION + 3 * i
-        was = before[N_CENTRE + i] + before[row] * b[0] + before[row + 1] * b[1] + before[row + 2] * b[2]
+        was = before[N_CENTRE + i]
+        for j in range(3):
+            column = N_ROTATION + j
+            # In the bolt's axes, then where it was before.
+            was += before[column + 3 * i] * (place[column] * x + place[column + 3] * y + place[column + 6] * z)
         contact[K_SLIP + i] = contact[K_POINT + i] - was
         along += contact[K_SLIP + i] * contact[K_NORMAL + i]
     for i in range(3):
         contact[K_SLIP + i] -= along * contact[K_NORMAL + i]
 
 
-@kernel()
+@kernel(allocates=False)
 def tangent(which: int, contact: Array) -> tuple[float, float, float]:
     """One of two unit vectors across a contact's normal; its axis without its part along the normal is the first."""
     nx, ny, nz = contact[K_NORMAL], contact[K_NORMAL + 1], contact[K_NORMAL + 2]
@@ -255,7 +255,7 @@ def tangent(which: int, contact: Array) -> tuple[float, float, float]:
     return ny * uz - nz * uy, nz * ux - nx * uz, nx * uy - ny * ux
 
 
-@kernel()
+@kernel(allocates=False)
 def match_places(modes: Indices, count: int, contacts: Array, found: int, r: float, work: ModesWork) -> bool:
     """Sets which place each contact is now, the nearest one, -1 of one that opens and has none; False where another has
     none. Where contacts are frozen each begins at its own.
@@ -283,7 +283,36 @@ def match_places(modes: Indices, count: int, contacts: Array, found: int, r: flo
     return True
 
 
-@kernel()
+@kernel(allocates=False)
+def follow_contacts(
+    modes: Indices,
+    count: int,
+    contacts: Array,
+    place: Array,
+    device: Array,
+    bolt: Array,
+    nut: Array,
+    threads: Threads,
+    work: ModesWork,
+) -> bool:
+    """Sets the first places to those of contacts that stay, each followed from its features; False where one is
+    nowhere near, or two are one.
+    """
+    places, search = work.places, work.search
+    for c in range(count):
+        if modes[c] == OPENS:
+            continue
+        gap = places[c]
+        gap[G_PAIR], gap[G_THETA], gap[G_Z] = contacts[c, K_PAIR], contacts[c, K_THETA], contacts[c, K_Z]
+        if gap[G_PAIR] > THREAD_THREAD or not follow_place(gap, place, device, bolt, nut, threads, search):
+            return False
+        for i in range(c):
+            if modes[i] != OPENS and is_one_place(places[i], gap, bolt):
+                return False
+    return True
+
+
+@kernel(allocates=False)
 def follow_places(
     modes: Indices,
     count: int,
@@ -300,19 +329,18 @@ def follow_places(
     They ``begin`` at places that have been found at this pose, or at their own where contacts are frozen.
     """
     places, search, indices = work.places, work.search, work.indices
-    gap_work = search[W_GAP : W_GAP + GAP_WORK]
     is_frozen = work.frozen[0] == 1
     for c in range(count):
         if modes[c] == OPENS or (begin and not is_frozen):
             continue
         gap = places[int(indices[c])]
-        pair, theta, z = int(gap[G_PAIR]), gap[G_THETA], gap[G_Z]
+        pair = int(gap[G_PAIR])
         stays = is_frozen and pair == THREAD_THREAD
-        if not (begin or stays):
-            pair, theta, z = place_near(gap, place, bolt, nut, threads, search[W_JET : W_JET + EDGE_JET_SIZE])
-            if pair == NOWHERE:
-                return False
-        set_gap(pair, theta, z, stays, place, device, bolt, nut, gap_work, gap)
+        if begin or stays:
+            gap_work = search[W_GAP : W_GAP + GAP_WORK]
+            set_gap(pair, gap[G_THETA], gap[G_Z], stays, place, device, bolt, nut, gap_work, gap)
+        elif not follow_place(gap, place, device, bolt, nut, threads, search):
+            return False
     return True
 
 
@@ -432,7 +460,7 @@ def set_equations(
     return size
 
 
-@kernel()
+@kernel(allocates=False)
 def set_contact(gap: Array, contact: Array) -> None:
     """Sets point, normal and features of a contact to those of its place."""
     for h in range(3):
@@ -441,7 +469,7 @@ def set_contact(gap: Array, contact: Array) -> None:
     contact[K_PAIR], contact[K_THETA], contact[K_Z] = gap[G_PAIR], gap[G_THETA], gap[G_Z]
 
 
-@kernel()
+@kernel(allocates=False)
 def set_first_unknowns(
     modes: Indices,
     count: int,
@@ -487,7 +515,7 @@ def set_first_unknowns(
     return mu * r / longest
 
 
-@kernel()
+@kernel(allocates=False)
 def largest(size: int, values: Array) -> float:
     """The largest size of the first values."""
     worst = 0.0
@@ -496,7 +524,7 @@ def largest(size: int, values: Array) -> float:
     return worst
 
 
-@kernel()
+@kernel(allocates=False)
 def leaves_cones(modes: Indices, count: int, mu: float, off: float, forces: Array) -> bool:
     """Whether a contact pulls, or one that sticks has more friction than it can, by more than ``off``.
 
@@ -537,12 +565,16 @@ def solve_mode(
     It is given up where it converges to forces out of their cones.
 
     ``before`` is the pose before the step; ``unit`` the force that forces are counted in; ``found`` places are those
-    at ``q``. The contacts have the forces to begin with, and those before the step.
+    at ``q``, or AS_LISTED: those of the contacts, one after the other. The contacts have the forces to begin with, and
+    those before the step.
     """
     matrix, spare, residual, unknowns = work.matrix, work.spare, work.residual, work.unknowns
     n = free_coordinates(device)
     r = device[D_SCALE]
-    if not match_places(modes, count, contacts, found, r, work):
+    if found == AS_LISTED:
+        for c in range(count):
+            work.indices[c] = c
+    elif not match_places(modes, count, contacts, found, r, work):
         return UNSOLVED
     place = np.empty(PLACE_SIZE)
     step = np.empty(MOST_UNKNOWNS)
@@ -627,7 +659,7 @@ def solve_mode(
     return UNSOLVED
 
 
-@kernel()
+@kernel(allocates=False)
 def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, contacts: Array, falls: bool) -> bool:
     """Whether the forces of a mode's solution are what the mode says: in their cones, and against the slip.
 
@@ -658,7 +690,7 @@ def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, con
     return True
 
 
-@kernel()
+@kernel(allocates=False)
 def overlap_beside(modes: Indices, count: int, r: float, found: int, contacts: Array, places: Array) -> int:
     """Which of the ``found`` places of a mode's solution overlaps most and is none of its contacts, -1 if none does."""
     deepest, beside = OVERLAP * r, -1

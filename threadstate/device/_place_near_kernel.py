@@ -32,14 +32,18 @@ from threadstate.device._gap_kernel import (
     E_PHI,
     E_PHI1,
     E_PHI2,
+    EDGE_JET_SIZE,
     G_PAIR,
+    G_POINT,
     G_THETA,
     G_Z,
+    GAP_WORK,
     moved_point,
     set_edge_jet,
+    set_gap,
 )
-from threadstate.device._places_kernel import Threads, bracketed_peak
-from threadstate.device._thread_maximum_kernel import NONE, polished_maximum, ridge_maximum
+from threadstate.device._places_kernel import SAME_PLACE, W_GAP, W_JET, Threads, bracketed_peak
+from threadstate.device._thread_maximum_kernel import NO_RIDGE, NONE, polished_maximum, ridge_maximum
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -64,7 +68,7 @@ ON_PLANE, ON_PHI, ON_BOTH, ANY = range(4)
 """What is greatest at a place along an edge: g, phi, or the lesser where they cross; or it is not known."""
 
 
-@kernel()
+@kernel(allocates=False)
 def place_near(
     gap: Array, place: Array, bolt: Array, nut: Array, threads: Threads, edge_jet: Array
 ) -> tuple[int, float, float]:
@@ -83,7 +87,42 @@ def place_near(
     return pair, theta, 0.0
 
 
-@kernel()
+@kernel(allocates=False)
+def follow_place(
+    gap: Array, place: Array, device: Array, bolt: Array, nut: Array, threads: Threads, work: Array
+) -> bool:
+    """Sets a place of overlap to where it is now; False where it is nowhere near."""
+    pair, theta, z = place_near(gap, place, bolt, nut, threads, work[W_JET : W_JET + EDGE_JET_SIZE])
+    if pair == NOWHERE:
+        return False
+    set_gap(pair, theta, z, False, place, device, bolt, nut, work[W_GAP : W_GAP + GAP_WORK], gap)
+    return True
+
+
+@kernel(allocates=False)
+def is_one_place(gap: Array, other: Array, bolt: Array) -> bool:
+    """Whether two places of overlap have the same point."""
+    apart = 0.0
+    for h in range(3):
+        apart += abs(gap[G_POINT + h] - other[G_POINT + h])
+    return apart < SAME_PLACE * bolt[pk.R_MAJOR]
+
+
+@kernel(allocates=False)
+def follow_all(
+    count: int, place: Array, device: Array, bolt: Array, nut: Array, threads: Threads, work: Array, places: Array
+) -> bool:
+    """Sets places of overlap to where they are now; False where one is nowhere near, or two have become one."""
+    for i in range(count):
+        if not follow_place(places[i], place, device, bolt, nut, threads, work):
+            return False
+        for j in range(i):
+            if is_one_place(places[j], places[i], bolt):
+                return False
+    return True
+
+
+@kernel(allocates=False)
 def edge_place(
     of_bolt: bool, was: float, kind: int, place: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[int, float]:
@@ -98,7 +137,7 @@ def edge_place(
     return edge_peak(True, math.atan2(y, x), kind, place, bolt, nut, jet)
 
 
-@kernel()
+@kernel(allocates=False)
 def point_of_edge(of_bolt: bool, theta: float, place: Array, curve: Array) -> tuple[float, float]:
     """Where a point of an edge is across the other part's axis."""
     r = pk.radius(-curve[pk.LEAD] / TWO_PI * theta, curve)
@@ -106,7 +145,7 @@ def point_of_edge(of_bolt: bool, theta: float, place: Array, curve: Array) -> tu
     return x, y
 
 
-@kernel()
+@kernel(allocates=False)
 def kind_of(pair: int) -> int:
     """What is greatest at an edge's place with this pair of features."""
     if pair == EDGE_SURFACE or pair == BASE_EDGE:
@@ -114,7 +153,7 @@ def kind_of(pair: int) -> int:
     return ON_BOTH if pair == EDGE_EDGE else ON_PHI
 
 
-@kernel()
+@kernel(allocates=False)
 def newton_peak(
     of_bolt: bool, was: float, kind: int, place: Array, curve: Array, solid: Array, jet: Array
 ) -> tuple[bool, float]:
@@ -140,7 +179,7 @@ def newton_peak(
     return False, at
 
 
-@kernel()
+@kernel(allocates=False)
 def edge_peak(
     of_bolt: bool, was: float, kind: int, place: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[int, float]:
@@ -163,7 +202,7 @@ def edge_peak(
     return NOWHERE, was
 
 
-@kernel()
+@kernel(allocates=False)
 def deeper_edge(
     pair: int, theta: float, depth: float, place: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[int, float]:
@@ -176,7 +215,7 @@ def deeper_edge(
     return pair, theta
 
 
-@kernel()
+@kernel(allocates=False)
 def from_edge(
     pair: int, theta: float, place: Array, bolt: Array, nut: Array, threads: Threads
 ) -> tuple[int, float, float]:
@@ -197,7 +236,7 @@ def from_edge(
     return pair, theta, 0.0
 
 
-@kernel()
+@kernel(allocates=False)
 def from_thread(
     theta: float, z: float, place: Array, bolt: Array, nut: Array, threads: Threads, edge_jet: Array
 ) -> tuple[int, float, float]:
@@ -206,7 +245,7 @@ def from_thread(
     at, up, converged = polished_maximum(theta, z, threads.placement, bolt, nut, jet)
     if not converged:
         at, up, kind = ridge_maximum(theta, z, 0.0, LATER_RIDGE_STEP, threads.placement, bolt, nut, jet)
-        if kind == NONE:
+        if kind == NONE or kind == NO_RIDGE:
             return NOWHERE, at, up
     if up <= 0.0:
         pair, at = edge_place(True, at, ANY, place, bolt, nut, edge_jet)

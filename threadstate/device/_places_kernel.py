@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._branchless_kernel import azimuth, profile_numbers, radius_and_slope, smaller
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
@@ -55,6 +56,7 @@ from threadstate.device._gap_kernel import (
     G_Z,
     GAP_WORK,
     moved_point,
+    moved_vector,
     set_edge_jet,
     set_gap,
 )
@@ -71,27 +73,29 @@ Indices = NDArray[np.int64]
 
 SAMPLES = 96
 FINE, FINEST = 8, 64
-"""Samples of an edge, all round, and the parts into which an interval near contact is divided: two maxima beside each
-other, where the edge passes from one region to the next, have to be told apart. The most parts are for poses of
-which the certificate finds an overlap that fewer have missed."""
+"""Samples of an edge, all round, and the parts into which an interval is divided: two maxima beside each other, where
+the edge passes from one region to the next, have to be told apart. The most parts are for poses of which the
+certificate finds an overlap that fewer have missed."""
+
+LEVEL = 1e-12
+"""Nominal radii by which a sample is higher than one beside it: what is less is round-off on an arc of one depth."""
 
 MAX_PLACES = 24
 """The most places that are listed; a full list leaves the later ones out."""
 
-SCAN_REACH = 0.01
-"""An interval is divided where one of its ends is above the reach less this part of the nominal radius."""
-
 MAX_PITCHES = 4
 """How many thread pitches of the bolt are searched from its base up: a bolt that is deeper is refused."""
+
+SAME_PLACE = 1e-7
+"""Places of the same features that are nearer to each other (nominal radii) are one."""
 
 MAX_STEPS = 60
 NEWTON_STEPS = 12
 MAX_NARROWINGS = 8
 
-# Scratch of the search: depths at samples, at fine ones too, an edge's jet, the work of a gap.
-W_DEPTH = 0
-W_FINE = SAMPLES
-W_JET = W_FINE + SAMPLES * FINEST
+# Scratch of the search: depths at samples, an edge's jet, the work of a gap.
+W_DEPTHS = 0
+W_JET = W_DEPTHS + SAMPLES * FINEST
 W_GAP = W_JET + EDGE_JET_SIZE
 PLACES_WORK = W_GAP + GAP_WORK
 
@@ -123,8 +127,8 @@ class Threads(NamedTuple):
     known_count: Indices
 
 
-# Azimuths of the grid; of the edges' samples into how many parts an interval is divided, then x and y of the bolt's,
-# then of the nut's.
+# Azimuths of the grid; of the edges' samples into how many parts an interval is divided, then all x and all y of the
+# bolt's, then of the nut's.
 S_AZIMUTHS, S_PARTS, S_POINTS = 0, 1, 2
 SAMPLES_SIZE = S_POINTS + 4 * SAMPLES * FINEST
 
@@ -149,19 +153,19 @@ def new_threads(bolt: Array) -> Threads:
     )
 
 
-@kernel()
+@kernel(allocates=False)
 def forget_maxima(threads: Threads) -> None:
     """Forgets the maxima that are remembered: the next search is of another path."""
     threads.known_count[0] = 0
 
 
-@kernel()
+@kernel(allocates=False)
 def thread_azimuths(device: Array) -> int:
     """On how many azimuths of the bolt's thread ridges are searched: twice as many where edges are sampled finest."""
     return RIDGE_AZIMUTHS if device[D_FINE] == FINE else MAX_AZIMUTHS
 
 
-@kernel()
+@kernel(allocates=False)
 def set_samples(parts: int, bolt: Array, nut: Array, samples: Array) -> None:
     """Sets the samples of both edges, each interval divided into parts."""
     samples[S_PARTS] = parts
@@ -171,23 +175,32 @@ def set_samples(parts: int, bolt: Array, nut: Array, samples: Array) -> None:
         curve = bolt if i < count else nut
         theta = (i % count) * step
         r = pk.radius(-curve[pk.LEAD] / TWO_PI * theta, curve)
-        samples[S_POINTS + 2 * i] = r * math.cos(theta)
-        samples[S_POINTS + 2 * i + 1] = r * math.sin(theta)
+        at = S_POINTS + i % count + (0 if i < count else 2 * count)
+        samples[at] = r * math.cos(theta)
+        samples[at + count] = r * math.sin(theta)
 
 
-@kernel()
-def sample_depth(of_bolt: bool, i: int, floor: float, place: Array, samples: Array, solid: Array) -> float:
-    """The lesser of g and phi of an edge's i-th sample; where g is below ``floor``, g."""
+@kernel(contract=True, allocates=False)
+def set_depths(
+    of_bolt: bool, count: int, place: Array, edge_x: Array, edge_y: Array, solid: Array, depths: Array
+) -> None:
+    """Sets the lesser of g and phi at an edge's samples."""
     sigma = 1.0 if of_bolt else -1.0
-    x, y, z = moved_point(of_bolt, place, samples[2 * i], samples[2 * i + 1], 0.0)
-    g = -sigma * z
-    if g < floor:
-        return g
+    x_x, y_x, z_x = moved_vector(of_bolt, place, 1.0, 0.0, 0.0)
+    x_y, y_y, z_y = moved_vector(of_bolt, place, 0.0, 1.0, 0.0)
+    x_0, y_0, z_0 = moved_point(of_bolt, place, 0.0, 0.0, 0.0)
     k = solid[pk.LEAD] / TWO_PI
-    return min(g, sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), solid)))
+    numbers = profile_numbers(solid)
+    for i in range(count):
+        x = x_x * edge_x[i] + x_y * edge_y[i] + x_0
+        y = y_x * edge_x[i] + y_y * edge_y[i] + y_0
+        z = z_x * edge_x[i] + z_y * edge_y[i] + z_0
+        away = math.sqrt(x * x + y * y)
+        radius, _, _, _ = radius_and_slope(z - k * azimuth(x, y, away), numbers)
+        depths[i] = smaller(-sigma * z, sigma * (away - radius))
 
 
-@kernel()
+@kernel(allocates=False)
 def bracketed_peak(
     of_bolt: bool, low: float, high: float, place: Array, curve: Array, solid: Array, jet: Array
 ) -> tuple[int, float]:
@@ -243,7 +256,7 @@ def bracketed_peak(
     return kind, at
 
 
-@kernel()
+@kernel(allocates=False)
 def peak_beside(
     of_bolt: bool, middle: float, step: float, place: Array, curve: Array, solid: Array, jet: Array
 ) -> tuple[int, float]:
@@ -263,7 +276,7 @@ def peak_beside(
     return -1, middle
 
 
-@kernel()
+@kernel(allocates=False)
 def add_place(
     pair: int,
     theta: float,
@@ -282,7 +295,7 @@ def add_place(
     if count == MAX_PLACES:
         return count, -1
     set_gap(pair, theta, z, False, place, device, bolt, nut, work[W_GAP : W_GAP + GAP_WORK], places[count])
-    near = 1e-7 * bolt[pk.R_MAJOR]
+    near = SAME_PLACE * bolt[pk.R_MAJOR]
     for i in range(count):
         apart = 0.0
         for j in range(3):
@@ -292,7 +305,7 @@ def add_place(
     return count + 1, count
 
 
-@kernel()
+@kernel(allocates=False)
 def find_places(
     reach: float,
     place: Array,
@@ -306,31 +319,25 @@ def find_places(
     """Sets the places whose overlap is more than ``-reach`` (a length); returns their number."""
     count = 0
     jet = work[W_JET : W_JET + EDGE_JET_SIZE]
-    depth = work[W_DEPTH : W_DEPTH + SAMPLES]
     parts = int(device[D_FINE])
     if threads.samples[S_PARTS] != parts:
         set_samples(parts, bolt, nut, threads.samples)
-    all_fine = SAMPLES * parts
-    fine = work[W_FINE : W_FINE + all_fine]
-    step = TWO_PI / all_fine
-    floor = -reach - SCAN_REACH * bolt[pk.R_MAJOR]
+    number = SAMPLES * parts
+    depths = work[W_DEPTHS : W_DEPTHS + number]
+    step = TWO_PI / number
     lowest = -reach - step * bolt[pk.R_MAJOR]
+    level = LEVEL * bolt[pk.R_MAJOR]
     for part in range(2):
         of_bolt = part == 0
         curve = bolt if of_bolt else nut
         solid = nut if of_bolt else bolt
-        samples = threads.samples[S_POINTS + 2 * part * all_fine :]
-        for i in range(SAMPLES):
-            depth[i] = sample_depth(of_bolt, i * parts, min(floor, lowest), place, samples, solid)
-        for i in range(SAMPLES):
-            divided = max(depth[i], depth[i + 1 if i < SAMPLES - 1 else 0]) > floor
-            fine[i * parts] = depth[i]
-            for j in range(i * parts + 1, (i + 1) * parts):
-                fine[j] = sample_depth(of_bolt, j, lowest, place, samples, solid) if divided else -math.inf
-        for i in range(all_fine):
-            if fine[i] < lowest:
+        points = threads.samples[S_POINTS + 2 * part * number :]
+        set_depths(of_bolt, number, place, points, points[number:], solid, depths)
+        for i in range(number):
+            if depths[i] < lowest:
                 continue
-            if fine[i] < fine[i - 1 if i > 0 else all_fine - 1] or fine[i] < fine[i + 1 if i < all_fine - 1 else 0]:
+            before, after = depths[i - 1 if i > 0 else number - 1], depths[i + 1 if i < number - 1 else 0]
+            if depths[i] < max(before, after) or depths[i] - min(before, after) < level:
                 continue
             kind, theta = peak_beside(of_bolt, i * step, step, place, curve, solid, jet)
             if kind < 0 or (kind == 2 and not of_bolt):
@@ -348,7 +355,7 @@ def find_places(
     return add_threads(reach, place, device, bolt, nut, threads, work, count, places)
 
 
-@kernel()
+@kernel(allocates=False)
 def add_threads(
     reach: float,
     place: Array,
@@ -407,7 +414,7 @@ def add_threads(
     return count
 
 
-@kernel()
+@kernel(allocates=False)
 def set_base(base: float, place: Array, placement: Array) -> None:
     """Moves a placement of the bolt, in its axes, to where a height over its base is that of the base."""
     for i in range(3):
@@ -438,19 +445,19 @@ def remember(edges: int, count: int, places: Array, threads: Threads) -> None:
     threads.known_count[0] = kept
 
 
-@kernel()
+@kernel(allocates=False)
 def set_known(theta: float, z: float, missed: float, row: Array) -> None:
     """Sets a maximum that is remembered."""
     row[KNOWN_THETA], row[KNOWN_Z], row[KNOWN_MISSED] = theta, z, missed
 
 
-@kernel()
+@kernel(allocates=False)
 def lowest_height(place: Array, bolt: Array) -> float:
     """A height that no point of the bolt is below."""
     return place[N_OFFSET + 2] - bolt[pk.R_MAJOR] * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
 
 
-@kernel()
+@kernel(allocates=False)
 def add_thread(
     theta: float,
     z: float,

@@ -31,6 +31,7 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._flush_kernel import flush_is_reached
 from threadstate.device._gap_kernel import G_GRADIENT, G_HESSIAN, G_VALUE, GAP_SIZE
+from threadstate.device._place_near_kernel import follow_all
 from threadstate.device._places_kernel import (
     FINEST,
     MAX_PITCHES,
@@ -106,13 +107,13 @@ def new_work() -> Work:
     )
 
 
-@kernel()
+@kernel(allocates=False)
 def coordinate(i: int, device: Array) -> int:
     """Which coordinate the i-th free one is: a rigid twist leaves out the third."""
     return i + 1 if device[D_RIGID] > 0.0 and i >= 2 else i
 
 
-@kernel()
+@kernel(allocates=False)
 def scale(j: int, device: Array) -> float:
     """What a coordinate is multiplied by to be a length."""
     return device[D_SCALE] if j < 3 else 1.0
@@ -144,7 +145,7 @@ def set_metric(n: int, place: Array, device: Array, metric: Array) -> None:
             metric[i, j] = total
 
 
-@kernel()
+@kernel(allocates=False)
 def length_of(n: int, step: Array, metric: Array) -> float:
     """The length of a step in the metric."""
     total = 0.0
@@ -154,7 +155,7 @@ def length_of(n: int, step: Array, metric: Array) -> float:
     return math.sqrt(max(total, 0.0))
 
 
-@kernel()
+@kernel(allocates=False)
 def set_constraints(n: int, count: int, places: Array, device: Array, normals: Array, limits: Array) -> None:
     """Sets the linearised contacts ``normals . step <= limits`` in the free coordinates as lengths."""
     for i in range(count):
@@ -164,7 +165,7 @@ def set_constraints(n: int, count: int, places: Array, device: Array, normals: A
         limits[i] = -places[i, G_VALUE]
 
 
-@kernel()
+@kernel(allocates=False)
 def move(n: int, step: Array, q: Array, device: Array, trial: Array) -> None:
     """Sets the coordinates after a step."""
     copy_numbers(q, trial)
@@ -173,13 +174,13 @@ def move(n: int, step: Array, q: Array, device: Array, trial: Array) -> None:
         trial[j] += step[i] / scale(j, device)
 
 
-@kernel()
+@kernel(allocates=False)
 def free_coordinates(device: Array) -> int:
     """How many coordinates are free."""
     return COORDINATES - 1 if device[D_RIGID] > 0.0 else COORDINATES
 
 
-@kernel()
+@kernel(allocates=False)
 def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, gradient: Array) -> float:
     """The potential; sets its gradient in the free coordinates as lengths."""
     energy = elastic_energy(q, device, by_q)
@@ -190,7 +191,7 @@ def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, grad
     return energy + push * q[5]
 
 
-@kernel()
+@kernel(allocates=False)
 def short_descent(n: int, count: int, push: float, r: float, work: Work) -> float:
     """The size of a short step of the steepest descent over the feasible motions; sets the contacts' multipliers.
 
@@ -212,6 +213,7 @@ def short_descent(n: int, count: int, push: float, r: float, work: Work) -> floa
 @kernel()
 def back_to_contact(
     q: Array,
+    known: int,
     push: float,
     reach: float,
     left: float,
@@ -226,7 +228,8 @@ def back_to_contact(
     Returns the number of places found then, and whether overlaps, and gaps of those contacts times the parts of the
     push that they carry, are at most ``left`` (nominal radii). The places, and the pose in numbers, are those of the
     result. Without the way back a step along curved contacts would end beside them, at a higher potential than its
-    model has.
+    model has. On the way the first ``known`` of the places are followed from where they are, and where they are met all
+    are searched for.
     """
     (
         places,
@@ -249,10 +252,13 @@ def back_to_contact(
     n = free_coordinates(device)
     r = bolt[pk.R_MAJOR]
     by_q = np.empty(COORDINATES)
-    count = 0
-    for _ in range(MAX_CORRECTIONS):
+    count, corrections, searches = known, 0, known == 0
+    while True:
         set_place(q, device, place)
-        count = find_places(reach, place, device, bolt, nut, threads, search, places)
+        if not searches:
+            searches = not follow_all(count, place, device, bolt, nut, threads, search, places)
+        if searches:
+            count = find_places(reach, place, device, bolt, nut, threads, search, places)
         set_metric(n, place, device, metric)
         if not cholesky(metric, n, metric_factor):
             return count, False
@@ -271,7 +277,14 @@ def back_to_contact(
                 limits[rows] = value
                 rows += 1
         if worst <= left * r:
-            return count, True
+            if searches:
+                return count, True
+            searches = True
+            continue
+        corrections += 1
+        if corrections == MAX_CORRECTIONS:
+            return count, False
+        searches = count == 0
         for j in range(n):
             gradient[j] = 0.0
         status = solve_program(
@@ -282,10 +295,9 @@ def back_to_contact(
         for m in range(n):
             j = coordinate(m, device)
             q[j] += step[m] / scale(j, device)
-    return count, False
 
 
-@kernel()
+@kernel(allocates=False)
 def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) -> None:
     """Sets the Hessian of the potential with the contacts' curvature, by the multipliers; stiffer across contacts."""
     places, normals, _, _, _, _, model, _, _, _, _, _, _, _, _, multipliers = work
@@ -304,7 +316,7 @@ def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) 
             model[i, j] = total
 
 
-@kernel()
+@kernel(allocates=False)
 def set_convex_model(n: int, count: int, stiffness: float, device: Array, work: Work) -> None:
     """Sets the model, as stiff across contacts as it takes to be convex; as stiff as ever where it never is."""
     for stiffening in STIFFENING:
@@ -313,7 +325,7 @@ def set_convex_model(n: int, count: int, stiffness: float, device: Array, work: 
             return
 
 
-@kernel()
+@kernel(allocates=False)
 def descend(
     q: Array,
     push: float,
@@ -391,7 +403,7 @@ def descend_with(
     moved = np.empty(COORDINATES)
     saved = np.empty((MAX_PLACES, GAP_SIZE))
     saved_multipliers = np.empty(MAX_PLACES)
-    count, is_out = back_to_contact(q, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
+    count, is_out = back_to_contact(q, 0, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
     if not is_out:
         return UNSETTLED, count, True
     stiffness = 0.0
@@ -448,7 +460,7 @@ def descend_with(
             move(n, step, q, device, trial)
             copy_numbers(trial, moved)
             trial_count, is_out = back_to_contact(
-                moved, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work
+                moved, count, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work
             )
             energy = elastic_energy(moved, device, by_q) + push * moved[5]
             if is_out and energy <= potential + owed:

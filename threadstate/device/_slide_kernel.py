@@ -49,6 +49,9 @@ WEIGHTED, NEARLY_WEIGHTED = 1e-12, 1e-6
 """How near (nominal radii) the centre of the weights is to that of pressure; from where on steps are whole, where
 round-off decides between values."""
 
+LEAST_EXPONENT = -700.0
+"""Up to which weights are zero: beside the largest, and slow to compute."""
+
 TURNED_BACK, INWARD = 3, 0.1
 """In how many rounds the centre of pressure may be outside the patch's hull, and by which part of the way to the middle
 of the patch's points it is moved, and moved again, until it is inside."""
@@ -87,18 +90,20 @@ def is_level(q: Array, device: Array) -> bool:
     return math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) < LEVEL_TILT
 
 
-@kernel()
-def set_weights(count: int, points: Array, x: float, y: float, r: float, weights: Array) -> bool:
+@kernel(allocates=False)
+def set_weights(count: int, points: Array, x: float, y: float, r: float, rates: Array, weights: Array) -> bool:
     """Sets the weights of greatest entropy of points whose centre is (x, y); False where it is not inside them.
 
-    Newton's method for the minimum of the logarithm of the sum of ``exp(a . (x_i - x))``, which is convex in ``a``.
+    Newton's method for the minimum of the logarithm of the sum of ``exp(a . (x_i - x))``, which is convex in ``a``. It
+    begins with the ``rates`` (2), which are set to ``a``.
     """
-    ax, ay = 0.0, 0.0
+    ax, ay = rates[0], rates[1]
     for _ in range(WEIGHT_STEPS):
         total, mx, my, xx, xy, yy = weighted_sums(count, points, x, y, ax, ay, weights)
         if math.hypot(mx, my) <= WEIGHTED * r:
             for i in range(count):
                 weights[i] /= total
+            rates[0], rates[1] = ax, ay
             return True
         xx, xy, yy = xx - mx * mx, xy - mx * my, yy - my * my
         determinant = xx * yy - xy * xy
@@ -118,8 +123,8 @@ def set_weights(count: int, points: Array, x: float, y: float, r: float, weights
     return False
 
 
-@kernel()
-def set_weights_inside(count: int, points: Array, x: float, y: float, r: float, weights: Array) -> bool:
+@kernel(allocates=False)
+def set_weights_inside(count: int, points: Array, x: float, y: float, r: float, rates: Array, weights: Array) -> bool:
     """As :func:`set_weights`, of the first point inside on the way from (x, y) to the middle of the points."""
     middle_x, middle_y = 0.0, 0.0
     for i in range(count):
@@ -128,12 +133,12 @@ def set_weights_inside(count: int, points: Array, x: float, y: float, r: float, 
     for _ in range(SHORTENINGS):
         x += INWARD * (middle_x - x)
         y += INWARD * (middle_y - y)
-        if set_weights(count, points, x, y, r, weights):
+        if set_weights(count, points, x, y, r, rates, weights):
             return True
     return False
 
 
-@kernel()
+@kernel(allocates=False)
 def highest(count: int, points: Array, x: float, y: float, ax: float, ay: float) -> float:
     """The largest exponent of the weights."""
     most = -math.inf
@@ -142,7 +147,7 @@ def highest(count: int, points: Array, x: float, y: float, ax: float, ay: float)
     return most
 
 
-@kernel()
+@kernel(allocates=False)
 def weighted_sums(
     count: int, points: Array, x: float, y: float, ax: float, ay: float, weights: Array
 ) -> tuple[float, float, float, float, float, float]:
@@ -151,7 +156,8 @@ def weighted_sums(
     total, mx, my, xx, xy, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(count):
         dx, dy = points[i, H_X] - x, points[i, H_Y] - y
-        w = math.exp(ax * dx + ay * dy - most)
+        exponent = ax * dx + ay * dy - most
+        w = math.exp(exponent) if exponent > LEAST_EXPONENT else 0.0
         weights[i] = w
         total += w
         mx += w * dx
@@ -162,7 +168,7 @@ def weighted_sums(
     return total, mx / total, my / total, xx / total, xy / total, yy / total
 
 
-@kernel()
+@kernel(allocates=False)
 def set_friction(
     count: int, points: Array, weights: Array, strength: float, before: Array, place: Array, r: float, out: Array
 ) -> float:
@@ -267,7 +273,7 @@ def lie_flush(
         return False, 0.0
     place, by_q = np.empty(PLACE_SIZE), np.empty(COORDINATES)
     points, hull = np.empty((POINTS, POINT_SIZE)), np.empty((POINTS + 2, POINT_SIZE))
-    weights, friction = np.empty(POINTS), np.zeros(7)
+    weights, rates, friction = np.empty(POINTS), np.zeros(2), np.zeros(7)
     free_x, free_y = level[3], level[4]
     level[3], level[4] = before[N_CENTRE], before[N_CENTRE + 1]
     elastic_energy(level, device, by_q)
@@ -295,9 +301,9 @@ def lie_flush(
         if sticks or not turns:
             # One direction of slip: friction has a resultant at the centre of pressure.
             weights[0], points[0, H_X], points[0, H_Y], count = 1.0, x, y, 1
-        elif not set_weights(count, points, x, y, r, weights):
+        elif not set_weights(count, points, x, y, r, rates, weights):
             # Friction as it was may have it outside where friction as it is does not.
-            if turned_back == TURNED_BACK or not set_weights_inside(count, points, x, y, r, weights):
+            if turned_back == TURNED_BACK or not set_weights_inside(count, points, x, y, r, rates, weights):
                 break
             turned_back += 1
             is_inside = False

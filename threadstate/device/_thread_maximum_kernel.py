@@ -35,11 +35,11 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-NONE, MAXIMUM, OUTSIDE = range(3)
-"""What is near: no maximum, one, or a ridge that rises out of either thread."""
+NONE, MAXIMUM, OUTSIDE, NO_RIDGE = range(4)
+"""What is near: no maximum, one, a ridge that rises out of either thread, or not even a ridge."""
 
-SLOPE_LEFT = 1e-13
-"""The slope at which a point counts as one of the ridge."""
+SLOPE_LEFT, STEP_LEFT = 1e-13, 1e-14
+"""The slope, and the step of Newton's method in thread pitches, at which a point counts as one of the ridge."""
 
 POLISHED, POLISHED_NEAR = 1e-13, 1e-9
 """The last step of Newton's method, in radians and thread pitches: at which it ends, and the largest with which what it
@@ -47,22 +47,40 @@ has reached counts as a maximum."""
 
 POLISH_STEPS = 12
 
+RIDGE_STEPS, CONVERGING = 8, 0.5
+"""Of Newton's method to a ridge on an azimuth: the most steps, and each over the one before."""
 
-@kernel()
+
+@kernel(allocates=False)
 def reduced(slope: float, retained: float, before: float) -> float:
     """The slope at a retained end of a bracket, reduced as Anderson and Bjorck (1973) do, after a step to ``slope``."""
     factor = 1.0 - slope / before
     return retained * (factor if factor > 0.0 else 0.5)
 
 
-@kernel()
+@kernel(allocates=False)
 def ridge_point(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, bool]:
     """Where phi has a ridge near z on an azimuth: B falls through zero. Also returns whether there is one.
 
-    It is bracketed, and then found by regula falsi with every third step a bisection.
+    By Newton's method while that converges close by; else it is bracketed, and then found by regula falsi with every
+    third step a bisection.
     """
+    at, before = z, 2.0 * window
+    for _ in range(RIDGE_STEPS):
+        set_jet(theta, at, placement, bolt, nut, jet)
+        if not jet[TJ_ZZ] < 0.0:
+            break
+        step = -jet[TJ_B] / jet[TJ_ZZ]
+        if abs(jet[TJ_B]) <= SLOPE_LEFT or abs(step) <= STEP_LEFT * bolt[pk.P]:
+            return at, True
+        if not abs(step) < CONVERGING * before:
+            break
+        at += step
+        before = abs(step)
+        if abs(at - z) > window:
+            break
     w, b_low, b_high = ridge_bracket(theta, z, window, placement, bolt, nut, jet)
     if w == 0.0:
         return z, False
@@ -88,7 +106,7 @@ def ridge_point(
         i += 1
 
 
-@kernel()
+@kernel(allocates=False)
 def ridge_maximum(
     theta: float,
     z: float,
@@ -101,19 +119,20 @@ def ridge_maximum(
 ) -> tuple[float, float, int]:
     """The highest point of phi along the ridge near (theta, z), by steps in azimuth uphill and then by regula falsi.
 
-    Along the ridge A falls through zero there. At each azimuth the ridge is looked for within a window of where the
-    helix through the point before leads, or of the line between two ridge points. Also returns what there is.
+    Along the ridge A falls through zero there. At each azimuth the ridge is looked for within a window of where its
+    tangent at the point before leads, or of the line between two ridge points. Also returns what there is.
     """
     k = bolt[pk.LEAD] / TWO_PI
     window = FIRST_WINDOW * bolt[pk.P]
     z, found = ridge_point(theta, z, window, placement, bolt, nut, jet)
     if not found:
-        return theta, z, NONE
+        return theta, z, NO_RIDGE
     slope = jet[TJ_A]
     uphill = math.copysign(step, slope)
     after, z_after, after_slope = theta, z, slope
     for _ in range(MAX_RIDGE_STEPS):
-        after, z_after = theta + uphill, z + k * uphill
+        lean = -jet[TJ_UZ] / jet[TJ_ZZ] if jet[TJ_ZZ] < 0.0 else 0.0
+        after, z_after = theta + uphill, z + k * uphill + min(max(lean * uphill, -window), window)
         z_after, found = ridge_point(after, z_after, window, placement, bolt, nut, jet)
         if not found:
             return theta, z, NONE
@@ -146,7 +165,7 @@ def ridge_maximum(
         i += 1
 
 
-@kernel()
+@kernel(allocates=False)
 def thread_maximum(
     theta: float, z: float, base: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, int]:
@@ -167,7 +186,7 @@ def thread_maximum(
     return at, up, kind
 
 
-@kernel()
+@kernel(allocates=False)
 def polished_maximum(
     theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
