@@ -15,8 +15,6 @@ export const OUTCOMES = {
   slipped: { name: "slips off", letter: "s" },
   undecided: { name: "undecided", letter: "?" },
 };
-/** Requests at once: as many as the least machine has processors. */
-const LANES = 2;
 /** Seconds after which a path is not followed any more: below the service's own time limit. */
 const TIME_S = 20;
 /** Frictions at which a critical one is bracketed before it is bisected, and how far. */
@@ -182,20 +180,20 @@ export class SuccessMap {
   async #compute(map, signal) {
     const { phases } = mapRequestOf(map.text);
     const orientations = orientationsOf(map.grid);
-    // First the paths from phase 0 alone: the whole map is seen long before the paths from all phases are there.
-    const left = [[0, 1], [1, phases]].filter(([from, to]) => from < to)
-      .flatMap(([from, to]) => orientations.map((place) => ({ place, poses: posesOf(place, phases).slice(from, to) })));
     const take = async ({ place, poses }) => {
       const found = await this.#outcomes(map, poses, null, signal);
       map.cells.set(keyOf(place), [...(map.cells.get(keyOf(place)) ?? []), ...found]);
       if (!signal.aborted) this.#changed();
     };
-    const lane = async () => {
-      for (let next = left.shift(); next !== undefined && !signal.aborted; next = left.shift()) await take(next);
+    const lane = async (following) => {
+      for (let next = following(); next !== undefined && !signal.aborted; next = following()) await take(next);
     };
-    // Alone: what is refused is refused once.
-    await take(left.shift());
-    await Promise.all(Array.from({ length: LANES }, lane));
+    // First the paths from phase 0 alone: the whole map is seen long before the paths from all phases are there.
+    for (const [from, to] of [[0, 1], [1, phases]]) {
+      const left = from < to ? orientations.map((place) => ({ place, poses: posesOf(place, phases).slice(from, to) })) : [];
+      // From level outwards and from the corners inwards: level paths take longest, those that do not snap least.
+      await Promise.all([lane(() => left.shift()), lane(() => left.pop())]);
+    }
   }
 
   /** Reads a stored map; another one than the text says has been stored under its number elsewhere. */
