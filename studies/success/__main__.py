@@ -6,6 +6,8 @@ The maps are kept in files below ``data/success``, so that an interrupted run go
 from __future__ import annotations
 
 import argparse
+import math
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,7 +22,7 @@ PAGE = ROOT / "docs" / "success.md"
 def main() -> None:
     """Compute the maps, write the section and the pictures."""
     parser = argparse.ArgumentParser(prog="python -m studies.success", description=__doc__)
-    parser.add_argument("--workers", type=int, default=1, help="processes [%(default)s]")
+    parser.add_argument("--workers", type=int, default=2, help="processes [%(default)s]")
     parser.add_argument("--into", type=Path, default=ROOT / "data" / "success", help="folder of maps [data/success]")
     parser.add_argument(
         "--friction-phases", type=int, default=PHASES, help="starting phases with friction [%(default)s]"
@@ -30,7 +32,11 @@ def main() -> None:
     maps: list[StudiedMap] = []
     for inputs in studied_inputs(arguments.friction_phases):
         path = arguments.into / f"{inputs.strategy.value}-{inputs.sha256[:12]}.map"
-        maps.append(StudiedMap(inputs, computed_map_with_progress(inputs, arguments.workers, path).orientations))
+        is_new, began = not path.exists(), time.monotonic()
+        found = computed_map_with_progress(inputs, arguments.workers, path)
+        minutes = math.ceil((time.monotonic() - began) / 60.0)
+        duration = f"{minutes} min with {arguments.workers} {'processes' if arguments.workers > 1 else 'process'}"
+        maps.append(StudiedMap(inputs, found.orientations, duration if is_new else ""))
         _write(maps)
 
 

@@ -99,7 +99,8 @@ def _words(maps: Sequence[StudiedMap]) -> list[str]:
         frictions = _listed(one.inputs.frictions)
         lines.append(
             f"- {one.name}, mu {frictions}: {len(one.orientations)} orientations, {phases}, "
-            f"at most {one.inputs.point_limit:,} points a turn; content hash `{one.content_sha256[:12]}`."
+            f"at most {one.inputs.point_limit:,} points a turn; content hash `{one.content_sha256[:12]}`"
+            f"{one.duration and f'; {one.duration}'}."
         )
     return lines
 

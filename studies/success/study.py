@@ -25,10 +25,11 @@ FARTHER_DEG = 390.0
 
 @dataclass(frozen=True)
 class StudiedMap:
-    """A map with what it was computed from."""
+    """A map with what it was computed from, and how long that took in words, empty where it was interrupted."""
 
     inputs: SuccessInputs
     orientations: Sequence[OrientationMap]
+    duration: str = ""
 
     @cached_property
     def content_sha256(self) -> str:

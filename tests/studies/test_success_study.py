@@ -70,6 +70,15 @@ def test_the_section_counts_what_the_maps_hold(maps: list[StudiedMap]) -> None:
     assert "success/ccw_then_cw.svg" in text
 
 
+def test_how_long_a_map_took_is_said_where_it_was_not_interrupted(maps: list[StudiedMap]) -> None:
+    (line,) = [
+        one for one in section([replace(maps[0], duration="7 min with 2 processes")]).splitlines() if "hash" in one
+    ]
+    assert line.endswith("`; 7 min with 2 processes.")
+    (line,) = [one for one in section(maps[:1]).splitlines() if "hash" in one]
+    assert line.endswith("`.")
+
+
 def test_a_part_of_the_maps_has_a_section(maps: list[StudiedMap]) -> None:
     assert "Critical friction" not in section(maps[:1])
 
