@@ -191,6 +191,8 @@ export class SuccessMap {
     // First the paths from phase 0 alone: the whole map is seen long before the paths from all phases are there.
     for (const [from, to] of [[0, 1], [1, phases]]) {
       const left = from < to ? orientations.map((place) => ({ place, poses: posesOf(place, phases).slice(from, to) })) : [];
+      // The first one alone: what is refused is refused once.
+      if (map.cells.size === 0) await take(left.pop());
       // From level outwards and from the corners inwards: level paths take longest, those that do not snap least.
       await Promise.all([lane(() => left.shift()), lane(() => left.pop())]);
     }
