@@ -11,7 +11,7 @@ from enum import StrEnum
 from fastapi import Request
 from fastapi.concurrency import run_in_threadpool
 
-from threadstate.device.compile import turning_is_compiled
+from threadstate.device.compile import load_turning, turning_is_compiled
 from threadstate.errors import ThreadstateError
 from threadstate.warm_up import kernels_are_compiled, load_kernels
 
@@ -49,7 +49,7 @@ class Kernels:
     async def run(self) -> None:
         """Load the kernels into this process, once; a separate process compiles them if the cache lacks them.
 
-        Those of bolts that are turned are compiled after the first request for them.
+        Those of bolts that are turned are loaded after all others, or compiled after the first request for them.
         """
         if not turning_is_compiled():
             self.turning = KernelState.COMPILING
@@ -60,6 +60,8 @@ class Kernels:
                 await _compile(COMPILE_ALL)
             finally:
                 self.turning = KernelState.READY
+        else:
+            await self._load_turning()
 
     def want_turning(self) -> None:
         """Have the kernels of bolts that are turned compiled, if they are not."""
@@ -77,6 +79,12 @@ class Kernels:
         finally:
             self.state = KernelState.READY
             self._settled.set()
+
+    async def _load_turning(self) -> None:
+        try:
+            await run_in_threadpool(load_turning)
+        except Exception:
+            _log.exception("the kernels of bolts that are turned could not be loaded; the first path tries again")
 
     async def settled(self) -> None:
         """Wait until :meth:`run` has loaded what serving needs."""

@@ -6,6 +6,7 @@ import gc
 import logging
 import os
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -161,3 +162,25 @@ def test_a_service_that_ends_ends_the_compiler(
         os.kill(int(begun.read_text()), 0)
     # A process that was not waited for warns here, which fails the test.
     gc.collect()
+
+
+def test_kernels_of_turning_are_loaded_after_those_that_serving_needs(
+    made_up: StoredLibrary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """No request waits for that; where they cannot be, the first path tries again."""
+    begun, goes_on = threading.Event(), threading.Event()
+
+    def load() -> None:
+        begun.set()
+        assert goes_on.wait(LONGEST_S)
+        raise RuntimeError("no such kernel")
+
+    monkeypatch.setattr("service.kernels.load_turning", load)
+    caplog.set_level(logging.ERROR)
+    settings = read_settings({DATABASE: made_up.database, DATA_DIR: str(tmp_path)})
+    with TestClient(service_app(settings, serving=True)) as client:
+        assert begun.wait(LONGEST_S)
+        assert client.get("/readyz").json()["kernels"] == "ready"
+        assert client.post("/v1/solve", json=SOLVE).status_code == 200
+        goes_on.set()
+    assert "the first path tries again" in caplog.text
