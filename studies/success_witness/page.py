@@ -34,8 +34,7 @@ radii; after 25 linear steps 1e-2 and 1e-4 are enough, and the step is *nearly* 
 0.009 nominal radii, or does not balance, is a fall: small steps at the same command, with a drag that is lowered as the
 bolt slows down. With 20 *loose* ones in a row, that balance neither way, the witness says nothing of the end: its
 linear steps know no curvature, and go to and fro where edges lie along each other; nor after {MOST_LINEAR_STEPS:,}
-linear steps of a path. It confirms outcomes as far as its
-margins go; it is no bound.
+linear steps of a path. It confirms outcomes as far as its margins go; it is no bound.
 
 Of the first {len(cells):,} cells {sum(one.is_decided for one in cells):,} have an outcome by both, of which
 {sum(one.is_decided and one.agrees for one in cells):,} agree. A path takes the witness {np.median(seconds):.2g} s of
