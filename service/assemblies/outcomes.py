@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import time
-from collections import defaultdict
+from collections import Counter
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, Response
@@ -19,15 +19,13 @@ from service.representation import JSON
 from service.settle.endpoints import device_of
 from service.solve import NOT_BOTH, PoseToSolve, RequestOfPair
 from service.strict_json import StrictJsonRoute
-from threadstate.device.branches import KnownPaths
 from threadstate.device.document import DeviceDocument
-from threadstate.device.model import Device, default_device
+from threadstate.device.model import default_device
 from threadstate.device.settle import LARGEST_FRICTION, check_pair
 from threadstate.device.strategy import Strategy
-from threadstate.success.bounded import bounded_cell
 from threadstate.success.inputs import POINT_LIMIT, POINT_LIMITS
+from threadstate.success.orientation_paths import OrientationPaths
 from threadstate.success.summary_document import OutcomeDocument, outcome_document
-from threadstate.thread.pair import Pair
 from threadstate.units import LengthUnit, conversion_factor
 
 LARGEST_POSE_COUNT = 100
@@ -90,17 +88,22 @@ async def outcomes(request: Request, body: OutcomesRequest, unit: UnitQuery = No
     """How each of up to 100 paths ends, and what it asks of the device, without the paths themselves.
 
     They are the cells of a success map: with friction a path that comes to that of an earlier pose, with the same roll
-    and pitch, goes on as that does. Between two paths a request whose client is gone is cancelled.
+    and pitch, goes on as that does, if that ends alike with half the step. Between two paths a request whose client is
+    gone is cancelled.
     """
     device = device_of(body.device) or default_device()
     asked = await run_in_threadpool(solved_pair, request, body.designation, body.library)
     check_pair(asked.pair)
     shown = unit or asked.pair.unit
     factor = conversion_factor(asked.pair.unit, shown)
-    known: defaultdict[tuple[float, float], KnownPaths] = defaultdict(KnownPaths)
     ends_s = time.monotonic() + (math.inf if body.time_limit is None else body.time_limit)
+    counts = Counter((pose.roll, pose.pitch) for pose in body.poses)
+    paths = {
+        tilt: OrientationPaths(asked.pair, device, body.strategy, *tilt, body.point_limit, count > 1)
+        for tilt, count in counts.items()
+    }
     found = [
-        await run_in_threadpool(_outcome, asked.pair, body, device, pose, known[pose.roll, pose.pitch], factor, ends_s)
+        await run_in_threadpool(_outcome, paths[pose.roll, pose.pitch], pose, body.mu, factor, ends_s)
         for pose in body.poses
     ]
     answer = {
@@ -114,19 +117,7 @@ async def outcomes(request: Request, body: OutcomesRequest, unit: UnitQuery = No
     return Response(content, headers={UNIT_HEADER: shown.value, "Cache-Control": "no-store"}, media_type=JSON)
 
 
-def _outcome(
-    pair: Pair,
-    body: OutcomesRequest,
-    device: Device,
-    pose: PoseToSolve,
-    known: KnownPaths,
-    factor: float,
-    ends_s: float,
-) -> OutcomeDocument:
+def _outcome(paths: OrientationPaths, pose: PoseToSolve, mu: float, factor: float, ends_s: float) -> OutcomeDocument:
     """How the path from a pose ends; ``ends_s`` is when it has to, by the monotonic clock."""
-    pose_deg = (pose.roll, pose.pitch, pose.phase)
-    left_s = ends_s - time.monotonic()
-    cell = bounded_cell(
-        pair, device, body.strategy, pose_deg, body.mu, body.point_limit, known=known, time_limit_s=left_s
-    )
+    cell = paths.cell(pose.phase, mu, ends_s - time.monotonic())
     return outcome_document(pose.roll, pose.pitch, cell, factor)

@@ -101,16 +101,37 @@ def test_the_order_in_which_paths_become_known_moves_no_outcome() -> None:
     assert by_order[0] == by_order[1]
 
 
+def path_of(*legs: FollowedLeg) -> Followed:
+    """The only path of a start."""
+    return Followed([list(legs)], True, 1)
+
+
+LEG = FollowedLeg(FrictionLeg(0, np.zeros((2, fk.POINT_SIZE)), np.zeros((2, 8, 18)), (), has_more=False), [], [])
+
+
 def test_neither_several_paths_nor_an_undecided_one_become_known() -> None:
-    leg = FollowedLeg(FrictionLeg(0, np.zeros((2, fk.POINT_SIZE)), np.zeros((2, 8, 18)), (), has_more=False), [], [])
-    for followed in (Followed([[leg], [leg]], True, 2), Followed([[leg]], False, 1)):
-        known = KnownPaths()
-        known.add(followed)
-        assert not known
-    known.add(replace(followed, is_whole=True))
-    assert known
+    known = KnownPaths()
+    known.add(Followed([[LEG], [LEG]], True, 2), AssemblyOutcome.ENGAGED)
+    known.add(replace(path_of(LEG), is_whole=False), AssemblyOutcome.ENGAGED)
+    known.add(path_of(LEG), AssemblyOutcome.UNDECIDED)
+    assert len(known) == 0
+    known.add(path_of(LEG), AssemblyOutcome.ENGAGED)
+    assert len(known) == 1
     unsettled = KnownPaths()
     # Its paths end unlike one another.
     path = assemble_pose(UNC, 4.0, 2.0, 0.0, strategy=Strategy.CW, mu=0.02, known=unsettled)
     assert path.outcome is AssemblyOutcome.UNDECIDED
-    assert not unsettled
+    assert len(unsettled) == 0
+
+
+def test_a_path_that_has_come_to_a_known_one_becomes_known_if_it_ends_otherwise() -> None:
+    """Level, phase 0 ends before its snap; 90 goes on as it does, then snaps; 180 has nothing to add."""
+    known = KnownPaths()
+    found = []
+    for phase in (0.0, 90.0, 180.0):
+        path = assemble_pose(UNC, 2.0, -1.0, phase, mu=0.3, known=known)
+        found.append((path.outcome, len(known)))
+    no_snap, engaged = AssemblyOutcome.NO_SNAP, AssemblyOutcome.ENGAGED
+    assert found == [(no_snap, 1), (engaged, 2), (engaged, 2)]
+    known.forget_last()
+    assert len(known) == 1

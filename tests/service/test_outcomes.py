@@ -9,12 +9,12 @@ from fastapi.testclient import TestClient
 
 from service.assemblies.outcomes import LARGEST_POSE_COUNT, OutcomesAnswer
 from tests.service.test_problems import problem
-from threadstate.device.branches import KnownPaths
 from threadstate.device.document import device_from_document
 from threadstate.device.model import default_device
 from threadstate.device.strategy import Strategy
 from threadstate.success.bounded import bounded_cell
 from threadstate.success.document import cell_document
+from threadstate.success.orientation_paths import OrientationPaths
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.units import MILLIMETRES_PER_INCH
 
@@ -47,9 +47,13 @@ def test_paths_of_one_orientation_go_on_as_those_before_them(client: TestClient)
     poses = [(3.0, -3.0, 90.0), (3.0, -2.0, 120.0), (3.0, -3.0, 120.0)]
     asked = [dict(zip(("roll", "pitch", "phase"), pose, strict=True)) for pose in poses]
     answer = client.post(PATH, json={"poses": asked, "strategy": "cw", "mu": 0.2}).json()
-    known = {pose[:2]: KnownPaths() for pose in poses}
+    of = (quarter_twenty_unc(), default_device(), Strategy.CW)
+    paths = {
+        tilt: OrientationPaths(*of, *tilt, 1000, has_several)
+        for tilt, has_several in (((3.0, -3.0), True), ((3.0, -2.0), False))
+    }
     for pose, found in zip(poses, answer["outcomes"], strict=True):
-        cell = bounded_cell(quarter_twenty_unc(), default_device(), Strategy.CW, pose, 0.2, 1000, known=known[pose[:2]])
+        cell = paths[pose[:2]].cell(pose[2], 0.2)
         assert found == {"roll": pose[0], "pitch": pose[1], **cell_document(cell)}
     alone = client.post(PATH, json={"poses": asked[2:], "strategy": "cw", "mu": 0.2}).json()["outcomes"][0]
     assert alone["outcome"] == answer["outcomes"][2]["outcome"] == "idle"

@@ -9,12 +9,11 @@ import pytest
 
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, PathEvent
-from threadstate.device.branches import KnownPaths
 from threadstate.device.model import SettledFlag, default_device
 from threadstate.device.strategy import Strategy
 from threadstate.device.watch import PathStoppedError
 from threadstate.library.grid import Grid
-from threadstate.success import compute
+from threadstate.success import orientation_paths
 from threadstate.success.bounded import BoundedWatch, bounded_cell, cell_of
 from threadstate.success.compute import computed_orientation
 from threadstate.success.model import Cell
@@ -98,15 +97,14 @@ def test_paths_beside_a_boundary_are_followed_again_alone_with_half_the_step(mon
     """One of them ends otherwise: with friction and without it."""
     asked: list[tuple[float, float, int, float | None, bool]] = []
 
-    def followed(*given: Any, known: KnownPaths | None = None) -> Cell:
-        (_, _, phase_deg), mu, point_limit, *step = given[3:]
-        longest_step_deg = step[0] if step else None
+    def followed(*given: Any) -> Cell:
+        (_, _, phase_deg), mu, point_limit, longest_step_deg, known, _ = given[3:]
         asked.append((phase_deg, mu, point_limit, longest_step_deg, known is not None))
         engages = phase_deg < 200.0 or (phase_deg > 200.0 and longest_step_deg is not None)
         outcome = AssemblyOutcome.ENGAGED if engages else AssemblyOutcome.IDLE
         return Cell(phase_deg, mu, outcome, (), False, None, None, None, None)
 
-    monkeypatch.setattr(compute, "bounded_cell", followed)
+    monkeypatch.setattr(orientation_paths, "bounded_cell", followed)
     found = computed_orientation(PAIR, DEVICE, Strategy.CW, GRID, (0.0, 0.3), 120.0, 1.0, 900, 0)
     again = [one for one in asked if one[3] is not None]
     assert again == [

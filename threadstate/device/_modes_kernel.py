@@ -106,8 +106,9 @@ TOUCHES = 1e-9
 SLIDES = 1e-12
 """Slip (nominal radii) up to which a contact does not slide."""
 
-OVERLAP = 1e-8
-"""Overlap (nominal radii) of a place that is no contact, from which on a mode is not consistent."""
+OVERLAP = 4e-9
+"""Overlap (nominal radii) of a place that is no contact, from which on a mode is not consistent: half of what the
+certificate of an end allows."""
 
 SLACK = 1e-9
 """By how much, over the push, a force may be outside its cone."""
@@ -187,8 +188,9 @@ def solve_linear(n: int, matrix: Array) -> bool:
                 pivot = j
         if not abs(matrix[pivot, i]) > 1e-12:
             return False
-        for m in range(n + 1):
-            matrix[i, m], matrix[pivot, m] = matrix[pivot, m], matrix[i, m]
+        if pivot != i:
+            for m in range(i, n + 1):
+                matrix[i, m], matrix[pivot, m] = matrix[pivot, m], matrix[i, m]
         for j in range(i + 1, n):
             factor = matrix[j, i] / matrix[i, i]
             if factor != 0.0:

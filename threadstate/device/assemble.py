@@ -102,7 +102,7 @@ def assemble_pose(
     push grows by at most 1/16 of its whole a step, in proportion. The same input gives the same bits. By ``watch``
     another thread sees how far it is, and stops it. With friction ``known`` are paths from other phases, of the same
     command else: one that comes to within 1e-4 nominal radii of one goes on as that does. It is added to them if it is
-    the only one from its phase and its outcome is certain.
+    the only one from its phase, and its outcome is certain and no other's that it has come to.
 
     Raises:
         InvalidValueError: as :func:`threadstate.device.settle.settle_pose`; a longest step outside 0.25 to 2 deg.
@@ -138,8 +138,8 @@ def assemble_pose(
         followed = all_paths(alone, phase, plan)
         ends = _ends(alone, held, wanted[0], strategy, followed)
     first = ends[0]
-    if known is not None and first.outcome is not AssemblyOutcome.UNDECIDED:
-        known.add(followed)
+    if known is not None:
+        known.add(followed, first.outcome)
     if followed.first_ends > 1:
         flags = (*first.start.flags, SettledFlag.AMBIGUOUS)
         first = replace(first, start=replace(first.start, flags=flags))

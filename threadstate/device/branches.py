@@ -17,7 +17,7 @@ from threadstate.device import _chart_kernel as ck
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device._settle_kernel import distance
-from threadstate.device.assembly_model import AssemblyPoint, PathEvent
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, PathEvent
 from threadstate.device.friction import FrictionBranch, FrictionLeg, FrictionPath, friction_events, point_of, snap_event
 
 Floats = NDArray[np.float64]
@@ -71,12 +71,22 @@ class _Start:
 class Followed:
     """The paths of a plan, leg by leg, whether these are all, and how many ends their first leg has.
 
-    The first path has the solutions that go on as before.
+    The first path has the solutions that go on as before; ``joined`` are the outcomes of the known paths it has come
+    to.
     """
 
     paths: list[list[FollowedLeg]]
     is_whole: bool
     first_ends: int
+    joined: frozenset[AssemblyOutcome] = frozenset()
+
+
+@dataclass(frozen=True)
+class _Known:
+    """A known path, leg by leg, and how it ends."""
+
+    legs: list[FollowedLeg]
+    outcome: AssemblyOutcome
 
 
 class KnownPaths:
@@ -87,22 +97,28 @@ class KnownPaths:
     """
 
     def __init__(self) -> None:
-        self._paths: list[list[FollowedLeg]] = []
+        self._paths: list[_Known] = []
 
-    def add(self, followed: Followed) -> None:
-        """Keeps the path of a start that has only one."""
-        if followed.is_whole and len(followed.paths) == 1:
-            self._paths.append(followed.paths[0])
+    def add(self, followed: Followed, outcome: AssemblyOutcome) -> None:
+        """Keeps the path of a start that has only one, with a certain outcome, if none that it has come to ends so."""
+        is_single = followed.is_whole and len(followed.paths) == 1
+        if is_single and outcome is not AssemblyOutcome.UNDECIDED and outcome not in followed.joined:
+            self._paths.append(_Known(followed.paths[0], outcome))
 
-    def __bool__(self) -> bool:
-        return bool(self._paths)
+    def forget_last(self) -> None:
+        """Drops the path that was added last."""
+        self._paths.pop()
+
+    def __len__(self) -> int:
+        return len(self._paths)
 
     def rest_of(self, leg: FrictionLeg, number: int, end: float, path: FrictionPath) -> _Rest | None:
         """How a turn that has come to a known path's leg of that number goes on, up to the phase ``end`` (rad)."""
         rows = leg.points
         at = float(rows[-1, fk.P_PHASE])
         sense = math.copysign(1.0, end - at)
-        for legs in self._paths:
+        for other in self._paths:
+            legs = other.legs
             if len(legs) <= number:
                 continue
             known = legs[number].rows
@@ -120,16 +136,18 @@ class KnownPaths:
                 contacts = np.concatenate([leg.contacts, known.contacts[chosen]])
                 ended = whole and known.status != fs.REACHED
                 status = known.status if ended else fs.REACHED
-                later = [_turned(other, shift, path) for other in legs[number + 1 :]] if ended else []
-                return _Rest(replace(leg, status=status, points=points, contacts=contacts), ended, later)
+                later = [_turned(one, shift, path) for one in legs[number + 1 :]] if ended else []
+                joined = replace(leg, status=status, points=points, contacts=contacts)
+                return _Rest(joined, other.outcome, ended, later)
         return None
 
 
 @dataclass(frozen=True)
 class _Rest:
-    """A leg with what a known path adds to it, whether it has ended there, and the legs after it then."""
+    """A leg with what a known path of that outcome adds, whether it ended there, and the legs after it then."""
 
     leg: FrictionLeg
+    outcome: AssemblyOutcome
     ended: bool
     later: list[FollowedLeg]
 
@@ -146,6 +164,7 @@ def all_paths(
     found: list[list[FollowedLeg]] = []
     is_whole = True
     begun, first_ends = 0, 0
+    joined: set[AssemblyOutcome] = set()
     while to_do:
         start = to_do.pop(0)
         number = len(start.legs)
@@ -154,13 +173,13 @@ def all_paths(
             if _joins(start.begun.points, number, found, path.numbers, same):
                 continue
         if len(found) == MOST_PATHS or begun == MOST_STARTS:
-            return Followed(found, False, first_ends)
+            return Followed(found, False, first_ends, frozenset(joined))
         begun += 1
         legs = list(start.legs)
         for planned in plan[number:]:
             at = float(legs[-1].rows.points[-1, fk.P_PHASE]) if legs else phase
             before = start.path.copy()
-            leg, joins, later = _leg_of(start, planned, at, len(legs), found, known)
+            leg, joins, later = _leg_of(start, planned, at, len(legs), found, known, joined)
             to_do += [_Start(before.copy(), tuple(legs), branch) for branch in leg.branches]
             is_whole = is_whole and not leg.has_more
             if joins:
@@ -175,7 +194,7 @@ def all_paths(
                 break
         else:
             found.append(legs)
-    return Followed(found, is_whole, first_ends)
+    return Followed(found, is_whole, first_ends, frozenset(joined))
 
 
 def _leg_of(
@@ -185,10 +204,11 @@ def _leg_of(
     number: int,
     found: list[list[FollowedLeg]],
     known: KnownPaths | None,
+    joined: set[AssemblyOutcome],
 ) -> tuple[FrictionLeg, bool, list[FollowedLeg]]:
     """The leg of a start from a phase (rad) on, whether it comes back to a path, and the legs of a known path after it.
 
-    The first path's is followed as a whole where none is known.
+    The first path's is followed as a whole where none is known; ``joined`` gains the outcomes of those it comes to.
     """
     bolt, begun = start.path, start.begun if number == len(start.legs) else None
     if planned.turn != 0.0 and not found:
@@ -211,6 +231,7 @@ def _leg_of(
         rest = known.rest_of(leg, number, at + planned.turn, bolt) if known and not found and part < parts else None
         if rest is not None:
             leg, later = rest.leg, rest.later
+            joined.add(rest.outcome)
             if rest.ended:
                 break
         begun = FrictionBranch(leg.points, leg.contacts)

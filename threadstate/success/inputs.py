@@ -24,6 +24,7 @@ PHYSICS = (
     "success/compute.py",
     "success/document.py",
     "success/model.py",
+    "success/orientation_paths.py",
     "success/search.py",
 )
 """The sources that decide what a map holds."""

@@ -6,7 +6,7 @@ Angles are in degrees, lengths in the pair's unit, torques in N times that unit.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from threadstate.device.assembly_model import AssemblyOutcome
@@ -41,6 +41,10 @@ class Cell:
     def is_decided(self) -> bool:
         """Whether the outcome is certain."""
         return self.outcome is not AssemblyOutcome.UNDECIDED
+
+    def step_dependent(self) -> Cell:
+        """What is left of it where the path ends otherwise with half the step."""
+        return replace(self, outcome=AssemblyOutcome.UNDECIDED, flags=(*self.flags, SettledFlag.STEP_DEPENDENT))
 
 
 @dataclass(frozen=True, slots=True)

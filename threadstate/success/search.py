@@ -7,11 +7,8 @@ of half the step ends alike of another.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
-from threadstate.device.assembly_model import AssemblyOutcome
-from threadstate.device.model import SettledFlag
 from threadstate.success.model import Cell, CriticalFriction, PhaseBoundary
 
 TURN_DEG = 360.0
@@ -48,8 +45,7 @@ def mapped_cells(
         along = [cells[key] for key in sorted(cells) if key[0] == mu]
         for one in _beside_boundaries(along):
             if not ends_alike(one):
-                flags = (*one.flags, SettledFlag.STEP_DEPENDENT)
-                cells[mu, one.phase_deg] = replace(one, outcome=AssemblyOutcome.UNDECIDED, flags=flags)
+                cells[mu, one.phase_deg] = one.step_dependent()
         boundaries += _boundaries([cells[mu, one.phase_deg] for one in along])
     critical = _critical_friction(cell, phases_deg, frictions, mu_tolerance)
     return tuple(cells[key] for key in sorted(cells)), tuple(boundaries), critical
