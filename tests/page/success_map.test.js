@@ -185,6 +185,17 @@ test("the critical friction of an orientation is bracketed to 0.01", async () =>
   }
 });
 
+test("with a map the critical friction is computed that was asked for", async () => {
+  const map = new SuccessMap(new Service(0.17), () => {});
+  map.follow(TEXT, 7, GRID, "in", "4 0");
+  while (map.isRunning) await new Promise((done) => setTimeout(done, 1));
+  assert.deepEqual([...map.value.criticals.keys()], ["4 0"]);
+  assert.ok(map.value.criticals.get("4 0").last <= 0.17);
+  map.follow(TEXT.replace("k_tilt=250", "k_tilt=300"), 7, GRID, "in");
+  while (map.isRunning) await new Promise((done) => setTimeout(done, 1));
+  assert.equal(map.value.criticals.size, 0);
+});
+
 test("a critical friction that is cancelled says what is known", async () => {
   const map = new SuccessMap(new Service(0.3), () => {});
   map.follow(TEXT, 7, GRID, "in");

@@ -42,7 +42,9 @@ const CHOSEN = {
   point: 120,
   success: "phases=4&roll=0&pitch=0&phase=0&mu=0.1&centre=-5&strategy=cw&unit=mm",
   success_at: "3 -2",
+  success_critical: "-1 2",
   kept_success: "phases=1&roll=0&pitch=0&phase=0&unit=in",
+  kept_success_critical: "0 4",
   thread: "1/4-16 ACME-2G with sharp corners at 0.25/0.75",
 };
 
@@ -67,7 +69,7 @@ test("what is not valid in a fragment is left out and reported, the rest stays",
     distance: "1e999", quantity: "colour", tolerance: "-0.1", beside_roll: "12", poses: "1,2", observed: "class=x", from: "400",
     mu: "-0.1", push: "0", fx: "101", mz: "left", plane: "fx,fx", thread: "M".repeat(101),
     assembly: "roll=1", point: "-1", success: "phases=5%26roll=0%26pitch=0%26phase=0%26unit=mm", kept_success: "phases=1",
-    success_at: "3 -11",
+    success_at: "3 -11", success_critical: "1", kept_success_critical: "left 2",
   };
   for (const [key, text] of Object.entries(bad)) {
     const { view, remarks } = readFragment(`${key}=${text}&azimuth=3&x=1&constructor=1`);

@@ -211,11 +211,11 @@ export class Model {
   }
 
   /** Computes the success maps that the view asks for. */
-  followSuccess({ library, unit, success, kept_success: kept }) {
+  followSuccess({ library, unit, success, success_critical: place, kept_success: kept, kept_success_critical: keptPlace }) {
     if (this.library.id !== library) return;
     this.#request("storedMaps", `${library}`, async () => (await this.#api.get("/v1/success-maps", { library })).success_maps);
-    this.success.follow(success, library, this.library.grid, unit);
-    this.keptSuccess.follow(kept, library, this.library.grid, unit);
+    this.success.follow(success, library, this.library.grid, unit, place);
+    this.keptSuccess.follow(kept, library, this.library.grid, unit, keptPlace);
   }
 
   /** Has the path computed again when it is requested next, also the same one. */

@@ -20,6 +20,7 @@ import { QUANTITIES, needsSummaries } from "./quantities.js";
 import { lastStage, rests } from "./resting.js";
 import { followSize } from "./size.js";
 import { showState } from "./state_panel.js";
+import { keyOf } from "./success_map.js";
 import { stateLine } from "./terms.js";
 import { pointText } from "./turned_path.js";
 import { unitFactor, wrapAngle } from "./units.js";
@@ -109,20 +110,23 @@ export class Pictures {
       },
       success: {
         map: (success) => {
-          view.set({ success }, "entry");
+          view.set({ success, success_critical: "" }, "entry");
           this.#followSuccess();
         },
         cancel: () => this.#model.success.cancel(),
         keep: (isKept) => {
           if (isKept) this.#model.keptSuccess.adopt(this.#model.success);
-          view.set({ kept_success: isKept ? this.#model.success.value.text : "" });
+          view.set({ kept_success: isKept ? this.#model.success.value.text : "", kept_success_critical: isKept ? view.value.success_critical : "" });
         },
         play: (assembly, { roll, pitch, phase }) => {
-          view.set({ roll, pitch, phase: wrapAngle(phase), success_at: `${roll} ${pitch}` });
+          view.set({ roll, pitch, phase: wrapAngle(phase), success_at: keyOf({ roll, pitch }) });
           this.#playsNext = true;
           this.#compute(assembly);
         },
-        findCritical: (place) => this.#model.success.findCritical(place),
+        findCritical: (place) => {
+          view.set({ success_critical: keyOf(place) });
+          this.#model.success.findCritical(place);
+        },
       },
       player: this.#player,
       chooseLibrary: (library) => view.set({ library }),

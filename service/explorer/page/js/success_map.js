@@ -61,6 +61,12 @@ export function keyOf({ roll, pitch }) {
   return `${roll} ${pitch}`;
 }
 
+/** The orientation of a text as `keyOf` has it, {roll, pitch}; null where it is none. */
+export function placeOf(text) {
+  const [roll, pitch] = text.split(" ").map(Number);
+  return text === "" || pitch === undefined ? null : { roll, pitch };
+}
+
 /** The orientations of a grid, those nearest to level first. */
 export function orientationsOf(grid) {
   const angles = tilts(grid);
@@ -125,8 +131,11 @@ export class SuccessMap {
     this.#changed = changed;
   }
 
-  /** Computes or reads the map of a text with the pair of a library; the one before is ended. An empty text: none. */
-  follow(text, library, grid, unit) {
+  /**
+   * Computes or reads the map of a text with the pair of a library, then the critical friction of an orientation that is
+   * given as "roll pitch"; the map before is ended. An empty text: none.
+   */
+  follow(text, library, grid, unit, place = "") {
     const key = keyOfMap(text, library);
     if (key === this.#key) return;
     this.cancel();
@@ -134,7 +143,7 @@ export class SuccessMap {
     const before = this.value;
     this.value = text === "" ? null : { text, unit, library, grid, cells: new Map(), criticals: new Map(), isRunning: true, problem: null, errors: [] };
     this.#changed();
-    if (this.value !== null) this.#fill(this.value, before, this.#running.signal);
+    if (this.value !== null) this.#fill(this.value, before, placeOf(place), this.#running.signal);
   }
 
   /** Takes over what is there of another map. */
@@ -162,7 +171,7 @@ export class SuccessMap {
   }
 
   /** Where it is refused before anything is there, the map before it stays, with the problem. */
-  async #fill(map, before, signal) {
+  async #fill(map, before, place, signal) {
     try {
       await (mapRequestOf(map.text).stored === null ? this.#compute(map, signal) : this.#read(map, signal));
     } catch (error) {
@@ -175,6 +184,7 @@ export class SuccessMap {
     map.isRunning = false;
     if (map.problem !== null && map.cells.size === 0 && before !== null) this.value = { ...before, problem: map.problem, errors: map.errors };
     this.#changed();
+    if (map.problem === null && place !== null) await this.findCritical(place);
   }
 
   async #compute(map, signal) {

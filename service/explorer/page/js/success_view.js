@@ -4,7 +4,7 @@ import { CHOICES, NUMBERS, isSameRequest, labelOf } from "./assembly.js";
 import { textColourOn } from "./colours.js";
 import { tilts } from "./grid.js";
 import { byId, html } from "./html.js";
-import { OUTCOMES, PHASE_COUNTS, cellOf, isWhole, keyOf, mapRequestOf, mapText, orientationsOf, pathText, storedMapText } from "./success_map.js";
+import { OUTCOMES, PHASE_COUNTS, cellOf, isWhole, keyOf, mapRequestOf, mapText, orientationsOf, pathText, placeOf, storedMapText } from "./success_map.js";
 import { OF_MAP, criticalsWords, deviceWords, mapNameWords, mapWords, placeWords } from "./success_words.js";
 import { picture, svg } from "./svg.js";
 import { angle, angleNumber, fixed, unitFactor } from "./units.js";
@@ -204,12 +204,6 @@ function storedOption(map, mu, unit) {
   const phases = Math.round(360 / map.grid.phase_step);
   const device = text === null ? `a device with a whole matrix, which the page has no fields for; ${CHOICES.strategy.values[map.strategy]}` : deviceWords(text, unit);
   return html("option", { value: text ?? "", disabled: text === null }, `${map.id}: μ ${mu}, ${phases} ${phases > 1 ? "phases" : "phase"}, ${device}`);
-}
-
-/** The orientation of a text as the view has it, {roll, pitch}; null where it is none. */
-export function placeOf(text) {
-  const [roll, pitch] = text.split(" ").map(Number);
-  return text === "" || pitch === undefined ? null : { roll, pitch };
 }
 
 /** Whether a map is of the device and the strategy that another text asks for. */

@@ -19,6 +19,10 @@ const between = (low, high, unit = "") => ({
 const among = (...names) => ({ read: (text) => (names.includes(text) ? text : undefined), valid: names.join(", ") });
 const whole = { read: (text) => (/^[0-9]{1,15}$/.test(text) ? Number(text) : undefined), valid: "the number of a library" };
 const tilt = between(-TILT_LIMIT, TILT_LIMIT, " deg");
+const tilts = {
+  read: (text) => (text.split(" ").length === 2 && text.split(" ").every((one) => tilt.read(one) !== undefined) ? text : undefined),
+  valid: "a roll and a pitch",
+};
 
 const READERS = {
   library: whole,
@@ -50,8 +54,10 @@ const READERS = {
   assembly: { read: checkedAssembly, valid: "a pose and a device as the page writes them" },
   point: { read: (text) => (/^[0-9]{1,6}$/.test(text) ? Number(text) : undefined), valid: "the number of a point" },
   success: { read: checkedMap, valid: "a success map as the page writes it" },
-  success_at: { read: (text) => (text.split(" ").length === 2 && text.split(" ").every((one) => tilt.read(one) !== undefined) ? text : undefined), valid: "a roll and a pitch" },
+  success_at: tilts,
+  success_critical: tilts,
   kept_success: { read: checkedMap, valid: "a success map as the page writes it" },
+  kept_success_critical: tilts,
   thread: {
     read: (text) => (text.trim() !== "" && text.length <= THREAD_LENGTH ? text.trim() : undefined),
     valid: `the designation of a thread, of up to ${THREAD_LENGTH} characters`,

@@ -42,8 +42,10 @@ export const DEFAULTS = Object.freeze({
   /** The success map that is asked for, as `success_map.js` writes it, and the one that is kept beside it. */
   success: "",
   kept_success: "",
-  /** The orientation that is chosen in it, as "roll pitch". */
+  /** The orientation that is chosen in it, as "roll pitch", and of each map the one whose critical friction was asked for last. */
   success_at: "",
+  success_critical: "",
+  kept_success_critical: "",
   /** Designation of a thread whose section is shown beside the library's. */
   thread: "",
 });
