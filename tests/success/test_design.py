@@ -98,6 +98,8 @@ def test_what_a_map_says_within_limits() -> None:
     assert (narrow.engaged, narrow.worst_critical) == ((4, 3, 2), None)
     assert narrow.tilt_deg <= 2.35
     assert made_up((330.0, 2.0), limits=Limits(shift=0.0)).engaged == (0, 0, 0)
+    # The torque grows with the friction, from 1.
+    assert made_up((300.0, 2.0), limits=Limits(torque=1.1)).engaged == (9, 8, 0)
 
 
 def test_what_might_engage_is_counted_and_does_not_count_as_success() -> None:

@@ -17,7 +17,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.sqlite_alone]
 
 COMMAND = (
     *("design", "--tilt-max", "2", "--tilt-step", "2", "--mu", "0", "--strategy", "cw", "--evaluations", "3"),
-    *("--finalists", "1", "--vary", "k_tilt=200:600", "--max-tilt", "3", "--workers", "2"),
+    *("--finalists", "1", "--vary", "k_tilt=200:600", "--max-tilt", "3", "--max-torque", "254", "--workers", "2"),
 )
 
 
@@ -28,7 +28,9 @@ def test_devices_are_tried_and_what_is_said_of_them_is_what_paths_do(command_lin
     assert (tried[:2], len(set(tried))) == ([500.0, 400.0], 3)
     assert found["base"]["values"] == {}
     assert found["base"]["device"]["k_tilt"] == 500.0
-    assert (found["limits"], found["mu"], found["strategy"]) == ({"tilt": 3.0, "shift": None}, [0.0], "cw")
+    assert (found["mu"], found["strategy"]) == ([0.0], "cw")
+    # The default device has millimetres, the pair inches.
+    assert found["limits"] == {"tilt": 3.0, "shift": None, "torque": pytest.approx(10.0)}
     best = found["finalists"][0]
     device = device_from_document({name: value for name, value in best["device"].items() if value is not None})
     poses = [(roll, pitch, 0.0) for roll in (-2.0, 0.0, 2.0) for pitch in (-2.0, 0.0, 2.0)]
@@ -56,6 +58,7 @@ def test_devices_are_tried_and_what_is_said_of_them_is_what_paths_do(command_lin
         (("--vary", "push=1:2", "--vary", "push=1:3"), "each once"),
         (("--max-tilt", "0"), "max_tilt is 0"),
         (("--max-shift", "-1"), "max_shift is -1"),
+        (("--max-torque", "0"), "max_torque is 0"),
         (("--mu", "0.2,0.1"), "ascend"),
         (("--vary", "push=-5:5"), "push is"),
         (("--vary", "ccw_turn=300:500"), "ccw_turn is"),

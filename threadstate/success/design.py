@@ -1,4 +1,4 @@
-"""The search for a device that brings as many orientations home as possible, within limits of its travel.
+"""The search for a device that brings as many orientations home as possible, within limits of travel and torque.
 
 It knows neither kernels nor files: what a device's success map says is asked of a function (docs/design.md).
 """
@@ -88,16 +88,17 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Limits:
-    """The largest tilt (deg) and shift (the pair's unit) that a device may be asked for; infinite: any."""
+    """The largest tilt (deg), shift (the pair's unit) and torque (N times it) of a device; infinite: any."""
 
     tilt_deg: float = math.inf
     shift: float = math.inf
+    torque: float = math.inf
 
     def hold(self, cell: Cell) -> bool:
         """Whether a path engages within the limits."""
-        if not cell.engages or cell.tilt_deg is None or cell.shift is None:
+        if not cell.engages or cell.tilt_deg is None or cell.shift is None or cell.torque is None:
             return False
-        return cell.tilt_deg <= self.tilt_deg and cell.shift <= self.shift
+        return cell.tilt_deg <= self.tilt_deg and cell.shift <= self.shift and cell.torque <= self.torque
 
 
 @dataclass(frozen=True)

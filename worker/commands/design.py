@@ -32,7 +32,6 @@ from worker.options import (
 if TYPE_CHECKING:
     from threadstate.device.model import Device
     from threadstate.success.design import Limits, Parameter
-    from threadstate.thread.pair import Pair
 
 LARGEST_SEARCH = 10_000
 VARIED_MM = (("k_lateral", 1.0, 500.0), ("k_tilt", 20.0, 5000.0), ("centre", -10.0, 10.0))
@@ -57,6 +56,10 @@ def design(
     ] = None,
     max_shift: Annotated[
         float | None, number_option("--max-shift", metavar="LENGTH", help="Largest shift that it allows, in its unit.")
+    ] = None,
+    max_torque: Annotated[
+        float | None,
+        number_option("--max-torque", metavar="TORQUE", help="Largest torque that it holds, in N times its unit."),
     ] = None,
     strategy: Annotated[
         Strategy,
@@ -116,6 +119,7 @@ def design(
     from threadstate.device.settle import check_pair
     from threadstate.responses.query import parse_frictions
     from threadstate.success.inputs import SuccessInputs
+    from threadstate.units import conversion_factor
     from worker.commands.settle import read_device
     from worker.design.report import print_design, print_design_json
     from worker.design.run import Design
@@ -125,7 +129,7 @@ def design(
     check_pair(threads)
     held = default_device() if device is None else read_device(device)
     inputs = SuccessInputs(threads, held, strategy, grid, parse_frictions(mu), point_limit=point_limit)
-    limits = _limits(max_tilt, max_shift, held, threads)
+    limits = _limits(max_tilt, max_shift, max_torque, conversion_factor(held.unit, threads.unit))
     settings = read_settings()
     computing = chosen_scheduler(settings, scheduler, workers)
     search = Design(inputs, _varied(vary, held), limits, workers or settings.workers, maps, computing)
@@ -134,15 +138,15 @@ def design(
     (print_design_json if as_json else print_design)(inputs, limits, result, elapsed_s)
 
 
-def _limits(max_tilt: float | None, max_shift: float | None, held: Device, threads: Pair) -> Limits:
+def _limits(max_tilt: float | None, max_shift: float | None, max_torque: float | None, factor: float) -> Limits:
+    """The limits; a length in the device's unit times ``factor`` is in the pair's."""
     from threadstate.success.design import Limits
-    from threadstate.units import conversion_factor
 
-    for name, value in (("max_tilt", max_tilt), ("max_shift", max_shift)):
+    for name, value in (("max_tilt", max_tilt), ("max_shift", max_shift), ("max_torque", max_torque)):
         if value is not None and not 0.0 < value < math.inf:
             raise InvalidValueError(name, value, "a number > 0")
-    shift = math.inf if max_shift is None else max_shift * conversion_factor(held.unit, threads.unit)
-    return Limits(math.inf if max_tilt is None else max_tilt, shift)
+    tilt_deg, shift, torque = (math.inf if value is None else value for value in (max_tilt, max_shift, max_torque))
+    return Limits(tilt_deg, shift * factor, torque * factor)
 
 
 def _varied(texts: list[str] | None, held: Device) -> list[Parameter]:

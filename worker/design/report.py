@@ -23,7 +23,11 @@ def print_design_json(inputs: SuccessInputs, limits: Limits, result: DesignResul
         {
             **searched,
             "unit": inputs.pair.unit,
-            "limits": {"tilt": _finite(limits.tilt_deg), "shift": _finite(limits.shift)},
+            "limits": {
+                "tilt": _finite(limits.tilt_deg),
+                "shift": _finite(limits.shift),
+                "torque": _finite(limits.torque),
+            },
             "vary": [{"name": one.name, "low": one.low, "high": one.high} for one in result.parameters],
             "base": _candidate(result.parameters, result.base),
             "tried": [_candidate(result.parameters, one) for one in result.tried],
@@ -104,7 +108,8 @@ def _failing(one: Tolerance) -> tuple[str, str]:
 def _words(limits: Limits, unit: str) -> str:
     tilt = "any tilt" if math.isinf(limits.tilt_deg) else f"tilt up to {number_text(limits.tilt_deg)} deg"
     shift = "any shift" if math.isinf(limits.shift) else f"shift up to {limits.shift:.4g} {unit}"
-    return f"{tilt}, {shift}"
+    torque = "any torque" if math.isinf(limits.torque) else f"torque up to {limits.torque:.4g} N {unit}"
+    return f"{tilt}, {shift}, {torque}"
 
 
 def _finite(value: float) -> float | None:
