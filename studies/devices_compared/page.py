@@ -16,10 +16,11 @@ from studies.devices_compared.study import (
     FORCES,
     FRICTION_GRID,
     GRID,
-    LIMITS,
     MORE_FORCE,
     MORE_FORCE_STRATEGY,
     MU,
+    SHIFT_LIMIT_MM,
+    TILT_LIMIT_DEG,
     Comparison,
     Row,
     Variant,
@@ -39,7 +40,7 @@ WITHIN, BEYOND, OPEN = "#0b5f99", "#8fbfd8", "#ffffff"
 """Orientations that engage within the travel, beyond it, and those without a certain outcome."""
 COLOURS = {Strategy.CCW_THEN_CW: "#4a5563", Strategy.CW: "#e08e45"}
 """Of the strategies, where both are in one plot."""
-TRAVEL = f"{number_text(LIMITS.tilt_deg)} deg and {number_text(LIMITS.shift)} mm"
+TRAVEL = f"{number_text(TILT_LIMIT_DEG)} deg and {number_text(SHIFT_LIMIT_MM)} mm"
 ROW_IN, AROUND_IN = 0.44, 1.5
 """Heights of a row of a picture, and of what is around the rows (inches)."""
 HASH_DIGITS = 12
@@ -58,7 +59,7 @@ class Measure(NamedTuple):
     limit: float | None
 
 
-SHIFT = Measure("largest shift (mm)", lambda one: one.shift, LIMITS.shift)
+SHIFT = Measure("largest shift (mm)", lambda one: one.shift, SHIFT_LIMIT_MM)
 TORQUE = Measure("largest torque (N mm)", lambda one: one.torque, None)
 
 
@@ -208,7 +209,7 @@ def _head(maps: Maps) -> str:
         abs(beside.torque / (FORCES * cell.torque) - 1.0) for cell, beside in alike if cell.torque and beside.torque
     ]
     little = sum(
-        tilt_deg(GRID.orientation(index)) <= LIMITS.tilt_deg + ROUND_OFF_DEG for index in range(GRID.orientation_count)
+        tilt_deg(GRID.orientation(index)) <= TILT_LIMIT_DEG + ROUND_OFF_DEG for index in range(GRID.orientation_count)
     )
     low, high = GRID.tilts_deg[0], GRID.tilts_deg[-1]
     what = (
@@ -231,7 +232,7 @@ def _head(maps: Maps) -> str:
 
 - **Engage**: the orientations of which the path ends engaged.
 - **Within the travel**: those of them that ask the device for no more than {TRAVEL}. The command itself is tilted by
-  at most {number_text(LIMITS.tilt_deg)} deg in {little} of the {GRID.orientation_count} orientations.
+  at most {number_text(TILT_LIMIT_DEG)} deg in {little} of the {GRID.orientation_count} orientations.
 - **Undecided**: those without a certain outcome; they do not count as engaged.
 - **Torque, tilt, shift**: the largest that those which engage ask for.
 - **Map**: the first digits of its content hash.

@@ -9,13 +9,13 @@ from functools import cached_property
 
 from studies.success.study import FARTHER_DEG, StudiedMap
 from threadstate.device.document import device_document, device_from_document
-from threadstate.device.model import About, Device, default_device
+from threadstate.device.model import About, Device, Limits, default_device
 from threadstate.device.settle import check_pair
 from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid, Orientation
 from threadstate.numbers import number_text
-from threadstate.success.design import Limits
+from threadstate.success.design import is_within
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.model import Cell, OrientationMap
 from threadstate.success.scaled import scaled_orientation
@@ -30,7 +30,8 @@ GRID = Grid(4.0, 1.0, 360.0)
 FRICTION_GRID = Grid(4.0, 2.0, 360.0)
 """25 of them, with friction: such a path takes ten times as long as one without."""
 MU = 0.2
-LIMITS = Limits(4.0, 2.5)
+TILT_LIMIT_DEG, SHIFT_LIMIT_MM = 4.0, 2.5
+LIMITS = Limits(TILT_LIMIT_DEG, SHIFT_LIMIT_MM)
 """The travel that a device may be asked for: tilt (deg) and shift (mm), as in the example of docs/design.md."""
 
 DEFAULT_PAIR = "1/4-20 UNC"
@@ -267,7 +268,7 @@ def row(name: str, one: StudiedMap, mu: float = 0.0) -> Row:
         one.inputs.strategy,
         len(cells),
         len(engaged),
-        sum(LIMITS.hold(cell) for cell in engaged),
+        sum(is_within(cell, LIMITS) for cell in engaged),
         sum(not cell.is_decided for cell in cells),
         _largest([cell.torque for cell in engaged]),
         _largest([cell.tilt_deg for cell in engaged]),

@@ -14,12 +14,12 @@ from oracle.pose import pose_rotation
 from oracle.rest import HeldBolt
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, AssemblyPoint, Held, PathEventKind
-from threadstate.device.model import About, Device, default_device
+from threadstate.device.model import About, Device, Limits, default_device
 from threadstate.device.strategy import Strategy
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.hand import Hand
 from threadstate.thread.play import axial_limits
-from threadstate.units import LengthUnit
+from threadstate.units import LengthUnit, conversion_factor
 
 pytestmark = pytest.mark.slow
 
@@ -93,6 +93,38 @@ def test_a_snap_beyond_a_whole_turn_needs_a_hand_that_turns_farther() -> None:
     assert 360.5 < snap.phase_deg < 360.52
     alike = [point for point in whole.points if point.phase_deg < 358.0]
     assert list(farther.points[: len(alike)]) == alike
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.1])
+def test_a_path_ends_where_it_passes_a_limit_of_the_device(mu: float) -> None:
+    """It is the path without limits, up to the first point beyond one."""
+    whole = assemble_pose(UNC, 0.0, -4.0, 0.0, mu=mu)
+    assert whole.travel is not None
+    factor = conversion_factor(UNC.unit, DEVICE.unit)
+    points, travel = whole.points, whole.travel
+    over = AssemblyOutcome.OVER_TRAVEL
+    for name, most, values, outcome in (
+        ("tilt_deg", travel.tilt_deg, [math.hypot(*one.rotation_deg) for one in points], over),
+        ("shift", travel.shift, [math.hypot(*one.shift[:2]) for one in points], over),
+        ("torque", travel.torque, [abs(one.torque) for one in points], AssemblyOutcome.JAMMED),
+    ):
+        limit = 0.9 * most
+        given = limit if name == "tilt_deg" else limit * factor
+        path = assemble_pose(UNC, 0.0, -4.0, 0.0, replace(DEVICE, limits=replace(Limits(), **{name: given})), mu=mu)
+        beyond = next(k for k, value in enumerate(values) if value > limit)
+        assert (path.outcome, path.flags) == (outcome, ())
+        assert path.points == points[: beyond + 1]
+        assert path.events == whole.events[: len(path.events)]
+        assert len(path.events) < len(whole.events)
+        assert path.energy is not None
+        assert abs(path.energy.balance) < 1e-4
+        assert path.margins is not None
+        assert (path.margins.torque < 0.0) == (name == "torque")
+
+
+def test_limits_that_are_not_passed_change_nothing(paper: AssemblyPath) -> None:
+    device = replace(DEVICE, limits=Limits(90.0, 25.0, 1e6))
+    assert assemble_pose(UNC, *PAPER, device) == paper
 
 
 def test_a_left_hand_bolt_is_turned_the_other_way_as_far() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 from threadstate.device.document import device_document, device_from_document
-from threadstate.device.model import About, Device, default_device
+from threadstate.device.model import About, Device, Limits, default_device
 from threadstate.errors import InvalidValueError
 from threadstate.units import LengthUnit
 from worker.commands.settle import read_device
@@ -53,12 +54,14 @@ def test_all_keys_are_read(tmp_path: Path) -> None:
     path = tmp_path / "device.json"
     path.write_text(
         '{"unit": "in", "k_lateral": 1, "k_axial": 2.5, "k_tilt": 3, "k_twist": 4, "centre": -5, '
-        '"push": 6, "ccw_turn": 390}'
+        '"push": 6, "ccw_turn": 390, "tilt_limit": 2, "shift_limit": 0.1, "torque_limit": 3}'
     )
     device = read_device(path)
     assert np.array_equal(np.diag(device.stiffness), [3.0, 3.0, 4.0, 1.0, 1.0, 2.5])
     assert (device.centre, device.push, device.twist_is_rigid, device.about) == (-5.0, 6.0, False, About.NUT)
     assert device.ccw_turn_deg == 390.0
+    assert device.limits == Limits(2.0, 0.1, 3.0)
+    assert astuple(device.in_unit(LengthUnit.MILLIMETRE).limits) == pytest.approx((2.0, 2.54, 76.2))
     full = device_from_document({"unit": "mm", "stiffness": changed((0, 4, 0.5), (4, 0, 0.5)), "about": "bolt"})
     assert full.stiffness[0][4] == 0.5
     assert (full.twist_is_rigid, full.about, full.push) == (False, About.BOLT, 10.0)
@@ -84,6 +87,9 @@ def test_all_keys_are_read(tmp_path: Path) -> None:
         ({"unit": "mm", "ccw_turn": 0.5}, "ccw_turn"),
         ({"unit": "mm", "ccw_turn": 450.5}, "ccw_turn"),
         ({"unit": "mm", "ccw_turn": float("nan")}, "ccw_turn"),
+        ({"unit": "mm", "tilt_limit": 0.0}, "tilt_limit"),
+        ({"unit": "mm", "shift_limit": -1.0}, "shift_limit"),
+        ({"unit": "mm", "torque_limit": float("nan")}, "torque_limit"),
         ({"unit": "mm", "spring": 1.0}, "spring"),
         ({"unit": "mm", "stiffness": UNIT[:5]}, "stiffness"),
         ({"unit": "mm", "stiffness": [row[:5] for row in UNIT]}, "stiffness"),
@@ -114,6 +120,7 @@ def test_a_zero_stiffness_is_allowed() -> None:
     [
         {"unit": "mm"},
         {"unit": "in", "k_twist": 3.5, "about": "bolt", "centre": -0.0, "ccw_turn": 390},
+        {"unit": "mm", "shift_limit": 2.5, "tilt_limit": 1},
         {"unit": "mm", "stiffness": changed((0, 4, 0.5), (4, 0, 0.5)), "push": 1.0 / 3.0},
         {"unit": "mm", "stiffness": changed((2, 2, 0.0), (0, 0, 2.0)), "k_twist": "rigid"},
     ],

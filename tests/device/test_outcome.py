@@ -110,6 +110,7 @@ def test_other_ends() -> None:
     for ending, outcome in (
         (Ending.SLIPPED, AssemblyOutcome.SLIPPED),
         (Ending.TORQUE, AssemblyOutcome.JAMMED),
+        (Ending.TRAVEL, AssemblyOutcome.OVER_TRAVEL),
         (Ending.FAILED, AssemblyOutcome.UNDECIDED),
         (Ending.TURNED, AssemblyOutcome.NO_SNAP),
     ):

@@ -69,7 +69,7 @@ def test_fields_that_are_left_empty_are_those_of_the_default_device(explorer: Ex
         explorer.choose("#unit", unit.value)
         explorer.wait_for_text("#device-k_tilt-label", f"N {unit.value}/rad")
         document = device_document(default_device().in_unit(unit))
-        for name in ("k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "push", "ccw_turn"):
+        for name in ("k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "push", "ccw_turn", "tilt_limit"):
             shown = explorer.one(f"#device-{name}").get_attribute("placeholder")
             value = document[name]
             assert shown == (value if isinstance(value, str) else f"{value:.6g}")

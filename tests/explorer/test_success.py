@@ -130,7 +130,9 @@ def test_a_link_restores_the_map_and_what_it_says_is_what_is_computed(explorer: 
     assert rows[0].startswith("roll,pitch,phase,mu,outcome,flags,bounded,torque,tilt,shift,end,unit,strategy")
     assert len(rows) == 1 + CELLS
     assert any(row.startswith(f"0,-4,0,0,{outcome.value},") for row in rows[1:])
-    assert rows[0].endswith("push,k_lateral,k_axial,k_tilt,k_twist,centre,ccw_turn,about,device_unit")
+    assert rows[0].endswith(
+        "push,k_lateral,k_axial,k_tilt,k_twist,centre,ccw_turn,tilt_limit,shift_limit,torque_limit,about,device_unit"
+    )
     picture = saved(explorer, "SVG", tmp_path)
     assert picture.count("<rect") > CELLS
     rings = re.findall(r'<rect[^>]*stroke-width="[24]px"[^>]*>', picture)

@@ -47,6 +47,7 @@ test("a map's request goes into the link and comes back the same", () => {
 const DEVICE = { unit: "mm", k_lateral: 20, k_axial: 0, k_tilt: 250, k_twist: "rigid", stiffness: null, centre: 0, push: 10, about: "nut", ccw_turn: 390 };
 const STORED = { id: 7, device: DEVICE, strategy: "cw", mu: [0, 0.1], grid: { tilt_max: 1, tilt_step: 1, phase_step: 72 } };
 const STORED_TEXT = storedMapText(STORED, 0.1);
+const LIMITED = { ...STORED, device: { ...DEVICE, tilt_limit: 3, shift_limit: null, torque_limit: null } };
 
 /** A service with a stored map in pages of an orientation. */
 class Store {
@@ -61,6 +62,7 @@ class Store {
 
 test("a stored map goes into the link with its device, one with a whole matrix does not", () => {
   assert.equal(STORED_TEXT, "stored=7&phases=5&unit=mm&k_tilt=250&ccw_turn=390&strategy=cw&mu=0.1&roll=0&pitch=0&phase=0");
+  assert.equal(storedMapText(LIMITED, 0.1), STORED_TEXT.replace("390", "390&tilt_limit=3"));
   assert.equal(checkedMap(STORED_TEXT), STORED_TEXT);
   assert.equal(mapRequestOf(STORED_TEXT).stored, 7);
   assert.equal(pathText(STORED_TEXT, { roll: 1, pitch: 0, phase: 72 }), "roll=1&pitch=0&phase=72&mu=0.1&k_tilt=250&ccw_turn=390&strategy=cw&unit=mm");
@@ -245,5 +247,5 @@ test("a table of a map is in the order of its orientations, with the device", as
   const value = (row, name) => row[head.indexOf(name)];
   assert.deepEqual(["roll", "pitch", "phase"].map((name) => value(first, name)), [-4, -4, 0]);
   assert.deepEqual(["roll", "pitch", "phase"].map((name) => value(second, name)), [-4, -4, 180]);
-  assert.deepEqual(["push", "k_lateral", "k_tilt", "k_twist", "centre", "ccw_turn", "about", "device_unit"].map((name) => value(first, name)), ["10", "20", "250", "rigid", "0", "360", "nut", "mm"]);
+  assert.deepEqual(["push", "k_lateral", "k_tilt", "k_twist", "centre", "ccw_turn", "torque_limit", "about", "device_unit"].map((name) => value(first, name)), ["10", "20", "250", "rigid", "0", "360", "any", "nut", "mm"]);
 });

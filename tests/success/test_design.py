@@ -10,12 +10,11 @@ from hypothesis import strategies as st
 
 from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.device.document import device_document, device_from_document
-from threadstate.device.model import default_device
+from threadstate.device.model import Limits, default_device
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.success.design import (
     Candidate,
-    Limits,
     Parameter,
     best_first,
     candidate_of,
@@ -97,7 +96,7 @@ def test_what_a_map_says_within_limits() -> None:
     narrow = made_up((300.0, 2.0), limits=Limits(tilt_deg=2.35))
     assert (narrow.engaged, narrow.worst_critical) == ((4, 3, 2), None)
     assert narrow.tilt_deg <= 2.35
-    assert made_up((330.0, 2.0), limits=Limits(shift=0.0)).engaged == (0, 0, 0)
+    assert made_up((330.0, 2.0), limits=Limits(shift=1e-9)).engaged == (0, 0, 0)
     # The torque grows with the friction, from 1.
     assert made_up((300.0, 2.0), limits=Limits(torque=1.1)).engaged == (9, 8, 0)
 

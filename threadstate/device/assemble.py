@@ -27,7 +27,7 @@ from threadstate.device.assembly_model import (
     PathEvent,
     PathEventKind,
 )
-from threadstate.device.assembly_outcome import Ending, outcome_of
+from threadstate.device.assembly_outcome import Ending, first_beyond, outcome_of
 from threadstate.device.branches import Followed, FollowedLeg, KnownPaths, PlannedLeg, all_paths
 from threadstate.device.command import (
     LONGEST_STEP_DEG,
@@ -38,7 +38,15 @@ from threadstate.device.command import (
 from threadstate.device.flush import level_numbers
 from threadstate.device.friction import REASONS as FRICTION_REASONS
 from threadstate.device.friction import FrictionPath, settled_with_friction, snap_event
-from threadstate.device.model import Device, LoadedContact, Outcome, SettledFlag, SettledState, default_device
+from threadstate.device.model import (
+    Device,
+    Limits,
+    LoadedContact,
+    Outcome,
+    SettledFlag,
+    SettledState,
+    default_device,
+)
 from threadstate.device.settle import (
     FEATURES,
     REASONS,
@@ -124,7 +132,7 @@ def assemble_pose(
         start = settled_state(pair, held, numbers, wanted[0], rotations[0], row)
         if start.outcome is not Outcome.SETTLED:
             return _unsettled(start, strategy, mu)
-        course = _without_friction(pair, numbers, command, row, phase, plan, watch)
+        course = _without_friction(pair, held, numbers, command, row, phase, plan, watch)
         return _path(pair, held, start, strategy, mu, course)
     path = path_with_friction(pair, held, numbers, wanted[0], row[0], mu, watch, longest_step_deg=longest)
     if isinstance(path, SettledState):
@@ -156,7 +164,7 @@ def _ends(
     for legs in followed.paths:
         start = settled_with_friction(held, pose_deg, path, legs[0].rows)
         if start.outcome is Outcome.SETTLED:
-            ends.append(_path(path.pair, held, start, strategy, path.mu, _with_friction(path, legs[1:])))
+            ends.append(_path(path.pair, held, start, strategy, path.mu, _with_friction(path, held, legs[1:])))
         else:
             ends.append(_unsettled(start, strategy, path.mu))
     return ends
@@ -197,6 +205,19 @@ class Course:
     reason: SettledFlag | None = None
     is_free: bool = True
 
+    def add_leg(self, limits: Limits, points: list[AssemblyPoint], events: list[PathEvent]) -> int:
+        """Adds a leg, up to its first point beyond a device's limits, which then ends the path; returns how many points
+        that are.
+        """
+        beyond = first_beyond(limits, points)
+        if beyond is not None:
+            last, self.ending = beyond
+            points = points[: last + 1]
+            events = events_up_to(points[-1].phase_deg, points[0].phase_deg, events)
+        self.legs.append(points)
+        self.events += events
+        return len(points)
+
     @property
     def work(self) -> float:
         """The torque summed over the phase, by trapezoids."""
@@ -219,6 +240,7 @@ def plan_of(pair: Pair, strategy: Strategy, device: Device) -> list[PlannedLeg]:
 
 def _without_friction(
     pair: Pair,
+    device: Device,
     numbers: Floats,
     command: Floats,
     row: tuple[Floats, ...],
@@ -247,14 +269,16 @@ def _without_friction(
         watch.end_leg()
         result, rows, contacts, happened = leg
         count = int(result[tk.L_POINTS])
-        found = happened[: int(result[tk.L_EVENTS])]
-        course.events += [_event(event) for event in found]
-        course.falls += float(found[found[:, tk.E_KIND] == tk.FALL, tk.E_LOSS].sum())
+        events = [_event(event) for event in happened[: int(result[tk.L_EVENTS])]]
         points = [_point(rows[i], contacts[i], numbers, command) for i in range(count)]
-        course.legs.append(points)
         if status == tk.SNAPPED:
-            course.events.append(snap_event(points))
+            events.append(snap_event(points))
+        before = len(course.events)
+        course.add_leg(device.limits, points, events)
+        course.falls += sum(event.energy or 0.0 for event in course.events[before:] if event.kind is PathEventKind.FALL)
         watch.end_turn(course.events)
+        if course.ending is not Ending.TURNED:
+            break
         course.is_free = int(result[tk.L_OVERLAP]) == FREE
         phase = float(rows[count - 1, tk.T_PHASE])
         if status == tk.TORQUE_PASSED:
@@ -269,14 +293,15 @@ def _without_friction(
     return course
 
 
-def _with_friction(path: FrictionPath, legs: list[FollowedLeg]) -> Course:
+def _with_friction(path: FrictionPath, device: Device, legs: list[FollowedLeg]) -> Course:
     """The course of the turns of a path with friction; ``path`` is the bolt that was followed."""
     course = Course()
     for leg in legs:
-        course.events += leg.events
-        course.legs.append(leg.points)
-        course.friction += float(leg.rows.points[:, fk.P_FRICTION].sum())
-        course.falls += float(leg.rows.points[:, fk.P_FALL].sum())
+        count = course.add_leg(device.limits, leg.points, leg.events)
+        course.friction += float(leg.rows.points[:count, fk.P_FRICTION].sum())
+        course.falls += float(leg.rows.points[:count, fk.P_FALL].sum())
+        if course.ending is not Ending.TURNED:
+            return course
     last = legs[-1]
     status = last.rows.status
     if status == fs.TORQUE_OVER:
@@ -287,6 +312,11 @@ def _with_friction(path: FrictionPath, legs: list[FollowedLeg]) -> Course:
         course.ending, course.reason = Ending.FAILED, FRICTION_REASONS[status]
     course.is_free = last.points[-1].held is not Held.CONTACTS or path.is_free(last.rows.points[-1])
     return course
+
+
+def events_up_to(phase_deg: float, start_deg: float, events: list[PathEvent]) -> list[PathEvent]:
+    """The events of a turn from a phase up to another one."""
+    return [event for event in events if abs(event.phase_deg - start_deg) <= abs(phase_deg - start_deg)]
 
 
 def new_leg() -> tk.Leg:
@@ -318,8 +348,7 @@ class RunningTurn:
             return []
         # The last row of a full list is overwritten.
         found = [_event(event) for event in happened[: min(int(result[tk.L_EVENTS]), tk.MAX_EVENTS - 1)]]
-        start = math.degrees(rows[0, tk.T_PHASE])
-        return [event for event in found if abs(event.phase_deg - start) <= abs(phase_deg - start)]
+        return events_up_to(phase_deg, math.degrees(rows[0, tk.T_PHASE]), found)
 
     def stop(self) -> None:
         """Have the kernel end it, as after its last descent."""

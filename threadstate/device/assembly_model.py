@@ -18,13 +18,15 @@ class AssemblyOutcome(StrEnum):
     CROSS_THREADED = "cross_threaded"
     """The bolt goes down by the lead, but not in phase."""
     JAMMED = "jammed"
-    """No equilibrium goes on, or the torque has passed its limit."""
+    """No equilibrium goes on, or the torque has passed its limit, or the device's."""
     NO_SNAP = "no_snap"
     """The counter-clockwise turn, by default a whole one, ends without a snap."""
     IDLE = "idle"
     """None of these: the bolt turns on the nut without following the thread."""
     SLIPPED = "slipped"
     """The bolt has left the nut sideways by more than half its major diameter."""
+    OVER_TRAVEL = "over_travel"
+    """The device has passed its limit of tilt or shift."""
     UNDECIDED = "undecided"
     """No certain answer; a flag says why."""
 
@@ -140,9 +142,9 @@ class AssemblyMargins:
 
     ``lead`` is by how much the height follows the lead better than within 5 %, over the last 90 deg of the clockwise
     turn; ``play`` how far inside the play in phase the last height is (a length); ``tilt_deg`` by how much the last
-    tilt is below what the play allows; ``torque`` by how much the largest torque is below its limit, over push times
-    nominal radius; ``offset`` how far the origin stayed from slipping (a length); ``snap`` by how much the snap is
-    deeper than it has to be (a length).
+    tilt is below what the play allows; ``torque`` by how much the largest torque is below its limit, or the device's,
+    over push times nominal radius; ``offset`` how far the origin stayed from slipping (a length); ``snap`` by how much
+    the snap is deeper than it has to be (a length).
     """
 
     lead: float | None

@@ -10,7 +10,7 @@ import numpy as np
 
 from threadstate.device import _turn_kernel as tk
 from threadstate.device.assembly_model import AssemblyMargins, AssemblyOutcome, AssemblyPoint
-from threadstate.device.model import Device
+from threadstate.device.model import Device, Limits
 from threadstate.device.strategy import Strategy
 from threadstate.state.model import StagePose
 from threadstate.thread.pair import Pair
@@ -32,6 +32,8 @@ class Ending(Enum):
     """The torque has passed its limit."""
     SLIPPED = auto()
     """The bolt has left the nut sideways."""
+    TRAVEL = auto()
+    """The device has passed its limit of tilt or shift."""
     FAILED = auto()
     """A step has no certain end."""
 
@@ -42,7 +44,9 @@ def outcome_of(
     """The outcome of a path, and its margins, from the points of its legs."""
     points = [point for leg in legs for point in leg]
     push_torque = device.push * pair.nominal_diameter / 2.0
-    torque = tk.TORQUE_LIMIT - max(abs(point.torque) for point in points) / push_torque
+    allowed = device.limits.torque
+    torque_limit = tk.TORQUE_LIMIT if allowed is None else min(tk.TORQUE_LIMIT, allowed / push_torque)
+    torque = torque_limit - max(abs(point.torque) for point in points) / push_torque
     reach = pair.bolt.major_diameter / 2.0
     offset = reach - max(math.hypot(*point.pose.translation[:2]) for point in points)
     snap = snap_margin(pair, legs[0]) if strategy is Strategy.CCW_THEN_CW else None
@@ -50,6 +54,7 @@ def outcome_of(
         outcome = {
             Ending.SLIPPED: AssemblyOutcome.SLIPPED,
             Ending.TORQUE: AssemblyOutcome.JAMMED,
+            Ending.TRAVEL: AssemblyOutcome.OVER_TRAVEL,
             Ending.FAILED: AssemblyOutcome.UNDECIDED,
         }[ending]
         return outcome, AssemblyMargins(None, None, None, torque, offset, snap)
@@ -63,6 +68,16 @@ def outcome_of(
     if not lead >= 0.0:
         outcome = AssemblyOutcome.IDLE
     return outcome, AssemblyMargins(lead, play, tilt_deg, torque, offset, snap)
+
+
+def first_beyond(limits: Limits, points: Sequence[AssemblyPoint]) -> tuple[int, Ending] | None:
+    """The first point of a leg that is beyond a device's limits, and how it ends the path; None where there is none."""
+    for k, point in enumerate(points):
+        if not limits.allow_travel(math.hypot(*point.rotation_deg), math.hypot(*point.shift[:2])):
+            return k, Ending.TRAVEL
+        if not limits.allow_torque(abs(point.torque)):
+            return k, Ending.TORQUE
+    return None
 
 
 def lead_margin(pair: Pair, points: Sequence[AssemblyPoint]) -> float:

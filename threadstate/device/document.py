@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import astuple
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -12,6 +13,7 @@ from threadstate.device.model import (
     TWIST,
     About,
     Device,
+    Limits,
     LoadedContact,
     Outcome,
     SettledFlag,
@@ -28,12 +30,15 @@ Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 RIGID = "rigid"
 
 DIAGONAL = ("k_lateral", "k_axial", "k_tilt", "k_twist")
+LIMITS = ("tilt_limit", "shift_limit", "torque_limit")
+"""The keys of a device's limits, in the order of :class:`threadstate.device.model.Limits`."""
 
 
 class DeviceDocument(BaseModel):
     """A device as a document (docs/device.md): what it leaves out is as of the default device.
 
-    Lengths are in ``unit``, forces in N; stiffnesses in N a length, N times a length a rad; ``ccw_turn`` in degrees.
+    Lengths are in ``unit``, forces in N; stiffnesses in N a length, N times a length a rad; ``ccw_turn`` and
+    ``tilt_limit`` in degrees. A limit that it leaves out is none.
     """
 
     model_config = ConfigDict(extra="forbid")
@@ -48,6 +53,9 @@ class DeviceDocument(BaseModel):
     push: Number | None = None
     about: About | None = None
     ccw_turn: Number | None = None
+    tilt_limit: Number | None = None
+    shift_limit: Number | None = None
+    torque_limit: Number | None = None
 
 
 def device_from_document(values: Mapping[str, Any]) -> Device:
@@ -66,6 +74,7 @@ def device_from_document(values: Mapping[str, Any]) -> Device:
     push = default.push if document.push is None else document.push
     about = document.about or default.about
     ccw_turn_deg = default.ccw_turn_deg if document.ccw_turn is None else document.ccw_turn
+    limits = Limits(*(getattr(document, name) for name in LIMITS))
     if document.stiffness is not None:
         for name in DIAGONAL[:3]:
             if getattr(document, name) is not None:
@@ -73,7 +82,7 @@ def device_from_document(values: Mapping[str, Any]) -> Device:
         if document.k_twist not in (None, RIGID):
             raise InvalidValueError("k_twist", document.k_twist, f'"{RIGID}" or left out beside stiffness')
         rows = tuple(tuple(row) for row in document.stiffness)
-        return Device(rows, centre, push, document.unit, document.k_twist == RIGID, about, ccw_turn_deg)
+        return Device(rows, centre, push, document.unit, document.k_twist == RIGID, about, ccw_turn_deg, limits)
     stiffness = default.stiffness
     twist = document.k_twist
     return diagonal_device(
@@ -86,11 +95,13 @@ def device_from_document(values: Mapping[str, Any]) -> Device:
         unit=document.unit,
         about=about,
         ccw_turn_deg=ccw_turn_deg,
+        limits=limits,
     )
 
 
 def device_document(device: Device) -> dict[str, Any]:
-    """The document of a device: four stiffnesses where it has no more, else all of them; every key with its value.
+    """The document of a device: four stiffnesses where it has no more, else all of them; every key with its value, but
+    limits that it does not have.
 
     ``device_from_document`` gives the same device back; equal devices have equal documents.
     """
@@ -110,6 +121,7 @@ def device_document(device: Device) -> dict[str, Any]:
         **_positive_zeros(values),
         "about": device.about.value,
         "ccw_turn": float(device.ccw_turn_deg),
+        **{name: value for name, value in zip(LIMITS, astuple(device.limits), strict=True) if value is not None},
     }
 
 

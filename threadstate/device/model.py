@@ -39,6 +39,45 @@ class About(StrEnum):
 
 
 @dataclass(frozen=True)
+class Limits:
+    """The largest tilt (deg), shift (a length) and torque (N times its unit) that a device allows; None: any.
+
+    Raises:
+        InvalidValueError: one of them is not positive.
+    """
+
+    tilt_deg: float | None = None
+    shift: float | None = None
+    torque: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in (("tilt", self.tilt_deg), ("shift", self.shift), ("torque", self.torque)):
+            if value is not None and not 0.0 < value <= LARGEST_NUMBER:
+                raise InvalidValueError(f"{name}_limit", value, f"a number > 0, up to {number_text(LARGEST_NUMBER)}")
+
+    def allow_travel(self, tilt_deg: float, shift: float) -> bool:
+        """Whether the device can give way as far."""
+        return is_up_to(tilt_deg, self.tilt_deg) and is_up_to(shift, self.shift)
+
+    def allow_torque(self, torque: float) -> bool:
+        """Whether the hand can hold a torque."""
+        return is_up_to(torque, self.torque)
+
+    def in_unit(self, factor: float) -> Limits:
+        """The same limits where a length is ``factor`` times as large a number."""
+        shift, torque = (None if value is None else value * factor for value in (self.shift, self.torque))
+        return Limits(self.tilt_deg, shift, torque)
+
+
+def is_up_to(value: float, limit: float | None) -> bool:
+    """Whether a value is not above a limit; None: any."""
+    return limit is None or value <= limit
+
+
+NO_LIMITS = Limits()
+
+
+@dataclass(frozen=True)
 class Device:
     """A compliant hand (forces, section 4): lengths in ``unit``, forces in N, angles in rad.
 
@@ -46,6 +85,7 @@ class Device:
     of the compliance centre, in the nut's axes. ``centre`` is the height of the compliance centre over the bolt's base.
     With ``twist_is_rigid`` the third component of the rotation vector is zero, and so are its row and column.
     ``ccw_turn_deg`` is how far the hand turns counter-clockwise at most, until the snap; of a left-hand bolt clockwise.
+    A path ends where it passes one of the ``limits``.
 
     Raises:
         InvalidValueError: a number is not finite, the push is not positive, the stiffness is not 6 x 6, not
@@ -59,6 +99,7 @@ class Device:
     twist_is_rigid: bool = True
     about: About = About.NUT
     ccw_turn_deg: float = WHOLE_TURN_DEG
+    limits: Limits = NO_LIMITS
 
     def __post_init__(self) -> None:
         if not abs(self.centre) <= LARGEST_NUMBER:
@@ -78,7 +119,8 @@ class Device:
             tuple(value * factor ** (powers[i] + powers[j] - 1) for j, value in enumerate(row))
             for i, row in enumerate(self.stiffness)
         )
-        return replace(self, stiffness=stiffness, centre=self.centre * factor, unit=unit)
+        limits = self.limits.in_unit(factor)
+        return replace(self, stiffness=stiffness, centre=self.centre * factor, unit=unit, limits=limits)
 
 
 def diagonal_device(
@@ -92,6 +134,7 @@ def diagonal_device(
     unit: LengthUnit,
     about: About = About.NUT,
     ccw_turn_deg: float = WHOLE_TURN_DEG,
+    limits: Limits = NO_LIMITS,
 ) -> Device:
     """The device of four stiffnesses; ``k_twist`` None: rigid. Units and errors as of :class:`Device`.
 
@@ -104,7 +147,7 @@ def diagonal_device(
             raise InvalidValueError(name, value, f"a stiffness >= 0, up to {number_text(LARGEST_NUMBER)}{rigid}")
     diagonal = (k_tilt, k_tilt, k_twist or 0.0, k_lateral, k_lateral, k_axial)
     stiffness = tuple(tuple(value if i == j else 0.0 for j in range(6)) for i, value in enumerate(diagonal))
-    return Device(stiffness, centre, push, unit, k_twist is None, about, ccw_turn_deg)
+    return Device(stiffness, centre, push, unit, k_twist is None, about, ccw_turn_deg, limits)
 
 
 def default_device() -> Device:

@@ -29,6 +29,7 @@ FAILURES = {
     AssemblyOutcome.NO_SNAP: "does not snap in",
     AssemblyOutcome.IDLE: "turns idly, without following the thread",
     AssemblyOutcome.SLIPPED: "slips off the nut",
+    AssemblyOutcome.OVER_TRAVEL: "asks for more travel than the device has",
     AssemblyOutcome.UNDECIDED: "has no certain outcome",
 }
 

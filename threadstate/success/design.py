@@ -15,7 +15,7 @@ from itertools import pairwise
 from scipy.optimize import direct
 
 from threadstate.device.document import DIAGONAL, device_document, device_from_document
-from threadstate.device.model import Device
+from threadstate.device.model import Device, Limits
 from threadstate.errors import InvalidValueError
 from threadstate.library.grid import Grid
 from threadstate.numbers import number_text
@@ -86,19 +86,11 @@ class Parameter:
         return min(max(moved, self.low), self.high)
 
 
-@dataclass(frozen=True)
-class Limits:
-    """The largest tilt (deg), shift (the pair's unit) and torque (N times it) of a device; infinite: any."""
-
-    tilt_deg: float = math.inf
-    shift: float = math.inf
-    torque: float = math.inf
-
-    def hold(self, cell: Cell) -> bool:
-        """Whether a path engages within the limits."""
-        if not cell.engages or cell.tilt_deg is None or cell.shift is None or cell.torque is None:
-            return False
-        return cell.tilt_deg <= self.tilt_deg and cell.shift <= self.shift and cell.torque <= self.torque
+def is_within(cell: Cell, limits: Limits) -> bool:
+    """Whether a path engages within limits; lengths are in the pair's unit."""
+    if not cell.engages or cell.tilt_deg is None or cell.shift is None or cell.torque is None:
+        return False
+    return limits.allow_travel(cell.tilt_deg, cell.shift) and limits.allow_torque(cell.torque)
 
 
 @dataclass(frozen=True)
@@ -187,13 +179,13 @@ def candidate_of(
     undecided = []
     for mu in frictions:
         cells = [grid_cells(one, grid, mu) for one in orientations]
-        holds = [all(map(limits.hold, of_one)) for of_one in cells]
+        holds = [all(is_within(cell, limits) for cell in of_one) for of_one in cells]
         holding.append(holds)
-        open_cells = [all(limits.hold(cell) or not cell.is_decided for cell in of_one) for of_one in cells]
+        open_cells = [all(is_within(cell, limits) or not cell.is_decided for cell in of_one) for of_one in cells]
         undecided.append(sum(is_open and not held for is_open, held in zip(open_cells, holds, strict=True)))
     criticals = [_critical([holds[k] for holds in holding], frictions) for k in range(len(orientations))]
     worst = None if None in criticals else min(mu for mu in criticals if mu is not None)
-    within = [cell for one in orientations for cell in grid_cells(one, grid, frictions[0]) if limits.hold(cell)]
+    within = [cell for one in orientations for cell in grid_cells(one, grid, frictions[0]) if is_within(cell, limits)]
     return Candidate(
         tuple(values),
         device,

@@ -30,8 +30,8 @@ from worker.options import (
 )
 
 if TYPE_CHECKING:
-    from threadstate.device.model import Device
-    from threadstate.success.design import Limits, Parameter
+    from threadstate.device.model import Device, Limits
+    from threadstate.success.design import Parameter
 
 LARGEST_SEARCH = 10_000
 VARIED_MM = (("k_lateral", 1.0, 500.0), ("k_tilt", 20.0, 5000.0), ("centre", -10.0, 10.0))
@@ -140,13 +140,12 @@ def design(
 
 def _limits(max_tilt: float | None, max_shift: float | None, max_torque: float | None, factor: float) -> Limits:
     """The limits; a length in the device's unit times ``factor`` is in the pair's."""
-    from threadstate.success.design import Limits
+    from threadstate.device.model import Limits
 
     for name, value in (("max_tilt", max_tilt), ("max_shift", max_shift), ("max_torque", max_torque)):
         if value is not None and not 0.0 < value < math.inf:
             raise InvalidValueError(name, value, "a number > 0")
-    tilt_deg, shift, torque = (math.inf if value is None else value for value in (max_tilt, max_shift, max_torque))
-    return Limits(tilt_deg, shift * factor, torque * factor)
+    return Limits(max_tilt, max_shift, max_torque).in_unit(factor)
 
 
 def _varied(texts: list[str] | None, held: Device) -> list[Parameter]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
 from threadstate.device.document import device_document
+from threadstate.device.model import Limits
 from threadstate.numbers import number_text
-from threadstate.success.design import Candidate, Limits, Parameter, Tolerance
+from threadstate.success.design import Candidate, Parameter, Tolerance
 from threadstate.success.inputs import SuccessInputs
 from threadstate.success.map_file import inputs_document
 from worker.design.run import DesignResult
@@ -24,9 +24,9 @@ def print_design_json(inputs: SuccessInputs, limits: Limits, result: DesignResul
             **searched,
             "unit": inputs.pair.unit,
             "limits": {
-                "tilt": _finite(limits.tilt_deg),
-                "shift": _finite(limits.shift),
-                "torque": _finite(limits.torque),
+                "tilt": limits.tilt_deg,
+                "shift": limits.shift,
+                "torque": limits.torque,
             },
             "vary": [{"name": one.name, "low": one.low, "high": one.high} for one in result.parameters],
             "base": _candidate(result.parameters, result.base),
@@ -106,14 +106,8 @@ def _failing(one: Tolerance) -> tuple[str, str]:
 
 
 def _words(limits: Limits, unit: str) -> str:
-    tilt = "any tilt" if math.isinf(limits.tilt_deg) else f"tilt up to {number_text(limits.tilt_deg)} deg"
-    shift = "any shift" if math.isinf(limits.shift) else f"shift up to {limits.shift:.4g} {unit}"
-    torque = "any torque" if math.isinf(limits.torque) else f"torque up to {limits.torque:.4g} N {unit}"
-    return f"{tilt}, {shift}, {torque}"
-
-
-def _finite(value: float) -> float | None:
-    return None if math.isinf(value) else value
+    given = (("tilt", limits.tilt_deg, "deg"), ("shift", limits.shift, unit), ("torque", limits.torque, f"N {unit}"))
+    return ", ".join(f"any {name}" if most is None else f"{name} up to {most:.4g} {of}" for name, most, of in given)
 
 
 def _candidate(parameters: Sequence[Parameter], one: Candidate) -> dict[str, Any]:

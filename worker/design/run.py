@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from threadstate.device.document import device_document
+from threadstate.device.model import Limits
 from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
 from threadstate.success.design import (
     Candidate,
-    Limits,
     Parameter,
     Tolerance,
     best_first,

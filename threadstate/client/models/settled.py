@@ -89,6 +89,9 @@ class Device(Answer):
     push: float | None = None
     about: About | None = None
     ccw_turn: float | None = None
+    tilt_limit: float | None = None
+    shift_limit: float | None = None
+    torque_limit: float | None = None
 
 
 class SettledLibrary(Answer):

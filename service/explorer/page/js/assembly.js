@@ -21,6 +21,9 @@ export const NUMBERS = {
   k_twist: { label: "k twist", unit: "N L/rad", power: 1, default: "rigid", help: "Stiffness against turns about the commanded bolt's axis, or rigid." },
   centre: { label: "centre", unit: "L", power: 1, default: 0, help: "Height of the compliance centre over the plane of the bolt's end that enters the nut; as the bolt begins, that is about the nut's upper surface. Negative: below it, within the nut." },
   ccw_turn: { label: "ccw turn (deg)", power: 0, default: 360, help: "How far the hand turns counter-clockwise at most until the snap, 1 to 450 deg. A snap that comes soon after a whole turn is missed by 360." },
+  tilt_limit: { label: "tilt limit (deg)", power: 0, default: "any", help: "The path ends where the device tilts by more than that." },
+  shift_limit: { label: "shift limit", unit: "L", power: 1, default: "any", help: "The path ends where the compliance centre shifts sideways by more than that." },
+  torque_limit: { label: "torque limit", unit: "N L", power: 1, default: "any", help: "The bolt jams where the hand's torque is more than that; at the latest at 20 times push times nominal radius." },
 };
 /** Choices of the request, by name: its label, the values with their texts, the default first, and help. */
 export const CHOICES = {
@@ -37,7 +40,7 @@ export const CHOICES = {
 };
 const POSE = ["roll", "pitch", "phase"];
 /** The numbers of a device, without those of the pose and the contacts. */
-export const DEVICE_NUMBERS = ["push", "k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "ccw_turn"];
+export const DEVICE_NUMBERS = ["push", "k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "ccw_turn", "tilt_limit", "shift_limit", "torque_limit"];
 
 /** The label of a number, with the unit of lengths. */
 export function labelOf(name, unit) {

@@ -13,6 +13,7 @@ export const OUTCOMES = {
   no_snap: { name: "does not snap", letter: "–" },
   idle: { name: "turns idly", letter: "–" },
   slipped: { name: "slips off", letter: "s" },
+  over_travel: { name: "passes the travel", letter: "t" },
   undecided: { name: "undecided", letter: "?" },
 };
 /** Seconds after which a path is not followed any more: below the service's own time limit. */

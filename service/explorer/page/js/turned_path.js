@@ -142,10 +142,11 @@ export function eventText(event, unit, factor) {
 const OUTCOMES = {
   engaged: "The bolt engages",
   cross_threaded: "Cross-threaded: the bolt follows the lead, but not in phase",
-  jammed: "The bolt jams: the torque has passed its limit",
+  jammed: "The bolt jams: the torque has passed its limit, or the device's",
   no_snap: "No snap within a whole turn",
   idle: "Idle: the bolt turns without following the thread",
   slipped: "The bolt slips off the nut sideways",
+  over_travel: "The device has passed its limit of tilt or shift",
   undecided: "Undecided",
 };
 /** Why a path has no certain answer, or what is out of the ordinary about it. */
