@@ -12,7 +12,7 @@ from selenium.webdriver.common.keys import Keys
 from harness.browser import Explorer
 from tests.explorer.test_explorer import MINUS, settled_canvas
 from tests.service.test_assemblies import computing
-from threadstate.device.document import device_document
+from threadstate.device.document import LIMITS, device_document
 from threadstate.device.model import SettledFlag, default_device
 from threadstate.units import LengthUnit
 
@@ -69,11 +69,20 @@ def test_fields_that_are_left_empty_are_those_of_the_default_device(explorer: Ex
         explorer.choose("#unit", unit.value)
         explorer.wait_for_text("#device-k_tilt-label", f"N {unit.value}/rad")
         document = device_document(default_device().in_unit(unit))
-        for name in ("k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "push", "ccw_turn", "tilt_limit"):
+        for name in ("k_lateral", "k_axial", "k_tilt", "k_twist", "centre", "push", "ccw_turn"):
             shown = explorer.one(f"#device-{name}").get_attribute("placeholder")
             value = document[name]
             assert shown == (value if isinstance(value, str) else f"{value:.6g}")
+        for name in LIMITS:
+            assert name not in document
+            assert explorer.one(f"#device-{name}").get_attribute("placeholder") == "any"
         assert value_of(explorer, "#device-about") == document["about"]
+
+
+def test_a_path_beyond_the_travel_says_so(explorer: Explorer) -> None:
+    explorer.open(f"/#{COMPUTED.replace('unit', 'tilt_limit%3D1%26unit')}")
+    explorer.wait_for_text("#turned-outcome", "The device has passed its limit of tilt or shift")
+    assert value_of(explorer, "#device-tilt_limit") == "1"
 
 
 def test_a_link_restores_the_path_and_its_point_and_keys_move_it(explorer: Explorer) -> None:
