@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _settle_kernel as sk
 from threadstate.device import _turn_kernel as tk
-from threadstate.device.assemble import assemble_pose, new_leg
+from threadstate.device.assemble import assemble_pose
 from threadstate.device.model import default_device
 from threadstate.device.settle import device_numbers, new_rows, settle_poses
 from threadstate.device.strategy import Strategy
+from threadstate.device.turned_leg import new_leg
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 Floats = NDArray[np.float64]
