@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from oracle.follow import Hand
-from oracle.outcomes import End, followed_to_end
+from oracle.outcomes import STEP_DEG, End, followed_to_end
 from threadstate.device.model import default_device
 from threadstate.device.strategy import Strategy
 from threadstate.success.bounded import bounded_cell
@@ -23,7 +23,10 @@ POINT_LIMIT = 1000
 
 @dataclass(frozen=True)
 class Compared:
-    """A cell, its outcome by the solver, and its end and processor time (s) by the witness."""
+    """A cell, its outcome by the solver, and its end and processor time (s) by the witness.
+
+    ``halved`` is the witness's outcome with half its step, of cells with unlike certain outcomes.
+    """
 
     strategy: Strategy
     pose_deg: tuple[float, float, float]
@@ -31,6 +34,7 @@ class Compared:
     solver: str
     witness: End
     seconds: float
+    halved: str | None = None
 
     @property
     def is_decided(self) -> bool:
@@ -41,6 +45,11 @@ class Compared:
     def agrees(self) -> bool:
         """Whether both outcomes are one."""
         return self.solver == self.witness.outcome
+
+    @property
+    def agrees_halved(self) -> bool:
+        """Whether both are with half the witness's step alone."""
+        return self.solver == self.halved
 
 
 def cell(number: int) -> tuple[Strategy, tuple[float, float, float], float]:
@@ -63,4 +72,8 @@ def done(number: int) -> Compared:
     began = time.process_time()
     counter_deg = device.ccw_turn_deg if strategy is Strategy.CCW_THEN_CW else 0.0
     end, _ = followed_to_end(pair, hand, pose_deg, mu, counter_deg=counter_deg)
-    return Compared(strategy, pose_deg, mu, outcome, end, time.process_time() - began)
+    compared = Compared(strategy, pose_deg, mu, outcome, end, time.process_time() - began)
+    if compared.agrees or not compared.is_decided:
+        return compared
+    again, _ = followed_to_end(pair, hand, pose_deg, mu, counter_deg=counter_deg, step_deg=0.5 * STEP_DEG)
+    return replace(compared, halved=again.outcome)
