@@ -125,7 +125,7 @@ def test_neither_several_paths_nor_an_undecided_one_become_known() -> None:
 
 
 def test_a_path_that_has_come_to_a_known_one_becomes_known_if_it_ends_otherwise() -> None:
-    """Level, phase 0 ends before its snap; 90 goes on as it does, then snaps; 180 has nothing to add."""
+    """The turn from phase 0 ends before the snap; 90 goes on as it does, then snaps; 180 has nothing to add."""
     known = KnownPaths()
     found = []
     for phase in (0.0, 90.0, 180.0):

@@ -237,7 +237,8 @@ class SettledFlag(StrEnum):
     OVERLAP = "overlap"
     """An overlap at the end could not be excluded."""
     STEP_DEPENDENT = "step_dependent"
-    """Of a success map's path beside a boundary: with half the step it ends otherwise."""
+    """Of a success map's path beside a boundary, or that others would go on as: with half the step it ends otherwise.
+    """
     TILTED = "tilted"
     """The bolt tilted by more than the flank's half-angle, where its thread can meet the nut's surface."""
     UNBALANCED = "unbalanced"
