@@ -83,7 +83,19 @@ class Falling:
             np.empty((fs.MAX_SOLUTIONS, mk.MOST_CANDIDATES, mk.CONTACT_SIZE)),
             np.empty(fs.MAX_SOLUTIONS, dtype=np.int64),
         )
-        ended = ff.flow(self.q, PUSH, mu, self.place(), 0, self.contacts, self.setting, solutions, self.losses)
+        ended = ff.flow(
+            self.q,
+            PUSH,
+            mu,
+            ff.LOWERED,
+            False,
+            self.place(),
+            0,
+            self.contacts,
+            self.setting,
+            solutions,
+            self.losses,
+        )
         ff.end_drag(self.setting[7])
         return cast("tuple[int, int, int]", ended)
 
@@ -148,6 +160,36 @@ def test_falls_on_a_path_end_with_friction(roll_deg: float, pitch_deg: float) ->
     assert ends
     for point in ends:
         assert max(friction(contact) for contact in point.contacts) > 1e-3 * PUSH
+
+
+@pytest.mark.parametrize(("phase_deg", "longest_step"), [(15.0, 1.0), (60.0, 0.35), (180.0, 1.0)])
+def test_a_fall_beside_a_ridge_ends_where_friction_holds_the_bolt(phase_deg: float, longest_step: float) -> None:
+    """Its steps have no solution unless contacts of the threads are frozen, and without friction it snaps."""
+    path = assemble_pose(UNC, -3.0, -1.0, phase_deg, mu=0.3, longest_step=longest_step)
+    assert path.outcome is AssemblyOutcome.NO_SNAP
+    assert path.margins is not None
+    assert path.margins.snap is not None
+    assert 1.0 + path.margins.snap / (0.05 * UNC.thread_pitch) == pytest.approx(0.78, abs=0.03)
+    assert not bare_falls(path)
+
+
+def test_a_long_fall_ends_with_friction() -> None:
+    """It takes hundreds of steps: in most of them the bolt goes by some 1e-5 nominal radii."""
+    path = assemble_pose(UNC, 3.0, -4.0, 75.0, mu=0.1)
+    assert path.outcome is AssemblyOutcome.ENGAGED
+    snap = next(event for event in path.events if event.kind is PathEventKind.SNAP)
+    at = next(i for i, point in enumerate(path.points) if point.phase_deg == snap.phase_deg)
+    assert path.points[at].solutions == 0
+    assert max(friction(contact) for contact in path.points[at].contacts) > 1e-3 * PUSH
+
+
+@pytest.mark.parametrize("longest_step", [1.0, 0.5])
+def test_a_solution_of_the_shortest_step_that_is_a_finite_way_off_is_a_fall(longest_step: float) -> None:
+    """From phase 2.44 deg on a step has one that is lower by 0.02 pitches; the fall ends after 0.004."""
+    path = assemble_pose(UNC, -3.0, 0.0, 0.0, mu=0.1, longest_step=longest_step)
+    assert path.outcome is AssemblyOutcome.NO_SNAP
+    falls = [event for event in path.events if event.kind is PathEventKind.FALL and event.phase_deg < 3.0]
+    assert max(event.drop or 0.0 for event in falls) < 0.005 * UNC.thread_pitch
 
 
 def test_a_fall_that_friction_ends_early_is_no_snap() -> None:
@@ -310,14 +352,14 @@ def test_more_branches_than_are_followed_leave_it_open(scripted: Any) -> None:
 
 def test_a_bolt_that_settles_in_several_places_is_ambiguous_but_may_have_one_outcome() -> None:
     """A contact may rest or slide as the push grows; the turn forgets which it was."""
-    state = settle_pose(UNC, 4.0, -3.0, 0.0, mu=0.2)
+    state = settle_pose(UNC, -1.0, 0.0, 0.0, mu=0.2)
     assert (state.outcome, state.flags) == (Outcome.UNDECIDED, (SettledFlag.AMBIGUOUS,))
     assert (state.pose, state.shift, state.rotation_deg, state.elastic_energy) == (None, None, None, None)
     assert state.contacts == ()
     assert len(state.path) > 1
-    path = assemble_pose(UNC, 4.0, -3.0, 0.0, mu=0.2)
+    path = assemble_pose(UNC, -1.0, 0.0, 0.0, mu=0.2)
     assert (path.start.outcome, path.start.flags) == (Outcome.SETTLED, (SettledFlag.AMBIGUOUS,))
-    assert path.outcome is AssemblyOutcome.ENGAGED
+    assert path.outcome is AssemblyOutcome.NO_SNAP
     assert path.points[0].pose == path.start.pose
 
 
@@ -343,9 +385,9 @@ def bare_falls(path: AssemblyPath) -> list[int]:
 
 
 def test_after_a_fall_without_friction_it_grows_from_none() -> None:
-    """No step of this fall goes on where edges graze, and friction does not hold the bolt there."""
-    path = assemble_pose(UNC, -3.0, 1.0, 150.0, mu=0.2)
-    assert path.outcome is AssemblyOutcome.NO_SNAP
+    """No step of this fall off the surface goes on, and friction does not hold the bolt there."""
+    path = assemble_pose(UNC, 1.0, -3.0, 210.0, strategy=Strategy.CW, mu=0.2)
+    assert path.outcome is AssemblyOutcome.IDLE
     bare = bare_falls(path)
     assert bare
     assert all(path.points[i + 1].solutions == 1 for i in bare)

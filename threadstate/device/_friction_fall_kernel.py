@@ -33,6 +33,7 @@ from threadstate.device._friction_step_kernel import (
     chosen,
     friction_loss,
     kept,
+    solve_on_ridges,
     solve_step,
     touching_contacts,
 )
@@ -64,19 +65,19 @@ Array = NDArray[np.float64]
 LONGEST_WAY = 2e-3
 """How far (nominal radii) the bolt goes in a step of a fall."""
 
-FIRST_DRAG, LEAST_DRAG, LARGEST_DRAG, LOWERED = 100.0, 0.1, 1e8, 4.0
+FIRST_DRAG, LEAST_DRAG, LARGEST_DRAG = 100.0, 0.1, 1e8
 """Drags, as forces over the push a way over the nominal radius: that of the first step, that below which the next step
-has none, that above which a fall is given up, and by how much they change from step to step."""
+has none, and that above which a fall is given up."""
+
+LOWERED, LOWERED_AGAIN = 3.0, 2.0
+"""By how much the drag changes from step to step; and where the fall is followed again, as it came to no end."""
 
 LEFT = 1e-9
 """The force of the drag, over the push, at which the bolt is in equilibrium."""
 
-SLOW = 1e-3
-"""The force of the drag, over the push, below which the bolt stays where it is if friction can hold it there and no
-step goes on."""
-
-MOST_STEPS = 400
-"""The most steps of a fall that are tried."""
+MOST_STEPS, LOOKED_AFTER, LEAST_WAY, SLOW = 1000, 100, 1e-5, 1e-3
+"""The most steps of a fall that are tried; after so many each it is looked at whether the bolt has gone so far (nominal
+radii) in them. If it has not, though the force of the drag is more than that over the push, no step goes on."""
 
 
 @kernel()
@@ -113,6 +114,8 @@ def flow(
     q: Array,
     push: float,
     mu: float,
+    lowered: float,
+    on_ridges: bool,
     before: Array,
     count: int,
     contacts: Array,
@@ -122,9 +125,10 @@ def flow(
 ) -> tuple[int, int, int]:
     """Lets the bolt flow with friction from ``q``, in place, to an equilibrium.
 
-    Where it does not come to one, as no step has a solution, it stays where friction can hold it. Returns what holds it
-    there, its number of contacts and how the path ends there, if it does: NO_MINIMUM where nothing holds it.
-    ``before`` is the pose before the step in which it falls, and is set to the last one.
+    The drag is ``lowered`` by that factor from step to step; ``on_ridges`` steps without a solution are solved with
+    contacts of the threads at points of the bolt. Where no step goes on the bolt stays where friction can hold it.
+    Returns what holds it there, its number of contacts and how the path ends there, if it does: NO_MINIMUM where
+    nothing holds it. ``before`` is the pose before the step in which it falls, and is set to the last one.
     """
     command, device, bolt, modes_work = setting[0], setting[1], setting[3], setting[7]
     r = device[D_SCALE]
@@ -132,21 +136,23 @@ def flow(
     for h in range(4):
         losses[h] = 0.0
     drag, friction, left = FIRST_DRAG, 0.0, math.inf
+    earlier = q.copy()
     modes_work.guessed[0] = 0
-    for _ in range(MOST_STEPS):
+    for tried in range(1, MOST_STEPS + 1):
+        if tried % LOOKED_AFTER == 0:
+            if left > SLOW and distance(earlier, q, device) < LEAST_WAY * r:
+                break
+            copy_numbers(q, earlier)
         for c in range(count):
             copy_numbers(contacts[c], candidates[c])
         set_drag(drag, q, before, device, modes_work)
         number, total = solve_step(q, q, before, push, mu, True, count, candidates, setting, solutions)
+        if number == 0 and on_ridges:
+            number, total = solve_on_ridges(q, before, push, mu, count, contacts, candidates, setting, solutions)
         best = chosen(number, q, count, contacts, device, solutions)
         way = distance(q, solutions[0][best], device) / r if number > 0 and total <= MOST_CANDIDATES else math.inf
-        if way > LONGEST_WAY and left < SLOW:
-            touching = contacts_at_rest(q, push, mu, setting, contacts)
-            if touching > 0:
-                return ON_CONTACTS, touching, GOES_ON
-            left = math.inf
         if way > LONGEST_WAY:
-            drag = max(LOWERED * drag, LEAST_DRAG)
+            drag = max(lowered * drag, LEAST_DRAG)
             if drag > LARGEST_DRAG:
                 break
             continue
@@ -170,7 +176,7 @@ def flow(
         if ended != GOES_ON:
             return ON_CONTACTS, 0, ended
         if 2.0 * way < LONGEST_WAY:
-            drag = drag / LOWERED if drag > LEAST_DRAG else 0.0
+            drag = drag / lowered if drag > LEAST_DRAG else 0.0
     touching = contacts_at_rest(q, push, mu, setting, contacts)
     return ON_CONTACTS, touching, GOES_ON if touching > 0 else NO_MINIMUM
 
@@ -207,14 +213,22 @@ def fall_with_friction(
 ) -> tuple[int, int, int, bool]:
     """Lets the bolt fall from ``q``, in place; returns as :func:`flow`, and whether with friction.
 
-    Where the flow does not come to an end it falls as a bolt without friction, of which no force is known then.
+    A flow that does not come to an end is followed again, in shorter steps and on ridges. Where that does not either
+    the bolt falls as one without friction, of which no force is known then.
     """
     modes_work = setting[7]
-    start = q.copy()
-    kind, found, ended = flow(q, push, mu, before.copy(), count, contacts, setting, solutions, losses)
-    end_drag(modes_work)
-    if ended != NO_MINIMUM:
-        return kind, found, ended, True
+    start, begun = q.copy(), contacts[:count].copy()
+    for again in (False, True):
+        copy_numbers(start, q)
+        for c in range(count):
+            copy_numbers(begun[c], contacts[c])
+        lowered = LOWERED_AGAIN if again else LOWERED
+        kind, found, ended = flow(
+            q, push, mu, lowered, again, before.copy(), count, contacts, setting, solutions, losses
+        )
+        end_drag(modes_work)
+        if ended != NO_MINIMUM:
+            return kind, found, ended, True
     copy_numbers(start, q)
     for h in range(4):
         losses[h] = 0.0

@@ -1,8 +1,8 @@
 """The path of a held bolt with friction: push and phase of the command move in steps, whose length is what it takes.
 
 A step is halved where contacts change in it, the potential does as nothing explains, or there are several solutions;
-where the shortest one has none the bolt falls (``_friction_step_kernel``, ``_friction_held_kernel``,
-``_friction_fall_kernel``).
+where the shortest one has none, or one that only a jump leads to, the bolt falls (``_friction_step_kernel``,
+``_friction_held_kernel``, ``_friction_fall_kernel``).
 """
 
 from __future__ import annotations
@@ -354,7 +354,7 @@ def follow_friction(
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
-    bridging, falling, is_shortened, bare, falls = False, False, False, 0, 0
+    bridging, falling, jumps, is_shortened, bare, falls = False, False, False, False, 0, 0
     step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
     solutions = (
         np.empty((MAX_SOLUTIONS, COORDINATES)),
@@ -401,9 +401,12 @@ def follow_friction(
             set_guess(part, q, known_begin, known_end, guessed, known_contacts, setting[7])
             # Of steps that become shorter only the first and the shortest are begun anew: it takes most of their time.
             begins_anew = size <= least or not is_shortened
-            ended, next_count = step_with_friction(
-                q, push, mu, turns, begins_anew, before, count, contacts, setting, solutions, losses
-            )
+            if jumps:
+                ended = SHORTER
+            else:
+                ended, next_count = step_with_friction(
+                    q, push, mu, turns, begins_anew, before, count, contacts, setting, solutions, losses
+                )
             if ended == GOES_ON:
                 known_size, known_count = size, next_count
                 copy_numbers(path[0][i, P_COORDINATES : P_COORDINATES + COORDINATES], known_begin)
@@ -450,6 +453,11 @@ def follow_friction(
                 count = go_back(i, q, contacts, path)
                 step = max(0.5 * size, least)
                 continue
+            if turns and next_kind == ON_CONTACTS and losses[2] == 1.0:
+                # The solution is a finite way off, and no motion leads there but a fall that may end before.
+                count = go_back(i, q, contacts, path)
+                jumps = True
+                continue
             path[0][i + 1, P_FALL] = max(lost, 0.0)
         changed = next_kind != kind or (next_kind == ON_CONTACTS and not same_features(i, count, contacts, path))
         if turns and changed and next_kind != ON_STRIP and size * abs(turn) > ABOVE * EVENT_WIDTH:
@@ -464,7 +472,7 @@ def follow_friction(
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
         if ended != GOES_ON:
             return ended, i + 1, count
-        bridging, falling, is_shortened = False, False, False
+        bridging, falling, jumps, is_shortened = False, False, False, False
         falls = falls + 1 if losses[2] == 0.0 else 0
         if falls == 0:
             step = min(2.0 * size, longest)
