@@ -331,6 +331,15 @@ def test_a_branch_that_has_come_back_at_the_end_of_a_leg_is_the_path_from_there_
     assert begun_at[1:] == [other]
 
 
+def test_a_branch_that_comes_to_one_that_has_come_back_is_not_followed(scripted: Any) -> None:
+    other, half = 0.1 * R, 0.05 * R
+    paths, is_whole, begun_at = scripted(
+        {0.0: leg_of([0, 0, 0, 0, 0], [0, 0, other], [0, 0, 0, half]), other: leg_of([0, 0, other, half, 0])}
+    )
+    assert (len(paths), is_whole) == (1, True)
+    assert begun_at[1:] == [other]
+
+
 def test_branches_that_come_back_again_and_again_leave_it_open(scripted: Any) -> None:
     """Each branch has another one: they are followed up to a number of them."""
     script = {0.0: leg_of([0, 0, 0, 0, 0], [0, 0, 0.1 * R])}

@@ -1,7 +1,8 @@
 """Every path of a bolt with friction: where a step has several solutions the path branches (forces, section 5).
 
-A branch that comes back to a path that is followed already, at the same phase, is that path from there on. So is a path
-that comes to one from another starting phase (:class:`KnownPaths`).
+A branch that comes back to a path that is followed already, at the same phase, is that path from there on; so is one
+that comes to a branch that has come back. So is a path that comes to one from another starting phase
+(:class:`KnownPaths`).
 """
 
 from __future__ import annotations
@@ -162,6 +163,7 @@ def all_paths(
     """
     to_do = [_Start(path, (), None)]
     found: list[list[FollowedLeg]] = []
+    followed: list[list[Floats]] = [[] for _ in plan]
     is_whole = True
     begun, first_ends = 0, 0
     joined: set[AssemblyOutcome] = set()
@@ -170,7 +172,7 @@ def all_paths(
         number = len(start.legs)
         if start.begun is not None:
             same = SAME if plan[number].turn != 0.0 else SAME_AS_IT_GROWS
-            if _joins(start.begun.points, number, found, path.numbers, same):
+            if _joins(start.begun.points, followed[number], path.numbers, same):
                 continue
         if len(found) == MOST_PATHS or begun == MOST_STARTS:
             return Followed(found, False, first_ends, frozenset(joined))
@@ -179,7 +181,11 @@ def all_paths(
         for planned in plan[number:]:
             at = float(legs[-1].rows.points[-1, fk.P_PHASE]) if legs else phase
             before = start.path.copy()
-            leg, joins, later = _leg_of(start, planned, at, len(legs), found, known, joined)
+            rows = followed[len(legs)]
+            leg, joins, later = _leg_of(start, planned, at, len(legs), rows, known, joined, is_first=not found)
+            rows.append(leg.points)
+            for i, one in enumerate(later, len(legs) + 1):
+                followed[i].append(one.rows.points)
             to_do += [_Start(before.copy(), tuple(legs), branch) for branch in leg.branches]
             is_whole = is_whole and not leg.has_more
             if joins:
@@ -202,18 +208,22 @@ def _leg_of(
     planned: PlannedLeg,
     at: float,
     number: int,
-    found: list[list[FollowedLeg]],
+    followed: list[Floats],
     known: KnownPaths | None,
     joined: set[AssemblyOutcome],
+    *,
+    is_first: bool,
 ) -> tuple[FrictionLeg, bool, list[FollowedLeg]]:
-    """The leg of a start from a phase (rad) on, whether it comes back to a path, and the legs of a known path after it.
+    """The leg of a start from a phase (rad) on, whether it comes to one that is followed, and those of a known path
+    after it.
 
-    The first path's is followed as a whole where none is known; ``joined`` gains the outcomes of those it comes to.
+    ``followed`` are the points of the legs of that number that have been followed. The first path's is followed as a
+    whole where none is known; ``joined`` gains the outcomes of those it comes to.
     """
     bolt, begun = start.path, start.begun if number == len(start.legs) else None
-    if planned.turn != 0.0 and not found:
+    if planned.turn != 0.0 and is_first:
         bolt.watch.begin_turn()
-    part_size = LOOKED_AFTER if found else LOOKED_AFTER_START if known else math.inf
+    part_size = LOOKED_AFTER_START if is_first and known else math.inf if is_first else LOOKED_AFTER
     parts = max(math.ceil(abs(planned.turn) / part_size), 1)
     branches: list[FrictionBranch] = []
     has_more = False
@@ -225,10 +235,10 @@ def _leg_of(
         leg = bolt.follow((at, end), planned.pushes, stops_at_snap=planned.stops_at_snap, begun=begun)
         branches += leg.branches
         has_more = has_more or leg.has_more
-        joins = _joins(leg.points, number, found, bolt.numbers, SAME)
+        joins = _joins(leg.points, followed, bolt.numbers, SAME)
         if joins or leg.status != fs.REACHED:
             break
-        rest = known.rest_of(leg, number, at + planned.turn, bolt) if known and not found and part < parts else None
+        rest = known.rest_of(leg, number, at + planned.turn, bolt) if known and is_first and part < parts else None
         if rest is not None:
             leg, later = rest.leg, rest.later
             joined.add(rest.outcome)
@@ -267,19 +277,15 @@ def _events_of_turns(legs: Sequence[FollowedLeg], plan: Sequence[PlannedLeg]) ->
     return [event for leg in turns for event in leg.events]
 
 
-def _joins(rows: Floats, number: int, found: list[list[FollowedLeg]], numbers: Floats, same: float) -> bool:
-    """Whether the last of a leg's rows is, at its phase and push, where a path is in its leg of that number.
+def _joins(rows: Floats, followed: Sequence[Floats], numbers: Floats, same: float) -> bool:
+    """Whether the last of a leg's rows is, at its phase and push, where one of the legs that are followed is.
 
     ``same`` is how far apart they are at most, in nominal radii.
     """
     column = fk.P_PHASE if (rows[:, fk.P_PHASE] != rows[0, fk.P_PHASE]).any() else fk.P_PUSH
     sense = math.copysign(1.0, rows[-1, column] - rows[0, column])
     at = float(rows[-1, column])
-    return any(
-        _is_there(rows[-1], at, column, sense, legs[number].rows.points, numbers, same)
-        for legs in found
-        if len(legs) > number
-    )
+    return any(_is_there(rows[-1], at, column, sense, others, numbers, same) for others in followed)
 
 
 def _is_there(row: Floats, at: float, column: int, sense: float, others: Floats, numbers: Floats, same: float) -> bool:
