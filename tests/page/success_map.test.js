@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { ProblemError } from "../../service/explorer/page/js/api.js";
 import { requestOf } from "../../service/explorer/page/js/assembly.js";
-import { SuccessMap, cellOf, checkedMap, keyOf, mapRequestOf, mapText, orientationsOf, pathText, storedMapText, totalsOf } from "../../service/explorer/page/js/success_map.js";
+import { SuccessMap, cellOf, checkedMap, keyOf, lateSnapsOf, mapRequestOf, mapText, orientationsOf, pathText, storedMapText, totalsOf } from "../../service/explorer/page/js/success_map.js";
 import { criticalsWords, mapWords } from "../../service/explorer/page/js/success_words.js";
 import { successTable } from "../../service/explorer/page/js/tables.js";
 
@@ -141,6 +141,20 @@ test("a map is computed with every phase of every orientation, and says where it
   map.follow(TEXT, 7, GRID, "mm");
   assert.equal(service.asked.length, 18, "another unit is no other map");
 });
+
+for (const [hand, engagedEnd, failedEnd] of [["right", 95, 90], ["left", 265, -90]]) {
+  test(`a ${hand}-hand path that ends before a snap of another phase is counted, with the turn that reaches it`, () => {
+    const path = (phase, outcome, end) => ({ roll: 0, pitch: 0, phase, mu: 0.1, outcome, flags: [], bounded: false, torque: 1, tilt: 1, shift: 0.01, end });
+    const map = (text, cells) => ({ text, unit: "in", grid: GRID, cells: new Map(cells) });
+    const text = TEXT.replace("&strategy=cw", "");
+    const late = [path(0, "no_snap", failedEnd), path(180, "engaged", engagedEnd)];
+    const never = [path(0, "no_snap", failedEnd), path(180, "no_snap", failedEnd + 180)];
+    assert.deepEqual(lateSnapsOf(map(text, [["0 0", late], ["0 4", never]])), { paths: 1, turn: 365 });
+    assert.deepEqual(lateSnapsOf(map(text, [["0 4", never]])), { paths: 0, turn: null });
+    assert.deepEqual(lateSnapsOf(map(TEXT, [["0 0", late]])), { paths: 0, turn: null });
+    assert.ok(mapWords(map(text, [["0 0", late]]), "in").endsWith(" 1 path ends before a snap that others of its orientation meet: a ccw turn of 365 deg reaches it."));
+  });
+}
 
 test("of a map that is not whole only whole orientations count", async () => {
   const map = new SuccessMap(new Service(0.05), () => {});

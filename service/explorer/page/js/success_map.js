@@ -1,6 +1,6 @@
 // Success maps of the page: how the paths of a device end over orientations, computed a few at a time or read as stored.
 
-import { assemblyText, bodyOf, checkedAssembly, requestOf, requestOfDevice } from "./assembly.js";
+import { NUMBERS, assemblyText, bodyOf, checkedAssembly, requestOf, requestOfDevice } from "./assembly.js";
 import { ProblemError } from "./api.js";
 import { tilts } from "./grid.js";
 
@@ -21,6 +21,9 @@ const TIME_S = 20;
 /** Frictions at which a critical one is bracketed before it is bisected, and how far. */
 const BRACKET = [0.05, 0.1, 0.2, 0.4, 0.8];
 const TOLERANCE = 0.01;
+/** How far a hand turns clockwise, and counter-clockwise at most (deg). */
+const CLOCKWISE = 270;
+const LARGEST_TURN = 450;
 const UNAUTHORIZED = 401;
 /** What a map's text has before the device: the number of a stored map, and how many phases. */
 const HEAD = /^(?:stored=([0-9]{1,15})&)?phases=([0-9]{1,5})&/;
@@ -92,6 +95,26 @@ function posesOf({ roll, pitch }, phases) {
 /** Whether the outcomes of an orientation are there from every phase of the map. */
 export function isWhole({ text }, outcomes) {
   return outcomes?.length === mapRequestOf(text).phases;
+}
+
+/**
+ * The paths by `ccw_then_cw` that end before a snap that others of their orientation meet: {paths, turn}; `turn` (deg) is
+ * the counter-clockwise turn that reaches all those snaps, of the turns that a hand can make.
+ */
+export function lateSnapsOf({ text, cells }) {
+  const { request } = mapRequestOf(text);
+  const turn = Number(request.ccw_turn || NUMBERS.ccw_turn.default);
+  const turns = request.strategy === "cw" ? [] : [...cells.values()].flatMap((outcomes) => {
+    const ended = (name) => outcomes.filter(({ outcome, end }) => outcome === name && end !== null);
+    return ended("no_snap").flatMap(({ phase, end }) => {
+      // After the whole turn the hand goes back through CLOCKWISE: a left-hand bolt's goes the other way round.
+      const hand = Math.sign((end - phase) * (turn - CLOCKWISE)) || 1;
+      const beyond = ended("engaged").map((one) => modulo(hand * (one.end - phase) + CLOCKWISE - turn, 360));
+      return beyond.length > 0 ? [turn + Math.min(...beyond)] : [];
+    });
+  });
+  const reached = turns.filter((one) => one <= LARGEST_TURN);
+  return { paths: reached.length, turn: reached.length > 0 ? Math.max(...reached) : null };
 }
 
 /** What a map says of its whole orientations: {orientations, done, engaged, undecided, failure, torque, tilt, shift}. */
@@ -273,6 +296,10 @@ export class SuccessMap {
     for (const [k, one] of found.entries()) again.push(...(one.bounded ? await asked([poses[k]]) : [one]));
     return again;
   }
+}
+
+function modulo(value, by) {
+  return ((value % by) + by) % by;
 }
 
 /** Of the paths of an orientation those at a friction from the phases of the grid; a map has more beside boundaries. */

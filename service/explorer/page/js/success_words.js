@@ -1,7 +1,7 @@
 // What success maps say, in words.
 
 import { CHOICES, NUMBERS, labelOf } from "./assembly.js";
-import { OUTCOMES, mapRequestOf, totalsOf } from "./success_map.js";
+import { OUTCOMES, lateSnapsOf, mapRequestOf, totalsOf } from "./success_map.js";
 import { angle, fixed, unitFactor } from "./units.js";
 
 /** What of a request a map has for all its paths, but the friction. */
@@ -25,7 +25,13 @@ export function mapWords(map, unit) {
   const open = totals.undecided > 0 ? `; ${totals.undecided} ${totals.undecided === 1 ? "is" : "are"} undecided` : "";
   const least = totals.failure === null ? "" : ` The least tilt that fails: ${placeWords(totals.failure)}, which ${OUTCOMES[totals.failure.worst.outcome].name}.`;
   const needs = totals.engaged > 0 ? ` Paths that engage ask for ${needsWords(totals, unitFactor(map.unit, unit), unit)}.` : "";
-  return `Of ${of} ${totals.engaged} engage${from} at μ = ${request.mu === "" ? "0" : request.mu}${open}.${least}${needs}`;
+  return `Of ${of} ${totals.engaged} engage${from} at μ = ${request.mu === "" ? "0" : request.mu}${open}.${least}${needs}${lateSnapWords(map)}`;
+}
+
+function lateSnapWords(map) {
+  const { paths, turn } = lateSnapsOf(map);
+  if (paths === 0) return "";
+  return ` ${paths} ${paths === 1 ? "path ends" : "paths end"} before a snap that others of ${paths === 1 ? "its orientation" : "their orientations"} meet: a ccw turn of ${Math.ceil(turn)} deg reaches ${paths === 1 ? "it" : "them"}.`;
 }
 
 /** What of a map's device differs from the default, in words. */
