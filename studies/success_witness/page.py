@@ -12,6 +12,18 @@ from studies.success_witness.study import FRICTIONS, Compared
 from threadstate.device.strategy import Strategy
 from threadstate.numbers import number_text
 
+HEAD = (
+    "strategy",
+    "mu",
+    "cells",
+    "decided by both",
+    "agree",
+    "undecided: solver",
+    "witness",
+    "with half its step: decided",
+    "agree",
+)
+
 
 def page(cells: Sequence[Compared]) -> str:
     """The page as Markdown."""
@@ -37,11 +49,12 @@ linear steps know no curvature, and go to and fro where edges lie along each oth
 linear steps of a path. It confirms outcomes as far as its margins go; it is no bound.
 
 Of the first {len(cells):,} cells {sum(one.is_decided for one in cells):,} have an outcome by both, of which
-{sum(one.is_decided and one.agrees for one in cells):,} agree; with half the witness's step, 0.25 deg, so do
-{sum(one.agrees_halved for one in cells):,} of the others. A path takes the witness {np.median(seconds):.2g} s of
+{sum(one.is_decided and one.agrees for one in cells):,} agree. In the others in which the solver has one the witness is
+asked again, with half its step, 0.25 deg: {sum(one.is_decided_halved for one in cells):,} have an outcome by both then,
+of which {sum(one.agrees_halved for one in cells):,} agree. A path takes the witness {np.median(seconds):.2g} s of
 processor time (median), at most {seconds.max():.2g} s; of all its steps {steps:,} are nearly balanced or loose.
 
-{table(("strategy", "mu", "cells", "decided by both", "agree", "undecided: solver", "witness"), rows)}
+{table(HEAD, rows)}
 
 ## Cells that differ
 
@@ -62,6 +75,8 @@ def _row(strategy: Strategy, mu: float, cells: Sequence[Compared]) -> list[str]:
         str(sum(one.agrees for one in decided)),
         str(sum(one.solver == "undecided" for one in cells)),
         str(sum(one.witness.outcome == "undecided" for one in cells)),
+        str(sum(one.is_decided_halved for one in cells)),
+        str(sum(one.agrees_halved for one in cells)),
     ]
 
 

@@ -25,7 +25,7 @@ POINT_LIMIT = 1000
 class Compared:
     """A cell, its outcome by the solver, and its end and processor time (s) by the witness.
 
-    ``halved`` is the witness's outcome with half its step, of cells with unlike certain outcomes.
+    ``halved`` is the witness's outcome with half its step, of cells in which the first one is not the solver's.
     """
 
     strategy: Strategy
@@ -47,9 +47,14 @@ class Compared:
         return self.solver == self.witness.outcome
 
     @property
+    def is_decided_halved(self) -> bool:
+        """Whether both have an outcome with half the witness's step."""
+        return self.halved is not None and "undecided" not in (self.solver, self.halved)
+
+    @property
     def agrees_halved(self) -> bool:
-        """Whether both are with half the witness's step alone."""
-        return self.solver == self.halved
+        """Whether both outcomes are one with half the witness's step alone."""
+        return self.is_decided_halved and self.solver == self.halved
 
 
 def cell(number: int) -> tuple[Strategy, tuple[float, float, float], float]:
@@ -73,7 +78,7 @@ def done(number: int) -> Compared:
     counter_deg = device.ccw_turn_deg if strategy is Strategy.CCW_THEN_CW else 0.0
     end, _ = followed_to_end(pair, hand, pose_deg, mu, counter_deg=counter_deg)
     compared = Compared(strategy, pose_deg, mu, outcome, end, time.process_time() - began)
-    if compared.agrees or not compared.is_decided:
+    if compared.agrees or compared.solver == "undecided":
         return compared
     again, _ = followed_to_end(pair, hand, pose_deg, mu, counter_deg=counter_deg, step_deg=0.5 * STEP_DEG)
     return replace(compared, halved=again.outcome)

@@ -1,4 +1,4 @@
-"""The study of success maps beside the witness: a witness that differs is asked once more, with half its step."""
+"""The study of success maps beside the witness: one that does not agree is asked once more, with half its step."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ def end(outcome: str) -> End:
     ("outcomes", "halved", "steps"),
     [
         (("engaged",), None, [STEP_DEG]),
-        (("undecided",), None, [STEP_DEG]),
+        (("undecided", "engaged"), "engaged", [STEP_DEG, 0.5 * STEP_DEG]),
         (("no_snap", "engaged"), "engaged", [STEP_DEG, 0.5 * STEP_DEG]),
         (("no_snap", "no_snap"), "no_snap", [STEP_DEG, 0.5 * STEP_DEG]),
     ],
 )
-def test_a_witness_that_differs_is_asked_with_half_its_step(
+def test_a_witness_that_does_not_agree_is_asked_with_half_its_step(
     monkeypatch: pytest.MonkeyPatch, outcomes: tuple[str, ...], halved: str | None, steps: list[float]
 ) -> None:
     asked: list[float] = []
@@ -53,9 +53,11 @@ def test_the_page_counts_those_that_agree_with_half_the_step() -> None:
     cells = [
         Compared(strategy, pose_deg, mu, "engaged", end("engaged"), 1.0),
         Compared(strategy, pose_deg, mu, "engaged", end("no_snap"), 1.0, "engaged"),
-        Compared(strategy, pose_deg, mu, "engaged", end("undecided"), 1.0),
+        Compared(strategy, pose_deg, mu, "engaged", end("undecided"), 1.0, "no_snap"),
+        Compared(strategy, pose_deg, mu, "engaged", end("undecided"), 1.0, "undecided"),
+        Compared(strategy, pose_deg, mu, "undecided", end("engaged"), 1.0),
     ]
     text = page(cells)
-    assert "Of the first 3 cells 2 have an outcome by both, of which\n1 agree; with half" in text
-    assert "so do\n1 of the others" in text
+    assert "Of the first 5 cells 2 have an outcome by both, of which\n1 agree." in text
+    assert "0.25 deg: 2 have an outcome by both then,\nof which 1 agree." in text
     assert text.count("| engaged | no_snap | engaged |") == 1
