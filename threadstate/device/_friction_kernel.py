@@ -8,6 +8,7 @@ where the shortest one has none, or one that only a jump leads to, the bolt fall
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -325,6 +326,97 @@ def go_back(i: int, q: Array, contacts: Array, path: Path) -> int:
     return count
 
 
+class LastStep(NamedTuple):
+    """The last step on contacts that was solved, or fall: the next one begins as it went on.
+
+    Attributes:
+        size: how much of the leg it was, 0 where the next step begins without it.
+        count: the number of its contacts.
+        contacts: these, at its end.
+        begin: coordinates where it began.
+        end: and where it ended.
+    """
+
+    size: Array
+    count: Indices
+    contacts: Array
+    begin: Array
+    end: Array
+
+
+@kernel()
+def new_last_step() -> LastStep:
+    """One without which the first step begins."""
+    return LastStep(
+        np.zeros(1),
+        np.zeros(1, dtype=np.int64),
+        np.empty((MOST_CANDIDATES, K_SIZE)),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
+    )
+
+
+@kernel(allocates=False)
+def set_last_step(size: float, begin: Array, end: Array, count: int, contacts: Array, last: LastStep) -> None:
+    """Sets the last step."""
+    last.size[0], last.count[0] = size, count
+    copy_numbers(begin, last.begin)
+    copy_numbers(end, last.end)
+    for c in range(count):
+        copy_numbers(contacts[c], last.contacts[c])
+
+
+@kernel()
+def new_solutions() -> Solutions:
+    """Room for the solutions of a step."""
+    return (
+        np.empty((MAX_SOLUTIONS, COORDINATES)),
+        np.empty((MAX_SOLUTIONS, MOST_CANDIDATES, K_SIZE)),
+        np.empty(MAX_SOLUTIONS, dtype=np.int64),
+    )
+
+
+@kernel()
+def step_on_contacts(
+    size: float,
+    begin: Array,
+    q: Array,
+    push: float,
+    mu: float,
+    turns: bool,
+    begins_anew: bool,
+    before: Array,
+    count: int,
+    contacts: Array,
+    last: LastStep,
+    setting: Setting,
+    solutions: Solutions,
+    losses: Array,
+) -> tuple[int, int]:
+    """A step as :func:`step_with_friction`, with the guess that the last one leaves, which it is then.
+
+    ``begin`` are the coordinates of the path's point before, from which ``q`` may differ where the bolt has been tipped.
+    """
+    guessed = int(last.count[0]) if last.size[0] > 0.0 else 0
+    part = size / last.size[0] if guessed > 0 else 0.0
+    set_guess(part, q, last.begin, last.end, guessed, last.contacts, setting[7])
+    ended, next_count = step_with_friction(
+        q, push, mu, turns, begins_anew, before, count, contacts, setting, solutions, losses
+    )
+    if ended == GOES_ON:
+        set_last_step(size, begin, q, next_count, contacts, last)
+    return ended, next_count
+
+
+@kernel(allocates=False)
+def next_step(size: float, falls: int, longest: float, least: float) -> float:
+    """How long the step after one of a size is, the last of so many falls in a row."""
+    if falls == 0:
+        return min(2.0 * size, longest)
+    tried = 0 if falls % TRIED_AGAIN == 0 else falls - 1
+    return max(FIRST_PART * longest * 0.5**tried, least)
+
+
 @kernel(nogil=True)
 def follow_friction(
     q: Array,
@@ -356,14 +448,8 @@ def follow_friction(
     least = LEAST_PART * longest
     bridging, falling, jumps, is_shortened, bare, falls = False, False, False, False, 0, 0
     step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
-    solutions = (
-        np.empty((MAX_SOLUTIONS, COORDINATES)),
-        np.empty((MAX_SOLUTIONS, MOST_CANDIDATES, K_SIZE)),
-        np.empty(MAX_SOLUTIONS, dtype=np.int64),
-    )
+    solutions, last = new_solutions(), new_last_step()
     before, losses = np.empty(PLACE_SIZE), np.zeros(4)
-    known_size, known_count, known_contacts = 0.0, 0, np.empty((MOST_CANDIDATES, K_SIZE))
-    known_begin, known_end = np.empty(COORDINATES), np.empty(COORDINATES)
     spare = (np.empty((1, POINT_SIZE)), np.empty((1, MOST_CANDIDATES, K_SIZE)))
     branches[2][:] = -1
     set_phase(phases[0], command, device)
@@ -396,23 +482,26 @@ def follow_friction(
         if next_kind == ON_CONTACTS and ended == GOES_ON:
             if tips:
                 count = contacts_of_tip(q, push, setting, contacts)
-            guessed = known_count if known_size > 0.0 else 0
-            part = size / known_size if guessed > 0 else 0.0
-            set_guess(part, q, known_begin, known_end, guessed, known_contacts, setting[7])
             # Of steps that become shorter only the first and the shortest are begun anew: it takes most of their time.
             begins_anew = size <= least or not is_shortened
-            if jumps:
-                ended = SHORTER
-            else:
-                ended, next_count = step_with_friction(
-                    q, push, mu, turns, begins_anew, before, count, contacts, setting, solutions, losses
+            ended, begin = SHORTER, path[0][i, P_COORDINATES : P_COORDINATES + COORDINATES]
+            if not jumps:
+                ended, next_count = step_on_contacts(
+                    size,
+                    begin,
+                    q,
+                    push,
+                    mu,
+                    turns,
+                    begins_anew,
+                    before,
+                    count,
+                    contacts,
+                    last,
+                    setting,
+                    solutions,
+                    losses,
                 )
-            if ended == GOES_ON:
-                known_size, known_count = size, next_count
-                copy_numbers(path[0][i, P_COORDINATES : P_COORDINATES + COORDINATES], known_begin)
-                copy_numbers(q, known_end)
-                for c in range(next_count):
-                    copy_numbers(contacts[c], known_contacts[c])
         is_several = turns and ended == GOES_ON and losses[2] > 1.0
         if is_several and size > least:
             phase = phases[0] + target * turn
@@ -433,11 +522,7 @@ def follow_friction(
                 q, push, mu, before, count, contacts, setting, solutions, losses
             )
             # The next step may end where the fall did, with contacts that do as they did at its end.
-            known_size, known_count = size if next_kind == ON_CONTACTS and has_friction else 0.0, next_count
-            copy_numbers(q, known_begin)
-            copy_numbers(q, known_end)
-            for c in range(known_count):
-                copy_numbers(contacts[c], known_contacts[c])
+            set_last_step(size if next_kind == ON_CONTACTS and has_friction else 0.0, q, q, next_count, contacts, last)
             bare = 0 if has_friction else bare + 1
             if bare > MOST_BARE:
                 return NO_MINIMUM, i + 1, count
@@ -474,11 +559,7 @@ def follow_friction(
             return ended, i + 1, count
         bridging, falling, jumps, is_shortened = False, False, False, False
         falls = falls + 1 if losses[2] == 0.0 else 0
-        if falls == 0:
-            step = min(2.0 * size, longest)
-        else:
-            tried = 0 if falls % TRIED_AGAIN == 0 else falls - 1
-            step = max(FIRST_PART * longest * 0.5**tried, least)
+        step = next_step(size, falls, longest, least)
     return REACHED, i + 1, count
 
 
