@@ -78,11 +78,7 @@ class Falling:
         return place
 
     def flow(self, mu: float) -> tuple[int, int, int]:
-        solutions = (
-            np.empty((fs.MAX_SOLUTIONS, ck.COORDINATES)),
-            np.empty((fs.MAX_SOLUTIONS, mk.MOST_CANDIDATES, mk.CONTACT_SIZE)),
-            np.empty(fs.MAX_SOLUTIONS, dtype=np.int64),
-        )
+        solutions = fk.new_solutions()
         ended = ff.flow(
             self.q,
             PUSH,

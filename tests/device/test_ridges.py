@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _gap_kernel as gk
 from threadstate.device import _modes_kernel as mk
+from threadstate.device import _step_modes_kernel as sm
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
 from threadstate.device.model import default_device
@@ -28,7 +28,7 @@ def rolled(slope: float, moves: int) -> list[float]:
     azimuths = []
     for i in range(moves):
         gap[gk.G_THETA] = (6.2 + slope * (contact[mk.K_THETA] - 6.2)) % (2.0 * math.pi)
-        fs.move_on_ridge(gap, i > 0, move, contact)
+        sm.move_on_ridge(gap, i > 0, move, contact)
         azimuths.append(float(contact[mk.K_THETA]))
     return azimuths
 
@@ -70,7 +70,7 @@ def test_two_places_of_an_edge_beside_each_other_carry_the_bolt_at_once() -> Non
         point
         for point in path.points
         if any(
-            math.dist(one.point, other.point) < fs.SAME_CONTACT * R
+            math.dist(one.point, other.point) < sm.SAME_CONTACT * R
             for i, one in enumerate(point.contacts)
             for other in point.contacts[:i]
         )

@@ -28,14 +28,11 @@ from threadstate.device._friction_step_kernel import (
     SLIPPED_OFF,
     TOO_DEEP,
     TOO_MANY,
-    Setting,
-    Solutions,
     chosen,
     friction_loss,
     kept,
     solve_on_ridges,
     solve_step,
-    touching_contacts,
 )
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
@@ -57,6 +54,7 @@ from threadstate.device._places_kernel import find_places, lowest_height
 from threadstate.device._rest_kernel import AT_REST, DEEPEST, FLUSH, SLIPPED, Work, free_coordinates, set_metric
 from threadstate.device._settle_kernel import distance
 from threadstate.device._slide_kernel import lies_beside
+from threadstate.device._step_modes_kernel import Setting, Solutions, touching_contacts
 from threadstate.device._turn_kernel import LOADED, M_PUSH, ON_CONTACTS, ON_SURFACE, fall_down
 from threadstate.thread import _profile_kernel as pk
 

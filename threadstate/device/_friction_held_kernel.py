@@ -19,7 +19,7 @@ from threadstate.device._chart_kernel import (
     set_place,
 )
 from threadstate.device._flush_kernel import tip_over
-from threadstate.device._friction_step_kernel import GOES_ON, ON_PATCH, Setting
+from threadstate.device._friction_step_kernel import GOES_ON, ON_PATCH
 from threadstate.device._gap_kernel import G_VALUE
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
@@ -49,6 +49,7 @@ from threadstate.device._slide_kernel import (
     lie_flush,
     lies_beside,
 )
+from threadstate.device._step_modes_kernel import Setting
 from threadstate.device._strip_kernel import (
     C_FORCE,
     C_NORMAL,

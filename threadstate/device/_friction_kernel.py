@@ -30,9 +30,7 @@ from threadstate.device._chart_kernel import (
 from threadstate.device._friction_fall_kernel import fall_with_friction
 from threadstate.device._friction_held_kernel import ENERGY_STEP, contacts_of_tip, step_held
 from threadstate.device._friction_step_kernel import (
-    DISTINCT,
     GOES_ON,
-    MAX_SOLUTIONS,
     NO_MINIMUM,
     PATH_FULL,
     REACHED,
@@ -41,11 +39,8 @@ from threadstate.device._friction_step_kernel import (
     SNAP_REACHED,
     TOO_DEEP,
     TORQUE_OVER,
-    Setting,
-    Solutions,
     friction_loss,
     kept,
-    set_guess,
     step_with_friction,
 )
 from threadstate.device._gap_kernel import G_VALUE, GAP_SIZE
@@ -67,6 +62,7 @@ from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, distance
 from threadstate.device._slide_kernel import (
     is_level,
 )
+from threadstate.device._step_modes_kernel import DISTINCT, MAX_SOLUTIONS, Setting, Solutions, set_guess
 from threadstate.device._turn_kernel import (
     ABOVE,
     BELOW_TOP,
@@ -331,14 +327,14 @@ class LastStep(NamedTuple):
 
     Attributes:
         size: how much of the leg it was, 0 where the next step begins without it.
-        count: the number of its contacts.
+        found: the number of its contacts.
         contacts: these, at its end.
         begin: coordinates where it began.
         end: and where it ended.
     """
 
     size: Array
-    count: Indices
+    found: Indices
     contacts: Array
     begin: Array
     end: Array
@@ -359,7 +355,7 @@ def new_last_step() -> LastStep:
 @kernel(allocates=False)
 def set_last_step(size: float, begin: Array, end: Array, count: int, contacts: Array, last: LastStep) -> None:
     """Sets the last step."""
-    last.size[0], last.count[0] = size, count
+    last.size[0], last.found[0] = size, count
     copy_numbers(begin, last.begin)
     copy_numbers(end, last.end)
     for c in range(count):
@@ -395,9 +391,9 @@ def step_on_contacts(
 ) -> tuple[int, int]:
     """A step as :func:`step_with_friction`, with the guess that the last one leaves, which it is then.
 
-    ``begin`` are the coordinates of the path's point before, from which ``q`` may differ where the bolt has been tipped.
+    ``begin`` are the coordinates of the path's point before, from which ``q`` differs where the bolt has been tipped.
     """
-    guessed = int(last.count[0]) if last.size[0] > 0.0 else 0
+    guessed = int(last.found[0]) if last.size[0] > 0.0 else 0
     part = size / last.size[0] if guessed > 0 else 0.0
     set_guess(part, q, last.begin, last.end, guessed, last.contacts, setting[7])
     ended, next_count = step_with_friction(
