@@ -80,6 +80,23 @@ def jets(theta: Floats, tau: Floats, motion: Floats, curve: Floats, solid: Float
 
 
 @pytest.mark.parametrize("kind", ["turn", "translation"])
+def test_no_point_of_a_box_is_deeper_than_it_says(kind: str) -> None:
+    rng = np.random.default_rng(62)
+    boxes = np.zeros(box.BOXES_SIZE)
+    least = math.inf
+    for _ in range(600):
+        motion, curve, solid = random_motion(rng, kind)
+        theta, a, start = rng.uniform(0, TWO_PI), 10.0 ** rng.uniform(-7, -1), rng.uniform(0, 0.01)
+        b = 10.0 ** rng.uniform(-10, -3)
+        evaluate_box(Box(theta, a, start, start + 2 * b), new_edge(motion, curve, solid, new_kept(1)), boxes)
+        seen = jets(np.linspace(theta - a, theta + a, 5), np.linspace(start, start + 2 * b, 5), motion, curve, solid)
+        above = boxes[box.X_DEEPEST] - np.minimum(seen[:, onset.J_PHI], seen[:, onset.J_G]).max()
+        least = min(least, above)
+        assert above > -ROUND_OFF
+    assert least < 1e-6
+
+
+@pytest.mark.parametrize("kind", ["turn", "translation"])
 @pytest.mark.parametrize(
     "pair", [PAIR, SHARP, BUTTRESS, TURNED_BUTTRESS], ids=["filleted", "sharp", "buttress", "turned buttress"]
 )

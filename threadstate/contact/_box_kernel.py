@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 # Boxes are stored column by column in a flat buffer of that capacity: middle and half-width of theta, start and end of
 # tau, class, min(g, phi) in the middle, range of phi_thetatheta, least g; then g and phi in the
 # middle as differences from a contact, and its distance, NaN where they are not given (``_beside_kernel``); whether an
-# undecided box is to be split by time (1) or by azimuth (0).
+# undecided box is to be split by time (1) or by azimuth (0); and what min(g, phi) is at most.
 CAPACITY = 64
 COLUMN = CAPACITY + 16
 """Distance of columns: a power of two would have the same rows of all of them compete for the same lines of a cache."""
@@ -42,7 +42,8 @@ X_G_BESIDE = 9 * COLUMN
 X_PHI_BESIDE = 10 * COLUMN
 X_GAP = 11 * COLUMN
 X_BY_TIME = 12 * COLUMN
-BOXES_SIZE = 13 * COLUMN
+X_DEEPEST = 13 * COLUMN
+BOXES_SIZE = 14 * COLUMN
 
 # Classes, in this order: no onset and no point inside; no onset (excluded); at most one onset, on the edge, the thread
 # or the plane; at most one peak of min(g, phi) at each time, of that kind, but whether and when it rises through zero
@@ -228,9 +229,11 @@ def splits_by_time(
 
 
 @kernel(contract=True, forceinline=True)
-def classify_box(a: float, b: float, phi: Ranges, g: Ranges, depth: float, p: float) -> tuple[float, float, float]:
-    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`, the least g in it, and
-    whether to split it by time (1) or by azimuth (0) where that leaves it undecided.
+def classify_box(
+    a: float, b: float, phi: Ranges, g: Ranges, depth: float, p: float
+) -> tuple[float, float, float, float]:
+    """The class of a box with half-widths ``a`` (theta) and ``b`` (tau) from its :func:`ranges`, the least g in it,
+    whether to split it by time (1) or by azimuth (0) where that leaves it undecided, and what min(g, phi) is at most.
 
     It is split by the variable that contributes more to the uncertainty of a peak's height, or else to the relative
     uncertainty of the undecided functions. The function is long: it is the list of the cases, each named once.
@@ -283,7 +286,7 @@ def classify_box(a: float, b: float, phi: Ranges, g: Ranges, depth: float, p: fl
     box_class = ONE_THREAD if one_thread else box_class
     box_class = ONE_EDGE if one_edge else box_class
     box_class = EXCLUDED if excluded else box_class
-    return ALL_OUTSIDE if all_outside else box_class, g_low, 1.0 if by_time else 0.0
+    return ALL_OUTSIDE if all_outside else box_class, g_low, 1.0 if by_time else 0.0, smaller(phi_high, g_high)
 
 
 @kernel(contract=True, forceinline=True)
@@ -323,6 +326,8 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
         error = error_beside(tau, sizes) * boxes[X_GAP + i]
         g = with_value(of_g, boxes[X_G_BESIDE + i], error)
         phi = with_value(of_phi, boxes[X_PHI_BESIDE + i], error)
-        boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = classify_box(a, b, phi, g, depth, p)
+        box_class, g_low, by_time, deepest = classify_box(a, b, phi, g, depth, p)
+        boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = box_class, g_low, by_time
+        boxes[X_DEEPEST + i] = deepest
         boxes[X_DEPTH + i] = smaller(phi.value, g.value)
         boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = phi.tt_low, phi.tt_high

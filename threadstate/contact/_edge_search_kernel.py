@@ -21,6 +21,7 @@ from threadstate.contact._box_kernel import (
     X_BEND_LOW,
     X_BY_TIME,
     X_CLASS,
+    X_DEEPEST,
     X_DEPTH,
     X_END,
     X_G_BESIDE,
@@ -545,7 +546,8 @@ def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, queue: 
             for i in range(size):
                 box_class = int(boxes[X_CLASS + i])
                 theta, half, depth = boxes[X_THETA + i], boxes[X_HALF + i], boxes[X_DEPTH + i]
-                if box_class == ALL_OUTSIDE or half < narrow:
+                is_shallow = boxes[X_DEEPEST + i] <= shallow * edge.solid[pk.P]
+                if box_class == ALL_OUTSIDE or is_shallow or half < narrow:
                     continue
                 if depth > deepest:
                     deepest, azimuth = depth, theta
