@@ -101,15 +101,24 @@ def solved(pose: PoseDeg, pair: Pair = PAIR) -> Floats:
         (PAIR, (2.3917780808415613e-06, 2.5972127350257494e-06, 2.1471097995532444), 1),
         (PAIR, (1.735635670838846e-09, 9.606987204942213e-10, 1.9080351168902752), 2),
         (SHARP, (-1.848321590093091e-09, 2.75804603556617e-06, -0.2093575674421757), 2),
-        (NO_CLEARANCE, (1.0485832972802616, -1.9987059987023654, 4.943892773021979), 3),
     ],
 )
 def test_a_pose_whose_search_does_not_end_is_an_error_and_never_a_guess(pair: Pair, pose: PoseDeg, poses: int) -> None:
-    """One for each stage, and one for the embedment: ``poses`` of the three were found."""
+    """One for each stage: ``poses`` of the three were found."""
     row = solved(pose, pair)
     assert (row[record.O_STATUS], row[record.O_POSES]) == (stage.UNRESOLVED, poses)
     with pytest.raises(UnresolvedPoseError, match="before every box was excluded"):
         solve_pose(pair, *pose)
+
+
+def test_an_embedment_beside_edges_that_touch_along_an_arc_is_decided() -> None:
+    """Of the arc no box is outside altogether; none is deeper than what the witness of an overlap has to be."""
+    roll, pitch, phase = 1.0485832972802616, -1.9987059987023654, 4.943892773021979
+    states = [solve_pose(NO_CLEARANCE, roll + offset, pitch, phase) for offset in (0.0, 1e-7)]
+    first, beside = (state.embedment for state in states)
+    assert first == pytest.approx(1.6305062e-3, abs=1e-10)
+    assert beside == pytest.approx(first, abs=1e-9)
+    assert [contact.features for contact in states[0].contacts] == [contact.features for contact in states[1].contacts]
 
 
 @pytest.mark.parametrize(
@@ -145,20 +154,28 @@ def test_nearly_level_edges_in_narrow_boxes_without_a_peak_have_the_first_height
 
 
 @pytest.mark.parametrize(
-    ("height", "outcome"),
-    [(1e-9, edge_search.OUTSIDE), (-1e-9, edge_search.INSIDE), (0.0, edge_search.UNDECIDED)],
+    ("height", "shallow", "outcome"),
+    [
+        (1e-9, 1e-12, edge_search.OUTSIDE),
+        (-1e-9, 1e-12, edge_search.INSIDE),
+        (0.0, 1e-12, edge_search.OUTSIDE),
+        (0.0, 0.0, edge_search.UNDECIDED),
+    ],
 )
-def test_an_edge_that_lies_in_the_other_plane_is_undecided(height: float, outcome: int) -> None:
-    """Level on the surface every box of the edge over the nut's flat touches: no list is long enough."""
+def test_an_edge_that_lies_in_the_other_plane_is_nowhere_inside_by_more_than_is_allowed(
+    height: float, shallow: float, outcome: int
+) -> None:
+    """Level on the surface every box of the edge over the nut's flat touches: with nothing allowed no list is long
+    enough."""
     motion, _ = descents(pose_at((0.0, 0.0, 90.0), height))
     work = stage.new_work()
-    found, _ = edge_search.find_inside(new_edge(motion, BOLT, NUT, new_kept(0)), 1e-12, 1e-11, work.boxes, work.queue)
+    found, _ = edge_search.find_inside(new_edge(motion, BOLT, NUT, new_kept(0)), shallow, 1e-11, work.boxes, work.queue)
     assert found == outcome
 
 
-def test_the_witness_of_an_edge_that_lies_in_the_other_plane_is_undecided() -> None:
+def test_an_edge_that_lies_in_the_other_plane_is_no_witness() -> None:
     outcome, until = lift.find_witness(pose_at((0.0, 0.0, 90.0), 0.0), 0.0, 1.0, BOLT, NUT, stage.new_work())
-    assert (outcome, until) == (edge_search.UNDECIDED, 0.0)
+    assert (outcome, until) == (edge_search.OUTSIDE, 0.0)
 
 
 # --- Onsets

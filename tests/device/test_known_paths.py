@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from threadstate.device import _friction_kernel as fk
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath
 from threadstate.device.branches import Followed, FollowedLeg, KnownPaths
-from threadstate.device.friction import FrictionLeg
+from threadstate.device.friction import FrictionLeg, FrictionPath
 from threadstate.device.model import Outcome
 from threadstate.device.settle import settle_pose
 from threadstate.device.strategy import Strategy
@@ -20,6 +21,8 @@ from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
 pytestmark = pytest.mark.slow
+
+Floats = NDArray[np.float64]
 
 UNC = quarter_twenty_unc()
 
@@ -56,14 +59,22 @@ def test_a_path_that_comes_to_a_known_one_ends_as_it_does_alone(
     assert outcomes is None or found == outcomes
 
 
-def test_a_path_that_ends_at_an_overlap_of_a_known_one_is_followed_alone() -> None:
-    """The known path's step to that phase left overlaps of 1e-9 nominal radii, which no end may have."""
+def test_a_path_that_ends_at_an_overlap_of_a_known_one_is_followed_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A step may leave overlaps that no end may have, of which the known path's is no end."""
     known = KnownPaths()
-    for phase in (0.0, 15.0, 30.0):
-        assemble_pose(UNC, 2.0, 1.0, phase, strategy=Strategy.CW, mu=0.3, known=known)
-    path = assemble_pose(UNC, 2.0, 1.0, 60.0, strategy=Strategy.CW, mu=0.3, known=known)
-    assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
-    assert path == assemble_pose(UNC, 2.0, 1.0, 60.0, strategy=Strategy.CW, mu=0.3)
+    assemble_pose(UNC, 2.0, 1.0, 0.0, strategy=Strategy.CW, mu=0.3, known=known)
+    alone = assemble_pose(UNC, 2.0, 1.0, 60.0, strategy=Strategy.CW, mu=0.3)
+    assert assemble_pose(UNC, 2.0, 1.0, 60.0, strategy=Strategy.CW, mu=0.3, known=known) != alone
+    is_free = FrictionPath.is_free
+    asked: list[Floats] = []
+
+    def is_free_but_at_the_first_end(path: FrictionPath, row: Floats) -> bool:
+        asked.append(row)
+        return len(asked) > 1 and is_free(path, row)
+
+    monkeypatch.setattr(FrictionPath, "is_free", is_free_but_at_the_first_end)
+    assert assemble_pose(UNC, 2.0, 1.0, 60.0, strategy=Strategy.CW, mu=0.3, known=known) == alone
+    assert len(asked) == 2
 
 
 def test_what_a_path_takes_from_a_known_one_are_its_points_whole_turns_later() -> None:
