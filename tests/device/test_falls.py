@@ -21,6 +21,7 @@ from threadstate.device import _turn_kernel as tk
 from threadstate.device import assemble
 from threadstate.device._places_kernel import new_threads
 from threadstate.device._rest_kernel import AT_REST, new_work
+from threadstate.device._step_modes_kernel import new_solutions
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, ContactMotion, Held, PathEventKind
 from threadstate.device.branches import MOST_PATHS, MOST_STARTS, SAME, Followed, FollowedLeg, PlannedLeg, all_paths
@@ -78,7 +79,7 @@ class Falling:
         return place
 
     def flow(self, mu: float) -> tuple[int, int, int]:
-        solutions = fk.new_solutions()
+        solutions = new_solutions()
         ended = ff.flow(
             self.q,
             PUSH,

@@ -62,7 +62,7 @@ from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, distance
 from threadstate.device._slide_kernel import (
     is_level,
 )
-from threadstate.device._step_modes_kernel import DISTINCT, MAX_SOLUTIONS, Setting, Solutions, set_guess
+from threadstate.device._step_modes_kernel import DISTINCT, Setting, Solutions, new_solutions, set_guess
 from threadstate.device._turn_kernel import (
     ABOVE,
     BELOW_TOP,
@@ -360,16 +360,6 @@ def set_last_step(size: float, begin: Array, end: Array, count: int, contacts: A
     copy_numbers(end, last.end)
     for c in range(count):
         copy_numbers(contacts[c], last.contacts[c])
-
-
-@kernel()
-def new_solutions() -> Solutions:
-    """Room for the solutions of a step."""
-    return (
-        np.empty((MAX_SOLUTIONS, COORDINATES)),
-        np.empty((MAX_SOLUTIONS, MOST_CANDIDATES, K_SIZE)),
-        np.empty(MAX_SOLUTIONS, dtype=np.int64),
-    )
 
 
 @kernel()

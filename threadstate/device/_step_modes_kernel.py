@@ -78,6 +78,16 @@ Setting = tuple[Array, Array, Array, Array, Array, Threads, Work, ModesWork]
 
 
 @kernel()
+def new_solutions() -> Solutions:
+    """Room for the solutions of a step."""
+    return (
+        np.empty((MAX_SOLUTIONS, COORDINATES)),
+        np.empty((MAX_SOLUTIONS, MOST_CANDIDATES, K_SIZE)),
+        np.empty(MAX_SOLUTIONS, dtype=np.int64),
+    )
+
+
+@kernel()
 def enumerate_modes(
     q: Array,
     carried: Array,
