@@ -396,6 +396,8 @@ def test_after_a_fall_without_friction_it_grows_from_none() -> None:
     assert path.outcome is AssemblyOutcome.IDLE
     bare = bare_falls(path)
     assert bare
+    told = [event.phase_deg for event in path.events if event.kind is PathEventKind.FRICTIONLESS_FALL]
+    assert told == [path.points[i].phase_deg for i in bare]
     assert all(path.points[i + 1].solutions == 1 for i in bare)
     after = path.points[bare[0] + 1]
     sliding = [

@@ -89,6 +89,7 @@ test("events, points and ends are said in words", () => {
     "contact gained, edge-edge", "fall: down 1.000, way 2.000 mm", "contact lost, edge-edge",
   ]);
   assert.equal(eventText({ ...NOTHING, kind: "moved", features_before: "edge-thread", features: "thread-thread" }, "in", 1), "contact moves, edge-thread to thread-thread");
+  assert.equal(eventText({ ...NOTHING, kind: "frictionless_fall" }, "in", 1), "this fall was followed without friction");
   assert.equal(pointText(ANSWER.path, 3), "point 4 of 6, phase 50 deg, 2 contacts");
   assert.equal(outcomeText(ANSWER, "mm"), "The bolt engages. Margin of the height on the lead: 4.8 %.");
   assert.equal(outcomeText({ ...ANSWER, outcome: "cross_threaded" }, "mm"), "Cross-threaded: the bolt follows the lead, but not in phase. Margin of the play in phase: −0.50000 mm.");

@@ -70,6 +70,9 @@ has none, and that above which a fall is given up."""
 LOWERED, LOWERED_AGAIN = 3.0, 2.0
 """By how much the drag changes from step to step; and where the fall is followed again, as it came to no end."""
 
+FRICTIONLESS = -1.0
+"""In place of the number of solutions of a step: the bolt has fallen in it as one without friction."""
+
 LEFT = 1e-9
 """The force of the drag, over the push, at which the bolt is in equilibrium."""
 
@@ -208,11 +211,11 @@ def fall_with_friction(
     setting: Setting,
     solutions: Solutions,
     losses: Array,
-) -> tuple[int, int, int, bool]:
-    """Lets the bolt fall from ``q``, in place; returns as :func:`flow`, and whether with friction.
+) -> tuple[int, int, int]:
+    """Lets the bolt fall from ``q``, in place; returns as :func:`flow`.
 
     A flow that does not come to an end is followed again, in shorter steps and on ridges. Where that does not either
-    the bolt falls as one without friction, of which no force is known then.
+    the bolt falls as one without friction, of which no force is known then: ``losses`` say so by ``FRICTIONLESS``.
     """
     modes_work = setting[7]
     start, begun = q.copy(), contacts[:count].copy()
@@ -226,12 +229,13 @@ def fall_with_friction(
         )
         end_drag(modes_work)
         if ended != NO_MINIMUM:
-            return kind, found, ended, True
+            return kind, found, ended
     copy_numbers(start, q)
     for h in range(4):
         losses[h] = 0.0
+    losses[2] = FRICTIONLESS
     kind, found, ended = fall_without_friction(q, push, setting, contacts)
-    return kind, found, ended, False
+    return kind, found, ended
 
 
 @kernel()

@@ -27,7 +27,7 @@ from threadstate.device._chart_kernel import (
     elastic_energy,
     set_place,
 )
-from threadstate.device._friction_fall_kernel import fall_with_friction
+from threadstate.device._friction_fall_kernel import FRICTIONLESS, fall_with_friction
 from threadstate.device._friction_held_kernel import ENERGY_STEP, contacts_of_tip, step_held
 from threadstate.device._friction_step_kernel import (
     GOES_ON,
@@ -104,7 +104,8 @@ MOST_BARE = 4
 MAX_POINTS = 2500
 
 # A point: phase (rad), push, what holds the bolt, potential, elastic energy, torque, contacts, coordinates, rotation
-# and translation, friction loss of the step, loss of a fall, number of solutions of the step.
+# and translation, friction loss of the step, loss of a fall, number of solutions of the step: 0 after a fall with
+# friction, and FRICTIONLESS.
 P_PHASE, P_PUSH, P_KIND, P_POTENTIAL, P_ENERGY, P_TORQUE, P_COUNT, P_COORDINATES, P_POSE = (
     0,
     1,
@@ -504,12 +505,13 @@ def follow_friction(
             step = min(BRIDGING * size, longest) if bridging else least
             continue
         if ended == SHORTER:
-            next_kind, next_count, ended, has_friction = fall_with_friction(
+            next_kind, next_count, ended = fall_with_friction(
                 q, push, mu, before, count, contacts, setting, solutions, losses
             )
             # The next step may end where the fall did, with contacts that do as they did at its end.
-            set_last_step(size if next_kind == ON_CONTACTS and has_friction else 0.0, q, q, next_count, contacts, last)
-            bare = 0 if has_friction else bare + 1
+            is_bare = losses[2] == FRICTIONLESS
+            set_last_step(0.0 if is_bare or next_kind != ON_CONTACTS else size, q, q, next_count, contacts, last)
+            bare = bare + 1 if is_bare else 0
             if bare > MOST_BARE:
                 return NO_MINIMUM, i + 1, count
         if ended != GOES_ON:
@@ -537,14 +539,14 @@ def follow_friction(
             continue
         i += 1
         reached, kind = target, next_kind
-        bare = bare if losses[2] == 0.0 else 0
+        bare = bare if losses[2] == FRICTIONLESS else 0
         if losses[2] > 1.0:
             path[0][i, P_SOLUTIONS] = 1.0 + add_branches(i, int(losses[2]), q, setting, solutions, path, branches)
         ended = has_ended(i, stop_at_snap, count, contacts, setting, path)
         if ended != GOES_ON:
             return ended, i + 1, count
         bridging, falling, jumps, is_shortened = False, False, False, False
-        falls = falls + 1 if losses[2] == 0.0 else 0
+        falls = falls + 1 if losses[2] <= 0.0 else 0
         step = next_step(size, falls, longest, least)
     return REACHED, i + 1, count
 

@@ -53,6 +53,8 @@ class PathEventKind(StrEnum):
     """A contact moves to other features."""
     FALL = "fall"
     """The minimum that the bolt followed ends, and it falls to another one."""
+    FRICTIONLESS_FALL = "frictionless_fall"
+    """With friction no step of the fall went on: the bolt fell as one without friction."""
     SNAP = "snap"
     """The counter-clockwise turn ends: the origin has gone down onto a thread."""
     ON_SURFACE = "on_surface"

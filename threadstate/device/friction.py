@@ -16,6 +16,7 @@ from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _turn_kernel as tk
 from threadstate.device._certificate_kernel import FREE
+from threadstate.device._friction_fall_kernel import FRICTIONLESS
 from threadstate.device.assembly_model import AssemblyPoint, ContactMotion, Held, PathEvent, PathEventKind
 from threadstate.device.equilibrium import BALANCED, balance
 from threadstate.device.flush import patch_hull
@@ -223,7 +224,7 @@ def point_of(row: Floats, contacts: Floats, numbers: Floats, command: Floats) ->
         float(row[fk.P_ENERGY]),
         float(row[fk.P_POTENTIAL]),
         tuple(MOTIONS[int(contact[mk.K_MODE])] for contact in found),
-        int(row[fk.P_SOLUTIONS]),
+        max(int(row[fk.P_SOLUTIONS]), 0),
     )
 
 
@@ -238,6 +239,8 @@ def friction_events(points: Sequence[AssemblyPoint], rows: Floats) -> list[PathE
             way = math.dist(before.pose.translation, after.pose.translation)
             energy = float(rows[i, fk.P_FALL])
             events.append(PathEvent(PathEventKind.FALL, *phases, drop=drop, way=way, energy=energy))
+        if rows[i, fk.P_SOLUTIONS] == FRICTIONLESS:
+            events.append(PathEvent(PathEventKind.FRICTIONLESS_FALL, *phases))
         if after.solutions > 1:
             events.append(PathEvent(PathEventKind.AMBIGUOUS, *phases))
         if after.held is not before.held:
@@ -311,6 +314,7 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath, 
         outcome = Outcome.SETTLED if residual <= BALANCED else Outcome.UNDECIDED
         flags = (SettledFlag.FLUSH,) if last.held is Held.SURFACE else ()
         flags += () if residual <= BALANCED else (SettledFlag.UNBALANCED,)
+        flags += (SettledFlag.FRICTIONLESS_FALL,) if (leg.points[:, fk.P_SOLUTIONS] == FRICTIONLESS).any() else ()
     is_settled = outcome is Outcome.SETTLED
     pressure = None
     if is_settled and last.held is Held.SURFACE:

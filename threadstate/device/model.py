@@ -232,6 +232,8 @@ class SettledFlag(StrEnum):
     """The bolt went deeper into the nut than its thread is searched, 3.6 thread pitches."""
     FIRST_CONTACT = "first_contact"
     """The search for the first contact could not exclude all its boxes."""
+    FRICTIONLESS_FALL = "frictionless_fall"
+    """With friction no step of a fall went on: the bolt fell there as one without friction."""
     MANY_CONTACTS = "many_contacts"
     """With friction, more contacts than have their modes enumerated."""
     OVERLAP = "overlap"

@@ -131,6 +131,7 @@ const KINDS = {
   on_strip: () => "comes to lie on a strip of flank",
   off_strip: () => "leaves the strip of flank",
   ambiguous: () => "step with several solutions",
+  frictionless_fall: () => "this fall was followed without friction",
   bridged: () => "not resolved within this step",
 };
 
@@ -161,6 +162,7 @@ const REASONS = {
   unbalanced: "the forces do not balance device and push",
   unstable: "the equilibrium is no minimum",
   ambiguous: "a step with friction had several solutions",
+  frictionless_fall: "a fall was followed without friction",
   many_contacts: "more than eight contacts with friction",
   step_dependent: "with half the step it ends otherwise",
 };
