@@ -9,7 +9,7 @@ from typing import Any
 import anyio
 import pytest
 
-from service.assemblies import endpoints
+from service.assemblies import endpoints, running
 from tests.client.scripted_server import BREAK_OFF, answer, scripted_server
 from threadstate.client import (
     AsyncClient,
@@ -40,7 +40,8 @@ OUT_OF_TIME = (
 )
 
 
-def test_both_clients_get_what_is_computed(client: Client, address: str) -> None:
+def test_both_clients_get_what_is_computed(client: Client, address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(running, "LOOK_S", 0.001)
     seen: list[AssemblyProgress] = []
 
     async def ask() -> Assembly:
