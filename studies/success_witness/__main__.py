@@ -20,7 +20,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.success_witness", description=__doc__)
     parser.add_argument("--into", type=Path, default=DOCS, help="folder of the page [docs]")
     parser.add_argument("--processes", type=int, default=2, help="computing processes [%(default)s]")
-    parser.add_argument("--cells", type=int, default=130, help="cells of success maps [%(default)s]")
+    parser.add_argument("--cells", type=int, default=140, help="cells of success maps [%(default)s]")
     chosen = parser.parse_args()
     cells: list[Compared] = []
     with workers(chosen.processes) as pool, Progress(console=Console(stderr=True)) as progress:

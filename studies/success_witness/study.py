@@ -9,9 +9,10 @@ import numpy as np
 
 from oracle.follow import Hand
 from oracle.outcomes import STEP_DEG, End, followed_to_end
+from threadstate.device.assembly_model import AssemblyOutcome
 from threadstate.device.model import default_device
 from threadstate.device.strategy import Strategy
-from threadstate.success.bounded import bounded_cell
+from threadstate.success.orientation_paths import OrientationPaths
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 SEED = 2032
@@ -25,7 +26,8 @@ POINT_LIMIT = 1000
 class Compared:
     """A cell, its outcome by the solver, and its end and processor time (s) by the witness.
 
-    ``halved`` is the witness's outcome with half its step, of cells in which the first one is not the solver's.
+    The solver's is that with its own step and with half of it, as of a map's paths that others go on as or that are
+    beside a boundary: undecided where these differ. ``halved`` is the witness's outcome with half its step, of cells in which the first one is not the solver's.
     """
 
     strategy: Strategy
@@ -71,13 +73,14 @@ def done(number: int) -> Compared:
     strategy, pose_deg, mu = cell(number)
     pair = quarter_twenty_unc()
     device = default_device().in_unit(pair.unit)
-    by_solver = bounded_cell(pair, device, strategy, pose_deg, mu, POINT_LIMIT)
-    outcome = "undecided" if by_solver.outcome is None else by_solver.outcome.value
+    paths = OrientationPaths(pair, device, strategy, *pose_deg[:2], POINT_LIMIT, has_several=False)
+    by_solver = paths.cell(pose_deg[2], mu)
+    outcome = by_solver.outcome if paths.ends_alike(by_solver) else AssemblyOutcome.UNDECIDED
     hand = Hand(np.array(device.stiffness), device.centre, device.push)
     began = time.process_time()
     counter_deg = device.ccw_turn_deg if strategy is Strategy.CCW_THEN_CW else 0.0
     end, _ = followed_to_end(pair, hand, pose_deg, mu, counter_deg=counter_deg)
-    compared = Compared(strategy, pose_deg, mu, outcome, end, time.process_time() - began)
+    compared = Compared(strategy, pose_deg, mu, outcome.value, end, time.process_time() - began)
     if compared.agrees or compared.solver == "undecided":
         return compared
     again, _ = followed_to_end(pair, hand, pose_deg, mu, counter_deg=counter_deg, step_deg=0.5 * STEP_DEG)

@@ -22,6 +22,14 @@ def end(outcome: str) -> End:
     return End(outcome, NAN, NAN, NAN, 0.2, NAN, 1.0, 3, 0)
 
 
+def solve(monkeypatch: pytest.MonkeyPatch, *, is_alike: bool) -> None:
+    """The solver says that each path engages, and whether it does with half its step."""
+    paths = SimpleNamespace(
+        cell=lambda *_: SimpleNamespace(outcome=AssemblyOutcome.ENGAGED), ends_alike=lambda _: is_alike
+    )
+    monkeypatch.setattr(study, "OrientationPaths", lambda *_, **__: paths)
+
+
 @pytest.mark.parametrize(
     ("outcomes", "halved", "steps"),
     [
@@ -41,11 +49,18 @@ def test_a_witness_that_does_not_agree_is_asked_with_half_its_step(
         asked.append(step_deg)
         return end(next(answers)), []
 
-    monkeypatch.setattr(study, "bounded_cell", lambda *_: SimpleNamespace(outcome=AssemblyOutcome.ENGAGED))
+    solve(monkeypatch, is_alike=True)
     monkeypatch.setattr(study, "followed_to_end", followed)
     found = done(0)
     assert (found.witness.outcome, found.halved, asked) == (outcomes[0], halved, steps)
     assert found.agrees_halved == (halved == "engaged")
+
+
+def test_a_path_that_ends_otherwise_with_half_the_solvers_step_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    solve(monkeypatch, is_alike=False)
+    monkeypatch.setattr(study, "followed_to_end", lambda *_, **__: (end("engaged"), []))
+    found = done(0)
+    assert (found.solver, found.is_decided, found.halved) == ("undecided", False, None)
 
 
 def test_the_page_counts_those_that_agree_with_half_the_step() -> None:

@@ -113,7 +113,7 @@ def ridge_is_inside(pose: Array, limit: float, bolt: Array, nut: Array) -> bool:
     copy_numbers(pose, placement[0:12])
     set_columns(FINE_AZIMUTHS, bolt, grid)
     for j in range(ridge_maxima(FINE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
-        _, z, _ = thread_maximum(maxima[j, 0], maxima[j, 1], 0.0, placement, bolt, nut, jet)
+        _, z, _ = thread_maximum(maxima[j, 0], maxima[j, 1], 0.0, -math.inf, placement, bolt, nut, jet)
         if min(jet[TJ_PHI], -jet[TJ_Z], z) > limit:
             return True
     return False

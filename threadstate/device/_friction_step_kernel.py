@@ -32,7 +32,7 @@ from threadstate.device._modes_kernel import (
     solve_mode,
 )
 from threadstate.device._places_kernel import find_places
-from threadstate.device._rest_kernel import AT_REST, Work, descend
+from threadstate.device._rest_kernel import AT_REST, Descent, Work, descend
 from threadstate.device._settle_kernel import PATH_OVERLAP, PATH_TOLERANCE, distance
 from threadstate.device._step_modes_kernel import (
     BESIDE_ON_RIDGE,
@@ -301,20 +301,8 @@ def step_with_friction(
     if turns:
         number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
     if number == 0 and total <= MOST_CANDIDATES and (begins_anew or not turns):
-        status, found = descend(
-            free,
-            push,
-            STEP_REACH * device[D_SCALE],
-            math.inf,
-            FREE_STEPS,
-            PATH_TOLERANCE,
-            PATH_OVERLAP,
-            device,
-            bolt,
-            nut,
-            threads,
-            work,
-        )
+        wanted = Descent(push, STEP_REACH * device[D_SCALE], math.inf, FREE_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
+        status, found = descend(free, wanted, device, bolt, nut, threads, work)
         if status != AT_REST:
             copy_numbers(q, free)
             found = 0

@@ -43,7 +43,7 @@ from threadstate.device._gap_kernel import (
     set_gap,
 )
 from threadstate.device._places_kernel import SAME_PLACE, W_GAP, W_JET, Threads, bracketed_peak
-from threadstate.device._thread_maximum_kernel import NO_RIDGE, NONE, polished_maximum, ridge_maximum
+from threadstate.device._thread_maximum_kernel import MAXIMUM, OUTSIDE, polished_maximum, ridge_maximum
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -242,10 +242,11 @@ def from_thread(
 ) -> tuple[int, float, float]:
     """A place of the threads, or that of the edge at which it has left them."""
     jet = threads.jet
+    set_jet(theta, z, threads.placement, bolt, nut, jet)
     at, up, converged = polished_maximum(theta, z, threads.placement, bolt, nut, jet)
     if not converged:
-        at, up, kind = ridge_maximum(theta, z, 0.0, LATER_RIDGE_STEP, threads.placement, bolt, nut, jet)
-        if kind == NONE or kind == NO_RIDGE:
+        at, up, kind = ridge_maximum(theta, z, 0.0, LATER_RIDGE_STEP, -math.inf, threads.placement, bolt, nut, jet)
+        if kind != MAXIMUM and kind != OUTSIDE:
             return NOWHERE, at, up
     if up <= 0.0:
         pair, at = edge_place(True, at, ANY, place, bolt, nut, edge_jet)

@@ -38,6 +38,8 @@ from threadstate.contact._tangency_kernel import (
     TANGENCY_JET_SIZE,
     TJ_B,
     TJ_PHI,
+    TJ_X,
+    TJ_Y,
     TJ_Z,
 )
 from threadstate.contact._tangency_kernel import set_jet as set_thread_jet
@@ -86,8 +88,9 @@ MAX_PLACES = 24
 MAX_PITCHES = 4
 """How many thread pitches of the bolt are searched from its base up: a bolt that is deeper is refused."""
 
-SAME_PLACE = 1e-7
-"""Places of the same features that are nearer to each other (nominal radii) are one."""
+SAME_PLACE, SAME_MAXIMUM = 1e-7, 1e-6
+"""Places of the same features that are nearer to each other (nominal radii) are one; so is a maximum along the threads,
+before its last digits are known, that is as near as the second to a place there."""
 
 MAX_STEPS = 60
 NEWTON_STEPS = 12
@@ -458,6 +461,17 @@ def lowest_height(place: Array, bolt: Array) -> float:
 
 
 @kernel(allocates=False)
+def place_of_maximum(count: int, places: Array, jet: Array, near: float) -> int:
+    """Which place of thread on thread is within ``near`` of a jet's point, -1 for none."""
+    for i in range(count):
+        apart = abs(places[i, G_POINT] - jet[TJ_X])
+        apart += abs(places[i, G_POINT + 1] - jet[TJ_Y]) + abs(places[i, G_POINT + 2] - jet[TJ_Z])
+        if places[i, G_PAIR] == THREAD_THREAD and apart < near:
+            return i
+    return -1
+
+
+@kernel(allocates=False)
 def add_thread(
     theta: float,
     z: float,
@@ -479,13 +493,16 @@ def add_thread(
     ``z`` is counted from the height ``base`` over the bolt's base, to which the placement has moved the bolt.
     """
     placement, jet = threads.placement, threads.jet
-    theta, z, kind = thread_maximum(theta, z, base, placement, bolt, nut, jet)
+    theta, z, kind = thread_maximum(theta, z, base, -reach, placement, bolt, nut, jet)
     if kind != MAXIMUM or jet[TJ_PHI] < -reach or base + z <= 0.0 or jet[TJ_Z] >= 0.0:
         return count, -1
+    known = place_of_maximum(count, places, jet, SAME_MAXIMUM * bolt[pk.R_MAJOR])
+    if known >= 0:
+        return count, known
     at, up, converged = polished_maximum(theta, z, placement, bolt, nut, jet)
     if not converged:
         # Beside a jump of the curvature Newton's method goes to and fro.
-        at, up, kind = ridge_maximum(theta, z, base, LATER_RIDGE_STEP, placement, bolt, nut, jet)
+        at, up, kind = ridge_maximum(theta, z, base, LATER_RIDGE_STEP, -reach, placement, bolt, nut, jet)
         converged = kind == MAXIMUM
     if converged and jet[TJ_PHI] >= -reach and base + up > 0.0 and jet[TJ_Z] < 0.0:
         return add_place(THREAD_THREAD, at, base + up, place, device, bolt, nut, work, count, places)

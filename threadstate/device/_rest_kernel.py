@@ -9,6 +9,7 @@ unlimited, and the step is Newton's. After a step the bolt is moved out of overl
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,6 +81,21 @@ STALL_STEPS, STALLED = 12, 1e-8
 Work = tuple[
     Array, Array, Array, Array, Array, Indices, Array, Array, Array, Array, Array, Array, Array, Array, Array, Array
 ]
+
+
+class Descent(NamedTuple):
+    """What a descent is asked for.
+
+    The push; the longest step, and how far from its start the bolt may go (lengths in the metric); the most steps; the
+    descent's size over the push below which the bolt rests; the overlap (nominal radii) that a step leaves at most.
+    """
+
+    push: float
+    longest_step: float
+    farthest: float
+    most_steps: int
+    tolerance: float
+    overlap_left: float
 
 
 @kernel()
@@ -214,6 +230,7 @@ def short_descent(n: int, count: int, push: float, r: float, work: Work) -> floa
 def back_to_contact(
     q: Array,
     known: int,
+    is_last: bool,
     push: float,
     reach: float,
     left: float,
@@ -222,14 +239,14 @@ def back_to_contact(
     nut: Array,
     threads: Threads,
     work: Work,
-) -> tuple[int, bool]:
+) -> tuple[int, bool, bool]:
     """Moves the bolt, in place, the shortest way out of overlaps and back to the contacts on which it presses.
 
-    Returns the number of places found then, and whether overlaps, and gaps of those contacts times the parts of the
-    push that they carry, are at most ``left`` (nominal radii). The places, and the pose in numbers, are those of the
-    result. Without the way back a step along curved contacts would end beside them, at a higher potential than its
-    model has. On the way the first ``known`` of the places are followed from where they are, and where they are met all
-    are searched for.
+    Returns the number of places found then, whether overlaps, and gaps of those contacts times the parts of the push
+    that they carry, are at most ``left`` (nominal radii), and whether all places have been searched for there. The
+    places, and the pose in numbers, are those of the result. Without the way back a step along curved contacts would
+    end beside them, at a higher potential than its model has. On the way the first ``known`` of the places are followed
+    from where they are; where they are met all are searched for if ``is_last``.
     """
     (
         places,
@@ -261,7 +278,7 @@ def back_to_contact(
             count = find_places(reach, place, device, bolt, nut, threads, search, places)
         set_metric(n, place, device, metric)
         if not cholesky(metric, n, metric_factor):
-            return count, False
+            return count, False, searches
         set_constraints(n, count, places, device, normals, limits)
         set_gradient(n, q, push, device, by_q, gradient)
         short_descent(n, count, push, r, work)
@@ -277,13 +294,13 @@ def back_to_contact(
                 limits[rows] = value
                 rows += 1
         if worst <= left * r:
-            if searches:
-                return count, True
+            if searches or not is_last:
+                return count, True, searches
             searches = True
             continue
         corrections += 1
         if corrections == MAX_CORRECTIONS:
-            return count, False
+            return count, False, searches
         searches = count == 0
         for j in range(n):
             gradient[j] = 0.0
@@ -291,7 +308,7 @@ def back_to_contact(
             n, metric_factor, gradient, rows, normals, limits, 1e-3 * left * r, program, active, step, forces
         )
         if status != SOLVED or not length_of(n, step, metric) < r:
-            return count, False
+            return count, False, False
         for m in range(n):
             j = coordinate(m, device)
             q[j] += step[m] / scale(j, device)
@@ -325,33 +342,34 @@ def set_convex_model(n: int, count: int, stiffness: float, device: Array, work: 
             return
 
 
+@kernel()
+def descend_followed(
+    q: Array, known: int, descent: Descent, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
+) -> tuple[int, int]:
+    """As :func:`descend`, with few searches: the first ``known`` of the places are followed from where they are.
+
+    Where it does not settle so it begins anew, and all places are searched for after each step.
+    """
+    start = q.copy()
+    status, count, _ = descend_with(q, known, False, descent, device, bolt, nut, threads, work)
+    if status != UNSETTLED:
+        return status, count
+    copy_numbers(start, q)
+    return descend(q, descent, device, bolt, nut, threads, work)
+
+
 @kernel(allocates=False)
 def descend(
-    q: Array,
-    push: float,
-    longest_step: float,
-    farthest: float,
-    most_steps: int,
-    tolerance: float,
-    overlap_left: float,
-    device: Array,
-    bolt: Array,
-    nut: Array,
-    threads: Threads,
-    work: Work,
+    q: Array, descent: Descent, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
 ) -> tuple[int, int]:
     """As :func:`descend_with`, first with the samples of the device's numbers, and from where no step leads on with the
     finest: two places beside each other may be missed between samples, in turns.
     """
     parts = device[D_FINE]
-    status, count, is_stuck = descend_with(
-        q, push, longest_step, farthest, most_steps, tolerance, overlap_left, device, bolt, nut, threads, work
-    )
+    status, count, is_stuck = descend_with(q, 0, True, descent, device, bolt, nut, threads, work)
     if is_stuck and parts < FINEST:
         device[D_FINE] = FINEST
-        status, count, _ = descend_with(
-            q, push, longest_step, farthest, most_steps, tolerance, overlap_left, device, bolt, nut, threads, work
-        )
+        status, count, _ = descend_with(q, 0, True, descent, device, bolt, nut, threads, work)
         device[D_FINE] = parts
     return status, count
 
@@ -359,12 +377,9 @@ def descend(
 @kernel()
 def descend_with(
     q: Array,
-    push: float,
-    longest_step: float,
-    farthest: float,
-    most_steps: int,
-    tolerance: float,
-    overlap_left: float,
+    known: int,
+    searches: bool,
+    descent: Descent,
     device: Array,
     bolt: Array,
     nut: Array,
@@ -374,9 +389,9 @@ def descend_with(
     """Descends from ``q``, in place, to a minimum of the potential; how it ended, the number of places there, and
     whether it ended because no step led on.
 
-    Steps are at most ``longest_step`` long, and the bolt stays within ``farthest`` of its start (lengths in the
-    metric). It rests where the descent's size is below ``tolerance`` times the push. A step leaves an overlap of at
-    most ``overlap_left`` (nominal radii).
+    The first ``known`` of the places are followed from where they are. All are searched for where none are known, where
+    the bolt has gone as far as the longest step since the last search, beyond which it may meet others, and where it
+    rests; or after each step, if it ``searches``.
     """
     (
         places,
@@ -396,6 +411,7 @@ def descend_with(
         _,
         multipliers,
     ) = work
+    push, longest_step, farthest, most_steps, tolerance, overlap_left = descent
     n = free_coordinates(device)
     r = bolt[pk.R_MAJOR]
     start = q.copy()
@@ -403,9 +419,13 @@ def descend_with(
     moved = np.empty(COORDINATES)
     saved = np.empty((MAX_PLACES, GAP_SIZE))
     saved_multipliers = np.empty(MAX_PLACES)
-    count, is_out = back_to_contact(q, 0, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work)
+    reach = REACH * longest_step
+    count, is_out, is_searched = back_to_contact(
+        q, known, searches, push, reach, overlap_left, device, bolt, nut, threads, work
+    )
     if not is_out:
         return UNSETTLED, count, True
+    way = 0.0
     stiffness = 0.0
     for i in range(n):
         j = coordinate(i, device)
@@ -430,7 +450,15 @@ def descend_with(
         set_constraints(n, count, places, device, normals, limits)
         size = short_descent(n, count, push, r, work)
         if size <= tolerance * push:
-            return AT_REST, count, False
+            if is_searched:
+                return AT_REST, count, False
+            count, is_out, is_searched = back_to_contact(
+                q, 0, True, push, reach, overlap_left, device, bolt, nut, threads, work
+            )
+            if not is_out:
+                return UNSETTLED, count, True
+            way = 0.0
+            continue
         # What it costs to leave the overlaps that are left: opposed contacts carry more than the push.
         owed = noise * push * r
         for i in range(count):
@@ -459,15 +487,17 @@ def descend_with(
                 continue
             move(n, step, q, device, trial)
             copy_numbers(trial, moved)
-            trial_count, is_out = back_to_contact(
-                moved, count, push, REACH * longest_step, overlap_left, device, bolt, nut, threads, work
+            is_last = searches or way + length > longest_step
+            trial_count, is_out, is_trial_searched = back_to_contact(
+                moved, count, is_last, push, reach, overlap_left, device, bolt, nut, threads, work
             )
             energy = elastic_energy(moved, device, by_q) + push * moved[5]
             if is_out and energy <= potential + owed:
                 accepted = True
                 damping = 0.0 if attempt == 0 else 0.25 * damping
                 has_risen = has_risen or energy > potential
-                count = trial_count
+                count, is_searched = trial_count, is_trial_searched
+                way = 0.0 if is_searched else way + length
                 copy_numbers(moved, q)
                 break
             # The places are those of the trial: set what belongs to the pose again.

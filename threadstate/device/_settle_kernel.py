@@ -31,9 +31,11 @@ from threadstate.device._rest_kernel import (
     FLUSH,
     TOO_FAR,
     UNSETTLED,
+    Descent,
     Work,
     coordinate,
     descend,
+    descend_followed,
     free_coordinates,
     length_of,
     new_work,
@@ -181,6 +183,7 @@ def follow_push(
     result[R_PUSH] = 0.0
     trial = np.empty(COORDINATES)
     place = np.empty(PLACE_SIZE)
+    known = 0
     reached = 0.0
     part = FIRST_PART
     add_point(q, 0.0, device, path, result)
@@ -189,39 +192,17 @@ def follow_push(
     while reached < push:
         target = min(push, reached + part * push)
         copy_numbers(q, trial)
-        status, _ = descend(
-            trial,
-            target,
-            STEP_LENGTH * r,
-            STEP_LENGTH * r,
-            STEPS,
-            PATH_TOLERANCE,
-            PATH_OVERLAP,
-            device,
-            bolt,
-            nut,
-            threads,
-            work,
-        )
+        wanted = Descent(target, STEP_LENGTH * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP)
+        status, found = descend_followed(trial, known, wanted, device, bolt, nut, threads, work)
+        known = found if status == AT_REST else 0
         if status == TOO_FAR or status == UNSETTLED:
             if part > LEAST_PART:
                 part *= 0.5
                 continue
             copy_numbers(q, trial)
-            status, _ = descend(
-                trial,
-                target,
-                FALL_STEP * r,
-                math.inf,
-                FALL_STEPS,
-                PATH_TOLERANCE,
-                PATH_OVERLAP,
-                device,
-                bolt,
-                nut,
-                threads,
-                work,
-            )
+            wanted = Descent(target, FALL_STEP * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
+            status, found = descend(trial, wanted, device, bolt, nut, threads, work)
+            known = found if status == AT_REST else 0
             if status == FLUSH:
                 set_flush(device, trial)
             if distance(q, trial, device) > STEP_LENGTH * r:
@@ -263,20 +244,8 @@ def follow_push(
         add_point(q, target, device, path, result)
         reached = target
         part = min(2.0 * part, LARGEST_PART)
-    status, count = descend(
-        q,
-        push,
-        STEP_LENGTH * r,
-        STEP_LENGTH * r,
-        LAST_STEPS,
-        END_TOLERANCE,
-        END_OVERLAP,
-        device,
-        bolt,
-        nut,
-        threads,
-        work,
-    )
+    wanted = Descent(push, STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP)
+    status, count = descend_followed(q, known, wanted, device, bolt, nut, threads, work)
     result[R_STATUS] = status
     result[R_PLACES] = count
     add_point(q, push, device, path, result)

@@ -25,6 +25,7 @@ from threadstate.contact._ridge_kernel import (
 from threadstate.contact._tangency_kernel import (
     TJ_A,
     TJ_B,
+    TJ_PHI,
     TJ_UU,
     TJ_UZ,
     TJ_Z,
@@ -35,8 +36,9 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-NONE, MAXIMUM, OUTSIDE, NO_RIDGE = range(4)
-"""What is near: no maximum, one, a ridge that rises out of either thread, or not even a ridge."""
+NONE, MAXIMUM, OUTSIDE, NO_RIDGE, RISING, TOO_LOW = range(6)
+"""What is near: no maximum, one, a ridge that rises out of either thread, or not even a ridge; a ridge that rises on
+beyond the steps, or one that does not rise by its slope to where a maximum counts."""
 
 SLOPE_LEFT, STEP_LEFT = 1e-13, 1e-14
 """The slope, and the step of Newton's method in thread pitches, at which a point counts as one of the ridge."""
@@ -112,6 +114,7 @@ def ridge_maximum(
     z: float,
     base: float,
     step: float,
+    lowest: float,
     placement: Array,
     bolt: Array,
     nut: Array,
@@ -120,7 +123,8 @@ def ridge_maximum(
     """The highest point of phi along the ridge near (theta, z), by steps in azimuth uphill and then by regula falsi.
 
     Along the ridge A falls through zero there. At each azimuth the ridge is looked for within a window of where its
-    tangent at the point before leads, or of the line between two ridge points. Also returns what there is.
+    tangent at the point before leads, or of the line between two ridge points. A maximum counts from ``lowest`` on.
+    Also returns what there is.
     """
     k = bolt[pk.LEAD] / TWO_PI
     window = FIRST_WINDOW * bolt[pk.P]
@@ -128,6 +132,8 @@ def ridge_maximum(
     if not found:
         return theta, z, NO_RIDGE
     slope = jet[TJ_A]
+    if jet[TJ_PHI] + MAX_RIDGE_STEPS * step * abs(slope) < lowest:
+        return theta, z, TOO_LOW
     uphill = math.copysign(step, slope)
     after, z_after, after_slope = theta, z, slope
     for _ in range(MAX_RIDGE_STEPS):
@@ -143,7 +149,7 @@ def ridge_maximum(
             return after, z_after, OUTSIDE
         theta, z, slope = after, z_after, after_slope
     if after_slope * uphill > 0.0:
-        return theta, z, NONE
+        return theta, z, RISING
     side, i = 0, 0
     while True:
         part = 0.5 if i % 3 == 2 else slope / (slope - after_slope)
@@ -167,19 +173,19 @@ def ridge_maximum(
 
 @kernel(allocates=False)
 def thread_maximum(
-    theta: float, z: float, base: float, placement: Array, bolt: Array, nut: Array, jet: Array
+    theta: float, z: float, base: float, lowest: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, int]:
     """The maximum of phi over the bolt's thread that is near a point of a ridge, and what there is.
 
     By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge: long
-    ones, and short ones where the ridge is short.
+    ones, and short ones where the ridge is short. A maximum counts from ``lowest`` on.
     """
     at, up, converged = nearby_maximum(theta, z, 0.0, placement, bolt, nut, jet)
     if converged:
         return at, up, MAXIMUM
     kind = NONE
     for step in (FIRST_RIDGE_STEP, LATER_RIDGE_STEP):
-        at, up, kind = ridge_maximum(theta, z, base, step, placement, bolt, nut, jet)
+        at, up, kind = ridge_maximum(theta, z, base, step, lowest, placement, bolt, nut, jet)
         if kind != NONE:
             break
     set_jet(at, up, placement, bolt, nut, jet)
@@ -190,12 +196,14 @@ def thread_maximum(
 def polished_maximum(
     theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
-    """A maximum of phi over the bolt's thread to the last digits, from one that is near; whether it is a maximum."""
+    """A maximum of phi over the bolt's thread to the last digits, from one that is near; whether it is a maximum.
+
+    ``jet`` is that of the point from which it goes, and then that of the maximum.
+    """
     from_theta, from_z = theta, z
     p = bolt[pk.P]
     left = math.inf
     for _ in range(POLISH_STEPS):
-        set_jet(theta, z, placement, bolt, nut, jet)
         a, b, uu, uz, zz = jet[TJ_A], jet[TJ_B], jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
         determinant = uu * zz - uz * uz
         if not (zz < 0.0 and determinant > 0.0):
@@ -206,8 +214,8 @@ def polished_maximum(
         z += bolt[pk.LEAD] / TWO_PI * du + dz
         if abs(theta - from_theta) > 0.05 or abs(z - from_z) > 0.05 * p:
             return theta, z, False
+        set_jet(theta, z, placement, bolt, nut, jet)
         left = max(abs(du), abs(dz) / p)
         if left < POLISHED:
             break
-    set_jet(theta, z, placement, bolt, nut, jet)
     return theta, z, left < POLISHED_NEAR

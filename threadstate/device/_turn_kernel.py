@@ -38,8 +38,10 @@ from threadstate.device._rest_kernel import (
     FLUSH,
     TOO_FAR,
     UNSETTLED,
+    Descent,
     Work,
     descend,
+    descend_followed,
     new_work,
 )
 from threadstate.device._settle_kernel import (
@@ -149,9 +151,10 @@ Leg = tuple[Array, Array, Array, Array]
 """Of a leg: result, points, contacts of each point, events."""
 
 # Where a leg is: phase and next step (rad), what holds the bolt, its number of contacts, whether the last step was
-# smooth, whether longer steps are tried, whether the bolt falls next.
-S_PHASE, S_STEP, S_KIND, S_COUNT, S_SMOOTH, S_BRIDGING, S_FALLING = range(7)
-STATE_SIZE = 7
+# smooth, whether longer steps are tried, whether the bolt falls next; and how many places the last descent has found,
+# from which the next one follows them.
+S_PHASE, S_STEP, S_KIND, S_COUNT, S_SMOOTH, S_BRIDGING, S_FALLING, S_KNOWN = range(8)
+STATE_SIZE = 8
 
 # What becomes of a step: it is taken, tried again with another length, or the leg ends here.
 TAKEN, AGAIN, ENDED = range(3)
@@ -429,20 +432,8 @@ def fall_down(
         copy_numbers(start, q)
         device[D_FINE] = FINEST if attempt == 1 else FINE
         longest = FALL_STEP if attempt < 2 else STEP_LENGTH * LONGER ** (attempt - 2)
-        status, found = descend(
-            q,
-            push,
-            longest * r,
-            math.inf,
-            TURN_FALL_STEPS,
-            PATH_TOLERANCE,
-            PATH_OVERLAP,
-            device,
-            bolt,
-            nut,
-            threads,
-            work,
-        )
+        wanted = Descent(push, longest * r, math.inf, TURN_FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
+        status, found = descend(q, wanted, device, bolt, nut, threads, work)
         if status != UNSETTLED:
             break
     device[D_FINE] = FINE
@@ -481,24 +472,15 @@ def closed_step(kind: int, q: Array, setting: Setting, contacts: Array, trial: A
 
 
 @kernel()
-def descent_near(q: Array, steps: int, setting: Setting) -> tuple[int, int]:
-    """Descends from ``q``, in place, to a minimum near by: how it ended, and the number of places there."""
+def descent_near(q: Array, known: int, steps: int, setting: Setting) -> tuple[int, int]:
+    """Descends from ``q``, in place, to a minimum near by: how it ended, and the number of places there.
+
+    Of the places ``known`` ones are followed from where the last descent has ended.
+    """
     command, device, _, bolt, nut, threads, work = setting
     r = bolt[pk.R_MAJOR]
-    return descend(
-        q,
-        command[M_PUSH],
-        DESCENT_STEP * r,
-        STEP_LENGTH * r,
-        steps,
-        PATH_TOLERANCE,
-        PATH_OVERLAP,
-        device,
-        bolt,
-        nut,
-        threads,
-        work,
-    )
+    wanted = Descent(command[M_PUSH], DESCENT_STEP * r, STEP_LENGTH * r, steps, PATH_TOLERANCE, PATH_OVERLAP)
+    return descend_followed(q, known, wanted, device, bolt, nut, threads, work)
 
 
 @kernel()
@@ -514,12 +496,15 @@ def minimum_near(
     push = command[M_PUSH]
     begun = trial.copy()
     leg[0][L_DESCENTS] += 1
-    status, found = descent_near(trial, NEAR_STEPS if size > ABOVE * EVENT_WIDTH else SLOW_STEPS, setting)
+    known = int(state[S_KNOWN])
+    status, found = descent_near(trial, known, NEAR_STEPS if size > ABOVE * EVENT_WIDTH else SLOW_STEPS, setting)
+    state[S_KNOWN] = found if status == AT_REST else 0.0
     if held and (status == AT_REST or status == UNSETTLED):
         if status == UNSETTLED:
             copy_numbers(begun, trial)
         laid, count = laid_level(trial, push, device, strip, bolt, nut, contacts)
         if laid != ON_CONTACTS:
+            state[S_KNOWN] = 0.0
             return TAKEN, AT_REST, laid, count
     if status == TOO_FAR or status == UNSETTLED:
         leg[0][L_FAILURES] += 1 if status == UNSETTLED else 0
@@ -576,6 +561,7 @@ def try_step(
     else:
         predict(target, q, leg, state[S_SMOOTH] > 0.0, trial)
     if state[S_FALLING] > 0.0:
+        state[S_KNOWN] = 0.0
         return minimum_below(trial, setting, contacts)
     return minimum_near(size, left, held, state, setting, trial, contacts, leg)
 
@@ -681,7 +667,8 @@ def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, con
         _, count = closed_step(kind, q, setting, contacts, trial)
         state[S_COUNT] = count
         return AT_REST
-    status, found = descent_near(q, LAST_STEPS, setting)
+    status, found = descent_near(q, 0, LAST_STEPS, setting)
+    state[S_KNOWN] = found if status == AT_REST else 0.0
     state[S_COUNT] = set_contacts(found, command[M_PUSH], work, contacts)
     return status
 
@@ -733,20 +720,8 @@ def certified_end(q: Array, kind: int, setting: Setting, stage: StageWork) -> in
     r = bolt[pk.R_MAJOR]
     place = np.empty(PLACE_SIZE)
     touching = 0
-    _, found = descend(
-        q,
-        command[M_PUSH],
-        STEP_LENGTH * r,
-        STEP_LENGTH * r,
-        LAST_STEPS,
-        END_TOLERANCE,
-        END_OVERLAP,
-        device,
-        bolt,
-        nut,
-        threads,
-        work,
-    )
+    wanted = Descent(command[M_PUSH], STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP)
+    _, found = descend_followed(q, 0, wanted, device, bolt, nut, threads, work)
     for j in range(found):
         if work[0][j, G_VALUE] > -LEAST_GAP * r:
             copy_numbers(work[0][j], work[0][touching])

@@ -346,5 +346,5 @@ def _fall(rows: Floats, i: int) -> Fall:
 
 
 def _vector(numbers: Floats) -> Vector:
-    x, y, z = (float(number) for number in numbers)
+    x, y, z = numbers.tolist()
     return x, y, z

@@ -375,5 +375,5 @@ def _point(point: Floats) -> PathPoint:
 
 def vector_of(numbers: Floats) -> Vector:
     """Three numbers as a vector."""
-    x, y, z = (float(number) for number in numbers)
+    x, y, z = numbers.tolist()
     return x, y, z
