@@ -39,8 +39,8 @@ def page(cells: Sequence[Compared]) -> str:
 `make success-witness` writes this page: random cells of [success maps](success.md), orientations of the grid within
 4 deg, starting phases of multiples of 15 deg, of the default pair and device. Each is computed by the solver and by a
 [brute force](oracle.md) that is written apart from it (`oracle/follow.py`, `oracle/outcomes.py`): the hand moves by
-0.5 deg, and contacts are peaks of sampled boundaries. The solver follows each path with half its step as well, as maps do
-beside boundaries: one that ends otherwise then is undecided.
+0.5 deg, and contacts are peaks of sampled boundaries. The solver follows each path with half its step as well, as
+maps do beside boundaries: one that ends otherwise then is undecided.
 
 A step of the hand balances if no more than 1e-5 of the push is left of its damping, and no overlap beyond 1e-6 nominal
 radii; after 25 linear steps 1e-2 and 1e-4 are enough, and the step is *nearly* balanced. One that would go farther than

@@ -26,8 +26,8 @@ POINT_LIMIT = 1000
 class Compared:
     """A cell, its outcome by the solver, and its end and processor time (s) by the witness.
 
-    The solver's is that with its own step and with half of it, as of a map's paths that others go on as or that are
-    beside a boundary: undecided where these differ. ``halved`` is the witness's outcome with half its step, of cells in which the first one is not the solver's.
+    The solver's is undecided where half its step leads to another one, as of a map's paths beside a boundary.
+    ``halved`` is the witness's outcome with half its step, of cells in which the first one is not the solver's.
     """
 
     strategy: Strategy
