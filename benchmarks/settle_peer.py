@@ -230,7 +230,7 @@ run, by MuJoCo 3, in an environment of its own (`requirements-mujoco.lock`). The
 the [{preset.value}](speed-accuracy.md) meshes, lengths over the nominal radius r and forces over the push; the device
 is the default one with a twist as stiff as its tilt, three slides and a ball joint with springs. The push grows within
 a quarter of the simulated time. Times are processor time of a core, without building its model;
-`threadstate` is compiled for {os.environ.get('NUMBA_CPU_NAME', 'the processor')}.
+`threadstate` is compiled for {os.environ.get("NUMBA_CPU_NAME", "the processor")}.
 
 At the median {ours:.1f} ms and {theirs:,.0f} ms: {theirs / ours:,.0f} times as long. Origins are
 {np.median(apart):.1e} r apart at the median and {max(apart):.1e} r at most.
@@ -274,19 +274,19 @@ def _paths_words(paths: list[ComparedPath]) -> str:
         for one in paths
     ]
     rates = sorted({one.rate for one in paths}, reverse=True)
-    ours = float(np.median([one.exact_s for one in paths]))
     lines = []
     for rate in rates:
         of_rate = [one for one in paths if one.rate == rate]
         times = float(np.median([one.peer_s / one.exact_s for one in of_rate]))
+        ours_s = float(np.median([one.exact_s for one in of_rate]))
         apart = float(np.median([one.apart for one in of_rate]))
-        words = f"{times:,.0f} times as long at the median, and its bolt ends {apart:.1e} r from ours"
+        words = f"{times:,.0f} times our {ours_s:.2g} s at the median, and its bolt ends {apart:.1e} r from ours"
         lines.append(f"- At {rate:g} deg a unit of its time MuJoCo takes {words}.")
     return f"""## Whole paths
 
 The same device, its twist rigid here, settles the bolt and turns it by `ccw_then_cw`, without friction. MuJoCo turns it
 as far each way as that path goes, at several rates: a slower one is nearer to the quasi-static path, and takes as much
-longer. A path takes us {ours:.2g} s at the median.
+longer.
 
 {chr(10).join(lines)}
 
