@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -100,3 +101,14 @@ def test_paths_of_an_orientation_end_alike() -> None:
     first, second = (paths.cell(phase_deg, 0.3) for phase_deg in (0.0, 60.0))
     assert (first.outcome, first.flags) == (NO_SNAP, ())
     assert (second.outcome, second.flags) == (NO_SNAP, ())
+
+
+@pytest.mark.slow
+def test_a_single_path_that_snaps_as_its_turn_ends_is_undecided_if_half_the_step_does_not_snap() -> None:
+    """From roll 3, pitch -3, phase 0 steps of 1 deg snap at 359.975 deg, and shorter ones not within the turn."""
+    of = (PAIR, DEVICE, Strategy.CCW_THEN_CW, 3.0, -3.0, 1000)
+    cell = OrientationPaths(*of, has_several=False).cell(0.0, 0.3)
+    assert (cell.outcome, cell.flags) == (UNDECIDED, (SettledFlag.STEP_DEPENDENT,))
+    farther = replace(DEVICE, ccw_turn_deg=390.0)
+    cell = OrientationPaths(PAIR, farther, *of[2:], has_several=False).cell(0.0, 0.3)
+    assert (cell.outcome, cell.flags) == (ENGAGED, ())
