@@ -317,3 +317,12 @@ def test_other_devices_balance_too(changes: dict[str, Any]) -> None:
         assert np.abs(force - (stiffness @ deviation)[3:]).max() < 1e-8
         assert state.margins.residual is not None
         assert state.margins.residual < 1e-9
+
+
+@pytest.mark.parametrize("tilt_deg", [2e-9, 3e-8, 1e-6, 4e-6])
+def test_a_bolt_that_is_all_but_level_rests_on_the_lowest_point_of_its_edge_first(tilt_deg: float) -> None:
+    """Samples of the edge beside that point are higher by less than round-off on an arc of one depth."""
+    settled = [settle_pose(UNC, tilt, -1.6 * tilt, -110.77) for tilt in (tilt_deg, 1e-4)]
+    assert [state.outcome for state in settled] == [Outcome.SETTLED] * 2
+    near, far = (np.array(state.pose.translation) for state in settled if state.pose is not None)
+    assert np.abs(near - far).max() < 1e-6

@@ -80,7 +80,9 @@ the edge passes from one region to the next, have to be told apart. The most par
 certificate finds an overlap that fewer have missed."""
 
 LEVEL = 1e-12
-"""Nominal radii by which a sample is higher than one beside it: what is less is round-off on an arc of one depth."""
+"""Nominal radii by which a sample is higher than one beside it: what is less is round-off on an arc of one depth, or
+the highest point of an edge that is nearly parallel to the other part's face.
+"""
 
 MAX_PLACES = 24
 """The most places that are listed; a full list leaves the later ones out."""
@@ -336,15 +338,19 @@ def find_places(
         solid = nut if of_bolt else bolt
         points = threads.samples[S_POINTS + 2 * part * number :]
         set_depths(of_bolt, number, place, points, points[number:], solid, depths)
+        highest = depths.argmax()
         for i in range(number):
             if depths[i] < lowest:
                 continue
             before, after = depths[i - 1 if i > 0 else number - 1], depths[i + 1 if i < number - 1 else 0]
-            if depths[i] < max(before, after) or depths[i] - min(before, after) < level:
+            is_level = depths[i] - min(before, after) < level
+            if depths[i] < max(before, after) or (is_level and i != highest):
                 continue
             kind, theta = peak_beside(of_bolt, i * step, step, place, curve, solid, jet)
             if kind < 0 or (kind == 2 and not of_bolt):
                 # The crossing of both edges is found from the bolt's.
+                continue
+            if is_level and kind != 0:
                 continue
             if min(jet[E_G], jet[E_PHI]) < -reach:
                 continue
