@@ -69,7 +69,7 @@ def points() -> list[AssemblyPoint]:
 
 
 def test_few_searches_lead_where_a_search_after_each_step_does(points: list[AssemblyPoint]) -> None:
-    """From a millinch and a tenth of a degree beside, at which all places are known first, or none."""
+    """From 1e-4 in and 0.01 deg beside, with all places known first, or none."""
     followed = 0
     for point in points:
         ends = []
