@@ -1,4 +1,4 @@
-"""``make paths``: paths with friction checked: energy, and steps half as long; writes docs/paths-checked.md."""
+"""``make paths``: paths with friction checked by energy and shorter steps; writes docs/paths-checked.md."""
 
 from __future__ import annotations
 

@@ -1,13 +1,14 @@
-"""The page of paths with friction checked by energy and by half the step."""
+"""The page of paths with friction checked by energy and by halves of the step."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
 from harness.markdown import table
-from studies.paths.study import ACCURACY, ACCURACY_DEG, FRICTIONS, TILT_DEG, Compared, Followed, Found
+from studies.paths.study import ACCURACY, FRICTIONS, STEPS_DEG, TILT_DEG, Followed, Found, Halved
 from threadstate.numbers import number_text
 
 MOST_LISTED = 40
@@ -16,26 +17,17 @@ MOST_LISTED = 40
 def page(found: Found) -> str:
     """The page as Markdown."""
     paths = found.paths
-    followed = [one for one in paths if one.whole is not None]
-    starts = Counter(one.start for one in paths)
-    ends = Counter(_end(one.whole) for one in followed if one.whole is not None)
-    ended = [one for one in followed if one.is_ended]
-    changed = [one for one in ended if _end(one.whole) != _end(one.half)]
-    falls = [one for one in ended if one.moved_fall_deg is None or one.moved_fall_deg > ACCURACY_DEG]
-    moved = [one for one in ended if one.moved > ACCURACY]
-    starts_changed = [one for one in paths if one.start != one.half_start]
-    lists = {
-        "Other starts with half the step": starts_changed,
-        "Other outcomes with half the step": changed,
-        "Falls moved by more, or in other numbers": falls,
-        "Ends moved by more": moved,
-    }
+    whole = [path for one in paths if (path := one.paths[0]) is not None]
+    starts = Counter(one.starts[0] for one in paths)
+    ends = Counter(_end(path) for path in whole)
+    starts_changed = [one.name for one in paths if one.starts[0] != one.starts[1]]
+    halves = [_halves(found, number) for number in range(len(STEPS_DEG) - 1)]
     return f"""# Paths with friction checked
 
 `make paths` writes this page: bolts that settle with friction and are turned clockwise by
 {number_text(found.turn_deg)} deg ([the device](device.md#friction)), of the default pair and device. Roll and pitch
 are random within {number_text(TILT_DEG)} deg, the phase is any, the friction {", ".join(map(number_text, FRICTIONS))}
-in turns. Each path is followed twice, with the usual longest steps and with half of them.
+in turns. Each path is followed with the usual longest steps, with half and with a quarter of them.
 
 Of {len(paths):,} commands:
 
@@ -50,35 +42,50 @@ With half the step {len(starts_changed):,} of them start otherwise. The paths of
 Work of hand and push are the change of elastic energy, loss by friction and loss in falls; energies over push times
 nominal radius, of all paths up to their end.
 
-{_energies(followed)}
+{_energies(found)}
 
 ## Half the step
 
-Of the {len(ended):,} paths that end turned, jammed or slipped with both steps, none ambiguous, {len(changed):,} have
-another outcome with half the step. In {len(falls):,} a fall is moved by more than {number_text(ACCURACY_DEG)} deg, or
-there are more or fewer of them; in {len(moved):,} the bolt ends more than {number_text(ACCURACY)} r elsewhere.
+Paths that end turned, jammed or slipped with a longest step and with half of it, none ambiguous. A fall is given to
+within the longest step, and the end to {number_text(ACCURACY)} r: *moved falls* are by more, or there are more or fewer
+of them; *moved ends* likewise.
 
-{_halves(ended)}
-{"".join(_listed(title, some) for title, some in lists.items())}"""
+{_halves_table(halves)}
+{_listed("Other starts with half the step", starts_changed)}{"".join(_exceptions(some) for some in halves)}"""
 
 
-def _end(path: Followed | None) -> str:
-    assert path is not None
+def _halves(found: Found, number: int) -> list[Halved]:
+    """The paths that end with both steps."""
+    both = [halved for one in found.paths if (halved := one.halved(number)) is not None]
+    return [one for one in both if one.is_ended]
+
+
+def _end(path: Followed) -> str:
     return "ambiguous" if path.ambiguous else path.end
 
 
-def _energies(followed: list[Compared]) -> str:
+def _other_ends(ended: Sequence[Halved]) -> list[Halved]:
+    return [one for one in ended if _end(one.whole) != _end(one.half)]
+
+
+def _moved_falls(ended: Sequence[Halved]) -> list[Halved]:
+    return [one for one in ended if one.moved_fall_deg is None or one.moved_fall_deg > one.step_deg]
+
+
+def _moved_ends(ended: Sequence[Halved]) -> list[Halved]:
+    return [one for one in ended if one.moved > ACCURACY]
+
+
+def _energies(found: Found) -> str:
     rows = []
-    for name, paths in (
-        ("usual", [one.whole for one in followed if one.whole is not None]),
-        ("half", [one.half for one in followed if one.half is not None]),
-    ):
+    for number, step_deg in enumerate(STEPS_DEG):
+        paths = [path for one in found.paths if (path := one.paths[number]) is not None]
         if not paths:
             continue
         sizes = np.array([abs(path.balance) for path in paths])
         rows.append(
             [
-                name,
+                number_text(step_deg),
                 f"{len(paths):,}",
                 f"{np.median(sizes):.1e}",
                 f"{sizes.max():.1e}",
@@ -89,7 +96,7 @@ def _energies(followed: list[Compared]) -> str:
             ]
         )
     head = (
-        "step",
+        "longest step, deg",
         "paths",
         "balance: median",
         "largest",
@@ -101,19 +108,59 @@ def _energies(followed: list[Compared]) -> str:
     return table(head, rows)
 
 
-def _halves(ended: list[Compared]) -> str:
+def _halves_table(halves: Sequence[Sequence[Halved]]) -> str:
+    rows = []
+    for ended in halves:
+        if not ended:
+            continue
+        step_deg = ended[0].step_deg
+        falls = [fall for one in ended if (fall := one.moved_fall_deg) is not None and fall > 0.0]
+        rows.append(
+            [
+                f"{number_text(step_deg)}, {number_text(step_deg / 2.0)}",
+                f"{len(ended):,}",
+                f"{len(_other_ends(ended)):,}",
+                f"{len(_moved_falls(ended)):,}",
+                _percentiles(falls),
+                f"{len(_moved_ends(ended)):,}",
+                _percentiles([one.moved for one in ended]),
+            ]
+        )
+    head = (
+        "steps, deg",
+        "paths",
+        "other outcomes",
+        "moved falls",
+        "falls moved by, deg: median, 90 %, most",
+        "moved ends",
+        "ends moved by, r",
+    )
+    return table(head, rows) if rows else "None."
+
+
+def _percentiles(values: Sequence[float]) -> str:
+    return ", ".join(f"{value:.1e}" for value in np.percentile(values, (50, 90, 100))) if values else ""
+
+
+def _exceptions(ended: Sequence[Halved]) -> str:
     if not ended:
-        return "None."
-    moved = np.array([one.moved for one in ended])
-    falls = [one.moved_fall_deg for one in ended if one.moved_fall_deg is not None and one.moved_fall_deg > 0.0]
-    rows = [["end of the path, r", f"{np.median(moved):.1e}", f"{np.percentile(moved, 90):.1e}", f"{moved.max():.1e}"]]
-    if falls:
-        rows.append(["falls, deg", *(f"{value:.1e}" for value in np.percentile(falls, (50, 90, 100)))])
-    return table(("moved by half the step", "median", "90 %", "most"), rows)
+        return ""
+    steps = f"steps of {number_text(ended[0].step_deg)} and {number_text(ended[0].step_deg / 2.0)} deg"
+    return (
+        _listed(f"Other outcomes, {steps}", [one.name for one in _other_ends(ended)])
+        + _listed(f"Falls moved by more, {steps}", [_fall_text(one) for one in _moved_falls(ended)])
+        + _listed(f"Ends moved by more, {steps}", [f"{one.name}: {one.moved:.1e} r" for one in _moved_ends(ended)])
+    )
 
 
-def _listed(title: str, some: list[Compared]) -> str:
-    shown = [f"- {one.name}" for one in some[:MOST_LISTED]]
-    if len(some) > MOST_LISTED:
-        shown.append(f"- and {len(some) - MOST_LISTED:,} more")
-    return "\n".join(["", f"## {title}", "", *shown, ""]) if some else ""
+def _fall_text(one: Halved) -> str:
+    if one.moved_fall_deg is not None:
+        return f"{one.name}: {one.moved_fall_deg:.2f} deg"
+    return f"{one.name}: {len(one.whole.falls_deg)} and {len(one.half.falls_deg)}"
+
+
+def _listed(title: str, names: Sequence[str]) -> str:
+    shown = [f"- {name}" for name in names[:MOST_LISTED]]
+    if len(names) > MOST_LISTED:
+        shown.append(f"- and {len(names) - MOST_LISTED:,} more")
+    return "\n".join(["", f"## {title}", "", *shown, ""]) if names else ""

@@ -1,4 +1,4 @@
-"""Paths with friction, each followed with the usual longest steps and with half of them (docs/paths-checked.md)."""
+"""Paths with friction, each with the usual longest steps, a half and a quarter of them (docs/paths-checked.md)."""
 
 from __future__ import annotations
 
@@ -22,8 +22,9 @@ Floats = NDArray[np.float64]
 SEED = 2033
 TILT_DEG = 4.0
 FRICTIONS = (0.02, 0.05, 0.1, 0.2)
-ACCURACY_DEG, ACCURACY = 0.1, 2e-3
-"""How far half the step moves a fall (deg of phase), and the pose at the end (nominal radii)."""
+STEPS_DEG = tuple(LONGEST_STEP_WITH_FRICTION_DEG / parts for parts in (1.0, 2.0, 4.0))
+ACCURACY = 2e-3
+"""How far half the step may move the pose at the end, in nominal radii. A fall is given to within the longest step."""
 
 ENDS = {
     fs.REACHED: "turned",
@@ -35,6 +36,8 @@ ENDS = {
     fs.PATH_FULL: "out of points",
     fs.NO_MINIMUM: "a fall that does not end",
 }
+ENDED = {"turned", "jammed", "slipped"}
+"""Ends that are an answer."""
 
 
 @dataclass(frozen=True)
@@ -57,37 +60,46 @@ class Followed:
 
 
 @dataclass(frozen=True)
-class Compared:
-    """A command, and its paths with the usual longest step and half of it; none where the bolt does not settle."""
+class Halved:
+    """A command's paths with a longest step (deg) and with half of it."""
 
     name: str
-    start: str
-    half_start: str
-    whole: Followed | None = None
-    half: Followed | None = None
+    step_deg: float
+    whole: Followed
+    half: Followed
 
     @property
     def is_ended(self) -> bool:
         """Whether both paths end with an answer."""
-        ends = [path.end for path in (self.whole, self.half) if path is not None and not path.ambiguous]
-        return len(ends) == 2 and set(ends) <= {"turned", "jammed", "slipped"}
+        both = (self.whole, self.half)
+        return all(path.end in ENDED and not path.ambiguous for path in both)
 
     @property
     def moved(self) -> float:
         """How far apart the ends of both paths are, in nominal radii."""
-        assert self.whole is not None
-        assert self.half is not None
         return math.dist(self.whole.place, self.half.place)
 
     @property
     def moved_fall_deg(self) -> float | None:
         """How far apart the same falls of both are, in degrees; None where they have other numbers of them."""
-        assert self.whole is not None
-        assert self.half is not None
         before, after = self.whole.falls_deg, self.half.falls_deg
         if len(before) != len(after):
             return None
         return max((abs(a - b) for a, b in zip(before, after, strict=True)), default=0.0)
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A command: how it starts and its path with each of the longest steps; no path where the bolt does not settle."""
+
+    name: str
+    starts: tuple[str, ...]
+    paths: tuple[Followed | None, ...]
+
+    def halved(self, number: int) -> Halved | None:
+        """The paths with the longest step of that number and with the next one; None where one of them is missing."""
+        whole, half = self.paths[number : number + 2]
+        return None if whole is None or half is None else Halved(self.name, STEPS_DEG[number], whole, half)
 
 
 @dataclass
@@ -110,13 +122,12 @@ def command(number: int) -> tuple[float, float, float, float]:
 
 
 def done(task: tuple[int, float]) -> Compared:
-    """The path with a number, turned clockwise by so many degrees, at both longest steps."""
+    """The path with a number, turned clockwise by so many degrees, with each of the longest steps."""
     number, turn_deg = task
     roll, pitch, phase, mu = command(number)
     name = f"roll {roll:.3f}, pitch {pitch:.3f}, phase {phase:.3f}, mu {mu}"
-    start, whole = followed((roll, pitch, phase), mu, turn_deg, LONGEST_STEP_WITH_FRICTION_DEG)
-    half_start, half = followed((roll, pitch, phase), mu, turn_deg, 0.5 * LONGEST_STEP_WITH_FRICTION_DEG)
-    return Compared(name, start, half_start, whole, half)
+    starts, paths = zip(*(followed((roll, pitch, phase), mu, turn_deg, step) for step in STEPS_DEG), strict=True)
+    return Compared(name, starts, paths)
 
 
 def followed(

@@ -23,7 +23,7 @@ def main() -> None:
     parser.add_argument("--random", type=int, default=10_000, help="random commands [%(default)s]")
     parser.add_argument("--beside", type=int, default=300, help="minima searched for from beside [%(default)s]")
     parser.add_argument("--followed", type=int, default=30, help="pushes followed by the brute force [%(default)s]")
-    parser.add_argument("--centres", type=int, default=2500, help="commands of which 20 changes are made [%(default)s]")
+    parser.add_argument("--centres", type=int, default=2600, help="commands of which 20 changes are made [%(default)s]")
     chosen = parser.parse_args()
     found = {part: Found() for part in Part}
     to_do = list(tasks(Amount(chosen.random, chosen.beside, chosen.followed, chosen.centres)))

@@ -20,9 +20,9 @@ from threadstate.device._settle_kernel import LAST_STEPS, PATH_OVERLAP, PATH_TOL
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, Held
 from threadstate.device.command import command_numbers
-from threadstate.device.model import default_device
-from threadstate.device.settle import device_numbers
-from threadstate.thread.catalogue import quarter_twenty_unc
+from threadstate.device.model import Outcome, default_device
+from threadstate.device.settle import device_numbers, settle_pose
+from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
 
@@ -116,6 +116,17 @@ def test_a_descent_that_does_not_end_with_few_searches_begins_anew() -> None:
     """After the snap of this path steps of one lead where those of the other do not, to and fro."""
     path = assemble_pose(UNC, -2.8459593331404998, -3.057662095373053, 111.05345667669637)
     assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
+
+
+@pytest.mark.parametrize("phase_deg", [0.05, 0.5, 1.0])
+def test_a_bolt_falls_past_a_double_root_of_its_contacts(phase_deg: float) -> None:
+    """Each correction of the way back there leaves a fourth of the overlap: it takes more than ``MAX_CORRECTIONS``."""
+    loose = pair_by_designation("1/4-20 UNC-2A/2B at minimum material")
+    state = settle_pose(loose, 3.0, 2.0, phase_deg)
+    assert state.outcome is Outcome.SETTLED
+    assert len(state.falls) == 1
+    before = settle_pose(loose, 3.0, 2.0, 0.0)
+    assert state.elastic_energy == pytest.approx(before.elastic_energy, rel=0.05 * phase_deg + 1e-3)
 
 
 def test_no_place_within_reach_is_lost_to_the_bound_on_what_a_ridge_rises_by(points: list[AssemblyPoint]) -> None:

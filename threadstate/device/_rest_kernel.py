@@ -63,6 +63,11 @@ LOADED = 1e-6
 """Part of the push from which on a contact carries so much that the bolt is brought back to it."""
 
 MAX_CORRECTIONS = 6
+"""So many corrections on the way back; more of them only where each leaves less than ``SLOWEST``."""
+
+SLOWEST = 0.3
+"""Part of overlaps and gaps that a correction leaves where it converges: a fourth at a double root."""
+
 MAX_SHORTENINGS = 25
 STIFFENING = (1e2, 1e4, 1e6)
 """How much stiffer than the device the model is made across contacts that stay, where that changes no step: the first
@@ -270,6 +275,7 @@ def back_to_contact(
     r = bolt[pk.R_MAJOR]
     by_q = np.empty(COORDINATES)
     count, corrections, searches = known, 0, known == 0
+    earlier = math.inf
     while True:
         set_place(q, device, place)
         if not searches:
@@ -299,8 +305,9 @@ def back_to_contact(
             searches = True
             continue
         corrections += 1
-        if corrections == MAX_CORRECTIONS:
+        if corrections >= MAX_CORRECTIONS and worst > SLOWEST * earlier:
             return count, False, searches
+        earlier = worst
         searches = count == 0
         for j in range(n):
             gradient[j] = 0.0
