@@ -70,7 +70,8 @@ def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, An
     """The pose of the bolt in the nut at the end, its speed there, and processor seconds without building the model.
 
     After it has settled it is turned by the ``legs`` of the case (degrees, positive counter-clockwise), at ``rate``
-    degrees a unit of time.
+    degrees a unit of time. ``below_deg`` is how far it had been turned when its origin came below the case's ``below``
+    for the first time, None where it never did.
     """
     built = model(meshes, device, case["command"], case["height"])
     data = mujoco.MjData(built)
@@ -81,7 +82,7 @@ def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, An
         data.qfrc_applied[2] = -min(1.0, data.time / RAMP)
         mujoco.mj_step(built, data)
         steps += 1
-    phase_deg = 0.0
+    phase_deg, below_deg = 0.0, None
     for leg_deg in case.get("legs", ()):
         count = max(1, math.ceil(abs(leg_deg) / (case["rate"] * TIME_STEP)))
         for _ in range(count):
@@ -89,6 +90,8 @@ def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, An
             half = math.radians(-phase_deg) / 2.0
             data.mocap_quat[0] = (math.cos(half), 0.0, 0.0, math.sin(half))
             mujoco.mj_step(built, data)
+            if below_deg is None and data.xpos[bolt][2] < case.get("below", -math.inf):
+                below_deg = phase_deg
         steps += count
     turn = about_z(math.radians(phase_deg))
     return {
@@ -97,6 +100,7 @@ def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, An
         "translation": (turn @ data.xpos[bolt]).tolist(),
         "rotation": (turn @ data.xmat[bolt].reshape(3, 3)).tolist(),
         "speed": float(np.abs(data.qvel).max()),
+        "below_deg": below_deg,
     }
 
 

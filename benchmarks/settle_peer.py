@@ -23,7 +23,7 @@ from oracle.pose import pose_rotation
 from oracle.profile import bolt_profile, nut_profile
 from oracle.rest import ALL_SAMPLES, overlap_depth
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
 from threadstate.device.document import device_from_document
 from threadstate.device.model import Device, Outcome, SettledState, default_device
 from threadstate.device.settle import settle_poses
@@ -39,6 +39,8 @@ CHILD = Path(__file__).with_name("mujoco_settle.py")
 SEED = 5
 DAMPING = 2.0
 """Of each joint of the peer, in units of push, radius and its time: all but critical."""
+AFTER_SNAP_DEG = 45.0
+"""How far beyond our snap the peer's bolt is turned to see when it falls."""
 DEVICE = {"unit": "mm", "k_twist": 500.0}
 """The default device, its twist as stiff as its tilt: the spring of a ball joint has the same energy."""
 
@@ -146,7 +148,8 @@ class ComparedPath:
     """A path followed by both: processor seconds of each, and how far the peer's last pose is from the exact one's.
 
     ``rate`` is the peer's, degrees of turn a unit of its time. ``apart`` (over the nominal radius) and ``angle_deg``
-    are as of :class:`Compared`.
+    are as of :class:`Compared`. ``late_deg`` is how much farther the peer has been turned when its bolt is half-way
+    down the fall of our snap; None where there is no snap, or none of its own within ``AFTER_SNAP_DEG``.
     """
 
     pose_deg: tuple[float, float, float]
@@ -157,6 +160,7 @@ class ComparedPath:
     peer_s: float
     apart: float
     angle_deg: float
+    late_deg: float | None
 
 
 def compared_paths(python: Path, count: int, preset: Preset, rates: Sequence[float]) -> list[ComparedPath]:
@@ -177,8 +181,10 @@ def compared_paths(python: Path, count: int, preset: Preset, rates: Sequence[flo
     asked["cases"] = [
         {**_case(path.start, r), "legs": legs_deg(path), "rate": rate} for path, _ in paths for rate in rates
     ]
+    answers = _answers(python, asked)
+    late = _late_snaps(python, asked, [path for path, _ in paths for _ in rates], r)
     found = []
-    for k, theirs in enumerate(_answers(python, asked)):
+    for k, theirs in enumerate(answers):
         path, seconds = paths[k // len(rates)]
         last = path.points[-1].pose
         start_deg = (path.start.roll_deg, path.start.pitch_deg, path.start.phase_deg)
@@ -192,9 +198,34 @@ def compared_paths(python: Path, count: int, preset: Preset, rates: Sequence[flo
                 float(theirs["seconds"]),
                 float(np.linalg.norm(np.array(theirs["translation"]) - np.array(last.translation) / r)),
                 _angle_deg(np.array(last.rotation), np.array(theirs["rotation"])),
+                late.get(k),
             )
         )
     return found
+
+
+def _late_snaps(python: Path, asked: dict[str, Any], paths: Sequence[AssemblyPath], r: float) -> dict[int, float]:
+    """By the number of a case how many degrees after ours the peer's snap comes, turned on beyond it.
+
+    Its time is not of the comparison.
+    """
+    numbers, cases, turned = [], [], []
+    for k, path in enumerate(paths):
+        snaps = [event for event in path.events if event.kind is PathEventKind.SNAP]
+        if not snaps:
+            continue
+        (snap,) = snaps
+        after = next(i for i, point in enumerate(path.points) if point.phase_deg >= snap.phase_deg)
+        heights = [path.points[i].pose.translation[2] / r for i in (after - 1, after)]
+        turned.append(snap.phase_deg - path.points[0].phase_deg)
+        numbers.append(k)
+        cases.append({**asked["cases"][k], "legs": [turned[-1] + AFTER_SNAP_DEG], "below": sum(heights) / 2.0})
+    answers = _answers(python, {**asked, "cases": cases})
+    return {
+        k: theirs["below_deg"] - ours
+        for k, theirs, ours in zip(numbers, answers, turned, strict=True)
+        if theirs["below_deg"] is not None
+    }
 
 
 def legs_deg(path: AssemblyPath) -> list[float]:
@@ -258,6 +289,7 @@ def _paths_words(paths: list[ComparedPath]) -> str:
         "times",
         "apart (r)",
         "angle (deg)",
+        "snap late by (deg)",
     )
     rows = [
         [
@@ -270,6 +302,7 @@ def _paths_words(paths: list[ComparedPath]) -> str:
             f"{one.peer_s / one.exact_s:,.0f}",
             f"{one.apart:.1e}",
             f"{one.angle_deg:.2f}",
+            "" if one.late_deg is None else f"{one.late_deg:.1f}",
         ]
         for one in paths
     ]
@@ -280,13 +313,17 @@ def _paths_words(paths: list[ComparedPath]) -> str:
         times = float(np.median([one.peer_s / one.exact_s for one in of_rate]))
         ours_s = float(np.median([one.exact_s for one in of_rate]))
         apart = float(np.median([one.apart for one in of_rate]))
+        late = [one.late_deg for one in of_rate if one.late_deg is not None]
         words = f"{times:,.0f} times our {ours_s:.2g} s at the median, and its bolt ends {apart:.1e} r from ours"
+        if late:
+            words += f", {np.median(late):.1f} deg late at the snap"
         lines.append(f"- At {rate:g} deg a unit of its time MuJoCo takes {words}.")
     return f"""## Whole paths
 
 The same device, its twist rigid here, settles the bolt and turns it by `ccw_then_cw`, without friction. MuJoCo turns it
 as far each way as that path goes, at several rates: a slower one is nearer to the quasi-static path, and takes as much
-longer.
+longer. Its bolt needs time to fall. *Late*: how much farther it has been turned than ours when it is half-way down the
+fall of the snap, in a run of its own; ours is bracketed to 0.001 deg.
 
 {chr(10).join(lines)}
 
