@@ -71,7 +71,7 @@ def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, An
 
     After it has settled it is turned by the ``legs`` of the case (degrees, positive counter-clockwise), at ``rate``
     degrees a unit of time. ``below_deg`` is how far it had been turned when its origin came below the case's ``below``
-    for the first time, None where it never did.
+    and stayed there; None where it did not.
     """
     built = model(meshes, device, case["command"], case["height"])
     data = mujoco.MjData(built)
@@ -90,7 +90,9 @@ def settled(meshes: dict[str, Any], device: dict[str, float], case: dict[str, An
             half = math.radians(-phase_deg) / 2.0
             data.mocap_quat[0] = (math.cos(half), 0.0, 0.0, math.sin(half))
             mujoco.mj_step(built, data)
-            if below_deg is None and data.xpos[bolt][2] < case.get("below", -math.inf):
+            if data.xpos[bolt][2] >= case.get("below", math.inf):
+                below_deg = None
+            elif below_deg is None:
                 below_deg = phase_deg
         steps += count
     turn = about_z(math.radians(phase_deg))

@@ -39,7 +39,7 @@ CHILD = Path(__file__).with_name("mujoco_settle.py")
 SEED = 5
 DAMPING = 2.0
 """Of each joint of the peer, in units of push, radius and its time: all but critical."""
-AFTER_SNAP_DEG = 45.0
+AFTER_SNAP_DEG = 20.0
 """How far beyond our snap the peer's bolt is turned to see when it falls."""
 DEVICE = {"unit": "mm", "k_twist": 500.0}
 """The default device, its twist as stiff as its tilt: the spring of a ball joint has the same energy."""
@@ -322,8 +322,10 @@ def _paths_words(paths: list[ComparedPath]) -> str:
 
 The same device, its twist rigid here, settles the bolt and turns it by `ccw_then_cw`, without friction. MuJoCo turns it
 as far each way as that path goes, at several rates: a slower one is nearer to the quasi-static path, and takes as much
-longer. Its bolt needs time to fall. *Late*: how much farther it has been turned than ours when it is half-way down the
-fall of the snap, in a run of its own; ours is bracketed to 0.001 deg.
+longer. *Late*: how much farther its bolt has been turned than ours when it is half-way down the fall of the snap, in a
+run of its own; ours is bracketed to 0.001 deg. It is early (negative) where its rounded edges let the bolt in before
+the exact ones do, and the later the faster it is turned, as a fall takes time: a rate is slow enough where a slower one
+moves the snap no more.
 
 {chr(10).join(lines)}
 

@@ -25,7 +25,8 @@ assert abs(asked["device"]["k_lateral"] - 20.0 * 3.175 / 10.0) < 1e-9
 assert abs(asked["device"]["k_tilt"] - 500.0 / (10.0 * 3.175)) < 1e-9
 for case in asked["cases"]:
     pose = {"rotation": case["command"], "translation": [0.0, 0.0, case["height"]]}
-    print(json.dumps({"seconds": 2.0, "steps": 1, "speed": 0.0, **pose}))
+    below = case["legs"][0] if "below" in case else None
+    print(json.dumps({"seconds": 2.0, "steps": 1, "speed": 0.0, "below_deg": below, **pose}))
 """
 
 

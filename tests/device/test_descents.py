@@ -77,12 +77,12 @@ def test_few_searches_lead_where_a_search_after_each_step_does(points: list[Asse
             device, q = at_point(point)
             threads, work, place = pl.new_threads(BOLT), rk.new_work(), np.empty(ck.PLACE_SIZE)
             ck.set_place(q, device, place)
-            count = pl.find_places(rk.REACH * LONGEST, place, device, BOLT, NUT, threads, work[14], work[0])
+            count = pl.find_places(rk.REACH * LONGEST, place, device, BOLT, NUT, threads, work.search, work.places)
             q[:3] += math.radians(0.01)
             q[3:] += 1e-4
             given = count if known else 0
-            ended = rk.descend_with(q, given, searches, DESCENT, device, BOLT, NUT, threads, work)
-            ends.append((ended[0], q, sorted(work[0][: ended[1], gk.G_VALUE])))
+            ended = rk.descend_with(q, given, searches, DESCENT, rk.Scene(device, BOLT, NUT, threads, work))
+            ends.append((ended[0], q, sorted(work.places[: ended[1], gk.G_VALUE])))
         status, expected, places = ends[0]
         for other, q, values in ends[1:]:
             if status != rk.AT_REST or other != rk.AT_REST:
@@ -103,9 +103,9 @@ def test_a_place_that_is_not_known_is_found_where_the_bolt_rests(points: list[As
         start, place = q.copy(), np.empty(ck.PLACE_SIZE)
         threads, work = pl.new_threads(BOLT), rk.new_work()
         ck.set_place(q, device, place)
-        count = pl.find_places(rk.REACH * LONGEST, place, device, BOLT, NUT, threads, work[14], work[0])
-        work[0][0] = work[0][np.argmax(work[0][:count, gk.G_VALUE])]
-        status, found = rk.descend_followed(q, 1, DESCENT, device, BOLT, NUT, threads, work)
+        count = pl.find_places(rk.REACH * LONGEST, place, device, BOLT, NUT, threads, work.search, work.places)
+        work.places[0] = work.places[np.argmax(work.places[:count, gk.G_VALUE])]
+        status, found = rk.descend_followed(q, 1, DESCENT, rk.Scene(device, BOLT, NUT, threads, work))
         assert (status, found) == (rk.AT_REST, count)
         assert np.abs(q - start).max() < 1e-6 * R
         tried += 1

@@ -272,7 +272,7 @@ def lay_without_friction(q: Array, push: float, device: Array, contacts: Array) 
 @kernel()
 def frictionless_contacts(found: int, push: float, work: Work, contacts: Array) -> int:
     """Sets the contacts of a bolt that rests without friction; their number, one more than there is room for."""
-    places, multipliers = work[0], work[15]
+    places, multipliers = work.places, work.multipliers
     count = 0
     for j in range(found):
         force = multipliers[j] * places[j, G_NORM]

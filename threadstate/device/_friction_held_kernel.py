@@ -184,7 +184,7 @@ def contacts_of_tip(q: Array, push: float, setting: Setting, contacts: Array) ->
     where they touch.
     """
     _, device, _, bolt, nut, threads, _, modes_work = setting
-    places, search = modes_work[0], modes_work[1]
+    places, search = modes_work.places, modes_work.search
     place = np.empty(PLACE_SIZE)
     tipped = TIP * device[D_SCALE]
     set_place(q, device, place)

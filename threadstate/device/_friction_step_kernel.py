@@ -32,7 +32,7 @@ from threadstate.device._modes_kernel import (
     solve_mode,
 )
 from threadstate.device._places_kernel import find_places
-from threadstate.device._rest_kernel import AT_REST, Descent, Work, descend
+from threadstate.device._rest_kernel import AT_REST, Descent, Scene, Work, descend
 from threadstate.device._settle_kernel import PATH_OVERLAP, PATH_TOLERANCE, distance
 from threadstate.device._step_modes_kernel import (
     BESIDE_ON_RIDGE,
@@ -128,7 +128,7 @@ def chosen(total: int, carried: Array, count: int, contacts: Array, device: Arra
 @kernel(allocates=False)
 def add_free_contacts(total: int, found: int, push: float, device: Array, work: Work, candidates: Array) -> int:
     """Adds the contacts of a bolt without friction, as many as there is room for; the number of candidates then."""
-    places, multipliers = work[0], work[15]
+    places, multipliers = work.places, work.multipliers
     for j in range(found):
         if multipliers[j] * places[j, G_NORM] > LOADED * push:
             total = min(add_candidate(total, places[j], device, SAME_CONTACT, candidates), MOST_CANDIDATES)
@@ -226,7 +226,7 @@ def ramp_friction(
     the friction has no solution.
     """
     _, device, _, bolt, nut, threads, work, modes_work = setting
-    free_places, multipliers = work[0], work[15]
+    free_places, multipliers = work.places, work.multipliers
     places, search = modes_work.places, modes_work.search
     r = device[D_SCALE]
     modes = np.zeros(MOST_CANDIDATES, dtype=np.int64)
@@ -302,7 +302,7 @@ def step_with_friction(
         number, total = solve_step(q, free, before, push, mu, turns, total, candidates, setting, solutions)
     if number == 0 and total <= MOST_CANDIDATES and (begins_anew or not turns):
         wanted = Descent(push, STEP_REACH * device[D_SCALE], math.inf, FREE_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
-        status, found = descend(free, wanted, device, bolt, nut, threads, work)
+        status, found = descend(free, wanted, Scene(device, bolt, nut, threads, work))
         if status != AT_REST:
             copy_numbers(q, free)
             found = 0

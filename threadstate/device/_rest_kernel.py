@@ -83,9 +83,65 @@ REACH = 1.5
 STALL_STEPS, STALLED = 12, 1e-8
 """A descent that has gone less far than this (nominal radii) in so many steps, up at times, goes round in circles."""
 
-Work = tuple[
-    Array, Array, Array, Array, Array, Indices, Array, Array, Array, Array, Array, Array, Array, Array, Array, Array
-]
+
+class Work(NamedTuple):
+    """The scratch arrays of a descent.
+
+    Attributes:
+        places: contacts and places near by, at the pose of the last search.
+        normals: linearised constraints of the places.
+        limits: their right-hand sides.
+        forces: multipliers of a program.
+        program: scratch of programs.
+        active: constraints that hold in a program.
+        model: Hessian of the quadratic model.
+        factor: its Cholesky factor.
+        metric: metric at the bolt's origin.
+        metric_factor: its Cholesky factor.
+        gradient: of the potential, in the free coordinates as lengths.
+        step: a step in them.
+        trial: coordinates after a step.
+        moved: coordinates after the way back from there.
+        by_q: gradient of a potential in the coordinates.
+        place: pose in numbers.
+        search: scratch of searches.
+        multipliers: what the places carry.
+        saved: places before a trial.
+        saved_multipliers: multipliers before a trial.
+    """
+
+    places: Array
+    normals: Array
+    limits: Array
+    forces: Array
+    program: Array
+    active: Indices
+    model: Array
+    factor: Array
+    metric: Array
+    metric_factor: Array
+    gradient: Array
+    step: Array
+    trial: Array
+    moved: Array
+    by_q: Array
+    place: Array
+    search: Array
+    multipliers: Array
+    saved: Array
+    saved_multipliers: Array
+
+
+class Scene(NamedTuple):
+    """Among what a bolt descends: the device's numbers, both packed profiles, what is known of both threads, and the
+    scratch arrays.
+    """
+
+    device: Array
+    bolt: Array
+    nut: Array
+    threads: Threads
+    work: Work
 
 
 class Descent(NamedTuple):
@@ -105,10 +161,8 @@ class Descent(NamedTuple):
 
 @kernel()
 def new_work() -> Work:
-    """The arrays of a descent: places, normals, limits, forces, of programs, active, model, factor, metric, its factor,
-    gradient, step, trial, place, search, multipliers.
-    """
-    return (
+    """New scratch arrays."""
+    return Work(
         np.empty((MAX_PLACES + 1, GAP_SIZE)),
         np.empty((2 * MAX_PLACES, COORDINATES)),
         np.empty(2 * MAX_PLACES),
@@ -122,8 +176,12 @@ def new_work() -> Work:
         np.empty(COORDINATES),
         np.empty(COORDINATES),
         np.empty(COORDINATES),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
         np.empty(PLACE_SIZE),
         np.empty(PLACES_WORK),
+        np.empty(MAX_PLACES),
+        np.empty((MAX_PLACES, GAP_SIZE)),
         np.empty(MAX_PLACES),
     )
 
@@ -213,37 +271,69 @@ def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, grad
 
 
 @kernel(allocates=False)
+def length_between(n: int, q: Array, other: Array, device: Array, work: Work) -> float:
+    """How far apart two places of the bolt are, in the metric that is set."""
+    for i in range(n):
+        j = coordinate(i, device)
+        work.step[i] = (q[j] - other[j]) * scale(j, device)
+    return length_of(n, work.step, work.metric)
+
+
+@kernel(allocates=False)
 def short_descent(n: int, count: int, push: float, r: float, work: Work) -> float:
     """The size of a short step of the steepest descent over the feasible motions; sets the contacts' multipliers.
 
     The size is a force: it is that of the gradient where nothing is near, and zero at an equilibrium alone. Metric, its
     factor, gradient, normals and limits are set.
     """
-    _, normals, limits, _, program, active, _, _, metric, metric_factor, gradient, step, _, _, _, multipliers = work
+    gradient, step, multipliers = work.gradient, work.step, work.multipliers
     stiffness = push / (NEAR * r)
     for i in range(n):
         gradient[i] /= stiffness
-    solve_program(n, metric_factor, gradient, count, normals, limits, 0.0, program, active, step, multipliers)
+    solve_program(
+        n,
+        work.metric_factor,
+        gradient,
+        count,
+        work.normals,
+        work.limits,
+        0.0,
+        work.program,
+        work.active,
+        step,
+        multipliers,
+    )
     for i in range(n):
         gradient[i] *= stiffness
     for i in range(count):
         multipliers[i] *= stiffness
-    return stiffness * length_of(n, step, metric)
+    return stiffness * length_of(n, step, work.metric)
+
+
+@kernel(allocates=False)
+def add_pressing(n: int, count: int, push: float, work: Work) -> tuple[int, float]:
+    """Adds the constraints that keep the bolt on the contacts on which it presses to those of the places.
+
+    Returns how many there are then, and the larger of the overlaps and of the gaps of those contacts times the parts of
+    the push that they carry.
+    """
+    worst = 0.0
+    rows = count
+    for j in range(count):
+        value = work.places[j, G_VALUE]
+        worst = max(worst, value)
+        if work.multipliers[j] > LOADED * push:
+            worst = max(worst, -value * work.multipliers[j] / push)
+            for m in range(n):
+                work.normals[rows, m] = -work.normals[j, m]
+            work.limits[rows] = value
+            rows += 1
+    return rows, worst
 
 
 @kernel()
 def back_to_contact(
-    q: Array,
-    known: int,
-    is_last: bool,
-    push: float,
-    reach: float,
-    left: float,
-    device: Array,
-    bolt: Array,
-    nut: Array,
-    threads: Threads,
-    work: Work,
+    q: Array, known: int, is_last: bool, push: float, reach: float, left: float, scene: Scene
 ) -> tuple[int, bool, bool]:
     """Moves the bolt, in place, the shortest way out of overlaps and back to the contacts on which it presses.
 
@@ -253,52 +343,24 @@ def back_to_contact(
     end beside them, at a higher potential than its model has. On the way the first ``known`` of the places are followed
     from where they are; where they are met all are searched for if ``is_last``.
     """
-    (
-        places,
-        normals,
-        limits,
-        forces,
-        program,
-        active,
-        _,
-        _,
-        metric,
-        metric_factor,
-        gradient,
-        step,
-        _,
-        place,
-        search,
-        multipliers,
-    ) = work
+    device, bolt, nut, threads, work = scene
     n = free_coordinates(device)
     r = bolt[pk.R_MAJOR]
-    by_q = np.empty(COORDINATES)
     count, corrections, searches = known, 0, known == 0
     earlier = math.inf
     while True:
-        set_place(q, device, place)
+        set_place(q, device, work.place)
         if not searches:
-            searches = not follow_all(count, place, device, bolt, nut, threads, search, places)
+            searches = not follow_all(count, work.place, device, bolt, nut, threads, work.search, work.places)
         if searches:
-            count = find_places(reach, place, device, bolt, nut, threads, search, places)
-        set_metric(n, place, device, metric)
-        if not cholesky(metric, n, metric_factor):
+            count = find_places(reach, work.place, device, bolt, nut, threads, work.search, work.places)
+        set_metric(n, work.place, device, work.metric)
+        if not cholesky(work.metric, n, work.metric_factor):
             return count, False, searches
-        set_constraints(n, count, places, device, normals, limits)
-        set_gradient(n, q, push, device, by_q, gradient)
+        set_constraints(n, count, work.places, device, work.normals, work.limits)
+        set_gradient(n, q, push, device, work.by_q, work.gradient)
         short_descent(n, count, push, r, work)
-        worst = 0.0
-        rows = count
-        for j in range(count):
-            value = places[j, G_VALUE]
-            worst = max(worst, value)
-            if multipliers[j] > LOADED * push:
-                worst = max(worst, -value * multipliers[j] / push)
-                for m in range(n):
-                    normals[rows, m] = -normals[j, m]
-                limits[rows] = value
-                rows += 1
+        rows, worst = add_pressing(n, count, push, work)
         if worst <= left * r:
             if searches or not is_last:
                 return count, True, searches
@@ -309,22 +371,46 @@ def back_to_contact(
             return count, False, searches
         earlier = worst
         searches = count == 0
-        for j in range(n):
-            gradient[j] = 0.0
-        status = solve_program(
-            n, metric_factor, gradient, rows, normals, limits, 1e-3 * left * r, program, active, step, forces
-        )
-        if status != SOLVED or not length_of(n, step, metric) < r:
+        if not correct(n, rows, 1e-3 * left * r, q, device, work) < r:
             return count, False, False
+
+
+@kernel(allocates=False)
+def correct(n: int, rows: int, tolerance: float, q: Array, device: Array, work: Work) -> float:
+    """Moves the bolt, in place, the shortest way to where the linearised constraints hold; how far, NaN: there is none.
+
+    A way of a nominal radius and more is not gone.
+    """
+    gradient, step = work.gradient, work.step
+    for j in range(n):
+        gradient[j] = 0.0
+    status = solve_program(
+        n,
+        work.metric_factor,
+        gradient,
+        rows,
+        work.normals,
+        work.limits,
+        tolerance,
+        work.program,
+        work.active,
+        step,
+        work.forces,
+    )
+    if status != SOLVED:
+        return math.nan
+    length = length_of(n, step, work.metric)
+    if length < device[D_SCALE]:
         for m in range(n):
             j = coordinate(m, device)
             q[j] += step[m] / scale(j, device)
+    return length
 
 
 @kernel(allocates=False)
 def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) -> None:
     """Sets the Hessian of the potential with the contacts' curvature, by the multipliers; stiffer across contacts."""
-    places, normals, _, _, _, _, model, _, _, _, _, _, _, _, _, multipliers = work
+    places, normals, multipliers = work.places, work.normals, work.multipliers
     for i in range(n):
         a = coordinate(i, device)
         for j in range(n):
@@ -337,62 +423,168 @@ def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) 
             for m in range(count):
                 if multipliers[m] > 0.0:
                     total += stiffening * normals[m, i] * normals[m, j]
-            model[i, j] = total
+            work.model[i, j] = total
 
 
 @kernel(allocates=False)
-def set_convex_model(n: int, count: int, stiffness: float, device: Array, work: Work) -> None:
+def set_convex_model(n: int, count: int, device: Array, work: Work) -> None:
     """Sets the model, as stiff across contacts as it takes to be convex; as stiff as ever where it never is."""
+    stiffness = 0.0
+    for i in range(n):
+        j = coordinate(i, device)
+        stiffness = max(stiffness, device[D_STIFFNESS + 7 * j] / scale(j, device) ** 2)
     for stiffening in STIFFENING:
         set_model(n, count, device, stiffening * stiffness, work)
-        if cholesky(work[6], n, work[7]):
+        if cholesky(work.model, n, work.factor):
             return
 
 
+@kernel(allocates=False)
+def minimise_model(n: int, count: int, damping: float, work: Work) -> float:
+    """Sets the step to the minimum of the damped model under the linearised contacts; its length, inf where none is."""
+    for i in range(n):
+        for j in range(n):
+            work.model[i, j] += damping * work.metric[i, j]
+    convex = cholesky(work.model, n, work.factor)
+    for i in range(n):
+        for j in range(n):
+            work.model[i, j] -= damping * work.metric[i, j]
+    if not convex:
+        return math.inf
+    status = solve_program(
+        n,
+        work.factor,
+        work.gradient,
+        count,
+        work.normals,
+        work.limits,
+        0.0,
+        work.program,
+        work.active,
+        work.step,
+        work.forces,
+    )
+    return length_of(n, work.step, work.metric) if status == SOLVED else math.inf
+
+
 @kernel()
-def descend_followed(
-    q: Array, known: int, descent: Descent, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
-) -> tuple[int, int]:
+def descend_followed(q: Array, known: int, descent: Descent, scene: Scene) -> tuple[int, int]:
     """As :func:`descend`, with few searches: the first ``known`` of the places are followed from where they are.
 
     Where it does not settle so it begins anew, and all places are searched for after each step.
     """
     start = q.copy()
-    status, count, _ = descend_with(q, known, False, descent, device, bolt, nut, threads, work)
+    status, count, _ = descend_with(q, known, False, descent, scene)
     if status != UNSETTLED:
         return status, count
     copy_numbers(start, q)
-    return descend(q, descent, device, bolt, nut, threads, work)
+    return descend(q, descent, scene)
 
 
 @kernel(allocates=False)
-def descend(
-    q: Array, descent: Descent, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
-) -> tuple[int, int]:
+def descend(q: Array, descent: Descent, scene: Scene) -> tuple[int, int]:
     """As :func:`descend_with`, first with the samples of the device's numbers, and from where no step leads on with the
     finest: two places beside each other may be missed between samples, in turns.
     """
+    device = scene.device
     parts = device[D_FINE]
-    status, count, is_stuck = descend_with(q, 0, True, descent, device, bolt, nut, threads, work)
+    status, count, is_stuck = descend_with(q, 0, True, descent, scene)
     if is_stuck and parts < FINEST:
         device[D_FINE] = FINEST
-        status, count, _ = descend_with(q, 0, True, descent, device, bolt, nut, threads, work)
+        status, count, _ = descend_with(q, 0, True, descent, scene)
         device[D_FINE] = parts
     return status, count
 
 
-@kernel()
-def descend_with(
+class Step(NamedTuple):
+    """What a step of a descent leaves behind.
+
+    Whether one was found; the number of places where it ends, and whether all were searched for there; its length; the
+    damping that the next one begins with; whether the potential is higher than before.
+    """
+
+    is_taken: bool
+    found: int
+    is_searched: bool
+    length: float
+    damping: float
+    has_risen: bool
+
+
+@kernel(allocates=False)
+def take_step(
     q: Array,
-    known: int,
+    count: int,
     searches: bool,
+    way: float,
+    damping: float,
+    size: float,
+    potential: float,
     descent: Descent,
-    device: Array,
-    bolt: Array,
-    nut: Array,
-    threads: Threads,
-    work: Work,
-) -> tuple[int, int, bool]:
+    scene: Scene,
+) -> Step:
+    """A step of the descent from ``q``, in place; damped until it lowers the potential.
+
+    The bolt has gone a ``way`` since the last search; ``size`` and ``potential`` are those at ``q``. What belongs to
+    the pose is set: metric, gradient, constraints and multipliers.
+    """
+    device, bolt, _, _, work = scene
+    n, r, push = free_coordinates(device), bolt[pk.R_MAJOR], descent.push
+    reach = REACH * descent.longest_step
+    # What it costs to leave the overlaps that are left: opposed contacts carry more than the push.
+    owed = max(ENERGY_NOISE, 4.0 * descent.overlap_left) * push * r
+    for i in range(count):
+        owed += max(work.multipliers[i] * work.places[i, G_VALUE], 0.0)
+    set_convex_model(n, count, device, work)
+    for i in range(count):
+        copy_numbers(work.places[i], work.saved[i])
+    copy_numbers(work.multipliers, work.saved_multipliers)
+    least = size / descent.longest_step
+    for attempt in range(MAX_SHORTENINGS):
+        length = minimise_model(n, count, damping, work)
+        if not length <= descent.longest_step:
+            damping = max(4.0 * damping, 0.1 * least)
+            continue
+        move(n, work.step, q, device, work.trial)
+        copy_numbers(work.trial, work.moved)
+        is_last = searches or way + length > descent.longest_step
+        trial_count, is_out, is_searched = back_to_contact(
+            work.moved, count, is_last, push, reach, descent.overlap_left, scene
+        )
+        energy = elastic_energy(work.moved, device, work.by_q) + push * work.moved[5]
+        if is_out and energy <= potential + owed:
+            copy_numbers(work.moved, q)
+            damping = 0.0 if attempt == 0 else 0.25 * damping
+            return Step(True, trial_count, is_searched, length, damping, energy > potential)
+        # The places are those of the trial: set what belongs to the pose again.
+        damping = max(4.0 * damping, 0.1 * least)
+        for i in range(count):
+            copy_numbers(work.saved[i], work.places[i])
+        copy_numbers(work.saved_multipliers, work.multipliers)
+        set_place(q, device, work.place)
+        set_metric(n, work.place, device, work.metric)
+        cholesky(work.metric, n, work.metric_factor)
+        set_gradient(n, q, push, device, work.by_q, work.gradient)
+        set_constraints(n, count, work.places, device, work.normals, work.limits)
+    return Step(False, count, False, 0.0, damping, False)
+
+
+@kernel()
+def end_beside_contacts(q: Array, push: float, scene: Scene) -> int:
+    """SLIPPED, DEEP, TILTED or FLUSH where the descent ends so; UNSETTLED where it goes on."""
+    device, bolt, nut, _, work = scene
+    place, r = work.place, bolt[pk.R_MAJOR]
+    if math.hypot(place[N_OFFSET], place[N_OFFSET + 1]) > r:
+        return SLIPPED
+    if lowest_height(place, bolt) < -DEEPEST * bolt[pk.P]:
+        return DEEP
+    if bolt[pk.STEEPEST] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
+        return TILTED
+    return FLUSH if flush_is_reached(q, push, place, device, bolt, nut) else UNSETTLED
+
+
+@kernel()
+def descend_with(q: Array, known: int, searches: bool, descent: Descent, scene: Scene) -> tuple[int, int, bool]:
     """Descends from ``q``, in place, to a minimum of the potential; how it ended, the number of places there, and
     whether it ended because no step led on.
 
@@ -400,136 +592,45 @@ def descend_with(
     the bolt has gone as far as the longest step since the last search, beyond which it may meet others, and where it
     rests; or after each step, if it ``searches``.
     """
-    (
-        places,
-        normals,
-        limits,
-        forces,
-        program,
-        active,
-        model,
-        factor,
-        metric,
-        metric_factor,
-        gradient,
-        step,
-        trial,
-        place,
-        _,
-        multipliers,
-    ) = work
-    push, longest_step, farthest, most_steps, tolerance, overlap_left = descent
-    n = free_coordinates(device)
-    r = bolt[pk.R_MAJOR]
+    device, work = scene.device, scene.work
+    push, left = descent.push, descent.overlap_left
+    n, r = free_coordinates(device), scene.bolt[pk.R_MAJOR]
+    reach = REACH * descent.longest_step
     start = q.copy()
-    by_q = np.empty(COORDINATES)
-    moved = np.empty(COORDINATES)
-    saved = np.empty((MAX_PLACES, GAP_SIZE))
-    saved_multipliers = np.empty(MAX_PLACES)
-    reach = REACH * longest_step
-    count, is_out, is_searched = back_to_contact(
-        q, known, searches, push, reach, overlap_left, device, bolt, nut, threads, work
-    )
+    count, is_out, is_searched = back_to_contact(q, known, searches, push, reach, left, scene)
     if not is_out:
         return UNSETTLED, count, True
-    way = 0.0
-    stiffness = 0.0
-    for i in range(n):
-        j = coordinate(i, device)
-        stiffness = max(stiffness, device[D_STIFFNESS + 7 * j] / scale(j, device) ** 2)
-    noise = max(ENERGY_NOISE, 4.0 * overlap_left)
-    damping = 0.0
-    has_risen = False
     earlier = q.copy()
-    for taken in range(most_steps):
+    way, damping, has_risen = 0.0, 0.0, False
+    for taken in range(descent.most_steps):
         if taken > 0 and taken % STALL_STEPS == 0:
-            for i in range(n):
-                j = coordinate(i, device)
-                step[i] = (q[j] - earlier[j]) * scale(j, device)
-            if has_risen and length_of(n, step, metric) < STALLED * r:
+            if has_risen and length_between(n, q, earlier, device, work) < STALLED * r:
                 return UNSETTLED, count, True
             copy_numbers(q, earlier)
             has_risen = False
-        set_metric(n, place, device, metric)
-        if not cholesky(metric, n, metric_factor):
+        set_metric(n, work.place, device, work.metric)
+        if not cholesky(work.metric, n, work.metric_factor):
             return UNSETTLED, count, True
-        potential = set_gradient(n, q, push, device, by_q, gradient)
-        set_constraints(n, count, places, device, normals, limits)
+        potential = set_gradient(n, q, push, device, work.by_q, work.gradient)
+        set_constraints(n, count, work.places, device, work.normals, work.limits)
         size = short_descent(n, count, push, r, work)
-        if size <= tolerance * push:
+        if size <= descent.tolerance * push:
             if is_searched:
                 return AT_REST, count, False
-            count, is_out, is_searched = back_to_contact(
-                q, 0, True, push, reach, overlap_left, device, bolt, nut, threads, work
-            )
+            count, is_out, is_searched = back_to_contact(q, 0, True, push, reach, left, scene)
             if not is_out:
                 return UNSETTLED, count, True
             way = 0.0
             continue
-        # What it costs to leave the overlaps that are left: opposed contacts carry more than the push.
-        owed = noise * push * r
-        for i in range(count):
-            owed += max(multipliers[i] * places[i, G_VALUE], 0.0)
-        set_convex_model(n, count, stiffness, device, work)
-        for i in range(count):
-            copy_numbers(places[i], saved[i])
-        copy_numbers(multipliers, saved_multipliers)
-        least = size / longest_step
-        accepted = False
-        for attempt in range(MAX_SHORTENINGS):
-            for i in range(n):
-                for j in range(n):
-                    model[i, j] += damping * metric[i, j]
-            convex = cholesky(model, n, factor)
-            for i in range(n):
-                for j in range(n):
-                    model[i, j] -= damping * metric[i, j]
-            length = math.inf
-            if convex:
-                status = solve_program(n, factor, gradient, count, normals, limits, 0.0, program, active, step, forces)
-                if status == SOLVED:
-                    length = length_of(n, step, metric)
-            if not length <= longest_step:
-                damping = max(4.0 * damping, 0.1 * least)
-                continue
-            move(n, step, q, device, trial)
-            copy_numbers(trial, moved)
-            is_last = searches or way + length > longest_step
-            trial_count, is_out, is_trial_searched = back_to_contact(
-                moved, count, is_last, push, reach, overlap_left, device, bolt, nut, threads, work
-            )
-            energy = elastic_energy(moved, device, by_q) + push * moved[5]
-            if is_out and energy <= potential + owed:
-                accepted = True
-                damping = 0.0 if attempt == 0 else 0.25 * damping
-                has_risen = has_risen or energy > potential
-                count, is_searched = trial_count, is_trial_searched
-                way = 0.0 if is_searched else way + length
-                copy_numbers(moved, q)
-                break
-            # The places are those of the trial: set what belongs to the pose again.
-            damping = max(4.0 * damping, 0.1 * least)
-            for i in range(count):
-                copy_numbers(saved[i], places[i])
-            copy_numbers(saved_multipliers, multipliers)
-            set_place(q, device, place)
-            set_metric(n, place, device, metric)
-            cholesky(metric, n, metric_factor)
-            set_gradient(n, q, push, device, by_q, gradient)
-            set_constraints(n, count, places, device, normals, limits)
-        if not accepted:
+        step = take_step(q, count, searches, way, damping, size, potential, descent, scene)
+        if not step.is_taken:
             return UNSETTLED, count, True
-        if math.hypot(place[N_OFFSET], place[N_OFFSET + 1]) > r:
-            return SLIPPED, count, False
-        if lowest_height(place, bolt) < -DEEPEST * bolt[pk.P]:
-            return DEEP, count, False
-        if bolt[pk.STEEPEST] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
-            return TILTED, count, False
-        if flush_is_reached(q, push, place, device, bolt, nut):
-            return FLUSH, count, False
-        for i in range(n):
-            j = coordinate(i, device)
-            step[i] = (q[j] - start[j]) * scale(j, device)
-        if length_of(n, step, metric) > farthest:
+        count, is_searched, damping = step.found, step.is_searched, step.damping
+        has_risen = has_risen or step.has_risen
+        way = 0.0 if is_searched else way + step.length
+        end = end_beside_contacts(q, push, scene)
+        if end != UNSETTLED:
+            return end, count, False
+        if length_between(n, q, start, device, work) > descent.farthest:
             return TOO_FAR, count, False
     return UNSETTLED, count, False

@@ -19,20 +19,21 @@ from threadstate.device._chart_kernel import (
     D_FINE,
     D_PLACE,
     D_ROTATION,
+    D_SCALE,
     PLACE_SIZE,
     elastic_energy,
     set_place,
 )
 from threadstate.device._flush_kernel import flush_until, set_flush, tip_over
 from threadstate.device._gap_kernel import G_VALUE
-from threadstate.device._places_kernel import FINE, FINEST, Threads, forget_maxima, new_threads
+from threadstate.device._places_kernel import FINE, FINEST, forget_maxima, new_threads
 from threadstate.device._rest_kernel import (
     AT_REST,
     FLUSH,
     TOO_FAR,
     UNSETTLED,
     Descent,
-    Work,
+    Scene,
     coordinate,
     descend,
     descend_followed,
@@ -159,30 +160,53 @@ def distance(q: Array, other: Array, device: Array) -> float:
 
 
 @kernel()
-def follow_push(
-    q: Array,
-    tip: Array,
-    push: float,
-    device: Array,
-    bolt: Array,
-    nut: Array,
-    threads: Threads,
-    work: Work,
-    result: Array,
-    falls: Array,
-    path: Array,
-) -> None:
+def add_fall(before: Array, after: Array, push: float, device: Array, result: Array, falls: Array) -> bool:
+    """Adds a fall at a push, if the bolt has gone far enough for one; False: there are too many."""
+    if distance(before, after, device) <= STEP_LENGTH * device[D_SCALE]:
+        return True
+    count = int(result[R_FALLS])
+    if count == MAX_FALLS:
+        return False
+    gradient = np.empty(COORDINATES)
+    falls[count, F_PUSH] = push
+    falls[count, F_POTENTIAL] = elastic_energy(before, device, gradient) + push * before[5]
+    falls[count, F_POTENTIAL + 1] = elastic_energy(after, device, gradient) + push * after[5]
+    for j in range(COORDINATES):
+        falls[count, F_BEFORE + j] = before[j]
+        falls[count, F_AFTER + j] = after[j]
+    result[R_FALLS] = count + 1
+    return True
+
+
+@kernel()
+def lie_until(q: Array, at: float, push: float, scene: Scene, result: Array, path: Array) -> tuple[bool, float]:
+    """Whether a bolt that lies flush at a push ``at`` does so up to the whole one, and the push up to which it does.
+
+    Where the centre of pressure leaves the patch before it is tipped, in place, over the side where that leaves.
+    """
+    device, bolt, nut, _, _ = scene
+    until, direction = flush_until(at, device, bolt, nut, q)
+    add_point(q, at, device, path, result)
+    if until >= push:
+        add_point(q, push, device, path, result)
+        return True, push
+    reached = max(until, at)
+    add_point(q, reached, device, path, result)
+    place = np.empty(PLACE_SIZE)
+    set_place(q, device, place)
+    tip_over(direction, TIP, place, q)
+    return False, reached
+
+
+@kernel()
+def follow_push(q: Array, tip: Array, push: float, scene: Scene, result: Array, falls: Array, path: Array) -> None:
     """Follows the bolt from ``q``, in place, while the push grows from 0 to ``push``; sets result, falls and path.
 
     ``tip`` is added to its rotation vector first: a level bolt, which touches along a patch, leaves it that way.
     """
-    r = bolt[pk.R_MAJOR]
-    result[R_FALLS] = 0
-    result[R_PATH] = 0
-    result[R_PLACES] = 0
-    result[R_PUSH] = 0.0
+    device, r = scene.device, scene.bolt[pk.R_MAJOR]
+    result[R_FALLS], result[R_PATH], result[R_PLACES], result[R_PUSH] = 0, 0, 0, 0.0
     trial = np.empty(COORDINATES)
-    place = np.empty(PLACE_SIZE)
     known = 0
     reached = 0.0
     part = FIRST_PART
@@ -193,59 +217,39 @@ def follow_push(
         target = min(push, reached + part * push)
         copy_numbers(q, trial)
         wanted = Descent(target, STEP_LENGTH * r, STEP_LENGTH * r, STEPS, PATH_TOLERANCE, PATH_OVERLAP)
-        status, found = descend_followed(trial, known, wanted, device, bolt, nut, threads, work)
-        known = found if status == AT_REST else 0
+        status, found = descend_followed(trial, known, wanted, scene)
         if status == TOO_FAR or status == UNSETTLED:
+            known = 0
             if part > LEAST_PART:
                 part *= 0.5
                 continue
             copy_numbers(q, trial)
             wanted = Descent(target, FALL_STEP * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
-            status, found = descend(trial, wanted, device, bolt, nut, threads, work)
-            known = found if status == AT_REST else 0
+            status, found = descend(trial, wanted, scene)
             if status == FLUSH:
                 set_flush(device, trial)
-            if distance(q, trial, device) > STEP_LENGTH * r:
-                count = int(result[R_FALLS])
-                if count == MAX_FALLS:
-                    result[R_STATUS] = UNSETTLED
-                    return
-                falls[count, F_PUSH] = target
-                gradient = np.empty(COORDINATES)
-                falls[count, F_POTENTIAL] = elastic_energy(q, device, gradient) + target * q[5]
-                falls[count, F_POTENTIAL + 1] = elastic_energy(trial, device, gradient) + target * trial[5]
-                for j in range(COORDINATES):
-                    falls[count, F_BEFORE + j] = q[j]
-                    falls[count, F_AFTER + j] = trial[j]
-                result[R_FALLS] = count + 1
-            part = FIRST_PART
-        result[R_PUSH] = target
-        if status == FLUSH:
-            until, direction = flush_until(target, device, bolt, nut, trial)
-            copy_numbers(trial, q)
-            add_point(q, target, device, path, result)
-            if until >= push:
-                result[R_STATUS] = FLUSH
-                result[R_PUSH] = push
-                add_point(q, push, device, path, result)
+            if not add_fall(q, trial, target, device, result, falls):
+                result[R_STATUS] = UNSETTLED
                 return
-            # The centre of pressure leaves the patch: the bolt tips over the side where it does.
-            reached = max(until, target)
-            add_point(q, reached, device, path, result)
-            set_place(q, device, place)
-            tip_over(direction, TIP, place, q)
+            part = FIRST_PART
+        known = found if status == AT_REST else 0
+        result[R_PUSH] = target
+        copy_numbers(trial, q)
+        if status == FLUSH:
+            stays, reached = lie_until(q, target, push, scene, result, path)
+            if stays:
+                result[R_STATUS], result[R_PUSH] = FLUSH, push
+                return
             part = FIRST_PART
             continue
-        copy_numbers(trial, q)
+        add_point(q, target, device, path, result)
         if status != AT_REST:
             result[R_STATUS] = status
-            add_point(q, target, device, path, result)
             return
-        add_point(q, target, device, path, result)
         reached = target
         part = min(2.0 * part, LARGEST_PART)
     wanted = Descent(push, STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP)
-    status, count = descend_followed(q, known, wanted, device, bolt, nut, threads, work)
+    status, count = descend_followed(q, known, wanted, scene)
     result[R_STATUS] = status
     result[R_PLACES] = count
     add_point(q, push, device, path, result)
@@ -287,6 +291,7 @@ def settle_with(
     stage = sk.new_work()
     work = new_work()
     threads = new_threads(bolt)
+    scene = Scene(device, bolt, nut, threads, work)
     q = np.empty(COORDINATES)
     place = np.empty(PLACE_SIZE)
     for i in range(rotations.shape[0]):
@@ -303,7 +308,7 @@ def settle_with(
             device[D_FINE] = FINE if attempt == 0 else FINEST
             set_command(rotations[i], height, device, q)
             forget_maxima(threads)
-            follow_push(q, tips[i], push, device, bolt, nut, threads, work, results[i], falls[i], paths[i])
+            follow_push(q, tips[i], push, scene, results[i], falls[i], paths[i])
             copy_numbers(q, ends[i])
             set_place(q, device, place)
             copy_numbers(place[0:12], placements[i])
@@ -311,15 +316,15 @@ def settle_with(
                 break
             count = int(results[i, R_PLACES])
             for j in range(count):
-                copy_numbers(work[0][j], places[i, j])
-                multipliers[i, j] = work[15][j]
+                copy_numbers(work.places[j], places[i, j])
+                multipliers[i, j] = work.multipliers[j]
             touching = 0
             for j in range(count):
                 if places[i, j, G_VALUE] > -LEAST_GAP * bolt[pk.R_MAJOR]:
-                    copy_numbers(places[i, j], work[0][touching])
+                    copy_numbers(places[i, j], work.places[touching])
                     touching += 1
             results[i, R_OVERLAP] = overlap(
-                placements[i], OVERLAP_LIMIT * bolt[pk.R_MAJOR], touching, work[0], bolt, nut, stage
+                placements[i], OVERLAP_LIMIT * bolt[pk.R_MAJOR], touching, work.places, bolt, nut, stage
             )
             if results[i, R_OVERLAP] == FREE:
                 break

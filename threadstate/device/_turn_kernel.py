@@ -39,6 +39,7 @@ from threadstate.device._rest_kernel import (
     TOO_FAR,
     UNSETTLED,
     Descent,
+    Scene,
     Work,
     descend,
     descend_followed,
@@ -208,7 +209,7 @@ def torque_of(q: Array, count: int, contacts: Array, command: Array, device: Arr
 @kernel()
 def set_contacts(count: int, push: float, work: Work, contacts: Array) -> int:
     """Sets the contacts that carry a force from the places of a descent's end; returns their number."""
-    places, multipliers = work[0], work[15]
+    places, multipliers = work.places, work.multipliers
     used = 0
     for i in range(count):
         force = multipliers[i] * places[i, G_NORM]
@@ -433,7 +434,7 @@ def fall_down(
         device[D_FINE] = FINEST if attempt == 1 else FINE
         longest = FALL_STEP if attempt < 2 else STEP_LENGTH * LONGER ** (attempt - 2)
         wanted = Descent(push, longest * r, math.inf, TURN_FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
-        status, found = descend(q, wanted, device, bolt, nut, threads, work)
+        status, found = descend(q, wanted, Scene(device, bolt, nut, threads, work))
         if status != UNSETTLED:
             break
     device[D_FINE] = FINE
@@ -480,7 +481,7 @@ def descent_near(q: Array, known: int, steps: int, setting: Setting) -> tuple[in
     command, device, _, bolt, nut, threads, work = setting
     r = bolt[pk.R_MAJOR]
     wanted = Descent(command[M_PUSH], DESCENT_STEP * r, STEP_LENGTH * r, steps, PATH_TOLERANCE, PATH_OVERLAP)
-    return descend_followed(q, known, wanted, device, bolt, nut, threads, work)
+    return descend_followed(q, known, wanted, Scene(device, bolt, nut, threads, work))
 
 
 @kernel()
@@ -721,13 +722,13 @@ def certified_end(q: Array, kind: int, setting: Setting, stage: StageWork) -> in
     place = np.empty(PLACE_SIZE)
     touching = 0
     wanted = Descent(command[M_PUSH], STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP)
-    _, found = descend_followed(q, 0, wanted, device, bolt, nut, threads, work)
+    _, found = descend_followed(q, 0, wanted, Scene(device, bolt, nut, threads, work))
     for j in range(found):
-        if work[0][j, G_VALUE] > -LEAST_GAP * r:
-            copy_numbers(work[0][j], work[0][touching])
+        if work.places[j, G_VALUE] > -LEAST_GAP * r:
+            copy_numbers(work.places[j], work.places[touching])
             touching += 1
     set_place(q, device, place)
-    return overlap(place[0:12], OVERLAP_LIMIT * r, touching, work[0], bolt, nut, stage)
+    return overlap(place[0:12], OVERLAP_LIMIT * r, touching, work.places, bolt, nut, stage)
 
 
 @kernel(nogil=True)
