@@ -10,6 +10,7 @@ import pytest
 
 from benchmarks import settle_peer
 from threadstate.device.assemble import assemble_pose
+from threadstate.device.assembly_model import PathEventKind
 from threadstate.device.document import device_from_document
 from threadstate.device.settle import settle_pose
 from threadstate.mesh.presets import Preset
@@ -67,7 +68,10 @@ def test_a_peer_that_does_not_turn_is_apart_by_the_whole_path(tmp_path: Path, mo
         height = first.pose.translation[2] - first.shift[2]
         gone = np.array(last.translation) - np.array([0.0, 0.0, height])
         assert one.apart == pytest.approx(np.linalg.norm(gone) / r, rel=1e-9)
+        snaps = any(event.kind is PathEventKind.SNAP for event in path.events)
+        assert one.late_deg == (pytest.approx(settle_peer.AFTER_SNAP_DEG) if snaps else None)
     settled = settle_peer.compared(Path(sys.executable), 1, Preset.COARSE)
     words = settle_peer.page(settled, found, Preset.COARSE).split("## Whole paths")[1]
     assert "At 10 deg a unit of its time MuJoCo takes" in words
+    assert "20.0 deg late at the snap" in words
     assert words.count("| engaged |") + words.count("| no snap |") == len(found)
