@@ -106,6 +106,8 @@ def no_tangency_on_flanks(
 
     Where phi = phi_theta = 0 at the contact at all times there is no second place with phi = phi_theta = 0 then. False
     also where either profile is not straight there. Then whether the span's length is most of what leaves it undecided.
+
+    One bound whose terms share their factors, in the order of the certificate's derivation (docs/certificate.md).
     """
     k, r_bound, _, _, _, base_error, error_by_time, _ = size_numbers(motion, curve_profile, solid_profile)
     theta, a = contact + 0.5 * way, 0.5 * abs(way) * (1.0 + 4.0 * UNIT) + 8.0 * UNIT

@@ -76,6 +76,29 @@ def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array,
 
 
 @kernel()
+def set_outline_samples(pose: Array, bolt: Array, nut: Array, theta: Array, place: Array, over: Array) -> None:
+    """Samples of the bolt's outline all around: azimuths, points with tangents, and how far they are over the nut."""
+    for i in range(OUTLINE_SAMPLES + 1):
+        theta[i] = TWO_PI * i / OUTLINE_SAMPLES
+        x, y, dx, dy = base_outline(theta[i], pose, bolt)
+        place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
+        over[i] = math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
+
+
+@kernel()
+def set_corners(pose: Array, bolt: Array, nut: Array, theta: Array, over: Array, corners: Array) -> int:
+    """Where the bolt's outline crosses the nut's: azimuth and place of each; returns how many."""
+    count = 0
+    for i in range(OUTLINE_SAMPLES):
+        if (over[i] > 0.0) != (over[i + 1] > 0.0):
+            t = outline_root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
+            corners[count, 0] = t
+            corners[count, 1], corners[count, 2], _, _ = base_outline(t, pose, bolt)
+            count += 1
+    return count
+
+
+@kernel()
 def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, out: Array) -> int:
     """The patch's farthest points across the axis (ax, ay) (left, then right) and along it (forth, then back).
 
@@ -86,18 +109,8 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
     over = np.empty(OUTLINE_SAMPLES + 1)
     place = np.empty((OUTLINE_SAMPLES + 1, 4))
     corners = np.empty((OUTLINE_SAMPLES, 3))
-    corner_count = 0
-    for i in range(OUTLINE_SAMPLES + 1):
-        theta[i] = TWO_PI * i / OUTLINE_SAMPLES
-        x, y, dx, dy = base_outline(theta[i], pose, bolt)
-        place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
-        over[i] = math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
-    for i in range(OUTLINE_SAMPLES):
-        if (over[i] > 0.0) != (over[i + 1] > 0.0):
-            t = outline_root(theta[i], theta[i + 1], True, 0.0, 0.0, pose, bolt, nut)
-            corners[corner_count, 0] = t
-            corners[corner_count, 1], corners[corner_count, 2], _, _ = base_outline(t, pose, bolt)
-            corner_count += 1
+    set_outline_samples(pose, bolt, nut, theta, place, over)
+    corner_count = set_corners(pose, bolt, nut, theta, over, corners)
     count = 0
     for turn in range(4):
         nx = (-ay, ay, ax, -ax)[turn]
@@ -110,14 +123,12 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
             if over[i] > 0.0 and reach > best:
                 best = reach
                 best_theta = theta[i]
-                is_corner = False
             if nx * place[i, 2] + ny * place[i, 3] > 0.0 and nx * place[i + 1, 2] + ny * place[i + 1, 3] <= 0.0:
                 t = outline_root(theta[i], theta[i + 1], False, nx, ny, pose, bolt, nut)
                 x, y, _, _ = base_outline(t, pose, bolt)
                 if nx * x + ny * y >= best and distance_outside(t, pose, bolt, nut) >= 0.0:
                     best = nx * x + ny * y
                     best_theta = t
-                    is_corner = False
         for i in range(corner_count):
             reach = nx * corners[i, 1] + ny * corners[i, 2]
             if reach > best:

@@ -65,7 +65,10 @@ RECT_UNDECIDED, RECT_EXCLUDED, ABOVE_SURFACE = range(3)
 def classify_rectangle(
     rect: Array, limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array
 ) -> int:
-    """The class of a rectangle up to ``limit``: RECT_UNDECIDED, RECT_EXCLUDED or, all the time, ABOVE_SURFACE."""
+    """The class of a rectangle up to ``limit``: RECT_UNDECIDED, RECT_EXCLUDED or, all the time, ABOVE_SURFACE.
+
+    One expansion whose terms share their factors: parts of it would pass two dozen numbers to each other.
+    """
     is_turn = motion[M_KIND] != 0.0
     theta = rect[R_THETA]
     z = rect[R_Z]
@@ -190,6 +193,35 @@ def touch_time(rect: Array, limit: float, motion: Array, bolt: Array, nut: Array
 
 
 @kernel()
+def set_first_rectangles(
+    limit: float, motion: Array, bolt: Array, nut: Array, bounds: Array, path: Array, rects: Array
+) -> tuple[int, int]:
+    """Sets the undecided rectangles that cover the thread, up to where it is above the surface; how many, and of how
+    many.
+    """
+    p = bolt[pk.P]
+    count, evaluated = 0, 0
+    for i in range(AZIMUTHS):
+        low = 0.0
+        high = p / 32.0
+        while low < p:
+            r = rects[count]
+            r[R_THETA] = TWO_PI * (i + 0.5) / AZIMUTHS
+            r[R_HALF_THETA] = math.pi / AZIMUTHS
+            r[R_Z] = 0.5 * (low + high)
+            r[R_HALF_Z] = 0.5 * (high - low)
+            outcome = classify_rectangle(r, limit, motion, bolt, nut, bounds, path)
+            evaluated += 1
+            if outcome == ABOVE_SURFACE:
+                break
+            if outcome == RECT_UNDECIDED:
+                count += 1
+            low = high
+            high = min(2.0 * high, p)
+    return count, evaluated
+
+
+@kernel()
 def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array) -> tuple[int, int]:
     """All contacts of thread with thread before ``limit``, earliest first, and the number of rectangles evaluated.
 
@@ -202,26 +234,8 @@ def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Arra
     set_bounds(motion, bolt, nut, bounds)
     p = bolt[pk.P]
     count = 0
-    evaluated = 0
     best = limit
-    depth = 0
-    for i in range(AZIMUTHS):
-        low = 0.0
-        high = p / 32.0
-        while low < p:
-            r = rects[depth]
-            r[R_THETA] = TWO_PI * (i + 0.5) / AZIMUTHS
-            r[R_HALF_THETA] = math.pi / AZIMUTHS
-            r[R_Z] = 0.5 * (low + high)
-            r[R_HALF_Z] = 0.5 * (high - low)
-            outcome = classify_rectangle(r, best, motion, bolt, nut, bounds, path)
-            evaluated += 1
-            if outcome == ABOVE_SURFACE:
-                break
-            if outcome == RECT_UNDECIDED:
-                depth += 1
-            low = high
-            high = min(2.0 * high, p)
+    depth, evaluated = set_first_rectangles(limit, motion, bolt, nut, bounds, path, rects)
     parent = np.empty(RECTANGLE_SIZE)
     while depth > 0:
         depth -= 1

@@ -386,6 +386,35 @@ def may_lack_ties(count: int, bolt_count: int, nut_count: int, tie_tolerance: fl
     )
 
 
+@kernel()
+def search_threads(
+    is_turn: bool, reach: float, unexplained: bool, thread_search: int, bolt: Array, nut: Array, work: Work
+) -> tuple[int, int, Array]:
+    """The contacts of threads up to ``reach``: how many of thread with thread, or OVERFLOW; how many of the bolt's
+    thread on the surface; and these.
+
+    ``unexplained``: an edge enters, and no contact of an edge says why.
+    """
+    tangencies = work.tangencies
+    on_surface = np.empty((ts.MAX_FOUND, tk.TANGENCY_SIZE))
+    tangency_count = 0
+    if thread_search != PROVED:
+        tangency_count = ridge.ridge_contacts(work.bolt_motion, bolt, nut, reach, RIDGE_AZIMUTHS, tangencies)
+        if is_turn:
+            tangency_count = ridge.contacts_behind_entries(
+                work.entries, reach, work.bolt_motion, bolt, nut, tangencies, tangency_count
+            )
+    on_surface_count = ts.thread_surface_contacts(work.bolt_motion, bolt, nut, reach, on_surface, 0)
+    if thread_search == PROVED or (
+        thread_search == RIDGES and unexplained and tangency_count == 0 and on_surface_count == 0
+    ):
+        # Where no edge contact explains the earliest entry, the threads must have met before it.
+        tangency_count, evaluated = rect.tangencies(work.bolt_motion, bolt, nut, reach, work.rectangles, tangencies)
+        if evaluated == OVERFLOW:
+            return OVERFLOW, 0, on_surface
+    return tangency_count, on_surface_count, on_surface
+
+
 def earliest(
     pose: Array,
     is_turn: bool,
@@ -410,8 +439,6 @@ def earliest(
     earliest time at which an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how
     thread on thread is searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
     """
-    tangencies = work.tangencies
-    on_surface = np.empty((ts.MAX_FOUND, tk.TANGENCY_SIZE))
     bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(known_count))
     nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(known_count))
     keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
@@ -428,23 +455,11 @@ def earliest(
         nut_count > 0 and work.nut_found[0, C_TIME] <= best + tie_tolerance
     ):
         unexplained = False
-    tangency_count = 0
-    if thread_search != PROVED:
-        tangency_count = ridge.ridge_contacts(work.bolt_motion, bolt, nut, reach, RIDGE_AZIMUTHS, tangencies)
-        if is_turn:
-            tangency_count = ridge.contacts_behind_entries(
-                work.entries, reach, work.bolt_motion, bolt, nut, tangencies, tangency_count
-            )
-    on_surface_count = ts.thread_surface_contacts(work.bolt_motion, bolt, nut, reach, on_surface, 0)
-    if thread_search == PROVED or (
-        thread_search == RIDGES and unexplained and tangency_count == 0 and on_surface_count == 0
-    ):
-        # Where no edge contact explains the earliest entry, the threads must have met before it.
-        tangency_count, rectangles_evaluated = rect.tangencies(
-            work.bolt_motion, bolt, nut, reach, work.rectangles, tangencies
-        )
-        if rectangles_evaluated == OVERFLOW:
-            return 0, UNRESOLVED, best
+    tangency_count, on_surface_count, on_surface = search_threads(
+        is_turn, reach, unexplained, thread_search, bolt, nut, work
+    )
+    if tangency_count == OVERFLOW:
+        return 0, UNRESOLVED, best
     count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
     count = list_thread_contacts(
         tangency_count, on_surface_count, known, known_count, bolt, on_surface, work, count, out

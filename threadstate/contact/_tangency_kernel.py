@@ -123,7 +123,10 @@ def rotated(x: float, y: float, z: float, placement: Array) -> tuple[float, floa
 
 @kernel(allocates=False)
 def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array) -> None:
-    """Phi and its derivatives at (theta, z) of the bolt's thread, for a placement."""
+    """Phi and its derivatives at (theta, z) of the bolt's thread, for a placement.
+
+    One formula whose terms share their factors.
+    """
     k = bolt[pk.LEAD] / TWO_PI
     r_b, slope, second_derivative = pk.jet(z - k * theta, bolt)
     cos = math.cos(theta)

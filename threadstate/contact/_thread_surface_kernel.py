@@ -158,6 +158,54 @@ def thread_surface_contacts(motion: Array, bolt: Array, nut: Array, reach: float
 
 
 @kernel()
+def greatest_speed(motion: Array, bolt: Array) -> float:
+    """How fast a point of the thread moves at most, a unit of the motion's time."""
+    if motion[M_KIND] == 0.0:
+        return 1.0
+    arm = 0.0
+    for i in range(3):
+        arm += (motion[9 + i] - motion[M_POINT + i]) ** 2
+    return math.sqrt(arm) + bolt[pk.R_MAJOR] + 2.0 * (most_turns(bolt) + 1) * bolt[pk.P]
+
+
+@kernel()
+def time_of_touch(
+    low: float, high: float, turn: float, near: float, motion: Array, bolt: Array, placement: Array, lowest: Array
+) -> float:
+    """When a turn's lowest point reaches the surface, bisected to the last digit; sets placement and point there."""
+    middle = 0.5 * (low + high)
+    while low < middle < high:
+        set_placement(motion, middle, placement)
+        set_lowest(turn, near, placement, bolt, lowest)
+        if lowest[L_HEIGHT] > 0.0:
+            low = middle
+        else:
+            high = middle
+        middle = 0.5 * (low + high)
+    set_placement(motion, high, placement)
+    set_lowest(turn, near, placement, bolt, lowest)
+    return high
+
+
+@kernel()
+def add_touch(time: float, lowest: Array, placement: Array, bolt: Array, nut: Array, found: Array, count: int) -> int:
+    """Adds a touch of the surface, if it is the thread's own and not over the hole; how many there are then."""
+    if not (lowest[L_KIND] == LOWEST and 0.0 < lowest[L_Z] < bolt[pk.P]):
+        return count
+    x, y = point_in_nut(lowest, placement, bolt)
+    azimuth = math.atan2(y, x)
+    if not math.hypot(x, y) > pk.radius(-nut[pk.LEAD] / TWO_PI * azimuth, nut):
+        return count
+    found[count, T_TIME] = time
+    found[count, T_THETA] = lowest[L_THETA]
+    found[count, T_Z] = lowest[L_Z]
+    found[count, T_X] = x
+    found[count, T_Y] = y
+    found[count, T_POINT_Z] = 0.0
+    return count + 1
+
+
+@kernel()
 def follow_turn(
     turn: float,
     near: float,
@@ -174,19 +222,13 @@ def follow_turn(
     lowest = np.empty(LOWEST_SIZE)
     is_turn = motion[M_KIND] > 0.0
     least_step = LEAST_STEP * motion_scale(motion, bolt)
-    speed = 1.0
-    if is_turn:
-        arm = 0.0
-        for i in range(3):
-            arm += (motion[9 + i] - motion[M_POINT + i]) ** 2
-        speed = math.sqrt(arm) + bolt[pk.R_MAJOR] + 2.0 * (most_turns(bolt) + 1) * bolt[pk.P]
+    speed = greatest_speed(motion, bolt)
     touching = TOUCHING * bolt[pk.P]
     tau, before = 0.0, 0.0
     is_above = False
     while True:
         set_placement(motion, tau, placement)
         set_lowest(turn, near, placement, bolt, lowest)
-        step = least_step
         if lowest[L_KIND] == NO_POINT:
             is_above = False
             if not is_turn:
@@ -199,30 +241,10 @@ def follow_turn(
         else:
             height = lowest[L_HEIGHT]
             if is_above and height <= 0.0:
-                low, high = before, tau
-                middle = 0.5 * (low + high)
-                while low < middle < high:
-                    set_placement(motion, middle, placement)
-                    set_lowest(turn, near, placement, bolt, lowest)
-                    if lowest[L_HEIGHT] > 0.0:
-                        low = middle
-                    else:
-                        high = middle
-                    middle = 0.5 * (low + high)
-                set_placement(motion, high, placement)
-                set_lowest(turn, near, placement, bolt, lowest)
-                if lowest[L_KIND] == LOWEST and 0.0 < lowest[L_Z] < bolt[pk.P]:
-                    x, y = point_in_nut(lowest, placement, bolt)
-                    azimuth = math.atan2(y, x)
-                    over_nut = math.hypot(x, y) > pk.radius(-nut[pk.LEAD] / TWO_PI * azimuth, nut)
-                    if over_nut:
-                        found[count, T_TIME] = high
-                        found[count, T_THETA] = lowest[L_THETA]
-                        found[count, T_Z] = lowest[L_Z]
-                        found[count, T_X] = x
-                        found[count, T_Y] = y
-                        found[count, T_POINT_Z] = 0.0
-                        return count + 1
+                time = time_of_touch(before, tau, turn, near, motion, bolt, placement, lowest)
+                with_touch = add_touch(time, lowest, placement, bolt, nut, found, count)
+                if with_touch > count:
+                    return with_touch
                 is_above = False
             elif height > touching:
                 is_above = True
