@@ -25,6 +25,10 @@ FRICTIONS = (0.02, 0.05, 0.1, 0.2)
 STEPS_DEG = tuple(LONGEST_STEP_WITH_FRICTION_DEG / parts for parts in (1.0, 2.0, 4.0))
 ACCURACY = 2e-3
 """How far half the step may move the pose at the end, in nominal radii. A fall is given to within the longest step."""
+LEAST_FALL = 1e-3
+"""Loss (push times nominal radius) of the falls that are compared: whether a lighter one is followed as steps hangs on
+their length. Falls within a step of each other are one.
+"""
 
 ENDS = {
     fs.REACHED: "turned",
@@ -44,8 +48,9 @@ ENDED = {"turned", "jammed", "slipped"}
 class Followed:
     """A path at one longest step: how it ended, its balance and its losses over push times nominal radius.
 
-    ``falls_deg`` are the phases of falls, ``place`` the pose's translation at the end over the nominal radius,
-    ``ambiguous`` whether a step had several solutions, ``least_loss`` the least loss by friction in a step.
+    ``falls_deg`` are the phases of falls that are compared, ``place`` the pose's translation at the end over the
+    nominal radius, ``ambiguous`` whether a step had several solutions, ``least_loss`` the least loss by friction in a
+    step.
     """
 
     end: str
@@ -151,7 +156,7 @@ def followed(
         return start, None
     leg = path.follow((phase, phase - math.radians(turn_deg)), (device.push, device.push))
     unit = device.push * pair.nominal_diameter / 2.0
-    return start, measured(leg, unit, pair.nominal_diameter / 2.0, time.process_time() - began)
+    return start, measured(leg, unit, pair.nominal_diameter / 2.0, longest_step_deg, time.process_time() - began)
 
 
 def named(state: SettledState) -> str:
@@ -159,7 +164,18 @@ def named(state: SettledState) -> str:
     return ", ".join([state.outcome.value, *(flag.value for flag in state.flags)])
 
 
-def measured(leg: FrictionLeg, unit: float, r: float, seconds: float) -> Followed:
+def heavy_falls(phases_deg: Floats, losses: Floats, step_deg: float) -> tuple[float, ...]:
+    """The phases of falls, each with those within a step after it, that lose more than ``LEAST_FALL`` together."""
+    found: list[tuple[float, float]] = []
+    for phase_deg, loss in zip(phases_deg.tolist(), losses.tolist(), strict=True):
+        if loss > 0.0 and found and abs(phase_deg - found[-1][0]) <= step_deg:
+            found[-1] = (found[-1][0], found[-1][1] + loss)
+        elif loss > 0.0:
+            found.append((phase_deg, loss))
+    return tuple(phase_deg for phase_deg, loss in found if loss > LEAST_FALL)
+
+
+def measured(leg: FrictionLeg, unit: float, r: float, longest_step_deg: float, seconds: float) -> Followed:
     """What a leg says of its energy, falls and end; energies over ``unit``, lengths over ``r``."""
     rows = leg.points
     work = float((0.5 * (rows[1:, fk.P_TORQUE] + rows[:-1, fk.P_TORQUE]) * np.diff(rows[:, fk.P_PHASE])).sum())
@@ -171,7 +187,7 @@ def measured(leg: FrictionLeg, unit: float, r: float, seconds: float) -> Followe
         friction / unit,
         falls / unit,
         float(rows[:, fk.P_FRICTION].min()) / unit,
-        tuple(float(phase) for phase in np.degrees(rows[rows[:, fk.P_FALL] > 0.0, fk.P_PHASE])),
+        heavy_falls(np.degrees(rows[:, fk.P_PHASE]), rows[:, fk.P_FALL] / unit, longest_step_deg),
         tuple(float(x) for x in rows[-1, fk.P_POSE + 9 : fk.P_POSE + 12] / r),
         bool((rows[:, fk.P_SOLUTIONS] > 1.0).any()),
         seconds,
