@@ -14,7 +14,7 @@ from threadstate.device import _turn_kernel as tk
 from threadstate.device.assembly_model import AssemblyPoint, Held, PathEvent, PathEventKind
 from threadstate.device.model import LoadedContact
 from threadstate.device.settle import FEATURES, vector_of
-from threadstate.state.model import FeaturePair, StagePose
+from threadstate.state.model import FeaturePair, StagePose, Vector
 
 Floats = NDArray[np.float64]
 
@@ -78,29 +78,36 @@ def turned_point(row: Floats, contacts: Floats, numbers: Floats, command: Floats
     """The point of a row, with its contacts."""
     numbers = numbers.copy()
     tk.set_phase(row[tk.T_PHASE], command, numbers)
-    q = row[tk.T_COORDINATES : tk.T_COORDINATES + ck.COORDINATES]
-    pose = row[tk.T_POSE : tk.T_POSE + 12]
+    values = row.tolist()
+    ax, ay, az, x, y, z = values[tk.T_COORDINATES : tk.T_COORDINATES + ck.COORDINATES]
+    place_x, place_y, place_z = numbers[ck.D_PLACE : ck.D_PLACE + 3].tolist()
+    pose = values[tk.T_POSE : tk.T_POSE + 12]
     return AssemblyPoint(
-        math.degrees(row[tk.T_PHASE]),
-        HELD[int(row[tk.T_KIND])],
-        StagePose(tuple(vector_of(line) for line in pose[:9].reshape(3, 3)), vector_of(pose[9:])),  # type: ignore[arg-type]
-        vector_of(q[3:] - numbers[ck.D_PLACE : ck.D_PLACE + 3]),
-        vector_of(np.degrees(q[:3])),
-        tuple(_contact(contact) for contact in contacts[: int(row[tk.T_COUNT])]),
-        float(row[tk.T_TORQUE]),
-        float(row[tk.T_ENERGY]),
-        float(row[tk.T_POTENTIAL]),
+        math.degrees(values[tk.T_PHASE]),
+        HELD[int(values[tk.T_KIND])],
+        StagePose((_vector(pose, 0), _vector(pose, 3), _vector(pose, 6)), _vector(pose, 9)),
+        (x - place_x, y - place_y, z - place_z),
+        (math.degrees(ax), math.degrees(ay), math.degrees(az)),
+        tuple(_contact(contact) for contact in contacts[: int(values[tk.T_COUNT])].tolist()),
+        values[tk.T_TORQUE],
+        values[tk.T_ENERGY],
+        values[tk.T_POTENTIAL],
     )
 
 
-def _contact(contact: Floats) -> LoadedContact:
-    normal = contact[st.C_NORMAL : st.C_NORMAL + 3]
+def _contact(values: list[float]) -> LoadedContact:
+    normal = _vector(values, st.C_NORMAL)
+    force = values[st.C_FORCE]
     return LoadedContact(
-        vector_of(contact[st.C_POINT : st.C_POINT + 3]),
-        vector_of(normal),
-        FEATURES[int(contact[st.C_PAIR])],
-        vector_of(contact[st.C_FORCE] * normal),
+        _vector(values, st.C_POINT),
+        normal,
+        FEATURES[int(values[st.C_PAIR])],
+        (force * normal[0], force * normal[1], force * normal[2]),
     )
+
+
+def _vector(values: list[float], first: int) -> Vector:
+    return values[first], values[first + 1], values[first + 2]
 
 
 def turned_event(event: Floats) -> PathEvent:
