@@ -289,7 +289,7 @@ def _paths_words(paths: list[ComparedPath]) -> str:
         "times",
         "apart (r)",
         "angle (deg)",
-        "snap late by (deg)",
+        "snap after ours (deg)",
     )
     rows = [
         [
@@ -316,16 +316,17 @@ def _paths_words(paths: list[ComparedPath]) -> str:
         late = [one.late_deg for one in of_rate if one.late_deg is not None]
         words = f"{times:,.0f} times our {ours_s:.2g} s at the median, and its bolt ends {apart:.1e} r from ours"
         if late:
-            words += f", {np.median(late):.1f} deg late at the snap"
+            side = "after" if np.median(late) > 0.0 else "before"
+            words += f"; its snap comes {abs(np.median(late)):.1f} deg {side} ours"
         lines.append(f"- At {rate:g} deg a unit of its time MuJoCo takes {words}.")
     return f"""## Whole paths
 
 The same device, its twist rigid here, settles the bolt and turns it by `ccw_then_cw`, without friction. MuJoCo turns it
 as far each way as that path goes, at several rates: a slower one is nearer to the quasi-static path, and takes as much
-longer. *Late*: how much farther its bolt has been turned than ours when it is half-way down the fall of the snap, in a
-run of its own; ours is bracketed to 0.001 deg. It is early (negative) where its rounded edges let the bolt in before
-the exact ones do, and the later the faster it is turned, as a fall takes time: a rate is slow enough where a slower one
-moves the snap no more.
+longer. *Snap after ours*: how much farther its bolt has been turned than ours when it is half-way down the fall of the
+snap, in a run of its own; ours is bracketed to 0.001 deg. It comes before ours (negative) as its rounded edges let the
+bolt in before the exact ones do, and the later the faster it is turned, as a fall takes time: a rate is slow enough
+where a slower one moves the snap no more.
 
 {chr(10).join(lines)}
 

@@ -73,5 +73,5 @@ def test_a_peer_that_does_not_turn_is_apart_by_the_whole_path(tmp_path: Path, mo
     settled = settle_peer.compared(Path(sys.executable), 1, Preset.COARSE)
     words = settle_peer.page(settled, found, Preset.COARSE).split("## Whole paths")[1]
     assert "At 10 deg a unit of its time MuJoCo takes" in words
-    assert "20.0 deg late at the snap" in words
+    assert "its snap comes 20.0 deg after ours" in words
     assert words.count("| engaged |") + words.count("| no snap |") == len(found)
