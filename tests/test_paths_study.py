@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from studies.paths.page import page
-from studies.paths.study import ACCURACY, STEPS_DEG, Compared, Followed, Found, done, heavy_falls
+from studies.paths.study import ACCURACY, STEPS_DEG, Compared, Followed, Found, done
 
 pytestmark = pytest.mark.slow
 
@@ -39,12 +38,6 @@ def test_half_the_step_ends_at_the_same_place(found: Found, number: int) -> None
     both = [halved for one in found.paths if (halved := one.halved(number)) is not None]
     assert len(both) == len(NUMBERS)
     assert all(one.is_ended and one.moved < ACCURACY for one in both)
-
-
-def test_falls_within_a_step_are_one_and_light_ones_are_left_out() -> None:
-    phases, losses = np.array([10.0, 9.5, 9.0, 4.0, 1.0]), np.array([8e-4, 0.0, 4e-4, 9e-4, 2e-3])
-    assert heavy_falls(phases, losses, 1.0) == (10.0, 1.0)
-    assert heavy_falls(phases, losses, 0.5) == (1.0,)
 
 
 def test_the_page_lists_what_half_the_step_moves() -> None:

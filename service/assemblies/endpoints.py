@@ -26,7 +26,7 @@ from service.request_scope import ABORTED
 from service.settle.endpoints import device_of
 from service.solve import NOT_BOTH, PoseToSolve, RequestOfPair
 from service.strict_json import StrictJsonRoute
-from threadstate.device.assemble import LEAST_LONGEST_STEP_DEG, assemble_pose
+from threadstate.device.assemble import LEAST_LONGEST_STEP_DEG, assemble_pose, checked_step
 from threadstate.device.assembly_document import (
     AssemblyDocument,
     AssemblyProgressDocument,
@@ -82,6 +82,10 @@ class AssemblyRequest(RequestOfPair):
     longest_step: Annotated[
         float | None, Field(ge=LEAST_LONGEST_STEP_DEG, le=LONGEST_STEP_DEG, allow_inf_nan=False)
     ] = Field(default=None, description="longest step of the phase in degrees; by default 2, with friction 1")
+    confirm: bool = Field(
+        default=False,
+        description="whether the path is followed with half the step as well, and flagged where that changes it",
+    )
     device: DeviceDocument | None = Field(
         default=None, description="the device; what it leaves out is as of the default one"
     )
@@ -122,6 +126,7 @@ async def assemble(request: Request, body: AssemblyRequest, unit: UnitQuery = No
     device = device_of(body.device)
     asked = await run_in_threadpool(solved_pair, request, body.designation, body.library)
     check_pair(asked.pair)
+    checked_step(body.longest_step, body.mu, confirm=body.confirm)
     shown = unit or asked.pair.unit
     factor = conversion_factor(asked.pair.unit, shown)
     compute = partial(_document, asked.pair, body, device, shown, factor)
@@ -171,6 +176,7 @@ def _document(
         body.strategy,
         mu=body.mu,
         longest_step=body.longest_step,
+        confirm=body.confirm,
         watch=watch,
     )
     return _text(assembly_document(path, unit, factor))

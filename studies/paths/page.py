@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from harness.markdown import table
-from studies.paths.study import ACCURACY, FRICTIONS, LEAST_FALL, STEPS_DEG, TILT_DEG, Followed, Found, Halved
+from studies.paths.study import ACCURACY, FRICTIONS, STEPS_DEG, TILT_DEG, Followed, Found, Halved
+from threadstate.device.confirmation import LEAST_FALL
 from threadstate.numbers import number_text
 
 MOST_LISTED = 40
@@ -49,7 +50,8 @@ nominal radius, of all paths up to their end.
 Paths that end turned, jammed or slipped with a longest step and with half of it, none ambiguous. A fall is given to
 within the longest step, and the end to {number_text(ACCURACY)} r: *moved falls* are paths where one is by more, or
 where there are more or fewer of them; *moved ends* likewise. Falls are compared that lose more than
-{number_text(LEAST_FALL)} F r, with what follows within a step: a lighter one may be followed as steps.
+{number_text(LEAST_FALL)} F r, with what follows within {number_text(STEPS_DEG[0])} deg: a lighter one may be followed
+as steps, and one in parts.
 
 {_halves_table(halves)}
 {_listed("Other starts with half the step", starts_changed)}{"".join(_exceptions(some) for some in halves)}"""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device.command import LONGEST_STEP_WITH_FRICTION_DEG
+from threadstate.device.confirmation import LEAST_FALL, heavy_falls
 from threadstate.device.friction import FrictionLeg, FrictionPath, settled_with_friction
 from threadstate.device.model import Outcome, SettledState, default_device
 from threadstate.device.settle import device_numbers, path_with_friction, settled_rows
@@ -25,10 +26,6 @@ FRICTIONS = (0.02, 0.05, 0.1, 0.2)
 STEPS_DEG = tuple(LONGEST_STEP_WITH_FRICTION_DEG / parts for parts in (1.0, 2.0, 4.0))
 ACCURACY = 2e-3
 """How far half the step may move the pose at the end, in nominal radii. A fall is given to within the longest step."""
-LEAST_FALL = 1e-3
-"""Loss (push times nominal radius) of the falls that are compared: whether a lighter one is followed as steps hangs on
-their length. Falls within a step of each other are one.
-"""
 
 ENDS = {
     fs.REACHED: "turned",
@@ -156,7 +153,7 @@ def followed(
         return start, None
     leg = path.follow((phase, phase - math.radians(turn_deg)), (device.push, device.push))
     unit = device.push * pair.nominal_diameter / 2.0
-    return start, measured(leg, unit, pair.nominal_diameter / 2.0, longest_step_deg, time.process_time() - began)
+    return start, measured(leg, unit, pair.nominal_diameter / 2.0, time.process_time() - began)
 
 
 def named(state: SettledState) -> str:
@@ -164,18 +161,14 @@ def named(state: SettledState) -> str:
     return ", ".join([state.outcome.value, *(flag.value for flag in state.flags)])
 
 
-def heavy_falls(phases_deg: Floats, losses: Floats, step_deg: float) -> tuple[float, ...]:
-    """The phases of falls, each with those within a step after it, that lose more than ``LEAST_FALL`` together."""
-    found: list[tuple[float, float]] = []
-    for phase_deg, loss in zip(phases_deg.tolist(), losses.tolist(), strict=True):
-        if loss > 0.0 and found and abs(phase_deg - found[-1][0]) <= step_deg:
-            found[-1] = (found[-1][0], found[-1][1] + loss)
-        elif loss > 0.0:
-            found.append((phase_deg, loss))
-    return tuple(phase_deg for phase_deg, loss in found if loss > LEAST_FALL)
+def _falls(rows: Floats, unit: float) -> list[tuple[float, float]]:
+    """The phases (deg) of falls and their losses over ``unit``."""
+    fallen = rows[rows[:, fk.P_FALL] > 0.0]
+    phases_deg, losses = np.degrees(fallen[:, fk.P_PHASE]), fallen[:, fk.P_FALL] / unit
+    return list(zip(phases_deg.tolist(), losses.tolist(), strict=True))
 
 
-def measured(leg: FrictionLeg, unit: float, r: float, longest_step_deg: float, seconds: float) -> Followed:
+def measured(leg: FrictionLeg, unit: float, r: float, seconds: float) -> Followed:
     """What a leg says of its energy, falls and end; energies over ``unit``, lengths over ``r``."""
     rows = leg.points
     work = float((0.5 * (rows[1:, fk.P_TORQUE] + rows[:-1, fk.P_TORQUE]) * np.diff(rows[:, fk.P_PHASE])).sum())
@@ -187,7 +180,7 @@ def measured(leg: FrictionLeg, unit: float, r: float, longest_step_deg: float, s
         friction / unit,
         falls / unit,
         float(rows[:, fk.P_FRICTION].min()) / unit,
-        heavy_falls(np.degrees(rows[:, fk.P_PHASE]), rows[:, fk.P_FALL] / unit, longest_step_deg),
+        heavy_falls(_falls(rows, unit), LONGEST_STEP_WITH_FRICTION_DEG, LEAST_FALL),
         tuple(float(x) for x in rows[-1, fk.P_POSE + 9 : fk.P_POSE + 12] / r),
         bool((rows[:, fk.P_SOLUTIONS] > 1.0).any()),
         seconds,

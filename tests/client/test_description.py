@@ -88,6 +88,7 @@ ARGUMENTS: dict[str, object] = {
     "limit": 10,
     "mu": 0.1,
     "longest_step": 0.5,
+    "confirm": True,
     "include": ["reaction", "forces_range"],
     "avoid": ["held", "wedged"],
     "force": (0.0, 0.0, -10.0),

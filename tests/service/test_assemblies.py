@@ -102,6 +102,18 @@ def test_the_longest_step_is_taken(client: TestClient) -> None:
     assert steps[1] == pytest.approx(0.5, abs=1e-9)
 
 
+def test_a_confirmed_path_says_whether_half_the_step_changes_it(client: TestClient) -> None:
+    """docs/paths-checked.md: a fall comes 2 deg earlier with half the step."""
+    pose = {"roll": 1.2777020959327414, "pitch": 2.484915940493546, "phase": -168.16116983823713}
+    body = {"pose": pose, "strategy": "cw", "mu": 0.2}
+    answer = client.post(POST, json={**body, "confirm": True}).json()
+    with client.stream("POST", POST, json={**body, "confirm": True}, headers=EVENTS) as response:
+        assert list(events_of(response.iter_lines()))[-1] == ("answer", answer)
+    alone = client.post(POST, json=body).json()
+    assert answer.pop("flags") == [*alone.pop("flags"), "step_dependent"]
+    assert answer == alone
+
+
 def test_friction_is_taken(client: TestClient) -> None:
     body = {"pose": {"roll": 0, "pitch": 0, "phase": 10}, "strategy": "cw", "mu": 0.1}
     answer = client.post(POST, json=body).json()
@@ -197,6 +209,8 @@ def test_a_path_that_is_out_of_time_is_stopped(made_up: StoredLibrary, ends: lis
         ({"longest_step": 0.2}, "body longest_step"),
         ({"longest_step": 2.5}, "body longest_step"),
         ({"longest_step": "1"}, "body longest_step"),
+        ({"longest_step": 0.25, "confirm": True}, "longest_step"),
+        ({"confirm": 1}, "body confirm"),
         ({"unit": "mm"}, "body unit"),
         ({"device": {"unit": "mm", "push": 0}}, "body device push"),
         ({"device": {}}, "body device unit"),

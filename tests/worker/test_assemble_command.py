@@ -45,12 +45,22 @@ def test_without_json_it_is_a_table(command_line: CommandLine) -> None:
         (("--device", "nothing.toml"), "nothing.toml"),
         (("--longest-step", "0.1"), "longest_step is 0.1; valid: 0.25 to 2 deg"),
         (("--longest-step", "long"), "long"),
+        (("--longest-step", "0.25", "--confirm"), "longest_step is 0.25; valid: 0.5 to 2 deg with `confirm`"),
     ],
 )
 def test_bad_input_is_a_clear_error(command_line: CommandLine, arguments: tuple[str, ...], words: str) -> None:
     code, out, err = command_line.here("assemble", *POSE, *arguments)
     assert (code, out) == (2, "")
     assert words in err
+
+
+def test_a_confirmed_path_says_whether_half_the_step_changes_it(command_line: CommandLine) -> None:
+    """docs/paths-checked.md: a fall comes 2 deg earlier with half the step."""
+    pose = ("--roll", "1.2777020959327414", "--pitch", "2.484915940493546", "--phase", "-168.16116983823713")
+    asked = ("assemble", *pose, "--mu", "0.2", "--strategy", "cw", "--json")
+    alone, confirmed = (json.loads(command_line.here(*asked, *more)[1]) for more in ((), ("--confirm",)))
+    assert confirmed.pop("flags") == [*alone.pop("flags"), "step_dependent"]
+    assert confirmed == alone
 
 
 def test_shorter_steps_have_more_points_and_the_same_end(command_line: CommandLine) -> None:

@@ -22,6 +22,7 @@ from threadstate.device.command import (
     LONGEST_STEP_WITH_FRICTION_DEG,
     command_numbers,
 )
+from threadstate.device.confirmation import confirmed
 from threadstate.device.course import Course, plan_of, with_friction, without_friction
 from threadstate.device.friction import FrictionPath, settled_with_friction
 from threadstate.device.model import (
@@ -65,6 +66,7 @@ def assemble_pose(
     *,
     mu: float = 0.0,
     longest_step: float | None = None,
+    confirm: bool = False,
     watch: PathWatch | None = None,
     known: KnownPaths | None = None,
 ) -> AssemblyPath:
@@ -78,16 +80,38 @@ def assemble_pose(
     command else: one that comes to within 1e-4 nominal radii of one goes on as that does. It is added to them if it is
     the only one from its phase, and its outcome is certain and no other's that it has come to.
 
+    With ``confirm`` a path that has an outcome is followed with half the step as well, and flagged where that changes
+    it (:func:`threadstate.device.confirmation.confirmed`).
+
     Raises:
-        InvalidValueError: as :func:`threadstate.device.settle.settle_pose`; a longest step outside 0.25 to 2 deg.
+        InvalidValueError: as :func:`threadstate.device.settle.settle_pose`; a longest step outside 0.25 to 2 deg, or
+            0.5 to 2 deg of a path that is to be confirmed.
         PathStoppedError: the path was stopped.
     """
     watch = watch or PathWatch()
     wanted = checked_poses([(roll_deg, pitch_deg, phase_deg)])
     check_friction(mu)
     check_pair(pair)
-    longest = _checked_step(longest_step, mu)
+    longest = checked_step(longest_step, mu, confirm=confirm)
     held = (device or default_device()).in_unit(pair.unit)
+    path = _followed(pair, wanted, held, strategy, mu, longest, watch, known)
+    if not confirm or path.outcome is AssemblyOutcome.UNDECIDED:
+        return path
+    half = _followed(pair, wanted, held, strategy, mu, longest / 2.0, watch, None)
+    return confirmed(path, half, longest, held.push * pair.nominal_diameter / 2.0)
+
+
+def _followed(
+    pair: Pair,
+    wanted: Floats,
+    held: Device,
+    strategy: Strategy,
+    mu: float,
+    longest: float,
+    watch: PathWatch,
+    known: KnownPaths | None,
+) -> AssemblyPath:
+    """The path of a pose, shape (1, 3), in steps of at most ``longest`` (deg)."""
     numbers = device_numbers(pair, held)
     rotations, rows = settled_rows(pair, held, numbers, wanted)
     row = tuple(part[0] for part in rows)
@@ -142,16 +166,17 @@ def _unsettled(start: SettledState, strategy: Strategy, mu: float) -> AssemblyPa
     return AssemblyPath(start, strategy, mu, outcome, start.flags, (), (), None, None, None)
 
 
-def _checked_step(longest_step: float | None, mu: float) -> float:
-    """The longest step of the phase in degrees, that where none is given.
+def checked_step(longest_step: float | None, mu: float, *, confirm: bool = False) -> float:
+    """The longest step of the phase in degrees, that where none is given; of one to be ``confirm``-ed a half is valid.
 
     Raises:
         InvalidValueError: it is not a number of the valid range.
     """
     if longest_step is None:
         return LONGEST_STEP_WITH_FRICTION_DEG if mu > 0.0 else LONGEST_STEP_DEG
-    if not LEAST_LONGEST_STEP_DEG <= longest_step <= LONGEST_STEP_DEG:
-        valid = f"{number_text(LEAST_LONGEST_STEP_DEG)} to {number_text(LONGEST_STEP_DEG)} deg"
+    least = 2.0 * LEAST_LONGEST_STEP_DEG if confirm else LEAST_LONGEST_STEP_DEG
+    if not least <= longest_step <= LONGEST_STEP_DEG:
+        valid = f"{number_text(least)} to {number_text(LONGEST_STEP_DEG)} deg" + (" with `confirm`" if confirm else "")
         raise InvalidValueError("longest_step", longest_step, valid)
     return longest_step
 

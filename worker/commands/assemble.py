@@ -34,6 +34,9 @@ def assemble(
             help="Longest step of the phase, 0.25 to 2; default 2, with friction 1.",
         ),
     ] = None,
+    confirm: Annotated[
+        bool, typer.Option("--confirm", help="Follow each path with half the step as well, and flag what that changes.")
+    ] = False,
     pair: PairName = None,
     dimension: Dimensions = None,
     unit: UnitName = None,
@@ -47,6 +50,7 @@ def assemble(
     Examples:
       threadstate assemble --roll 0 --pitch -4 --phase 300
       threadstate assemble --roll 0 --pitch -4 --phase 300 --strategy cw --json
+      threadstate assemble --roll 0 --pitch -4 --phase 300 --mu 0.1 --confirm
       threadstate assemble --poses poses.csv --device examples/device.toml --unit mm --json
     """
     wanted = wanted_poses(roll, pitch, phase, poses)
@@ -62,7 +66,7 @@ def assemble(
     factor = conversion_factor(threads.unit, shown)
     held = read_device(device) if device is not None else None
     for pose in wanted:
-        path = assemble_pose(threads, *pose, held, strategy, mu=mu, longest_step=longest_step)
+        path = assemble_pose(threads, *pose, held, strategy, mu=mu, longest_step=longest_step, confirm=confirm)
         document = assembly_document(path, shown, factor)
         if as_json:
             print_json(document)

@@ -207,6 +207,7 @@ class AsyncClient:
         strategy: str | None = None,
         mu: float | None = None,
         longest_step: float | None = None,
+        confirm: bool = False,
         device: Mapping[str, Any] | None = None,
         designation: str | None = None,
         library: LibraryName | None = None,
@@ -216,7 +217,8 @@ class AsyncClient:
         """The path of a bolt that a ``device`` settles at a pose and turns, and whether it engages.
 
         ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0),
-        ``longest_step`` that of the phase in degrees, 0.25 to 2 (None: 2, with friction 1); the others are as for
+        ``longest_step`` that of the phase in degrees, 0.25 to 2 (None: 2, with friction 1); with
+        ``confirm`` half of it is followed as well, and the path flagged where that changes it; the others are as for
         :meth:`settle`. ``progress`` is called with how far the path is whenever that changes; what it raises
         ends the request, and the service stops.
         """
@@ -227,6 +229,7 @@ class AsyncClient:
             strategy=strategy,
             mu=mu,
             longest_step=longest_step,
+            confirm=confirm,
             device=device,
             designation=designation,
             library=library,

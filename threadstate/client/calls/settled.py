@@ -49,6 +49,7 @@ def assemble(
     strategy: str | None = None,
     mu: float | None = None,
     longest_step: float | None = None,
+    confirm: bool = False,
     device: Mapping[str, Any] | None = None,
     designation: str | None = None,
     library: LibraryName | None = None,
@@ -57,8 +58,8 @@ def assemble(
     """The path of a bolt that a ``device`` settles at a pose and turns, and whether it engages.
 
     ``strategy`` is ``ccw_then_cw`` (None) or ``cw``, ``mu`` the friction of all contacts (None: 0),
-    ``longest_step`` that of the phase in degrees, 0.25 to 2 (None: 2, with friction 1); the others are as for
-    :func:`settle`.
+    ``longest_step`` that of the phase in degrees, 0.25 to 2 (None: 2, with friction 1); with ``confirm`` half of it
+    is followed as well, and the path flagged where that changes it; the others are as for :func:`settle`.
     """
     body = {
         "designation": designation,
@@ -67,6 +68,7 @@ def assemble(
         "strategy": strategy,
         "mu": None if mu is None else float(mu),
         "longest_step": None if longest_step is None else float(longest_step),
+        "confirm": True if confirm else None,
         "device": None if device is None else dict(device),
     }
     # Nothing is stored: repeatable.
