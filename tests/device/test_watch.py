@@ -52,6 +52,20 @@ def test_events_and_phases_are_those_of_the_path_in_their_order() -> None:
     assert len({len(progress.events) for progress in seen}) > 3
 
 
+def test_a_path_that_is_confirmed_shows_nothing_of_the_half_step_and_can_be_stopped() -> None:
+    alone, watch = PathWatch(), PathWatch()
+    assemble_pose(UNC, *PAPER, watch=alone)
+    with ThreadPoolExecutor(1) as pool:
+        seen = watched(pool.submit(assemble_pose, UNC, *PAPER, confirm=True, watch=watch), watch)
+    assert seen[-1] == alone.progress()
+    assert [progress.leg for progress in seen] == sorted(progress.leg for progress in seen)
+    assert max(progress.leg for progress in seen) == 2
+    watch.begin_confirmation()
+    watch.stop()
+    with pytest.raises(PathStoppedError):
+        assemble_pose(UNC, *PAPER, confirm=True, watch=watch)
+
+
 @pytest.mark.parametrize(("mu", "points"), [(0.0, 1), (0.02, 1), (0.02, 40)])
 def test_a_path_ends_soon_after_it_is_stopped(mu: float, points: int) -> None:
     watch = PathWatch()

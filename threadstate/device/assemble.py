@@ -81,7 +81,7 @@ def assemble_pose(
     the only one from its phase, and its outcome is certain and no other's that it has come to.
 
     With ``confirm`` a path that has an outcome is followed with half the step as well, and flagged where that changes
-    it (:func:`threadstate.device.confirmation.confirmed`).
+    it (:func:`threadstate.device.confirmation.confirmed`); what ``watch`` shows stays that of the path meanwhile.
 
     Raises:
         InvalidValueError: as :func:`threadstate.device.settle.settle_pose`; a longest step outside 0.25 to 2 deg, or
@@ -97,6 +97,7 @@ def assemble_pose(
     path = _followed(pair, wanted, held, strategy, mu, longest, watch, known)
     if not confirm or path.outcome is AssemblyOutcome.UNDECIDED:
         return path
+    watch.begin_confirmation()
     half = _followed(pair, wanted, held, strategy, mu, longest / 2.0, watch, None)
     return confirmed(path, half, longest, held.push * pair.nominal_diameter / 2.0)
 

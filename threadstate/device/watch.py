@@ -52,10 +52,13 @@ class PathWatch:
     def __init__(self) -> None:
         # Replaced as a whole, so that what another thread reads belongs together.
         self._seen: tuple[int, RunningLeg | None, tuple[PathEvent, ...]] = (0, None, ())
+        self._followed: PathProgress | None = None
         self._stopped = False
 
     def progress(self) -> PathProgress:
         """How far the path is now."""
+        if self._followed is not None:
+            return self._followed
         turn, leg, events = self._seen
         if leg is None:
             return PathProgress(turn, 0, None, events)
@@ -99,6 +102,10 @@ class PathWatch:
         """A turn has ended; ``events`` are those of the path up to here."""
         turn, _, _ = self._seen
         self._seen = (turn, None, tuple(events))
+
+    def begin_confirmation(self) -> None:
+        """The path has been followed, and is about to be once more: what is seen of it stays as it is."""
+        self._followed = self.progress()
 
     def _check(self) -> None:
         if self._stopped:
