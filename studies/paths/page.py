@@ -1,4 +1,4 @@
-"""The page of paths with friction checked by energy and by halves of the step."""
+"""The page of paths checked by halves of the step, and of those with friction by energy."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from harness.markdown import table
+from studies.paths.changes_section import changes_section
+from studies.paths.listing import listed, percentiles
 from studies.paths.study import ACCURACY, FRICTIONS, STEPS_DEG, TILT_DEG, Followed, Found, Halved
 from threadstate.device.confirmation import LEAST_FALL
 from threadstate.numbers import number_text
-
-MOST_LISTED = 40
 
 
 def page(found: Found) -> str:
@@ -23,14 +23,19 @@ def page(found: Found) -> str:
     ends = Counter(_end(path) for path in whole)
     starts_changed = [one.name for one in paths if one.starts[0] != one.starts[1]]
     halves = [_halves(found, number) for number in range(len(STEPS_DEG) - 1)]
-    return f"""# Paths with friction checked
+    return f"""# Paths checked
 
-`make paths` writes this page: bolts that settle with friction and are turned clockwise by
-{number_text(found.turn_deg)} deg ([the device](device.md#friction)), of the default pair and device. Roll and pitch
-are random within {number_text(TILT_DEG)} deg, the phase is any, the friction {", ".join(map(number_text, FRICTIONS))}
-in turns. Each path is followed with the usual longest steps, with half and with a quarter of them.
+`make paths` writes this page, of the default pair and [device](device.md). Roll and pitch are random within
+{number_text(TILT_DEG)} deg, the phase is any. Each path is followed with the usual longest steps, with half and with a
+quarter of them.
 
-Of {len(paths):,} commands:
+## Without friction
+
+{changes_section(found.frictionless)}
+## With friction
+
+Bolts that settle with friction and are turned clockwise by {number_text(found.turn_deg)} deg; the friction is
+{", ".join(map(number_text, FRICTIONS))} in turns. Of {len(paths):,} commands:
 
 {table(("start", "commands"), [[name, f"{count:,}"] for name, count in sorted(starts.items())])}
 
@@ -38,14 +43,14 @@ With half the step {len(starts_changed):,} of them start otherwise. The paths of
 
 {table(("end", "paths"), [[name, f"{count:,}"] for name, count in sorted(ends.items())])}
 
-## Energy
+### Energy
 
 Work of hand and push are the change of elastic energy, loss by friction and loss in falls; energies over push times
 nominal radius, of all paths up to their end.
 
 {_energies(found)}
 
-## Half the step
+### Half the step
 
 Paths that end turned, jammed or slipped with a longest step and with half of it, none ambiguous. A fall is given to
 within the longest step, and the end to {number_text(ACCURACY)} r: *moved falls* are paths where one is by more, or
@@ -54,7 +59,7 @@ where there are more or fewer of them; *moved ends* likewise. Falls are compared
 as steps, and one in parts.
 
 {_halves_table(halves)}
-{_listed("Other starts with half the step", starts_changed)}{"".join(_exceptions(some) for some in halves)}"""
+{listed("Other starts with half the step", starts_changed)}{"".join(_exceptions(some) for some in halves)}"""
 
 
 def _halves(found: Found, number: int) -> list[Halved]:
@@ -124,9 +129,9 @@ def _halves_table(halves: Sequence[Sequence[Halved]]) -> str:
                 f"{len(ended):,}",
                 f"{len(_other_ends(ended)):,}",
                 f"{len(_moved_falls(ended)):,}",
-                _percentiles(falls),
+                percentiles(falls),
                 f"{len(_moved_ends(ended)):,}",
-                _percentiles([one.moved for one in ended]),
+                percentiles([one.moved for one in ended]),
             ]
         )
     head = (
@@ -141,18 +146,14 @@ def _halves_table(halves: Sequence[Sequence[Halved]]) -> str:
     return table(head, rows) if rows else "None."
 
 
-def _percentiles(values: Sequence[float]) -> str:
-    return ", ".join(f"{value:.1e}" for value in np.percentile(values, (50, 90, 100))) if values else ""
-
-
 def _exceptions(ended: Sequence[Halved]) -> str:
     if not ended:
         return ""
     steps = f"steps of {number_text(ended[0].step_deg)} and {number_text(ended[0].step_deg / 2.0)} deg"
     return (
-        _listed(f"Other outcomes, {steps}", [one.name for one in _other_ends(ended)])
-        + _listed(f"Falls moved by more, {steps}", [_fall_text(one) for one in _moved_falls(ended)])
-        + _listed(f"Ends moved by more, {steps}", [f"{one.name}: {one.moved:.1e} r" for one in _moved_ends(ended)])
+        listed(f"Other outcomes, {steps}", [one.name for one in _other_ends(ended)])
+        + listed(f"Falls moved by more, {steps}", [_fall_text(one) for one in _moved_falls(ended)])
+        + listed(f"Ends moved by more, {steps}", [f"{one.name}: {one.moved:.1e} r" for one in _moved_ends(ended)])
     )
 
 
@@ -160,10 +161,3 @@ def _fall_text(one: Halved) -> str:
     if one.moved_fall_deg is not None:
         return f"{one.name}: {one.moved_fall_deg:.2f} deg"
     return f"{one.name}: {len(one.whole.falls_deg)} and {len(one.half.falls_deg)}"
-
-
-def _listed(title: str, names: Sequence[str]) -> str:
-    shown = [f"- {name}" for name in names[:MOST_LISTED]]
-    if len(names) > MOST_LISTED:
-        shown.append(f"- and {len(names) - MOST_LISTED:,} more")
-    return "\n".join(["", f"## {title}", "", *shown, ""]) if names else ""

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from studies.paths.changes import Pose
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device.command import LONGEST_STEP_WITH_FRICTION_DEG
@@ -110,6 +111,7 @@ class Found:
 
     turn_deg: float
     paths: list[Compared] = field(default_factory=list)
+    frictionless: list[Pose] = field(default_factory=list)
 
     def add(self, compared: Compared) -> None:
         """Add a path."""

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from threadstate.contact._stage_kernel import THREAD_THREAD
 from threadstate.device import _chart_kernel as ck
+from threadstate.device import _descent_kernel as dk
 from threadstate.device import _gap_kernel as gk
+from threadstate.device import _leg_kernel as lk
 from threadstate.device import _places_kernel as pl
 from threadstate.device import _rest_kernel as rk
 from threadstate.device import _thread_maximum_kernel as tm
@@ -46,7 +48,7 @@ class At(NamedTuple):
 def at_point(point: AssemblyPoint) -> At:
     device = device_numbers(UNC, HELD)
     device[ck.D_FINE] = pl.FINE
-    tk.set_phase(math.radians(point.phase_deg), command_numbers(HELD, ROLL_DEG, PITCH_DEG, 0.0), device)
+    lk.set_phase(math.radians(point.phase_deg), command_numbers(HELD, ROLL_DEG, PITCH_DEG, 0.0), device)
     place = np.empty(ck.PLACE_SIZE)
     q = np.zeros(ck.COORDINATES)
     q[:3] = np.radians(point.rotation_deg)
@@ -57,7 +59,7 @@ def at_point(point: AssemblyPoint) -> At:
     return At(device, q)
 
 
-DESCENT = rk.Descent(HELD.push, LONGEST, math.inf, LAST_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
+DESCENT = dk.Descent(HELD.push, LONGEST, math.inf, LAST_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
 
 
 @pytest.fixture(scope="module")
@@ -77,15 +79,15 @@ def test_few_searches_lead_where_a_search_after_each_step_does(points: list[Asse
             device, q = at_point(point)
             threads, work, place = pl.new_threads(BOLT), rk.new_work(), np.empty(ck.PLACE_SIZE)
             ck.set_place(q, device, place)
-            count = pl.find_places(rk.REACH * LONGEST, place, device, BOLT, NUT, threads, work.search, work.places)
+            count = pl.find_places(dk.REACH * LONGEST, place, device, BOLT, NUT, threads, work.search, work.places)
             q[:3] += math.radians(0.01)
             q[3:] += 1e-4
             given = count if known else 0
-            ended = rk.descend_with(q, given, searches, DESCENT, rk.Scene(device, BOLT, NUT, threads, work))
+            ended = dk.descend_with(q, given, searches, DESCENT, rk.Scene(device, BOLT, NUT, threads, work))
             ends.append((ended[0], q, sorted(work.places[: ended[1], gk.G_VALUE])))
         status, expected, places = ends[0]
         for other, q, values in ends[1:]:
-            if status != rk.AT_REST or other != rk.AT_REST:
+            if status != dk.AT_REST or other != dk.AT_REST:
                 continue
             assert np.abs(q - expected).max() < 1e-6 * R
             assert len(values) == len(places)
@@ -103,10 +105,10 @@ def test_a_place_that_is_not_known_is_found_where_the_bolt_rests(points: list[As
         start, place = q.copy(), np.empty(ck.PLACE_SIZE)
         threads, work = pl.new_threads(BOLT), rk.new_work()
         ck.set_place(q, device, place)
-        count = pl.find_places(rk.REACH * LONGEST, place, device, BOLT, NUT, threads, work.search, work.places)
+        count = pl.find_places(dk.REACH * LONGEST, place, device, BOLT, NUT, threads, work.search, work.places)
         work.places[0] = work.places[np.argmax(work.places[:count, gk.G_VALUE])]
-        status, found = rk.descend_followed(q, 1, DESCENT, rk.Scene(device, BOLT, NUT, threads, work))
-        assert (status, found) == (rk.AT_REST, count)
+        status, found = dk.descend_followed(q, 1, DESCENT, rk.Scene(device, BOLT, NUT, threads, work))
+        assert (status, found) == (dk.AT_REST, count)
         assert np.abs(q - start).max() < 1e-6 * R
         tried += 1
     assert tried > 0
@@ -131,7 +133,7 @@ def test_a_bolt_falls_past_a_double_root_of_its_contacts(phase_deg: float) -> No
 
 def test_no_place_within_reach_is_lost_to_the_bound_on_what_a_ridge_rises_by(points: list[AssemblyPoint]) -> None:
     """A search with six times the reach bounds no ridge near it, and has the same places up to there."""
-    reach, compared = rk.REACH * LONGEST, 0
+    reach, compared = dk.REACH * LONGEST, 0
     for point in points:
         device, q = at_point(point)
         place = np.empty(ck.PLACE_SIZE)
@@ -155,7 +157,7 @@ def test_a_ridge_that_cannot_rise_to_where_a_maximum_counts_is_not_followed(poin
         ck.set_place(q, device, place)
         places = np.zeros((pl.MAX_PLACES + 1, gk.GAP_SIZE))
         threads = pl.new_threads(BOLT)
-        count = pl.find_places(rk.REACH * LONGEST, place, device, BOLT, NUT, threads, np.zeros(pl.PLACES_WORK), places)
+        count = pl.find_places(dk.REACH * LONGEST, place, device, BOLT, NUT, threads, np.zeros(pl.PLACES_WORK), places)
         for gap in places[:count]:
             if int(gap[gk.G_PAIR]) != THREAD_THREAD or gap[gk.G_Z] > UNC.thread_pitch:
                 continue

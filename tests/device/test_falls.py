@@ -14,13 +14,15 @@ from threadstate.device import _chart_kernel as ck
 from threadstate.device import _friction_fall_kernel as ff
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
+from threadstate.device import _leg_kernel as lk
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _settle_kernel as sk
 from threadstate.device import _slide_kernel as sl
 from threadstate.device import _turn_kernel as tk
 from threadstate.device import assemble
+from threadstate.device._descent_kernel import AT_REST
 from threadstate.device._places_kernel import new_threads
-from threadstate.device._rest_kernel import AT_REST, new_work
+from threadstate.device._rest_kernel import new_work
 from threadstate.device._step_modes_kernel import new_solutions
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, ContactMotion, Held, PathEventKind
@@ -53,7 +55,7 @@ class Falling:
         _, rows = settled_rows(UNC, HELD, self.numbers, pose[None])
         height = float(rows[0][0][sk.R_HEIGHT])
         self.command = command_numbers(HELD, roll_deg, pitch_deg, height)
-        tk.set_phase(math.radians(phase_deg), self.command, self.numbers)
+        lk.set_phase(math.radians(phase_deg), self.command, self.numbers)
         self.q = np.zeros(ck.COORDINATES)
         self.q[3:] = self.numbers[ck.D_PLACE : ck.D_PLACE + 3]
         bolt, nut = UNC.bolt.packed, UNC.nut.packed
@@ -106,7 +108,7 @@ def test_next_to_without_friction_a_fall_ends_where_the_steepest_descent_does(
 ) -> None:
     flowing, descending = Falling(*pose_deg), Falling(*pose_deg)
     kind, count, ended = flowing.flow(1e-7)
-    assert (kind, ended) == (tk.ON_CONTACTS, fs.GOES_ON)
+    assert (kind, ended) == (lk.ON_CONTACTS, fs.GOES_ON)
     _, device, _, bolt, nut, threads, work, _ = descending.setting
     status, _ = tk.fall_down(descending.q, PUSH, device, bolt, nut, threads, work)
     assert status == AT_REST
@@ -122,7 +124,7 @@ def test_a_fall_ends_in_equilibrium_inside_the_cones_and_takes_energy(
     fall = Falling(*pose_deg)
     before = fall.potential()
     kind, count, ended = fall.flow(mu)
-    assert (kind, ended) == (tk.ON_CONTACTS, fs.GOES_ON)
+    assert (kind, ended) == (lk.ON_CONTACTS, fs.GOES_ON)
     contacts = [contact_of(row) for row in fall.contacts[:count]]
     assert balance(UNC, HELD, fall.q, fall.place()[:12], fall.numbers, contacts) <= BALANCED
     for contact in contacts:

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from oracle.profile import LEAD, bolt_profile, nut_profile, radius
 from threadstate.device import _chart_kernel as ck
 from threadstate.device.command import commanded_rotation
-from threadstate.device.flush import patch_hull
-from threadstate.device.model import About, Outcome
-from threadstate.device.settle import settle_poses
+from threadstate.device.flush import patch_hull, triangle_about
+from threadstate.device.model import About, Outcome, SettledFlag
+from threadstate.device.settle import settle_pose, settle_poses
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 pytestmark = pytest.mark.slow
@@ -72,3 +72,13 @@ def test_bolts_that_roll_off_their_patch_as_the_push_grows_settle() -> None:
     states = settle_poses(UNC, poses)
     assert [state.outcome for state in states] == [Outcome.SETTLED] * len(poses)
     assert all(margin is not None for margin in (state.margins.residual for state in states))
+
+
+def test_corners_that_are_as_good_as_one_make_no_side_of_a_hull() -> None:
+    """Of roll -0.896, pitch 2.318, phase 59.546 corners are 1e-8 apart: three of them had no barycentric coordinates."""
+    state = settle_pose(UNC, -0.8964154742030619, 2.3184243519860885, 59.546165956946275)
+    assert (state.outcome, state.flags) == (Outcome.SETTLED, (SettledFlag.FLUSH,))
+    hull = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])
+    corners, shares = triangle_about(hull, 0.25, 0.25)
+    assert shares @ corners == pytest.approx([0.25, 0.25])
+    assert shares.min() > 0.0

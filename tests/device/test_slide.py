@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _flush_kernel as fl
+from threadstate.device import _leg_kernel as lk
 from threadstate.device import _patch_kernel as pk
 from threadstate.device import _slide_kernel as sl
-from threadstate.device import _turn_kernel as tk
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyPath, ContactMotion, Held, PathEventKind
 from threadstate.device.command import command_numbers
@@ -103,10 +103,10 @@ def test_friction_balances_the_hand_where_the_bolt_slides_to(turn_deg: float) ->
     command = command_numbers(DEVICE, 0.5, -0.5, 0.0)
     before, place = np.zeros(ck.PLACE_SIZE), np.zeros(ck.PLACE_SIZE)
     level, lying = np.zeros(ck.COORDINATES), np.zeros(sl.LYING_SIZE)
-    tk.set_phase(math.radians(250.0), command, numbers)
+    lk.set_phase(math.radians(250.0), command, numbers)
     assert fl.set_flush(numbers, level)
     ck.set_place(level, numbers, before)
-    tk.set_phase(math.radians(250.0 + turn_deg), command, numbers)
+    lk.set_phase(math.radians(250.0 + turn_deg), command, numbers)
     stays, _ = sl.lie_flush(PUSH, MU, True, before, numbers, BOLT, NUT, level, lying)
     assert stays
     ck.set_place(level, numbers, place)

@@ -18,6 +18,7 @@ from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.device._chart_kernel import D_RIGID, D_SCALE, N_OFFSET, N_ROTATION, PLACE_SIZE, set_place
+from threadstate.device._descent_kernel import AT_REST, DEEPEST, FLUSH, SLIPPED
 from threadstate.device._flush_kernel import centre_of_pressure, set_flush
 from threadstate.device._friction_held_kernel import lay_flush
 from threadstate.device._friction_rest_kernel import rests
@@ -35,6 +36,8 @@ from threadstate.device._friction_step_kernel import (
     solve_step,
 )
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL
+from threadstate.device._knot_kernel import LOADED
+from threadstate.device._leg_kernel import M_PUSH, ON_CONTACTS, ON_SURFACE
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -51,11 +54,11 @@ from threadstate.device._modes_kernel import (
     set_contact,
 )
 from threadstate.device._places_kernel import find_places, lowest_height
-from threadstate.device._rest_kernel import AT_REST, DEEPEST, FLUSH, SLIPPED, Work, free_coordinates, set_metric
+from threadstate.device._rest_kernel import Work, free_coordinates, set_metric
 from threadstate.device._settle_kernel import distance
 from threadstate.device._slide_kernel import lies_beside
 from threadstate.device._step_modes_kernel import Setting, Solutions, touching_contacts
-from threadstate.device._turn_kernel import LOADED, M_PUSH, ON_CONTACTS, ON_SURFACE, fall_down
+from threadstate.device._turn_kernel import fall_down
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]

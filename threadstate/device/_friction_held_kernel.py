@@ -21,6 +21,7 @@ from threadstate.device._chart_kernel import (
 from threadstate.device._flush_kernel import tip_over
 from threadstate.device._friction_step_kernel import GOES_ON, ON_PATCH
 from threadstate.device._gap_kernel import G_VALUE
+from threadstate.device._leg_kernel import M_PUSH, ON_CONTACTS, ON_STRIP, ON_SURFACE
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -60,13 +61,7 @@ from threadstate.device._strip_kernel import (
 )
 from threadstate.device._strip_kernel import CONTACT_SIZE as STRIP_CONTACT_SIZE
 from threadstate.device._strip_kernel import MAX_CONTACTS as STRIP_CONTACTS
-from threadstate.device._turn_kernel import (
-    M_PUSH,
-    ON_CONTACTS,
-    ON_STRIP,
-    ON_SURFACE,
-    TIP,
-)
+from threadstate.device._turn_kernel import TIP
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]

@@ -27,6 +27,7 @@ from threadstate.device._chart_kernel import (
     elastic_energy,
     set_place,
 )
+from threadstate.device._descent_kernel import DEEPEST
 from threadstate.device._friction_fall_kernel import FRICTIONLESS, fall_with_friction
 from threadstate.device._friction_held_kernel import ENERGY_STEP, contacts_of_tip, step_held
 from threadstate.device._friction_step_kernel import (
@@ -44,6 +45,20 @@ from threadstate.device._friction_step_kernel import (
     step_with_friction,
 )
 from threadstate.device._gap_kernel import G_VALUE, GAP_SIZE
+from threadstate.device._leg_kernel import (
+    BELOW_TOP,
+    DEGREE,
+    M_ABOUT_BOLT,
+    M_LONGEST,
+    M_PUSH,
+    M_TILT,
+    ON_CONTACTS,
+    ON_STRIP,
+    ON_SURFACE,
+    SNAP_FALL,
+    SNAP_SPAN,
+    set_phase,
+)
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -54,32 +69,13 @@ from threadstate.device._modes_kernel import (
     new_modes_work,
 )
 from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, find_places, new_threads
-from threadstate.device._rest_kernel import (
-    DEEPEST,
-    new_work,
-)
+from threadstate.device._rest_kernel import new_work
 from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, distance
 from threadstate.device._slide_kernel import (
     is_level,
 )
 from threadstate.device._step_modes_kernel import DISTINCT, Setting, Solutions, new_solutions, set_guess
-from threadstate.device._turn_kernel import (
-    ABOVE,
-    BELOW_TOP,
-    DEGREE,
-    EVENT_WIDTH,
-    M_ABOUT_BOLT,
-    M_LONGEST,
-    M_PUSH,
-    M_TILT,
-    ON_CONTACTS,
-    ON_STRIP,
-    ON_SURFACE,
-    SNAP_FALL,
-    SNAP_SPAN,
-    TORQUE_LIMIT,
-    set_phase,
-)
+from threadstate.device._turn_kernel import ABOVE, EVENT_WIDTH, TORQUE_LIMIT
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]

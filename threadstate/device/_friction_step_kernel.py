@@ -15,7 +15,10 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.device._chart_kernel import D_SCALE, PLACE_SIZE, set_place
+from threadstate.device._descent_kernel import AT_REST, Descent, descend
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_POINT, GAP_SIZE
+from threadstate.device._knot_kernel import LOADED
+from threadstate.device._leg_kernel import M_PUSH
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -32,7 +35,7 @@ from threadstate.device._modes_kernel import (
     solve_mode,
 )
 from threadstate.device._places_kernel import find_places
-from threadstate.device._rest_kernel import AT_REST, Descent, Scene, Work, descend
+from threadstate.device._rest_kernel import Scene, Work
 from threadstate.device._settle_kernel import PATH_OVERLAP, PATH_TOLERANCE, distance
 from threadstate.device._step_modes_kernel import (
     BESIDE_ON_RIDGE,
@@ -44,7 +47,6 @@ from threadstate.device._step_modes_kernel import (
     is_same,
     set_guess,
 )
-from threadstate.device._turn_kernel import LOADED, M_PUSH
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -94,6 +94,10 @@ SAME_PLACE, SAME_MAXIMUM = 1e-7, 1e-6
 """Places of the same features that are nearer to each other (nominal radii) are one; so is a maximum along the threads,
 before its last digits are known, that is as near as the second to a place there."""
 
+NEARLY_LEVEL, WITHIN = 0.05, 2e-3
+"""Up to this fall of phi, over the height along the axis, from an edge's place into the threads another maximum is
+looked for beside it, from so far within (nominal radii)."""
+
 MAX_STEPS = 60
 NEWTON_STEPS = 12
 MAX_NARROWINGS = 8
@@ -417,7 +421,10 @@ def add_threads(
             theta, inward = math.atan2(y, x), -1.0
         if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
             set_thread_jet(theta, z, placement, bolt, nut, threads.jet)
-            if inward * threads.jet[TJ_B] > 0.0:
+            rise = inward * threads.jet[TJ_B]
+            if rise > -NEARLY_LEVEL:
+                # Where phi falls a little from the edge it may rise again to a maximum just within.
+                z += 0.0 if rise > 0.0 else inward * WITHIN * bolt[pk.R_MAJOR]
                 count, _ = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
     remember(edges, count, places, threads)
     return count

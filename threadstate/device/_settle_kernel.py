@@ -24,25 +24,20 @@ from threadstate.device._chart_kernel import (
     elastic_energy,
     set_place,
 )
-from threadstate.device._flush_kernel import flush_until, set_flush, tip_over
-from threadstate.device._gap_kernel import G_VALUE
-from threadstate.device._places_kernel import FINE, FINEST, forget_maxima, new_threads
-from threadstate.device._rest_kernel import (
+from threadstate.device._descent_kernel import (
     AT_REST,
     FLUSH,
     TOO_FAR,
     UNSETTLED,
     Descent,
-    Scene,
-    coordinate,
     descend,
+    descend_finely,
     descend_followed,
-    free_coordinates,
-    length_of,
-    new_work,
-    scale,
-    set_metric,
 )
+from threadstate.device._flush_kernel import flush_until, set_flush, tip_over
+from threadstate.device._gap_kernel import G_VALUE
+from threadstate.device._places_kernel import FINE, FINEST, forget_maxima, new_threads
+from threadstate.device._rest_kernel import Scene, coordinate, free_coordinates, length_of, new_work, scale, set_metric
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -226,6 +221,9 @@ def follow_push(q: Array, tip: Array, push: float, scene: Scene, result: Array, 
             copy_numbers(q, trial)
             wanted = Descent(target, FALL_STEP * r, math.inf, FALL_STEPS, PATH_TOLERANCE, PATH_OVERLAP)
             status, found = descend(trial, wanted, scene)
+            if status == UNSETTLED:
+                copy_numbers(q, trial)
+                status, found = descend_finely(trial, wanted, scene)
             if status == FLUSH:
                 set_flush(device, trial)
             if not add_fall(q, trial, target, device, result, falls):

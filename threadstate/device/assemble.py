@@ -74,11 +74,12 @@ def assemble_pose(
 
     Forces, section 5; a left-hand bolt is turned the other way round. The device is the default one of forces, section
     4, unless another is given. The path is a sequence of equilibria, at most ``longest_step`` (deg) of phase apart, and
-    0.05 deg where contacts change. It is 2 deg, or 1 deg with friction, unless another is given, and with friction the
-    push grows by at most 1/16 of its whole a step, in proportion. The same input gives the same bits. By ``watch``
-    another thread sees how far it is, and stops it. With friction ``known`` are paths from other phases, of the same
-    command else: one that comes to within 1e-4 nominal radii of one goes on as that does. It is added to them if it is
-    the only one from its phase, and its outcome is certain and no other's that it has come to.
+    0.005 deg where contacts change, 0.05 deg with friction. It is 2 deg, or 1 deg with friction, unless another is
+    given, and with friction the push grows by at most 1/16 of its whole a step, in proportion. The same input gives the
+    same bits. By ``watch`` another thread sees how far it is, and stops it. With friction ``known`` are paths from
+    other phases, of the same command else: one that comes to within 1e-4 nominal radii of one goes on as that does. It
+    is added to them if it is the only one from its phase, and its outcome is certain and no other's that it has come
+    to.
 
     With ``confirm`` a path that has an outcome is followed with half the step as well, and flagged where that changes
     it (:func:`threadstate.device.confirmation.confirmed`); what ``watch`` shows stays that of the path meanwhile.
@@ -194,9 +195,10 @@ def _path(
     balance = course.work + push - elastic - course.friction - course.falls
     energy = AssemblyEnergy(course.work, push, elastic, course.friction, course.falls, balance)
     outcome, margins = outcome_of(pair, device, strategy, course.ending, course.legs)
-    flags = () if course.reason is None else (course.reason,)
+    flags: tuple[SettledFlag, ...] = (SettledFlag.STEP_DEPENDENT,) if course.step_dependent else ()
+    flags += () if course.reason is None else (course.reason,)
     if course.ending is Ending.TURNED and not course.is_free:
-        outcome, flags = AssemblyOutcome.UNDECIDED, (SettledFlag.OVERLAP,)
+        outcome, flags = AssemblyOutcome.UNDECIDED, (*flags, SettledFlag.OVERLAP)
     travel = AssemblyTravel(
         max(abs(point.torque) for point in points),
         max(math.hypot(*point.rotation_deg) for point in points),

@@ -8,6 +8,7 @@ from enum import Enum, auto
 
 import numpy as np
 
+from threadstate.device import _leg_kernel as lk
 from threadstate.device import _turn_kernel as tk
 from threadstate.device.assembly_model import AssemblyMargins, AssemblyOutcome, AssemblyPoint
 from threadstate.device.model import Device, Limits
@@ -136,11 +137,11 @@ def allowed_tilt_deg(pair: Pair, pose: StagePose) -> float:
 
 def snap_margin(pair: Pair, points: Sequence[AssemblyPoint]) -> float:
     """By how much the deepest descent within the snap's span of phase is deeper than a snap has to be; a length."""
-    span = math.degrees(tk.SNAP_SPAN) * (1.0 + 1e-9)
+    span = math.degrees(lk.SNAP_SPAN) * (1.0 + 1e-9)
     phases = np.array([point.phase_deg for point in points])
     heights = np.array([point.pose.translation[2] for point in points])
     deepest = 0.0
     for i in range(len(points)):
         near = np.abs(phases[i] - phases[: i + 1]) <= span
         deepest = max(deepest, float(heights[: i + 1][near].max() - heights[i]))
-    return deepest - tk.SNAP_FALL * pair.thread_pitch
+    return deepest - lk.SNAP_FALL * pair.thread_pitch

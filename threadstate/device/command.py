@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.contact._stage_kernel import rotation
+from threadstate.device import _leg_kernel as lk
 from threadstate.device import _strip_kernel as st
-from threadstate.device import _turn_kernel as tk
 from threadstate.device.model import About, Device
 from threadstate.thread.pair import Pair
 from threadstate.thread.play import axial_limits
@@ -37,12 +37,12 @@ def command_numbers(
     device: Device, roll_deg: float, pitch_deg: float, height: float, longest_step_deg: float = LONGEST_STEP_DEG
 ) -> Floats:
     """A tilt, the height of the command, the push and the longest step as the kernels take them for every phase."""
-    numbers = np.zeros(tk.COMMAND_SIZE)
-    numbers[tk.M_TILT : tk.M_TILT + 9] = commanded_rotation(roll_deg, pitch_deg, 0.0, device.about)
-    numbers[tk.M_ABOUT_BOLT] = device.about is About.BOLT
-    numbers[tk.M_HEIGHT] = height
-    numbers[tk.M_PUSH] = device.push
-    numbers[tk.M_LONGEST] = math.radians(longest_step_deg)
+    numbers = np.zeros(lk.COMMAND_SIZE)
+    numbers[lk.M_TILT : lk.M_TILT + 9] = commanded_rotation(roll_deg, pitch_deg, 0.0, device.about)
+    numbers[lk.M_ABOUT_BOLT] = device.about is About.BOLT
+    numbers[lk.M_HEIGHT] = height
+    numbers[lk.M_PUSH] = device.push
+    numbers[lk.M_LONGEST] = math.radians(longest_step_deg)
     return numbers
 
 

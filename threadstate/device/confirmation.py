@@ -1,4 +1,4 @@
-"""Paths confirmed by half the step: whether their outcome and their falls hang on how long steps are."""
+"""Paths confirmed by half the step: whether outcome, falls and contacts hang on how long steps are."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
+from threadstate.device.contact_changes import compare_changes
 from threadstate.device.model import SettledFlag
 
 LEAST_FALL = 1e-3
@@ -19,12 +20,15 @@ def confirmed(path: AssemblyPath, half: AssemblyPath, longest_deg: float, energy
 
     ``energy`` is push times nominal radius. Where the outcomes differ the path is undecided, with the flag
     ``step_dependent``. Where only a snap or a fall that loses more than ``LEAST_FALL`` is moved by more than the
-    longest step, or is there with one of them alone, it has that flag beside its outcome.
+    longest step, or is there with one of them alone, it has that flag beside its outcome; without friction also where a
+    contact gained or lost is.
     """
-    flags = (*path.flags, SettledFlag.STEP_DEPENDENT)
+    flags = tuple(dict.fromkeys((*path.flags, SettledFlag.STEP_DEPENDENT)))
     if half.outcome is not path.outcome:
         return replace(path, outcome=AssemblyOutcome.UNDECIDED, flags=flags)
     is_alike = have_same_falls(path, half, longest_deg, LEAST_FALL * energy)
+    if path.mu == 0.0:
+        is_alike = is_alike and compare_changes(path, half, longest_deg).is_alike
     return path if is_alike else replace(path, flags=flags)
 
 

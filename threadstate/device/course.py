@@ -9,9 +9,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from threadstate.device import _descent_kernel as descents
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
-from threadstate.device import _rest_kernel as rest
+from threadstate.device import _leg_kernel as lk
 from threadstate.device import _settle_kernel as sk
 from threadstate.device import _turn_kernel as tk
 from threadstate.device._certificate_kernel import FREE
@@ -36,7 +37,8 @@ Floats = NDArray[np.float64]
 class Course:
     """A path as it is followed: its points, leg by leg, events and losses, and how it ended.
 
-    ``work`` is the hand's, ``is_free`` whether overlaps are excluded at the end; ``reason`` why a step has no end.
+    ``work`` is the hand's, ``is_free`` whether overlaps are excluded at the end; ``reason`` why a step has no end. A
+    course is ``step_dependent`` where a fall ends elsewhere in steps of another length.
     """
 
     legs: list[list[AssemblyPoint]] = field(default_factory=list)
@@ -46,6 +48,7 @@ class Course:
     ending: Ending = Ending.TURNED
     reason: SettledFlag | None = None
     is_free: bool = True
+    step_dependent: bool = False
 
     def add_leg(self, limits: Limits, points: list[AssemblyPoint], events: list[PathEvent]) -> int:
         """Adds a leg, up to its first point beyond a device's limits, which then ends the path; returns how many points
@@ -93,12 +96,12 @@ def without_friction(
     """The course of a plan, from the settled state's row on."""
     course = Course()
     numbers = numbers.copy()
-    is_flush = row[0][sk.R_STATUS] == rest.FLUSH
+    is_flush = row[0][sk.R_STATUS] == descents.FLUSH
     q = row[1].copy()
     if is_flush:
-        tk.set_phase(phase, command, numbers)
+        lk.set_phase(phase, command, numbers)
         q, _ = level_numbers(numbers)
-    kind = tk.ON_SURFACE if is_flush else tk.ON_CONTACTS
+    kind = lk.ON_SURFACE if is_flush else lk.ON_CONTACTS
     strip = strip_numbers(pair)
     for planned in plan:
         leg = new_leg()
@@ -110,10 +113,10 @@ def without_friction(
         status, kind = tk.turn_with(q, kind, *ends, stops_at_snap, command, numbers, strip, bolt, nut, leg)
         watch.end_leg()
         result, rows, contacts, happened = leg
-        count = int(result[tk.L_POINTS])
-        events = [turned_event(event) for event in happened[: int(result[tk.L_EVENTS])]]
+        count = int(result[lk.L_POINTS])
+        events = [turned_event(event) for event in happened[: int(result[lk.L_EVENTS])]]
         points = [turned_point(rows[i], contacts[i], numbers, command) for i in range(count)]
-        if status == tk.SNAPPED:
+        if status == lk.SNAPPED:
             events.append(snap_event(points))
         before = len(course.events)
         course.add_leg(device.limits, points, events)
@@ -121,16 +124,17 @@ def without_friction(
         watch.end_turn(course.events)
         if course.ending is not Ending.TURNED:
             break
-        course.is_free = int(result[tk.L_OVERLAP]) == FREE
-        phase = float(rows[count - 1, tk.T_PHASE])
-        if status == tk.TORQUE_PASSED:
+        course.is_free = int(result[lk.L_OVERLAP]) == FREE
+        course.step_dependent |= int(result[lk.L_UNCERTAIN]) > 0
+        phase = float(rows[count - 1, lk.T_PHASE])
+        if status == lk.TORQUE_PASSED:
             course.ending = Ending.TORQUE
-        elif status == tk.FAILED + rest.SLIPPED:
+        elif status == lk.FAILED + descents.SLIPPED:
             course.ending = Ending.SLIPPED
-        elif status not in (tk.TURNED, tk.SNAPPED):
+        elif status not in (lk.TURNED, lk.SNAPPED):
             course.ending = Ending.FAILED
-            course.reason = REASONS.get(status - tk.FAILED, SettledFlag.UNSETTLED)
-        if status != (tk.SNAPPED if stops_at_snap else tk.TURNED):
+            course.reason = REASONS.get(status - lk.FAILED, SettledFlag.UNSETTLED)
+        if status != (lk.SNAPPED if stops_at_snap else lk.TURNED):
             break
     return course
 

@@ -22,6 +22,9 @@ Floats = NDArray[np.float64]
 LEAST_SHARE = 1e-12
 """A corner of the hull that carries less of the force than this carries none: the others are in line with it."""
 
+LEAST_SINE = 1e-12
+"""The sine of the angle at a corner below which a triangle of the hull has no area."""
+
 TIP = 1e-6
 """How far (rad) a level bolt that its patch does not support is tipped, so that it touches at points."""
 
@@ -106,7 +109,7 @@ def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:
     """Three corners of a convex polygon about a point inside it, and the point's barycentric coordinates.
 
     They are one corner, the farthest from the point, and the ends of the side that the ray from it through the point
-    leaves by.
+    leaves by. Corners that are as good as one, as where edges cross, make no side.
     """
     point = np.array([x, y])
     first = int(np.argmax(np.linalg.norm(hull - point, axis=1)))
@@ -114,6 +117,9 @@ def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:
     count = len(hull)
     for i in range(1, count - 1):
         corners = hull[[first, (first + i) % count, (first + i + 1) % count]]
+        (ax, ay), (bx, by) = corners[1:] - corners[0]
+        if not ax * by - ay * bx > LEAST_SINE * math.hypot(ax, ay) * math.hypot(bx, by):
+            continue
         shares = np.linalg.solve(np.vstack([corners.T, np.ones(3)]), [x, y, 1.0])
         if shares.min() > best[0]:
             best = (float(shares.min()), i, np.asarray(shares, dtype=np.float64))

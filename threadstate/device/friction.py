@@ -13,8 +13,8 @@ from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
+from threadstate.device import _leg_kernel as lk
 from threadstate.device import _modes_kernel as mk
-from threadstate.device import _turn_kernel as tk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device._friction_fall_kernel import FRICTIONLESS
 from threadstate.device.assembly_model import AssemblyPoint, ContactMotion, Held, PathEvent, PathEventKind
@@ -102,7 +102,7 @@ class RunningFrictionLeg:
 
     def stop(self) -> None:
         """Have the kernel end it, as beyond the torque at which the bolt jams: no torque is below a negative limit."""
-        self.command[tk.M_PUSH] = -1.0
+        self.command[lk.M_PUSH] = -1.0
 
 
 @dataclass
@@ -175,7 +175,7 @@ class FrictionPath:
     def is_free(self, row: Floats) -> bool:
         """Whether overlaps are excluded where the bolt is at a point, given as its row."""
         numbers = self.numbers.copy()
-        tk.set_phase(row[fk.P_PHASE], self.command, numbers)
+        lk.set_phase(row[fk.P_PHASE], self.command, numbers)
         q = row[fk.P_COORDINATES : fk.P_COORDINATES + ck.COORDINATES].copy()
         return int(fk.certified_pose(q, numbers, self.pair.bolt.packed, self.pair.nut.packed)) == FREE
 
@@ -196,7 +196,7 @@ def begin_friction(
     One that is level and does not stay so has its contact ``on_surface``: its first step tips it.
     """
     numbers = numbers.copy()
-    tk.set_phase(phase, command, numbers)
+    lk.set_phase(phase, command, numbers)
     q = np.zeros(ck.COORDINATES)
     q[3:] = numbers[ck.D_PLACE : ck.D_PLACE + 3]
     contacts = np.zeros((ROOM, mk.CONTACT_SIZE))
@@ -209,7 +209,7 @@ def begin_friction(
 def point_of(row: Floats, contacts: Floats, numbers: Floats, command: Floats) -> AssemblyPoint:
     """A point of a path from its row."""
     numbers = numbers.copy()
-    tk.set_phase(row[fk.P_PHASE], command, numbers)
+    lk.set_phase(row[fk.P_PHASE], command, numbers)
     q = row[fk.P_COORDINATES : fk.P_COORDINATES + ck.COORDINATES]
     pose = row[fk.P_POSE : fk.P_POSE + 12]
     found = contacts[: int(row[fk.P_COUNT])]
@@ -262,7 +262,7 @@ def friction_events(points: Sequence[AssemblyPoint], rows: Floats) -> list[PathE
 
 def snap_event(points: Sequence[AssemblyPoint]) -> PathEvent:
     """The snap at the last point of a leg: the descent within its span of phase."""
-    span = math.degrees(tk.SNAP_SPAN) * (1.0 + 1e-9)
+    span = math.degrees(lk.SNAP_SPAN) * (1.0 + 1e-9)
     last = points[-1]
     near = [point for point in points if abs(last.phase_deg - point.phase_deg) <= span]
     highest = max(near, key=lambda point: point.pose.translation[2])
@@ -297,7 +297,7 @@ def settled_with_friction(device: Device, pose_deg: Floats, path: FrictionPath, 
     falls = tuple(_fall(leg.points, i) for i in range(1, len(leg.points)) if leg.points[i, fk.P_FALL] > 0.0)
     last = point_of(leg.points[-1], leg.contacts[-1], path.numbers, path.command)
     numbers = path.numbers.copy()
-    tk.set_phase(leg.points[-1, fk.P_PHASE], path.command, numbers)
+    lk.set_phase(leg.points[-1, fk.P_PHASE], path.command, numbers)
     q = leg.points[-1, fk.P_COORDINATES : fk.P_COORDINATES + ck.COORDINATES].copy()
     residual = None
     flags: tuple[SettledFlag, ...] = ()

@@ -240,6 +240,7 @@ class SettledFlag(StrEnum):
     """An overlap at the end could not be excluded."""
     STEP_DEPENDENT = "step_dependent"
     """Of a success map's path beside a boundary, or that others would go on as: with half the step it ends otherwise.
+    Of a path without friction: a fall ends elsewhere in shorter steps, or the potential rises unexplained.
     """
     TILTED = "tilted"
     """The bolt tilted by more than the flank's half-angle, where its thread can meet the nut's surface."""

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from threadstate.device import _chart_kernel as ck
+from threadstate.device import _descent_kernel as descents
 from threadstate.device import _gap_kernel as gk
-from threadstate.device import _rest_kernel as rest
 from threadstate.device import _settle_kernel as sk
 from threadstate.device._certificate_kernel import FREE
 from threadstate.device._places_kernel import FINE, MAX_PLACES
@@ -63,10 +63,10 @@ NO_FORCE = 1e-9
 FEATURES = tuple(FeaturePair)
 
 REASONS = {
-    rest.UNSETTLED: SettledFlag.UNSETTLED,
-    rest.TOO_FAR: SettledFlag.UNSETTLED,
-    rest.DEEP: SettledFlag.DEEP,
-    rest.TILTED: SettledFlag.TILTED,
+    descents.UNSETTLED: SettledFlag.UNSETTLED,
+    descents.TOO_FAR: SettledFlag.UNSETTLED,
+    descents.DEEP: SettledFlag.DEEP,
+    descents.TILTED: SettledFlag.TILTED,
     sk.NO_FIRST_CONTACT: SettledFlag.FIRST_CONTACT,
 }
 
@@ -141,7 +141,7 @@ def settled_rows(pair: Pair, device: Device, numbers: Floats, poses_deg: Floats)
     )
     for whole, some in zip(rows, part, strict=True):
         whole[chosen] = some
-    rows[0][is_flush, sk.R_STATUS] = rest.FLUSH
+    rows[0][is_flush, sk.R_STATUS] = descents.FLUSH
     rows[0][is_flush, sk.R_HEIGHT] = heights[is_flush]
     return rotations, rows
 
@@ -168,7 +168,7 @@ def path_with_friction(
         return SettledState(roll_deg, pitch_deg, phase_deg, outcome, (SettledFlag.FIRST_CONTACT,), *nothing)
     command = command_numbers(device, roll_deg, pitch_deg, float(result[sk.R_HEIGHT]), longest_step_deg)
     is_level = abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG
-    tips = is_level and result[sk.R_STATUS] != rest.FLUSH
+    tips = is_level and result[sk.R_STATUS] != descents.FLUSH
     return begin_friction(
         pair, numbers, command, strip_numbers(pair), math.radians(phase_deg), mu, watch, on_surface=tips
     )
@@ -305,7 +305,7 @@ def settled_state(
         )
 
     status = int(result[sk.R_STATUS])
-    if status == rest.FLUSH:
+    if status == descents.FLUSH:
         q, pose = level_numbers(numbers)
         contacts, pressure, residual = flush_contacts(pair, device, numbers, q, pose)
         if pressure is None or not pressure > 0.0:
@@ -313,9 +313,9 @@ def settled_state(
         if not residual <= BALANCED:
             return undecided(SettledFlag.FLUSH, SettledFlag.UNBALANCED)
         return settled(q, pose, contacts, (SettledFlag.FLUSH,), SettledMargins(None, None, None, residual, pressure))
-    if status == rest.SLIPPED:
+    if status == descents.SLIPPED:
         return undecided(outcome=Outcome.SLIPPED)
-    if status != rest.AT_REST:
+    if status != descents.AT_REST:
         return undecided(REASONS[status])
     if int(result[sk.R_OVERLAP]) != FREE:
         return undecided(SettledFlag.OVERLAP)

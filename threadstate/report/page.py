@@ -116,7 +116,7 @@ def _sure(report: Report) -> Iterator[str]:
     yield paragraph(
         "The documentation of threadstate has the rest: docs/success.md (maps), docs/device.md (the device, "
         "outcomes, flags), docs/forces.md (the model), docs/certificate.md (the contact search), "
-        "docs/paths-checked.md (paths with friction beside half the step).",
+        "docs/paths-checked.md (paths beside half the step).",
         "faint",
     )
 

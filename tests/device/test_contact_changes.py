@@ -1,0 +1,93 @@
+"""Contacts gained and lost on a path hang on the bolt, not on how long its steps are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from threadstate.device.assemble import assemble_pose
+from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEvent, PathEventKind
+from threadstate.device.contact_changes import Comparison, ContactChange, compare_changes, contact_changes
+from threadstate.device.model import SettledFlag
+from threadstate.device.strategy import Strategy
+from threadstate.state.model import FeaturePair
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+pytestmark = pytest.mark.slow
+
+UNC = quarter_twenty_unc()
+RESOLVED_DEG = 0.02
+GAINED, LOST, MOVED = PathEventKind.GAINED, PathEventKind.LOST, PathEventKind.MOVED
+EDGE, THREAD = FeaturePair.EDGE_THREAD, FeaturePair.THREAD_EDGE
+
+CASES = {
+    "two are gained and lost within a step": (-2.742742707226993, -2.095902380267738, 39.94111007208528),
+    "another one of the same features beside it": (-2.3755744498838967, -3.933979517669963, 30.061295091703684),
+    "lost and gained elsewhere": (-0.026066807652257218, 3.3674105523929265, 151.238672917897),
+    "a maximum just within the edge": (-3.2353832990191798, -2.7722516343658636, 314.9378386975877),
+    "a minimum that ends in a fold": (-3.640821439054138, -3.154783963693709, 9.401046893915268),
+}
+
+
+@pytest.mark.parametrize("pose_deg", CASES.values(), ids=CASES.keys())
+def test_half_the_step_neither_adds_nor_moves_a_change(pose_deg: tuple[float, float, float]) -> None:
+    path, half = (assemble_pose(UNC, *pose_deg, longest_step=step) for step in (2.0, 1.0))
+    assert half.outcome is path.outcome is not AssemblyOutcome.UNDECIDED
+    found = compare_changes(path, half, RESOLVED_DEG)
+    assert found.is_alike
+    assert len(found.apart_deg) > 5
+
+
+def test_changes_are_told_within_a_small_step() -> None:
+    path = assemble_pose(UNC, *CASES["two are gained and lost within a step"])
+    widths = [abs(event.phase_deg - event.from_deg) for event in path.events if event.kind in (GAINED, LOST, MOVED)]
+    assert max(widths) <= 0.005 * (1.0 + 1e-6)
+    assert all(math.isfinite(width) for width in widths)
+
+
+def test_a_path_goes_on_where_a_contact_crosses_a_crease() -> None:
+    """Either side of the crease leads to the other: a step of the descent has to make it smaller."""
+    path = assemble_pose(UNC, -1.8661314301860763, -2.320878958908146, 101.22638943044477)
+    assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
+    assert not any(event.kind is PathEventKind.BRIDGED for event in path.events)
+
+
+def test_a_fall_that_hangs_on_its_steps_ends_as_with_shorter_ones_and_is_flagged() -> None:
+    """Beside where descents part long steps end 5e-4 F r deeper, in another minimum."""
+    paths = [
+        assemble_pose(UNC, 1.3929979516302895, 0.722072336985554, 278.86500036401236, longest_step=step)
+        for step in (2.0, 1.0)
+    ]
+    falls = [[event.energy for event in path.events if event.kind is PathEventKind.FALL] for path in paths]
+    assert falls[0] == pytest.approx(falls[1], rel=2e-2)
+    assert any(SettledFlag.STEP_DEPENDENT in path.flags for path in paths)
+
+
+def path_with(*events: PathEvent) -> AssemblyPath:
+    return replace(assemble_pose(UNC, 1.0, -2.0, 10.0, strategy=Strategy.CW), events=events)
+
+
+def change(kind: PathEventKind, phase_deg: float, features: FeaturePair = EDGE) -> PathEvent:
+    gained = kind is GAINED
+    return PathEvent(kind, phase_deg, phase_deg, None if gained else features, features if gained else None)
+
+
+def test_a_contact_that_moves_is_lost_and_gained() -> None:
+    moved = PathEvent(MOVED, 10.0, 10.0, EDGE, THREAD)
+    assert contact_changes(path_with(moved)) == [ContactChange(GAINED, THREAD, 10.0), ContactChange(LOST, EDGE, 10.0)]
+
+
+def test_changes_that_one_path_has_alone_are_told() -> None:
+    one = path_with(change(GAINED, 10.0), change(LOST, 5.0))
+    other = path_with(change(GAINED, 10.25), change(LOST, 3.0))
+    alone = ((ContactChange(LOST, EDGE, 5.0),), (ContactChange(LOST, EDGE, 3.0),))
+    assert compare_changes(one, other, 1.0) == Comparison((0.25,), *alone)
+
+
+def test_an_exchange_for_one_of_the_same_features_is_left_out() -> None:
+    none, other = path_with(), path_with(change(GAINED, 10.0, THREAD), change(LOST, 10.0))
+    assert compare_changes(path_with(change(GAINED, 10.0), change(LOST, 9.995)), none, 1.0).is_alike
+    assert not compare_changes(path_with(change(GAINED, 10.0), change(LOST, 9.9)), none, 1.0).is_alike
+    assert not compare_changes(other, none, 1.0).is_alike
