@@ -18,6 +18,7 @@ from threadstate.device import _knot_kernel as kk
 from threadstate.device import _leg_kernel as lk
 from threadstate.device import _places_kernel as pl
 from threadstate.device import _rest_kernel as rk
+from threadstate.device import _span_kernel as sp
 from threadstate.device._settle_kernel import END_OVERLAP, END_TOLERANCE, LAST_STEPS
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyPoint, Held
@@ -80,12 +81,12 @@ def neighbours(device: Device) -> list[tuple[Settled, Settled, Settled]]:
         before, here, after = (settled_at(device, point, step) for step in (-STEP, 0.0, STEP))
         if before is None or here is None or after is None:
             continue
-        spans = np.empty((kk.MAX_SPANS, kk.SPAN_SIZE))
+        spans = np.empty((sp.MAX_SPANS, sp.SPAN_SIZE))
         is_alike = True
         for one, other in ((before, here), (here, after)):
-            total = kk.set_spans(one.knot, other.knot, device.push, one.scene, spans)
-            is_alike &= not kk.changes(total, one.knot, other.knot, spans)
-            is_alike &= not kk.hides_change(total, STEP, one.knot, other.knot, spans, BOLT)
+            total = sp.set_spans(one.knot, other.knot, device.push, one.scene, spans)
+            is_alike &= not sp.changes(total, one.knot, other.knot, spans)
+            is_alike &= not sp.hides_change(total, STEP, one.knot, other.knot, spans, BOLT)
         bends = np.abs(before.knot.drift - after.knot.drift).max() > 0.01 * R
         if is_alike and not bends:
             found.append((before, here, after))
@@ -97,19 +98,19 @@ def neighbours(device: Device) -> list[tuple[Settled, Settled, Settled]]:
 def test_a_points_derivatives_are_those_of_differences(about: About) -> None:
     """Of coordinates, multipliers and gaps; a central difference over 0.2 deg."""
     device = replace(default_device().in_unit(UNC.unit), about=about)
-    spans = np.empty((kk.MAX_SPANS, kk.SPAN_SIZE))
+    spans = np.empty((sp.MAX_SPANS, sp.SPAN_SIZE))
     compared = 0
     for before, here, after in neighbours(device):
         assert here.knot.numbers[kk.K_RATED] == 1
         slope = (after.q - before.q) / (2.0 * STEP)
         assert np.abs(here.knot.drift - slope).max() < 2e-3 * max(np.abs(slope).max(), R)
-        total = kk.set_spans(before.knot, after.knot, device.push, before.scene, spans)
+        total = sp.set_spans(before.knot, after.knot, device.push, before.scene, spans)
         for span in spans[:total]:
-            if span[kk.SPAN_WHOLE] == 0.0:
+            if span[sp.SPAN_WHOLE] == 0.0:
                 continue
-            first = kk.SPAN_MULTIPLIER if span[kk.SPAN_WAS] > 0.0 else kk.SPAN_OPENING
+            first = sp.SPAN_MULTIPLIER if span[sp.SPAN_WAS] > 0.0 else sp.SPAN_OPENING
             a, slope_a, b, slope_b = span[first : first + 4]
-            size = max(abs(slope_a), abs(slope_b), device.push if first == kk.SPAN_MULTIPLIER else 1e-2 * R)
+            size = max(abs(slope_a), abs(slope_b), device.push if first == sp.SPAN_MULTIPLIER else 1e-2 * R)
             assert abs(0.5 * (slope_a + slope_b) - (b - a) / (2.0 * STEP)) < 5e-3 * size
             compared += 1
     assert compared > 20
@@ -117,16 +118,16 @@ def test_a_points_derivatives_are_those_of_differences(about: About) -> None:
 
 def test_places_are_the_same_ones_from_either_end() -> None:
     device = default_device().in_unit(UNC.unit)
-    spans, back = np.empty((kk.MAX_SPANS, kk.SPAN_SIZE)), np.empty((kk.MAX_SPANS, kk.SPAN_SIZE))
+    spans, back = np.empty((sp.MAX_SPANS, sp.SPAN_SIZE)), np.empty((sp.MAX_SPANS, sp.SPAN_SIZE))
     for _, here, after in neighbours(device):
-        total = kk.set_spans(here.knot, after.knot, device.push, here.scene, spans)
-        count = kk.set_spans(after.knot, here.knot, device.push, here.scene, back)
-        pairs = {(int(span[kk.SPAN_FROM]), int(span[kk.SPAN_TO])) for span in spans[:total]}
-        assert {(int(span[kk.SPAN_TO]), int(span[kk.SPAN_FROM])) for span in back[:count]} == pairs
-        of_contacts = [span for span in spans[:total] if span[kk.SPAN_WAS] > 0.0]
+        total = sp.set_spans(here.knot, after.knot, device.push, here.scene, spans)
+        count = sp.set_spans(after.knot, here.knot, device.push, here.scene, back)
+        pairs = {(int(span[sp.SPAN_FROM]), int(span[sp.SPAN_TO])) for span in spans[:total]}
+        assert {(int(span[sp.SPAN_TO]), int(span[sp.SPAN_FROM])) for span in back[:count]} == pairs
+        of_contacts = [span for span in spans[:total] if span[sp.SPAN_WAS] > 0.0]
         assert of_contacts
         for span in of_contacts:
-            was, now = here.knot.places[int(span[kk.SPAN_FROM])], after.knot.places[int(span[kk.SPAN_TO])]
+            was, now = here.knot.places[int(span[sp.SPAN_FROM])], after.knot.places[int(span[sp.SPAN_TO])]
             assert math.dist(was[gk.G_POINT : gk.G_POINT + 3], now[gk.G_POINT : gk.G_POINT + 3]) < 0.05 * R
 
 
@@ -142,7 +143,7 @@ def test_the_least_of_a_cubic_is_that_of_many_samples() -> None:
             + (3.0 * (b - a) - h * (2.0 * a1 + b1)) * parts**2
             + (2.0 * (a - b) + h * (a1 + b1)) * parts**3
         )
-        least = kk.least_between(a, a1, b, b1, h)
+        least = sp.least_between(a, a1, b, b1, h)
         assert least <= cubic.min() + 1e-12
         assert least == pytest.approx(cubic.min(), abs=1e-8)
 
@@ -160,11 +161,11 @@ def test_a_change_is_expected_where_a_force_or_a_gap_goes_to_zero(
     was: tuple[float, ...], now: tuple[float, ...], expected: float
 ) -> None:
     """Multiplier, its derivative, gap and its derivative at both ends of a step of 1."""
-    span = np.zeros((1, kk.SPAN_SIZE))
-    span[0, kk.SPAN_WAS], span[0, kk.SPAN_IS], span[0, kk.SPAN_WHOLE] = was[0] > 0.0, now[0] > 0.0, 1.0
+    span = np.zeros((1, sp.SPAN_SIZE))
+    span[0, sp.SPAN_WAS], span[0, sp.SPAN_IS], span[0, sp.SPAN_WHOLE] = was[0] > 0.0, now[0] > 0.0, 1.0
     for end, numbers in enumerate((was, now)):
-        span[0, kk.SPAN_MULTIPLIER + 2 * end : kk.SPAN_MULTIPLIER + 2 * end + 2] = numbers[:2]
-        span[0, kk.SPAN_OPENING + 2 * end : kk.SPAN_OPENING + 2 * end + 2] = numbers[2:]
-    assert kk.first_change(1, 1.0, span) == pytest.approx(expected)
-    span[0, kk.SPAN_IS] = span[0, kk.SPAN_WAS]
-    assert math.isnan(kk.first_change(1, 1.0, span))
+        span[0, sp.SPAN_MULTIPLIER + 2 * end : sp.SPAN_MULTIPLIER + 2 * end + 2] = numbers[:2]
+        span[0, sp.SPAN_OPENING + 2 * end : sp.SPAN_OPENING + 2 * end + 2] = numbers[2:]
+    assert sp.first_change(1, 1.0, span) == pytest.approx(expected)
+    span[0, sp.SPAN_IS] = span[0, sp.SPAN_WAS]
+    assert math.isnan(sp.first_change(1, 1.0, span))

@@ -75,7 +75,7 @@ def test_bolts_that_roll_off_their_patch_as_the_push_grows_settle() -> None:
 
 
 def test_corners_that_are_as_good_as_one_make_no_side_of_a_hull() -> None:
-    """Of roll -0.896, pitch 2.318, phase 59.546 corners are 1e-8 apart: three of them had no barycentric coordinates."""
+    """At roll -0.896, pitch 2.318, phase 59.546 some are 1e-8 apart: three of them had no barycentric coordinates."""
     state = settle_pose(UNC, -0.8964154742030619, 2.3184243519860885, 59.546165956946275)
     assert (state.outcome, state.flags) == (Outcome.SETTLED, (SettledFlag.FLUSH,))
     hull = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])

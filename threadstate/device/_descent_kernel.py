@@ -49,7 +49,6 @@ from threadstate.device._rest_kernel import (
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 AT_REST, TOO_FAR, UNSETTLED, FLUSH, SLIPPED, DEEP, TILTED = range(7)
 """How a descent ends: at a minimum; farther from its start than allowed; not within its steps; at the level pose on the

@@ -22,15 +22,8 @@ from threadstate.device._chart_kernel import (
     set_place,
 )
 from threadstate.device._gap_kernel import G_PAIR, G_POINT, GAP_SIZE
-from threadstate.device._knot_kernel import (
-    K_CONTACTS,
-    SPAN_FROM,
-    SPAN_IS,
-    SPAN_TO,
-    SPAN_WAS,
-    Knot,
-    has_moved,
-)
+from threadstate.device._knot_kernel import K_CONTACTS, Knot
+from threadstate.device._span_kernel import SPAN_FROM, SPAN_IS, SPAN_TO, SPAN_WAS, has_moved
 from threadstate.device._strip_kernel import (
     C_FORCE,
     C_NORMAL,

@@ -29,21 +29,7 @@ from threadstate.device._chart_kernel import (
 from threadstate.device._descent_kernel import AT_REST, FLUSH, TOO_FAR, UNSETTLED, Descent, descend, descend_followed
 from threadstate.device._flush_kernel import centre_of_pressure, flush_until, set_flush, tip_over
 from threadstate.device._gap_kernel import G_VALUE
-from threadstate.device._knot_kernel import (
-    K_CONTACTS,
-    K_PLACES,
-    K_RATED,
-    MAX_SPANS,
-    SPAN_SIZE,
-    Knot,
-    changes,
-    copy_knot,
-    first_change,
-    hides_change,
-    new_knot,
-    set_knot,
-    set_spans,
-)
+from threadstate.device._knot_kernel import K_CONTACTS, K_PLACES, Knot, copy_knot, new_knot, set_bend, set_knot
 from threadstate.device._leg_kernel import (
     BRIDGED,
     DEGREE,
@@ -62,6 +48,7 @@ from threadstate.device._leg_kernel import (
     ON_STRIP,
     ON_SURFACE,
     SNAPPED,
+    T_PHASE,
     T_POTENTIAL,
     T_TORQUE,
     TORQUE_PASSED,
@@ -92,6 +79,7 @@ from threadstate.device._settle_kernel import (
     STEP_LENGTH,
     distance,
 )
+from threadstate.device._span_kernel import MAX_SPANS, SPAN_SIZE, changes, first_change, hides_change, set_spans
 from threadstate.device._strip_kernel import (
     C_FORCE,
     C_NORMAL,
@@ -448,6 +436,37 @@ def refused(target: float, changed: bool, width: float, at: float, lost: float, 
 
 
 @kernel()
+def unexplained(trial: Array, there: Knot, target: float, setting: Setting, leg: Leg) -> float:
+    """The potential lost in a step to a phase that the torque, by the trapezoid, does not explain."""
+    command, device, _, _, _, _, _ = setting
+    result, points, _, _ = leg
+    last = int(result[L_POINTS]) - 1
+    lost = points[last, T_POTENTIAL] - potential_of(trial, command[M_PUSH], device)
+    torque = torque_of(trial, there.numbers[K_CONTACTS], there.contacts, command, device)
+    return lost + 0.5 * (points[last, T_TORQUE] + torque) * (target - points[last, T_PHASE])
+
+
+@kernel()
+def go_on(target: float, kind: int, is_smooth: bool, after_change: bool, longest: float, state: Array) -> None:
+    """Sets the state of a leg after a step to a phase, and how long the next one is at most.
+
+    ``after_change`` is True where contacts have changed without a fall: the path is smooth again from there.
+    """
+    next_step = FIRST_STEP if after_change else 2.0 * abs(target - state[S_PHASE])
+    # The change that this step was to end before comes now, or half-way at most.
+    beyond = abs(state[S_CHANGE] - target)
+    if not is_smooth or not beyond > LEAST_STEP:
+        state[S_CHANGE] = math.nan
+    elif 0.0 < state[S_AIMED] < HALVED:
+        next_step = CHANGE_WIDTH
+    else:
+        next_step = max(0.5 * beyond, min(beyond, CHANGE_WIDTH))
+    state[S_PHASE], state[S_KIND], state[S_STEP] = target, kind, min(next_step, longest)
+    state[S_AIMED], state[S_BRIDGING], state[S_FALLING] = 0.0, 0.0, 0.0
+    state[S_FINE] = state[S_FINE] if is_smooth else 0.0
+
+
+@kernel()
 def step_on(
     end: float, q: Array, state: Array, setting: Setting, here: Knot, there: Knot, spans: Array, leg: Leg
 ) -> tuple[int, int]:
@@ -456,25 +475,20 @@ def step_on(
     ``q``, state and the knot ``here`` are those after the step where it is taken.
     """
     command, device, _, bolt, nut, threads, work = setting
-    result, points, _, events = leg
+    result, _, _, events = leg
     push = command[M_PUSH]
     trial = np.empty(COORDINATES)
     before, kind = state[S_PHASE], int(state[S_KIND])
     left = abs(end - before)
     size = min(state[S_STEP], left)
     target = end if size == left else before + (size if end > before else -size)
-    unit = push * bolt[pk.R_MAJOR]
+    step, unit = target - before, push * bolt[pk.R_MAJOR]
     verdict, status, next_kind = try_step(target, left, q, state, setting, here, trial, there, leg)
     if verdict != TAKEN:
         return verdict, status
-    next_count = there.numbers[K_CONTACTS]
-    last = int(result[L_POINTS]) - 1
-    lost = points[last, T_POTENTIAL] - potential_of(trial, push, device)
-    next_torque = torque_of(trial, next_count, there.contacts, command, device)
-    lost += 0.5 * (points[last, T_TORQUE] + next_torque) * (target - before)
+    lost = unexplained(trial, there, target, setting, leg)
     on_contacts = kind == ON_CONTACTS and next_kind == ON_CONTACTS
     total = set_spans(here, there, push, Scene(device, bolt, nut, threads, work), spans) if on_contacts else 0
-    step = target - before
     changed, at, width = changes(total, here, there, spans), math.nan, math.inf
     if next_kind != kind:
         width = EVENT_WIDTH
@@ -495,23 +509,9 @@ def step_on(
     if bridged:
         add_event(BRIDGED, target, before, -1.0, -1.0, result, events)
     is_smooth = on_contacts and not changed and not fell and not bridged
-    if is_smooth and here.numbers[K_RATED] > 0 and there.numbers[K_RATED] > 0:
-        for j in range(COORDINATES):
-            there.bend[j] = (there.drift[j] - here.drift[j]) / step
-    next_step = 2.0 * size
-    if changed and not fell:
-        next_step = FIRST_STEP
-    # The change that this step was to end before comes now, or half-way at most.
-    beyond = abs(state[S_CHANGE] - target)
-    if not is_smooth or not beyond > LEAST_STEP:
-        state[S_CHANGE] = math.nan
-    elif 0.0 < state[S_AIMED] < HALVED:
-        next_step = CHANGE_WIDTH
-    else:
-        next_step = max(0.5 * beyond, min(beyond, CHANGE_WIDTH))
-    state[S_PHASE], state[S_KIND], state[S_STEP] = target, next_kind, min(next_step, command[M_LONGEST])
-    state[S_AIMED], state[S_BRIDGING], state[S_FALLING] = 0.0, 0.0, 0.0
-    state[S_FINE] = state[S_FINE] if is_smooth else 0.0
+    if is_smooth:
+        set_bend(step, here, there)
+    go_on(target, next_kind, is_smooth, changed and not fell, command[M_LONGEST], state)
     copy_numbers(trial, q)
     copy_knot(there, here)
     return TAKEN, status
