@@ -187,8 +187,7 @@ def _path(
     pair: Pair, device: Device, start: SettledState, strategy: Strategy, mu: float, course: Course
 ) -> AssemblyPath:
     """The path of a course."""
-    # A leg begins where the one before ended.
-    points = [*course.legs[0], *(point for leg in course.legs[1:] for point in leg[1:])]
+    points = course.points
     first, last = points[0], points[-1]
     elastic = last.elastic_energy - first.elastic_energy
     push = (first.potential - first.elastic_energy) - (last.potential - last.elastic_energy)

@@ -64,12 +64,16 @@ class Course:
         return len(points)
 
     @property
+    def points(self) -> list[AssemblyPoint]:
+        """The points of all legs; a leg begins where the one before ended."""
+        return [*self.legs[0], *(point for leg in self.legs[1:] for point in leg[1:])]
+
+    @property
     def work(self) -> float:
         """The torque summed over the phase, by trapezoids."""
         return sum(
             0.5 * (before.torque + after.torque) * math.radians(after.phase_deg - before.phase_deg)
-            for leg in self.legs
-            for before, after in pairwise(leg)
+            for before, after in pairwise(self.points)
         )
 
 
