@@ -226,6 +226,16 @@ def has_moved(span: Array, one: Knot, other: Knot) -> bool:
 
 
 @kernel(allocates=False)
+def first_missed(total: int, spans: Array, bolt: Array) -> int:
+    """The first span of a place that is known at its end alone, and overlaps at its beginning; -1 where none does."""
+    for k in range(total):
+        is_new = spans[k, SPAN_WHOLE] > 0.0 and spans[k, SPAN_FROM] < 0.0
+        if is_new and spans[k, SPAN_OPENING] < -LEAST_DIP * bolt[pk.R_MAJOR]:
+            return k
+    return -1
+
+
+@kernel(allocates=False)
 def first_change(total: int, step: float, spans: Array) -> float:
     """About where in a step of the phase the first of its changes comes, from its beginning; NaN where none is sure.
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
+from threadstate.contact._stage_kernel import THREAD_THREAD
 from threadstate.contact._stage_kernel import Work as StageWork
 from threadstate.contact._stage_kernel import new_work as new_stage
 from threadstate.device._certificate_kernel import FREE, overlap
@@ -28,14 +29,16 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._descent_kernel import AT_REST, FLUSH, TOO_FAR, UNSETTLED, Descent, descend, descend_followed
 from threadstate.device._flush_kernel import centre_of_pressure, flush_until, set_flush, tip_over
-from threadstate.device._gap_kernel import G_VALUE
+from threadstate.device._gap_kernel import G_PAIR, G_THETA, G_VALUE, G_Z
 from threadstate.device._knot_kernel import K_CONTACTS, K_PLACES, Knot, copy_knot, new_knot, set_bend, set_knot
 from threadstate.device._leg_kernel import (
     BRIDGED,
     DEGREE,
+    E_PHASE,
     FAILED,
     FULL,
     L_DESCENTS,
+    L_EVENTS,
     L_FAILURES,
     L_OVERLAP,
     L_POINTS,
@@ -48,6 +51,8 @@ from threadstate.device._leg_kernel import (
     ON_STRIP,
     ON_SURFACE,
     SNAPPED,
+    T_COORDINATES,
+    T_KIND,
     T_PHASE,
     T_POTENTIAL,
     T_TORQUE,
@@ -65,7 +70,8 @@ from threadstate.device._leg_kernel import (
     set_phase,
     torque_of,
 )
-from threadstate.device._places_kernel import FINE, FINEST, Threads, new_threads
+from threadstate.device._place_near_kernel import follow_place
+from threadstate.device._places_kernel import FINE, FINEST, MAX_KNOWN, Threads, new_threads, set_known
 from threadstate.device._rest_kernel import Scene, Work, new_work
 from threadstate.device._settle_kernel import (
     END_OVERLAP,
@@ -79,7 +85,17 @@ from threadstate.device._settle_kernel import (
     STEP_LENGTH,
     distance,
 )
-from threadstate.device._span_kernel import MAX_SPANS, SPAN_SIZE, changes, first_change, hides_change, set_spans
+from threadstate.device._span_kernel import (
+    LEAST_DIP,
+    MAX_SPANS,
+    SPAN_SIZE,
+    SPAN_TO,
+    changes,
+    first_change,
+    first_missed,
+    hides_change,
+    set_spans,
+)
 from threadstate.device._strip_kernel import (
     C_FORCE,
     C_NORMAL,
@@ -131,6 +147,9 @@ LONGER = 2.5
 FALL_ALIKE = 1e-4
 """How near to each other (nominal radii) a fall ends in longer and in shorter steps."""
 
+MOST_REWOUND = 8.0
+"""How often a leg is taken back at most to before a contact that was missed."""
+
 NEAR_STEPS, SLOW_STEPS, TURN_FALL_STEPS = 12, 48, 300
 """Steps of a descent to a minimum near by, of one after a step of at most ``EVENT_WIDTH``, as beside the end of a
 minimum it takes many, and of that of a fall."""
@@ -140,10 +159,10 @@ TORQUE_LIMIT = 20.0
 
 # Where a leg is: phase and next step (rad), what holds the bolt, how the next step was chosen and the phase up to which
 # contacts are known to change (NaN: none is), whether edges are sampled most finely until contacts change, whether
-# longer steps are tried, whether the bolt falls next; and how many places the last descent has found, from which the
-# next one follows them.
-S_PHASE, S_STEP, S_KIND, S_AIMED, S_CHANGE, S_FINE, S_BRIDGING, S_FALLING, S_KNOWN = range(9)
-STATE_SIZE = 9
+# longer steps are tried, whether the bolt falls next; how many places the last descent has found, from which the
+# next one follows them; and how often the path has been taken back.
+S_PHASE, S_STEP, S_KIND, S_AIMED, S_CHANGE, S_FINE, S_BRIDGING, S_FALLING, S_KNOWN, S_REWOUND = range(10)
+STATE_SIZE = 10
 
 # How a step was chosen: not by a change, to end before one by its first or second estimate, or by halving.
 AIMED_TWICE, HALVED = 2.0, 3.0
@@ -467,6 +486,68 @@ def go_on(target: float, kind: int, is_smooth: bool, after_change: bool, longest
 
 
 @kernel()
+def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, here: Knot) -> int:
+    """Sets the state of a leg and its contacts at its beginning; how the descent there ended."""
+    command, device, _, _, _, _, _ = setting
+    trial = np.empty(COORDINATES)
+    for j in range(STATE_SIZE):
+        state[j] = 0.0
+    state[S_PHASE], state[S_STEP], state[S_KIND] = start, min(FIRST_STEP, command[M_LONGEST]), kind
+    state[S_CHANGE] = math.nan
+    set_phase(start, command, device)
+    device[D_FINE] = FINE
+    if kind != ON_CONTACTS:
+        closed_step(kind, q, setting, here, trial)
+        return AT_REST
+    status, found = descent_near(q, 0, LAST_STEPS, setting)
+    state[S_KNOWN] = found if status == AT_REST else 0.0
+    set_found(found, setting, here)
+    return status
+
+
+@kernel()
+def overlaps_at(i: int, gap: Array, setting: Setting, leg: Leg) -> bool:
+    """Whether a place of overlap, followed in place to a point of the path, overlaps there."""
+    command, device, _, bolt, nut, threads, work = setting
+    _, points, _, _ = leg
+    place = np.empty(PLACE_SIZE)
+    set_phase(points[i, T_PHASE], command, device)
+    set_place(points[i, T_COORDINATES : T_COORDINATES + COORDINATES], device, place)
+    if not follow_place(gap, place, device, bolt, nut, threads, work.search):
+        return False
+    return gap[G_VALUE] > LEAST_DIP * bolt[pk.R_MAJOR]
+
+
+@kernel()
+def go_back(missed: Array, q: Array, state: Array, setting: Setting, here: Knot, leg: Leg) -> bool:
+    """Takes a path back to before a place overlaps that the search has missed until now, and has it known there.
+
+    False where it is not to be found so: the path goes on as it is.
+    """
+    _, _, _, _, _, threads, _ = setting
+    result, points, _, events = leg
+    gap, last = missed.copy(), int(result[L_POINTS]) - 1
+    i = last
+    while i >= 0 and points[i, T_KIND] == ON_CONTACTS and overlaps_at(i, gap, setting, leg):
+        copy_numbers(gap, missed)
+        i -= 1
+    if i == last or i < 0 or points[i, T_KIND] != ON_CONTACTS:
+        return False
+    ahead = points[last, T_PHASE] - points[i, T_PHASE]
+    result[L_POINTS] = i + 1
+    while result[L_EVENTS] > 0 and (events[int(result[L_EVENTS]) - 1, E_PHASE] - points[i, T_PHASE]) * ahead > 0.0:
+        result[L_EVENTS] -= 1
+    if missed[G_PAIR] == THREAD_THREAD and threads.known_count[0] < MAX_KNOWN:
+        set_known(missed[G_THETA], missed[G_Z], 0.0, threads.known[threads.known_count[0]])
+        threads.known_count[0] += 1
+    copy_numbers(points[i, T_COORDINATES : T_COORDINATES + COORDINATES], q)
+    rewound = state[S_REWOUND] + 1.0
+    begin(q, ON_CONTACTS, points[i, T_PHASE], state, setting, here)
+    state[S_REWOUND], state[S_FINE] = rewound, 1.0
+    return True
+
+
+@kernel()
 def step_on(
     end: float, q: Array, state: Array, setting: Setting, here: Knot, there: Knot, spans: Array, leg: Leg
 ) -> tuple[int, int]:
@@ -489,6 +570,13 @@ def step_on(
     lost = unexplained(trial, there, target, setting, leg)
     on_contacts = kind == ON_CONTACTS and next_kind == ON_CONTACTS
     total = set_spans(here, there, push, Scene(device, bolt, nut, threads, work), spans) if on_contacts else 0
+    missed = first_missed(total, spans, bolt) if state[S_FALLING] + state[S_BRIDGING] == 0.0 else -1
+    if missed >= 0 and state[S_REWOUND] < MOST_REWOUND:
+        place = there.places[int(spans[missed, SPAN_TO])].copy()
+        if go_back(place, q, state, setting, here, leg):
+            return AGAIN, status
+        state[S_REWOUND] = MOST_REWOUND
+        set_phase(target, command, device)
     changed, at, width = changes(total, here, there, spans), math.nan, math.inf
     if next_kind != kind:
         width = EVENT_WIDTH
@@ -515,26 +603,6 @@ def step_on(
     copy_numbers(trial, q)
     copy_knot(there, here)
     return TAKEN, status
-
-
-@kernel()
-def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, here: Knot) -> int:
-    """Sets the state of a leg and its contacts at its beginning; how the descent there ended."""
-    command, device, _, _, _, _, _ = setting
-    trial = np.empty(COORDINATES)
-    for j in range(STATE_SIZE):
-        state[j] = 0.0
-    state[S_PHASE], state[S_STEP], state[S_KIND] = start, min(FIRST_STEP, command[M_LONGEST]), kind
-    state[S_CHANGE] = math.nan
-    set_phase(start, command, device)
-    device[D_FINE] = FINE
-    if kind != ON_CONTACTS:
-        closed_step(kind, q, setting, here, trial)
-        return AT_REST
-    status, found = descent_near(q, 0, LAST_STEPS, setting)
-    state[S_KNOWN] = found if status == AT_REST else 0.0
-    set_found(found, setting, here)
-    return status
 
 
 @kernel()
