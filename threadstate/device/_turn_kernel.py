@@ -164,6 +164,9 @@ TORQUE_LIMIT = 20.0
 S_PHASE, S_STEP, S_KIND, S_AIMED, S_CHANGE, S_FINE, S_BRIDGING, S_FALLING, S_KNOWN, S_REWOUND = range(10)
 STATE_SIZE = 10
 
+ALWAYS = 2.0
+"""Edges are sampled most finely to the end of the leg, not until contacts change (1)."""
+
 # How a step was chosen: not by a change, to end before one by its first or second estimate, or by halving.
 AIMED_TWICE, HALVED = 2.0, 3.0
 
@@ -482,12 +485,15 @@ def go_on(target: float, kind: int, is_smooth: bool, after_change: bool, longest
         next_step = max(0.5 * beyond, min(beyond, CHANGE_WIDTH))
     state[S_PHASE], state[S_KIND], state[S_STEP] = target, kind, min(next_step, longest)
     state[S_AIMED], state[S_BRIDGING], state[S_FALLING] = 0.0, 0.0, 0.0
-    state[S_FINE] = state[S_FINE] if is_smooth else 0.0
+    state[S_FINE] = state[S_FINE] if is_smooth or state[S_FINE] == ALWAYS else 0.0
 
 
 @kernel()
-def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, here: Knot) -> int:
-    """Sets the state of a leg and its contacts at its beginning; how the descent there ended."""
+def begin(q: Array, kind: int, start: float, parts: int, state: Array, setting: Setting, here: Knot) -> int:
+    """Sets the state of a leg and its contacts at its beginning; how the descent there ended.
+
+    Intervals of edges are divided into so many parts.
+    """
     command, device, _, _, _, _, _ = setting
     trial = np.empty(COORDINATES)
     for j in range(STATE_SIZE):
@@ -495,7 +501,7 @@ def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, her
     state[S_PHASE], state[S_STEP], state[S_KIND] = start, min(FIRST_STEP, command[M_LONGEST]), kind
     state[S_CHANGE] = math.nan
     set_phase(start, command, device)
-    device[D_FINE] = FINE
+    device[D_FINE] = parts
     if kind != ON_CONTACTS:
         closed_step(kind, q, setting, here, trial)
         return AT_REST
@@ -507,7 +513,7 @@ def begin(q: Array, kind: int, start: float, state: Array, setting: Setting, her
 
 @kernel()
 def overlaps_at(i: int, gap: Array, setting: Setting, leg: Leg) -> bool:
-    """Whether a place of overlap, followed in place to a point of the path, overlaps there."""
+    """Whether a place of overlap, followed in place to a point of the path, overlaps there, or is not clearly open."""
     command, device, _, bolt, nut, threads, work = setting
     _, points, _, _ = leg
     place = np.empty(PLACE_SIZE)
@@ -515,7 +521,7 @@ def overlaps_at(i: int, gap: Array, setting: Setting, leg: Leg) -> bool:
     set_place(points[i, T_COORDINATES : T_COORDINATES + COORDINATES], device, place)
     if not follow_place(gap, place, device, bolt, nut, threads, work.search):
         return False
-    return gap[G_VALUE] > LEAST_DIP * bolt[pk.R_MAJOR]
+    return gap[G_VALUE] > -LEAST_DIP * bolt[pk.R_MAJOR]
 
 
 @kernel()
@@ -542,8 +548,8 @@ def go_back(missed: Array, q: Array, state: Array, setting: Setting, here: Knot,
         threads.known_count[0] += 1
     copy_numbers(points[i, T_COORDINATES : T_COORDINATES + COORDINATES], q)
     rewound = state[S_REWOUND] + 1.0
-    begin(q, ON_CONTACTS, points[i, T_PHASE], state, setting, here)
-    state[S_REWOUND], state[S_FINE] = rewound, 1.0
+    begin(q, ON_CONTACTS, points[i, T_PHASE], FINEST, state, setting, here)
+    state[S_REWOUND], state[S_FINE] = rewound, ALWAYS
     return True
 
 
@@ -620,7 +626,7 @@ def follow_phase(
     state = np.empty(STATE_SIZE)
     here, there = new_knot(), new_knot()
     spans = np.empty((MAX_SPANS, SPAN_SIZE))
-    status = begin(q, kind, start, state, setting, here)
+    status = begin(q, kind, start, FINE, state, setting, here)
     add_point(state[S_PHASE], int(state[S_KIND]), q, here, command, device, leg)
     if status != AT_REST:
         return FAILED + status, kind
