@@ -10,15 +10,13 @@ from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
 from threadstate.device.command import LONGEST_STEP_DEG
 from threadstate.device.confirmation import LEAST_FALL, have_same_falls
-from threadstate.device.contact_changes import Comparison, compare_changes
+from threadstate.device.contact_changes import WITHIN_DEG, Comparison, compare_changes
 from threadstate.device.model import SettledFlag, default_device
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 SEED = 2056
 TILT_DEG = 4.0
 STEPS_DEG = tuple(LONGEST_STEP_DEG / parts for parts in (1.0, 2.0, 4.0))
-WITHIN_DEG = 0.05
-"""How far apart two changes are at most that are the same: within ten of the steps in which they are told."""
 
 
 @dataclass(frozen=True)

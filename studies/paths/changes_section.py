@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from harness.markdown import table
-from studies.paths.changes import STEPS_DEG, WITHIN_DEG, Pose
+from studies.paths.changes import STEPS_DEG, Pose
 from studies.paths.listing import listed, percentiles
 from threadstate.device.confirmation import LEAST_FALL
-from threadstate.device.contact_changes import RESOLVED_DEG
+from threadstate.device.contact_changes import RESOLVED_DEG, WITHIN_DEG
 from threadstate.numbers import number_text
 
 

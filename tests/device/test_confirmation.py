@@ -49,6 +49,16 @@ def test_an_undecided_path_is_not_followed_again(monkeypatch: pytest.MonkeyPatch
     assert assemble_pose(UNC, *CALM, confirm=True) is undecided
 
 
+def test_without_friction_a_contact_that_half_the_step_moves_is_flagged() -> None:
+    path = assemble_pose(UNC, *CALM, strategy=Strategy.CW)
+    at = next(i for i, event in enumerate(path.events) if event.kind is PathEventKind.GAINED)
+    for moved_deg, flags in ((0.02, ()), (0.1, (SettledFlag.STEP_DEPENDENT,))):
+        event = replace(path.events[at], phase_deg=path.events[at].phase_deg + moved_deg)
+        half = replace(path, events=(*path.events[:at], event, *path.events[at + 1 :]))
+        found = confirmed(path, half, 2.0, 1.0)
+        assert (found.outcome, found.flags) == (path.outcome, flags)
+
+
 @pytest.mark.parametrize("step", [0.25, 0.49, 2.1])
 def test_a_step_of_which_no_half_can_be_followed_names_the_valid_range(step: float) -> None:
     with pytest.raises(InvalidValueError, match=r"longest_step is .*; valid: 0\.5 to 2 deg with `confirm`"):

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
-from threadstate.device.contact_changes import compare_changes
+from threadstate.device.contact_changes import WITHIN_DEG, compare_changes
 from threadstate.device.model import SettledFlag
 
 LEAST_FALL = 1e-3
@@ -21,14 +21,14 @@ def confirmed(path: AssemblyPath, half: AssemblyPath, longest_deg: float, energy
     ``energy`` is push times nominal radius. Where the outcomes differ the path is undecided, with the flag
     ``step_dependent``. Where only a snap or a fall that loses more than ``LEAST_FALL`` is moved by more than the
     longest step, or is there with one of them alone, it has that flag beside its outcome; without friction also where a
-    contact gained or lost is.
+    contact gained or lost is moved by more than ``WITHIN_DEG``, or is there with one of them alone.
     """
     flags = tuple(dict.fromkeys((*path.flags, SettledFlag.STEP_DEPENDENT)))
     if half.outcome is not path.outcome:
         return replace(path, outcome=AssemblyOutcome.UNDECIDED, flags=flags)
     is_alike = have_same_falls(path, half, longest_deg, LEAST_FALL * energy)
     if path.mu == 0.0:
-        is_alike = is_alike and compare_changes(path, half, longest_deg).is_alike
+        is_alike = is_alike and compare_changes(path, half, WITHIN_DEG).is_alike
     return path if is_alike else replace(path, flags=flags)
 
 

@@ -7,6 +7,9 @@ from typing import NamedTuple
 from threadstate.device.assembly_model import AssemblyPath, PathEventKind
 from threadstate.state.model import FeaturePair
 
+WITHIN_DEG = 0.05
+"""How far apart two changes are at most that are the same: within ten of the steps in which they are told."""
+
 RESOLVED_DEG = 0.01
 """What a contact loses to another one of the same features within so much of phase is not told apart: twice the width
 of the steps in which contacts change.
