@@ -2,7 +2,7 @@ import js from "@eslint/js";
 import globals from "globals";
 
 export default [
-  { ignores: ["node_modules/", ".venv/", "build/", "dist/", "site/"] },
+  { ignores: ["node_modules/", ".venv*/", "build/", "dist/", "site/"] },
   js.configs.recommended,
   {
     files: ["service/explorer/page/js/*.js"],

@@ -74,6 +74,15 @@ SHOWN = (
 REMEMBER = f"window.opened = {{view: location.hash, shown: {SHOWN}.join()}}"
 IS_RESET = f"return location.hash === window.opened.view && {SHOWN}.join() === window.opened.shown"
 
+AIM = """
+const [element, selector] = arguments;
+element.scrollIntoView({block: 'center'});
+window.isHit = false;
+const hear = ({target}) => (window.isHit = target.closest(selector) !== null);
+addEventListener('click', hear, {capture: true, once: true});
+"""
+"""Brings an element into view; `isHit`: a click has reached one of that selector; undefined on another page."""
+
 
 class Explorer:
     """The explorer's page in a browser."""
@@ -131,16 +140,17 @@ class Explorer:
         return self.chromium.find_elements(By.CSS_SELECTOR, selector)
 
     def click(self, selector: str) -> None:
-        """Bring an element into view and click it; another of that selector if the page just replaced it."""
-        self.wait(lambda: self._is_clicked(self.one(selector)), f"{selector} is replaced again and again")
+        """Bring an element into view and click it; again if the page just replaced or moved it."""
+        self.wait(lambda: self._is_clicked(selector), f"{selector} is replaced or moved again and again")
 
-    def _is_clicked(self, element: WebElement) -> bool:
+    def _is_clicked(self, selector: str) -> bool:
+        element = self.one(selector)
         try:
-            self.run("arguments[0].scrollIntoView({block: 'center'})", element)
+            self.run(AIM, element, selector)
             element.click()
         except StaleElementReferenceException:
             return False
-        return True
+        return self.run("return window.isHit") is not False
 
     def press(self, selector: str, key: str) -> None:
         """Press a key at an element, as soon as the page shows one of that selector that can have the focus."""

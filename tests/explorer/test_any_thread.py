@@ -219,7 +219,11 @@ def test_threads_are_compared_and_any_other_is_shown_in_section(page: Explorer) 
     wait_for_address(page, "thread=1%2F4-16%20acme%20with%20sharp%20corners")
     page.click("#compared thead th:last-child button")
     wait_for_address(page, f"library={UNC}")
-    page.wait(lambda: len(page.all("#compared thead button")) == 2, "the comparison is gone")
+    page.wait(
+        lambda: page.text('#compared thead button[aria-pressed="true"]').startswith(f"{UNC}: "),
+        "the library that was chosen is not marked",
+    )
+    page.one('#profiles img[alt*="1/4-20 UNC"]')
     page.click("#thread-clear")
     page.wait(lambda: len(pictures()) == 1, "the other thread stays")
 

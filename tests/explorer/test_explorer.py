@@ -244,10 +244,11 @@ def test_where_there_is_no_snap_the_button_says_why(explorer: Explorer) -> None:
     level = next(one for one in entries if one["snap"] is None)
     explorer.click(f'#map .cell[data-roll="{level["roll"]:g}"][data-pitch="{level["pitch"]:g}"]')
     explorer.wait_for_text("#state", f"roll {level['roll']:g} deg".replace("-", MINUS))
-    button = explorer.one("#to-snap")
-    explorer.wait(lambda: button.get_attribute("aria-disabled") == "true", "the button is offered")
+    button, reason = explorer.one("#to-snap"), "There is no snap here"
+    explorer.wait(lambda: reason in str(button.get_attribute("data-help")), "the button does not say why")
+    assert button.get_attribute("aria-disabled") == "true"
     explorer.click("#to-snap")
-    explorer.wait_for_text("#toast", "There is no snap here")
+    explorer.wait_for_text("#toast", reason)
     assert phase_of(explorer) == 10
 
 

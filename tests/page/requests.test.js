@@ -8,7 +8,9 @@ import { summaryText } from "../../service/explorer/page/js/locate_view.js";
 import { mapPhaseText, mapValues } from "../../service/explorer/page/js/map_view.js";
 import { checkedObservation, observationOf, observationText, remaining } from "../../service/explorer/page/js/observation.js";
 import { Throttle } from "../../service/explorer/page/js/throttle.js";
+import { MAP_MS, Model } from "../../service/explorer/page/js/model.js";
 import { MOST_POSES, posesOf, posesOfView, posesText } from "../../service/explorer/page/js/poses.js";
+import { DEFAULTS } from "../../service/explorer/page/js/view.js";
 
 test("poses are read from tables with any usual separator", () => {
   const expected = [{ roll: 2.5, pitch: -1.2, phase: 357 }, { roll: 0, pitch: -4, phase: 40 }];
@@ -74,6 +76,40 @@ test("of waiting calls the last is run, and never two at once", async () => {
   assert.equal(await others[0], undefined);
   await others[1];
   assert.deepEqual(begun, [1, 3]);
+});
+
+test("a call that waits can be dropped", async () => {
+  const throttle = new Throttle(0);
+  const begun = [];
+  const first = throttle.run(async () => begun.push(1));
+  const second = throttle.run(async () => begun.push(2));
+  throttle.drop();
+  assert.equal(await second, undefined);
+  await first;
+  await throttle.run(async () => begun.push(3));
+  assert.deepEqual(begun, [1, 3]);
+});
+
+test("a phase that is gone back to within a moment keeps its map", async () => {
+  const asked = [];
+  const library = { id: 1, unit: "mm", grid: { tilt_max: 4, tilt_step: 4, phase_step: 5 } };
+  const answers = { "/v1/libraries/1": library, "/v1/libraries/1/states": { states: [], next: null } };
+  const api = {
+    get: async (address, { phase }) => {
+      if (address.endsWith("/states")) asked.push(phase);
+      return answers[address] ?? { heights: [] };
+    },
+  };
+  const arrived = [];
+  const model = new Model(api, new Busy(() => {}), (part) => arrived.push(part), (error) => assert.fail(error));
+  const view = { ...DEFAULTS, library: 1, unit: "mm" };
+  await model.open(view);
+  model.follow({ ...view, phase: 10 });
+  while (!arrived.includes("map")) await new Promise((done) => setTimeout(done, 5));
+  model.follow({ ...view, phase: 0 });
+  model.follow({ ...view, phase: 10 });
+  await new Promise((done) => setTimeout(done, 2 * MAP_MS));
+  assert.deepEqual(asked, [10]);
 });
 
 test("a failure does not block later calls", async () => {

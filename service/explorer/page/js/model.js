@@ -16,7 +16,7 @@ import { turnPath } from "./turn_path.js";
 const MAP_FIELDS = "roll,pitch,class,drop,embedment,pivot_offset,margins,statics";
 const MAP_PAGE = 1000;
 /** Milliseconds between requests of the map while the phase moves. */
-const MAP_MS = 300;
+export const MAP_MS = 300;
 /** What belongs to a formation is requested once the phase has not moved for so many milliseconds. */
 const DEBOUNCE_MS = 150;
 /** The gap of a diagram's boundary that is not seen, over its size. */
@@ -134,9 +134,7 @@ export class Model {
 
   #followMap({ phase, unit, library }) {
     const onGrid = nearestPhase(this.library.grid, phase);
-    const key = `${library} ${unit} ${onGrid}`;
-    if (this.#requested.get("map") === key) return;
-    this.#mapThrottle.run(() => this.#request("map", key, () => this.#map(onGrid, unit)));
+    this.#requestLatest(this.#mapThrottle, "map", `${library} ${unit} ${onGrid}`, () => this.#map(onGrid, unit));
   }
 
   #requestSummaries(unit) {
@@ -188,16 +186,12 @@ export class Model {
     const key = `${library} ${unit} ${roll} ${pitch} ${phase} ${LOAD_FIELDS.map((name) => view[name])}`;
     const pose = { roll, pitch, phase };
     const { force, moment } = loadOf(view, this.library.pair.nominal_diameter / 2);
-    if (this.#requested.get("statics") !== key) {
-      this.#staticsThrottle.run(() => this.#request("statics", key, () => this.#orProblem(async () => {
-        const statics = await this.#api.statics(pose, { force, moment, mu: view.mu }, library, unit);
-        return { statics };
-      })));
-    }
-    const ofDiagram = `${key} ${plane}`;
-    if (this.#requested.get("jamming") === ofDiagram) return;
+    this.#requestLatest(this.#staticsThrottle, "statics", key, () => this.#orProblem(async () => {
+      const statics = await this.#api.statics(pose, { force, moment, mu: view.mu }, library, unit);
+      return { statics };
+    }));
     const parameters = { library, unit, mu: view.mu, force: force.join(), moment: moment.join(), axes: plane, tolerance: DIAGRAM_TOLERANCE };
-    this.#jammingThrottle.run(() => this.#request("jamming", ofDiagram, () => this.#orProblem(async () => ({ diagram: await this.#api.jamming(pose, parameters) }))));
+    this.#requestLatest(this.#jammingThrottle, "jamming", `${key} ${plane}`, () => this.#orProblem(async () => ({ diagram: await this.#api.jamming(pose, parameters) })));
   }
 
   /** Requests the path of a held bolt that the view asks for; one that was requested before and is not asked for is ended. */
@@ -310,6 +304,12 @@ export class Model {
   retry(view) {
     this.#requested.clear();
     this.follow(view);
+  }
+
+  /** Requests a part as the throttle allows, of several the last; one that waits is dropped where its predecessor is wanted again. */
+  #requestLatest(throttle, part, key, fetchPart) {
+    if (this.#requested.get(part) === key) throttle.drop();
+    else throttle.run(() => this.#request(part, key, fetchPart));
   }
 
   /** A response that arrives after another key was requested is dropped, unless that one has not arrived and this one `isUsable` (response, key requested) until then. */

@@ -168,7 +168,7 @@ export class Pictures {
       if (TAB_PARTS.includes(part)) this.#missed.add(part);
       return;
     }
-    if (part === "libraries") this.#followThreads();
+    if (["libraries", "library"].includes(part)) this.#followThreads();
     if (["comparison", "profiles"].includes(part)) this.#drawThreads();
     if (part === "statics") this.#drawLoad();
     if (["assembly", "progress", "library"].includes(part)) this.#showAssembly();

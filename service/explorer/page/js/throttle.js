@@ -14,11 +14,17 @@ export class Throttle {
 
   /** The result of the call, or undefined where a later one replaced it. */
   run(call) {
-    this.#waiting?.done(undefined);
+    this.drop();
     return new Promise((done, failed) => {
       this.#waiting = { call, done, failed };
       this.#next();
     });
+  }
+
+  /** Drops the call that waits, if one does. */
+  drop() {
+    this.#waiting?.done(undefined);
+    this.#waiting = null;
   }
 
   #next() {
