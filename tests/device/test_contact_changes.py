@@ -30,12 +30,20 @@ CASES = {
     "one that the search finds late": (-2.4330366425938035, -0.2752182220840833, 144.57426944382783),
     "two that take turns, found late": (-2.5226962823772787, -0.34513829936476537, 84.66576680915735),
     "a minimum that ends in a fold": (-3.640821439054138, -3.154783963693709, 9.401046893915268),
+    "a maximum within the edge across a fillet": (-3.497266487385609, -2.610932743904799, 234.493434238989),
 }
+FINER_CASES = {
+    "two beside each other on an edge": (-0.48918406288286764, -3.419574175448245, 136.10249608017332),
+    "into the threads and back within a step": (-1.4251443118400662, -0.10705262631250356, 92.22327816760749),
+}
+STEPS = {name: (pose, 2.0) for name, pose in CASES.items()} | {name: (pose, 1.0) for name, pose in FINER_CASES.items()}
 
 
-@pytest.mark.parametrize("pose_deg", CASES.values(), ids=CASES.keys())
-def test_half_the_step_neither_adds_nor_moves_a_change(pose_deg: tuple[float, float, float]) -> None:
-    path, half = (assemble_pose(UNC, *pose_deg, longest_step=step) for step in (2.0, 1.0))
+@pytest.mark.parametrize(("pose_deg", "longest_step"), STEPS.values(), ids=STEPS.keys())
+def test_half_the_step_neither_adds_nor_moves_a_change(
+    pose_deg: tuple[float, float, float], longest_step: float
+) -> None:
+    path, half = (assemble_pose(UNC, *pose_deg, longest_step=step) for step in (longest_step, 0.5 * longest_step))
     assert half.outcome is path.outcome is not AssemblyOutcome.UNDECIDED
     found = compare_changes(path, half, RESOLVED_DEG)
     assert found.is_alike
@@ -54,6 +62,17 @@ def test_a_path_goes_on_where_a_contact_crosses_a_crease() -> None:
     path = assemble_pose(UNC, -1.8661314301860763, -2.320878958908146, 101.22638943044477)
     assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
     assert not any(event.kind is PathEventKind.BRIDGED for event in path.events)
+
+
+def test_a_bolt_at_a_minimum_beside_the_level_pose_is_not_laid_flush() -> None:
+    """It lies 0.2 deg from level, 0.017 F r above the level pose, and stays until its minimum ends."""
+    falls = []
+    for step in (2.0, 1.0, 0.5):
+        path = assemble_pose(UNC, 1.0750206613707132, 2.4776256623959982, 156.51845546785984, longest_step=step)
+        falls.append([event.phase_deg for event in path.events if event.kind is PathEventKind.FALL])
+    assert falls[0] == pytest.approx(falls[1], abs=RESOLVED_DEG)
+    assert falls[0] == pytest.approx(falls[2], abs=RESOLVED_DEG)
+    assert falls[0][-1] == pytest.approx(391.18, abs=RESOLVED_DEG)
 
 
 def test_a_fall_that_hangs_on_its_steps_ends_as_with_shorter_ones_and_is_flagged() -> None:

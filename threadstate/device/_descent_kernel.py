@@ -70,6 +70,11 @@ STALL_STEPS, STALLED = 12, 1e-8
 """A descent that has gone less far than this (nominal radii) in so many steps, up at times, goes round in circles: it
 ends where it does so again once its steps have to make it smaller."""
 
+CONVERGING = 0.5
+"""A descent whose size becomes less than this part of it in a step goes to a minimum at contacts: beside the level pose
+on the nut's surface there may be one.
+"""
+
 
 class Descent(NamedTuple):
     """What a descent is asked for.
@@ -250,17 +255,17 @@ def take_step(q: Array, searches: bool, stand: Stand, descent: Descent, scene: S
 
 
 @kernel()
-def end_beside_contacts(q: Array, push: float, scene: Scene) -> int:
-    """SLIPPED, DEEP, TILTED or FLUSH where the descent ends so; UNSETTLED where it goes on."""
-    device, bolt, nut, _, work = scene
-    place, r = work.place, bolt[pk.R_MAJOR]
+def end_beside_contacts(scene: Scene) -> int:
+    """SLIPPED, DEEP or TILTED where the descent ends so; UNSETTLED where it goes on."""
+    place, bolt = scene.work.place, scene.bolt
+    r = bolt[pk.R_MAJOR]
     if math.hypot(place[N_OFFSET], place[N_OFFSET + 1]) > r:
         return SLIPPED
     if lowest_height(place, bolt) < -DEEPEST * bolt[pk.P]:
         return DEEP
     if bolt[pk.STEEPEST] * math.hypot(place[N_ROTATION + 2], place[N_ROTATION + 5]) > place[N_ROTATION + 8]:
         return TILTED
-    return FLUSH if flush_is_reached(q, push, place, device, bolt, nut) else UNSETTLED
+    return UNSETTLED
 
 
 @kernel()
@@ -281,7 +286,7 @@ def descend_with(q: Array, known: int, searches: bool, descent: Descent, scene: 
     if not is_out:
         return UNSETTLED, count, True
     earlier = q.copy()
-    way, damping, has_risen, is_circling = 0.0, 0.0, False, False
+    way, damping, has_risen, is_circling, size_before = 0.0, 0.0, False, False, math.inf
     for taken in range(descent.most_steps):
         if taken > 0 and taken % STALL_STEPS == 0:
             if has_risen and length_between(n, q, earlier, device, work) < STALLED * r:
@@ -304,13 +309,16 @@ def descend_with(q: Array, known: int, searches: bool, descent: Descent, scene: 
                 return UNSETTLED, count, True
             way = 0.0
             continue
+        if size > CONVERGING * size_before and flush_is_reached(q, push, work.place, device, scene.bolt, scene.nut):
+            return FLUSH, count, False
+        size_before = size
         step = take_step(q, searches, Stand(count, way, damping, size, potential, is_circling), descent, scene)
         if not step.is_taken:
             return UNSETTLED, count, True
         count, is_searched, damping = step.found, step.is_searched, step.damping
         has_risen = has_risen or step.has_risen
         way = 0.0 if is_searched else way + step.length
-        end = end_beside_contacts(q, push, scene)
+        end = end_beside_contacts(scene)
         if end != UNSETTLED:
             return end, count, False
         if length_between(n, q, start, device, work) > descent.farthest:

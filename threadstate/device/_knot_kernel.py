@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._stage_kernel import EDGE_THREAD, THREAD_EDGE
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_STIFFNESS,
@@ -24,7 +25,8 @@ from threadstate.device._chart_kernel import (
     second_order,
     set_turn,
 )
-from threadstate.device._gap_kernel import G_GRADIENT, G_HESSIAN, G_NORM, G_NORMAL, G_PAIR, G_POINT, GAP_SIZE
+from threadstate.device._gap_kernel import G_GRADIENT, G_HESSIAN, G_NORM, G_NORMAL, G_PAIR, G_POINT, G_THETA, GAP_SIZE
+from threadstate.device._place_near_kernel import set_inward, set_placement
 from threadstate.device._places_kernel import MAX_PLACES
 from threadstate.device._quadratic_kernel import cholesky, solve_lower, solve_upper
 from threadstate.device._rest_kernel import (
@@ -61,6 +63,7 @@ class Knot(NamedTuple):
         bend: drift a radian of phase, by its change since the point before; 0 where that has other contacts.
         motion: the same of a chart that stays where it is, so that gaps change by their gradients along it.
         rates: multipliers a radian of phase.
+        slopes: of phi from a contact of an edge into both threads; -inf of other places.
     """
 
     numbers: Indices
@@ -72,6 +75,7 @@ class Knot(NamedTuple):
     bend: Array
     motion: Array
     rates: Array
+    slopes: Array
 
 
 @kernel()
@@ -87,6 +91,7 @@ def new_knot() -> Knot:
         np.zeros(COORDINATES),
         np.zeros(COORDINATES),
         np.zeros(MAX_PLACES),
+        np.empty(MAX_PLACES),
     )
 
 
@@ -105,6 +110,7 @@ def copy_knot(knot: Knot, other: Knot) -> None:
     copy_numbers(knot.bend, other.bend)
     copy_numbers(knot.motion, other.motion)
     copy_numbers(knot.rates, other.rates)
+    copy_numbers(knot.slopes, other.slopes)
 
 
 @kernel(allocates=False)
@@ -140,8 +146,13 @@ def set_knot(count: int, push: float, command_rates: Array, scene: Scene, knot: 
     set_loaded(push, knot)
     for j in range(COORDINATES):
         knot.drift[j], knot.bend[j], knot.motion[j] = 0.0, 0.0, 0.0
+    set_placement(work.place, scene.threads)
     for i in range(count):
-        knot.rates[i] = 0.0
+        knot.rates[i], knot.slopes[i] = 0.0, -math.inf
+        pair = int(work.places[i, G_PAIR])
+        if work.multipliers[i] > 0.0 and (pair == EDGE_THREAD or pair == THREAD_EDGE):
+            theta = work.places[i, G_THETA]
+            _, _, knot.slopes[i] = set_inward(pair, theta, work.place, scene.bolt, scene.nut, scene.threads)
     knot.numbers[K_RATED] = 1 if set_rates(count, command_rates, scene, knot) else 0
 
 

@@ -1,8 +1,8 @@
 """Where a contact is after a small motion: its place of overlap is followed from where it was, over edges and threads.
 
 A contact of the threads that leaves them goes on along the edge at which it leaves; one of an edge from which phi rises
-into both threads goes on within them, if Newton's method leads to a maximum there. Beside a fillet it may not: what is
-found by following contacts is searched for other places at its end.
+into both threads goes on within them, if there is a maximum near: where phi rises but little, and a fillet may be
+between, it is looked for along the ridge. What is found by following contacts is searched for other places at its end.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ from threadstate.device._gap_kernel import (
     set_edge_jet,
     set_gap,
 )
-from threadstate.device._places_kernel import SAME_PLACE, W_GAP, W_JET, Threads, bracketed_peak
-from threadstate.device._thread_maximum_kernel import MAXIMUM, OUTSIDE, polished_maximum, ridge_maximum
+from threadstate.device._places_kernel import NEARLY_LEVEL, SAME_PLACE, W_GAP, W_JET, Threads, bracketed_peak
+from threadstate.device._thread_maximum_kernel import MAXIMUM, OUTSIDE, polished_maximum, ridge_maximum, thread_maximum
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -69,12 +69,18 @@ ON_PLANE, ON_PHI, ON_BOTH, ANY = range(4)
 
 
 @kernel(allocates=False)
+def set_placement(place: Array, threads: Threads) -> None:
+    """Sets the placement of the threads to that of a pose."""
+    copy_numbers(place[N_ROTATION : N_ROTATION + 9], threads.placement[0:9])
+    copy_numbers(place[N_OFFSET : N_OFFSET + 3], threads.placement[9:12])
+
+
+@kernel(allocates=False)
 def place_near(
     gap: Array, place: Array, bolt: Array, nut: Array, threads: Threads, edge_jet: Array
 ) -> tuple[int, float, float]:
     """The pair of features, azimuth and height at which a place of overlap is now, from where it was."""
-    copy_numbers(place[N_ROTATION : N_ROTATION + 9], threads.placement[0:9])
-    copy_numbers(place[N_OFFSET : N_OFFSET + 3], threads.placement[9:12])
+    set_placement(place, threads)
     pair = int(gap[G_PAIR])
     if pair == THREAD_THREAD:
         return from_thread(gap[G_THETA], gap[G_Z], place, bolt, nut, threads, edge_jet)
@@ -216,20 +222,35 @@ def deeper_edge(
 
 
 @kernel(allocates=False)
-def from_edge(
+def set_inward(
     pair: int, theta: float, place: Array, bolt: Array, nut: Array, threads: Threads
-) -> tuple[int, float, float]:
-    """A place of an edge, or that of the threads to which phi rises from it."""
-    jet = threads.jet
+) -> tuple[float, float, float]:
+    """Sets the threads' jet where an edge's place is on the bolt's thread: azimuth, height, and the slope of phi from
+    there into both threads.
+    """
     at, up, inward = theta, 0.0, 1.0
     if pair == THREAD_EDGE:
         r = pk.radius(-nut[pk.LEAD] / TWO_PI * theta, nut)
         x, y, up = moved_point(False, place, r * math.cos(theta), r * math.sin(theta), 0.0)
         at, inward = math.atan2(y, x), -1.0
-    set_jet(at, up, threads.placement, bolt, nut, jet)
-    if inward * jet[TJ_B] > 0.0:
-        at, up, converged = nearby_maximum(at, up, 0.0, threads.placement, bolt, nut, jet)
-        if converged and up > 0.0 and jet[TJ_Z] < 0.0:
+    set_jet(at, up, threads.placement, bolt, nut, threads.jet)
+    return at, up, inward * threads.jet[TJ_B]
+
+
+@kernel(allocates=False)
+def from_edge(
+    pair: int, theta: float, place: Array, bolt: Array, nut: Array, threads: Threads
+) -> tuple[int, float, float]:
+    """A place of an edge, or that of the threads to which phi rises from it."""
+    jet = threads.jet
+    at, up, slope = set_inward(pair, theta, place, bolt, nut, threads)
+    if slope > 0.0:
+        if slope < NEARLY_LEVEL:
+            at, up, kind = thread_maximum(at, up, 0.0, -math.inf, threads.placement, bolt, nut, jet)
+        else:
+            at, up, converged = nearby_maximum(at, up, 0.0, threads.placement, bolt, nut, jet)
+            kind = MAXIMUM if converged else OUTSIDE
+        if kind == MAXIMUM and up > 0.0 and jet[TJ_Z] < 0.0:
             at, up, converged = polished_maximum(at, up, threads.placement, bolt, nut, jet)
             if converged and up > 0.0 and jet[TJ_Z] < 0.0:
                 return THREAD_THREAD, at, up

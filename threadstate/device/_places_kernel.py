@@ -55,8 +55,10 @@ from threadstate.device._gap_kernel import (
     G_PAIR,
     G_POINT,
     G_THETA,
+    G_VALUE,
     G_Z,
     GAP_WORK,
+    edge_depth,
     moved_point,
     moved_vector,
     set_edge_jet,
@@ -83,6 +85,9 @@ LEVEL = 1e-12
 """Nominal radii by which a sample is higher than one beside it: what is less is round-off on an arc of one depth, or
 the highest point of an edge that is nearly parallel to the other part's face.
 """
+
+TOUCHING = 1e-5
+"""Up to this gap (nominal radii) a place along an edge is searched for others beside it."""
 
 MAX_PLACES = 24
 """The most places that are listed; a full list leaves the later ones out."""
@@ -365,7 +370,41 @@ def find_places(
             else:
                 pair = EDGE_THREAD if of_bolt else THREAD_EDGE
             count, _ = add_place(pair, theta, 0.0, place, device, bolt, nut, work, count, places)
+    if parts < FINEST:
+        for i in range(count):
+            if places[i, G_VALUE] > -TOUCHING * bolt[pk.R_MAJOR]:
+                count = add_beside(i, reach, place, device, bolt, nut, work, count, places)
     return add_threads(reach, place, device, bolt, nut, threads, work, count, places)
+
+
+@kernel(allocates=False)
+def add_beside(
+    i: int, reach: float, place: Array, device: Array, bolt: Array, nut: Array, work: Array, count: int, places: Array
+) -> int:
+    """Adds the places along an edge beside place i of it that the samples do not tell apart; returns their number.
+
+    Where an edge passes over a fillet it may touch on both sides of it. Depths are sampled most finely, as far as two
+    samples of the search on either side.
+    """
+    pair, middle = int(places[i, G_PAIR]), places[i, G_THETA]
+    if pair != EDGE_THREAD and pair != THREAD_EDGE:
+        return count
+    of_bolt = pair == EDGE_THREAD
+    curve, solid = (bolt, nut) if of_bolt else (nut, bolt)
+    jet = work[W_JET : W_JET + EDGE_JET_SIZE]
+    level = LEVEL * bolt[pk.R_MAJOR]
+    step = TWO_PI / (SAMPLES * FINEST)
+    most = 2 * FINEST // FINE
+    before = edge_depth(of_bolt, middle - (most + 1) * step, place, curve, solid)
+    here = edge_depth(of_bolt, middle - most * step, place, curve, solid)
+    for j in range(-most, most + 1):
+        after = edge_depth(of_bolt, middle + (j + 1) * step, place, curve, solid)
+        if abs(j) > 1 and here > max(before, after) and here - min(before, after) > level:
+            kind, theta = peak_beside(of_bolt, middle + j * step, step, place, curve, solid, jet)
+            if kind == 1 and jet[E_PHI] >= -reach:
+                count, _ = add_place(pair, theta, 0.0, place, device, bolt, nut, work, count, places)
+        before, here = here, after
+    return count
 
 
 @kernel(allocates=False)

@@ -258,8 +258,12 @@ def first_change(total: int, step: float, spans: Array) -> float:
 
 
 @kernel(allocates=False)
-def jumps(gap: Array, knot: Knot, far_gap: Array, far: Knot, step: float) -> bool:
-    """Whether a contact's normal changes in a step as its derivatives at both ends do not explain."""
+def jumps(was: int, knot: Knot, now: int, far: Knot, step: float) -> bool:
+    """Whether a contact's normal changes in a step as its derivatives at both ends do not explain.
+
+    By more than a part of it, or by what it may lack at an end for phi to rise from an edge into the threads.
+    """
+    gap, far_gap = knot.places[was], far.places[now]
     square, jump = 0.0, 0.0
     for i in range(3):
         row = G_HESSIAN + 6 * (3 + i)
@@ -269,7 +273,7 @@ def jumps(gap: Array, knot: Knot, far_gap: Array, far: Knot, step: float) -> boo
         change = far_gap[G_GRADIENT + 3 + i] - gap[G_GRADIENT + 3 + i]
         jump = max(jump, abs(change - 0.5 * step * rate))
         square += gap[G_GRADIENT + 3 + i] ** 2
-    return jump > JUMP * math.sqrt(square)
+    return jump > min(JUMP * math.sqrt(square), min(abs(knot.slopes[was]), abs(far.slopes[now])))
 
 
 @kernel(allocates=False)
@@ -289,6 +293,6 @@ def hides_change(total: int, step: float, one: Knot, other: Knot, spans: Array, 
         least = least_between(span[first], span[first + 1], span[first + 2], span[first + 3], step)
         if least < -zero:
             return True
-        if is_contact and jumps(one.places[int(span[SPAN_FROM])], one, other.places[int(span[SPAN_TO])], other, step):
+        if is_contact and jumps(int(span[SPAN_FROM]), one, int(span[SPAN_TO]), other, step):
             return True
     return False

@@ -178,7 +178,8 @@ def thread_maximum(
     """The maximum of phi over the bolt's thread that is near a point of a ridge, and what there is.
 
     By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge: long
-    ones, and short ones where the ridge is short. A maximum counts from ``lowest`` on.
+    ones, and short ones where the ridge is short; where it is shorter than these, by Newton's method from the ridge. A
+    maximum counts from ``lowest`` on.
     """
     at, up, converged = nearby_maximum(theta, z, 0.0, placement, bolt, nut, jet)
     if converged:
@@ -188,6 +189,9 @@ def thread_maximum(
         at, up, kind = ridge_maximum(theta, z, base, step, lowest, placement, bolt, nut, jet)
         if kind != NONE:
             break
+    if kind == NONE:
+        at, up, converged = nearby_maximum(at, up, 0.0, placement, bolt, nut, jet)
+        return at, up, MAXIMUM if converged else NONE
     set_jet(at, up, placement, bolt, nut, jet)
     return at, up, kind
 
