@@ -67,10 +67,11 @@ def test_the_section_without_friction_counts_what_one_step_tells_alone() -> None
 
 
 def test_the_page_lists_what_half_the_step_moves() -> None:
-    path = Followed("turned", 1e-5, 0.1, 0.0, 0.0, (10.0,), (0.0, 0.0, -0.1), ambiguous=False, seconds=1.0)
+    path = Followed("turned", 1e-5, 0.1, 0.0, 0.0, (10.0,), (), (0.0, 0.0, -0.1), ambiguous=False, seconds=1.0)
     beside = replace(path, falls_deg=(10.9,))
     other = replace(path, end="jammed", falls_deg=(11.5,), place=(0.0, 0.0, -0.2))
-    fewer = replace(path, falls_deg=())
+    gained = ContactChange(PathEventKind.GAINED, FeaturePair.EDGE_THREAD, 3.0)
+    fewer = replace(path, falls_deg=(), changes=(gained,))
     settled = ("settled",) * 3
     found = Found(TURN_DEG)
     found.add(Compared("the same", settled, (path, beside, path)))
@@ -83,6 +84,7 @@ def test_the_page_lists_what_half_the_step_moves() -> None:
     assert "## Other outcomes, steps of 1 and 0.5 deg\n\n- another\n" in text
     assert "## Falls moved by more, steps of 1 and 0.5 deg\n\n- another: 1.50 deg\n" in text
     assert "## Falls moved by more, steps of 0.5 and 0.25 deg\n\n- the same: 0.90 deg\n- fewer: 1 and 0\n" in text
+    assert "## Other contacts, steps of 0.5 and 0.25 deg\n\n- fewer: 0 and 1 alone\n" in text
     assert "| undecided, flush | 1 |" in text
 
 

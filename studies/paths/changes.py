@@ -10,7 +10,7 @@ from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
 from threadstate.device.command import LONGEST_STEP_DEG
 from threadstate.device.confirmation import LEAST_FALL, have_same_falls
-from threadstate.device.contact_changes import WITHIN_DEG, Comparison, compare_changes
+from threadstate.device.contact_changes import WITHIN_DEG, Comparison, compare_changes, contact_changes
 from threadstate.device.model import SettledFlag, default_device
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -66,7 +66,10 @@ def turned(number: int) -> Pose:
     least = LEAST_FALL * device.push * pair.nominal_diameter / 2.0
     paths = [assemble_pose(pair, roll, pitch, phase, device, longest_step=step) for step in STEPS_DEG]
     halves = [
-        Halves(compare_changes(path, half, WITHIN_DEG), have_same_falls(path, half, step, least))
+        Halves(
+            compare_changes(contact_changes(path.events), contact_changes(half.events), WITHIN_DEG),
+            have_same_falls(path, half, step, least),
+        )
         for path, half, step in zip(paths, paths[1:], STEPS_DEG, strict=False)
     ]
     return Pose(f"roll {roll:.3f}, pitch {pitch:.3f}, phase {phase:.3f}", tuple(map(_turned, paths)), tuple(halves))

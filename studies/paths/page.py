@@ -12,6 +12,7 @@ from studies.paths.changes_section import changes_section
 from studies.paths.listing import listed, percentiles
 from studies.paths.study import ACCURACY, FRICTIONS, STEPS_DEG, TILT_DEG, Followed, Found, Halved
 from threadstate.device.confirmation import LEAST_FALL
+from threadstate.device.contact_changes import RESOLVED_DEG
 from threadstate.numbers import number_text
 
 
@@ -56,7 +57,10 @@ Paths that end turned, jammed or slipped with a longest step and with half of it
 within the longest step, and the end to {number_text(ACCURACY)} r: *moved falls* are paths where one is by more, or
 where there are more or fewer of them; *moved ends* likewise. Falls are compared that lose more than
 {number_text(LEAST_FALL)} F r, with what follows within {number_text(STEPS_DEG[0])} deg: a lighter one may be followed
-as steps, and one in parts.
+as steps, and one in parts. *Other contacts* are paths of which one step has a contact gained or lost alone, within the
+longest step; what is gained and lost again within {number_text(RESOLVED_DEG)} deg is left out. A contact counts where
+it carries a force: which of two places carries it that are both within the accuracy of contacts, 4e-9 r, of touching
+hangs on the steps.
 
 {_halves_table(halves)}
 {listed("Other starts with half the step", starts_changed)}{"".join(_exceptions(some) for some in halves)}"""
@@ -82,6 +86,10 @@ def _moved_falls(ended: Sequence[Halved]) -> list[Halved]:
 
 def _moved_ends(ended: Sequence[Halved]) -> list[Halved]:
     return [one for one in ended if one.moved > ACCURACY]
+
+
+def _other_contacts(ended: Sequence[Halved]) -> list[Halved]:
+    return [one for one in ended if not one.changes.is_alike]
 
 
 def _energies(found: Found) -> str:
@@ -132,6 +140,8 @@ def _halves_table(halves: Sequence[Sequence[Halved]]) -> str:
                 percentiles(falls),
                 f"{len(_moved_ends(ended)):,}",
                 percentiles([one.moved for one in ended]),
+                f"{len(_other_contacts(ended)):,}",
+                percentiles([deg for one in ended for deg in one.changes.apart_deg]),
             ]
         )
     head = (
@@ -142,6 +152,8 @@ def _halves_table(halves: Sequence[Sequence[Halved]]) -> str:
         "falls moved by, deg: median, 90 %, most",
         "moved ends",
         "ends moved by, r",
+        "other contacts",
+        "changes in common apart by, deg",
     )
     return table(head, rows) if rows else "None."
 
@@ -154,7 +166,13 @@ def _exceptions(ended: Sequence[Halved]) -> str:
         listed(f"Other outcomes, {steps}", [one.name for one in _other_ends(ended)])
         + listed(f"Falls moved by more, {steps}", [_fall_text(one) for one in _moved_falls(ended)])
         + listed(f"Ends moved by more, {steps}", [f"{one.name}: {one.moved:.1e} r" for one in _moved_ends(ended)])
+        + listed(f"Other contacts, {steps}", [_contacts_text(one) for one in _other_contacts(ended)])
     )
+
+
+def _contacts_text(one: Halved) -> str:
+    alone = (one.changes.first_alone, one.changes.second_alone)
+    return f"{one.name}: {' and '.join(str(len(some)) for some in alone)} alone"
 
 
 def _fall_text(one: Halved) -> str:

@@ -14,7 +14,14 @@ from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device.command import LONGEST_STEP_WITH_FRICTION_DEG
 from threadstate.device.confirmation import LEAST_FALL, heavy_falls
-from threadstate.device.friction import FrictionLeg, FrictionPath, settled_with_friction
+from threadstate.device.contact_changes import Comparison, ContactChange, compare_changes, contact_changes
+from threadstate.device.friction import (
+    FrictionLeg,
+    FrictionPath,
+    friction_events,
+    point_of,
+    settled_with_friction,
+)
 from threadstate.device.model import Outcome, SettledState, default_device
 from threadstate.device.settle import device_numbers, path_with_friction, settled_rows
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -46,9 +53,9 @@ ENDED = {"turned", "jammed", "slipped"}
 class Followed:
     """A path at one longest step: how it ended, its balance and its losses over push times nominal radius.
 
-    ``falls_deg`` are the phases of falls that are compared, ``place`` the pose's translation at the end over the
-    nominal radius, ``ambiguous`` whether a step had several solutions, ``least_loss`` the least loss by friction in a
-    step.
+    ``falls_deg`` are the phases of falls that are compared, ``changes`` the contacts gained and lost, ``place`` the
+    pose's translation at the end over the nominal radius, ``ambiguous`` whether a step had several solutions,
+    ``least_loss`` the least loss by friction in a step.
     """
 
     end: str
@@ -57,6 +64,7 @@ class Followed:
     falls: float
     least_loss: float
     falls_deg: tuple[float, ...]
+    changes: tuple[ContactChange, ...]
     place: tuple[float, ...]
     ambiguous: bool
     seconds: float
@@ -76,6 +84,11 @@ class Halved:
         """Whether both paths end with an answer."""
         both = (self.whole, self.half)
         return all(path.end in ENDED and not path.ambiguous for path in both)
+
+    @property
+    def changes(self) -> Comparison:
+        """What both have in common of contacts gained and lost, and what each has alone: within the longest step."""
+        return compare_changes(self.whole.changes, self.half.changes, self.step_deg)
 
     @property
     def moved(self) -> float:
@@ -154,8 +167,13 @@ def followed(
     if state.outcome is not Outcome.SETTLED:
         return start, None
     leg = path.follow((phase, phase - math.radians(turn_deg)), (device.push, device.push))
+    seconds = time.process_time() - began
+    points = [
+        point_of(row, contacts, numbers, path.command) for row, contacts in zip(leg.points, leg.contacts, strict=True)
+    ]
+    changes = contact_changes(friction_events(points, leg.points))
     unit = device.push * pair.nominal_diameter / 2.0
-    return start, measured(leg, unit, pair.nominal_diameter / 2.0, time.process_time() - began)
+    return start, measured(leg, changes, unit, pair.nominal_diameter / 2.0, seconds)
 
 
 def named(state: SettledState) -> str:
@@ -170,8 +188,8 @@ def _falls(rows: Floats, unit: float) -> list[tuple[float, float]]:
     return list(zip(phases_deg.tolist(), losses.tolist(), strict=True))
 
 
-def measured(leg: FrictionLeg, unit: float, r: float, seconds: float) -> Followed:
-    """What a leg says of its energy, falls and end; energies over ``unit``, lengths over ``r``."""
+def measured(leg: FrictionLeg, changes: tuple[ContactChange, ...], unit: float, r: float, seconds: float) -> Followed:
+    """What a leg says of its energy, falls, changes and end; energies over ``unit``, lengths over ``r``."""
     rows = leg.points
     work = float((0.5 * (rows[1:, fk.P_TORQUE] + rows[:-1, fk.P_TORQUE]) * np.diff(rows[:, fk.P_PHASE])).sum())
     friction, falls = float(rows[:, fk.P_FRICTION].sum()), float(rows[:, fk.P_FALL].sum())
@@ -183,6 +201,7 @@ def measured(leg: FrictionLeg, unit: float, r: float, seconds: float) -> Followe
         falls / unit,
         float(rows[:, fk.P_FRICTION].min()) / unit,
         heavy_falls(_falls(rows, unit), LONGEST_STEP_WITH_FRICTION_DEG, LEAST_FALL),
+        changes,
         tuple(float(x) for x in rows[-1, fk.P_POSE + 9 : fk.P_POSE + 12] / r),
         bool((rows[:, fk.P_SOLUTIONS] > 1.0).any()),
         seconds,

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import pytest
 
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEvent, PathEventKind
+from threadstate.device.assembly_model import AssemblyOutcome, PathEvent, PathEventKind
 from threadstate.device.contact_changes import Comparison, ContactChange, compare_changes, contact_changes
 from threadstate.device.model import SettledFlag
-from threadstate.device.strategy import Strategy
 from threadstate.state.model import FeaturePair
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -45,7 +43,7 @@ def test_half_the_step_neither_adds_nor_moves_a_change(
 ) -> None:
     path, half = (assemble_pose(UNC, *pose_deg, longest_step=step) for step in (longest_step, 0.5 * longest_step))
     assert half.outcome is path.outcome is not AssemblyOutcome.UNDECIDED
-    found = compare_changes(path, half, RESOLVED_DEG)
+    found = compare_changes(contact_changes(path.events), contact_changes(half.events), RESOLVED_DEG)
     assert found.is_alike
     assert len(found.apart_deg) > 5
 
@@ -86,29 +84,20 @@ def test_a_fall_that_hangs_on_its_steps_ends_as_with_shorter_ones_and_is_flagged
     assert any(SettledFlag.STEP_DEPENDENT in path.flags for path in paths)
 
 
-def path_with(*events: PathEvent) -> AssemblyPath:
-    return replace(assemble_pose(UNC, 1.0, -2.0, 10.0, strategy=Strategy.CW), events=events)
-
-
-def change(kind: PathEventKind, phase_deg: float, features: FeaturePair = EDGE) -> PathEvent:
-    gained = kind is GAINED
-    return PathEvent(kind, phase_deg, phase_deg, None if gained else features, features if gained else None)
-
-
 def test_a_contact_that_moves_is_lost_and_gained() -> None:
     moved = PathEvent(MOVED, 10.0, 10.0, EDGE, THREAD)
-    assert contact_changes(path_with(moved)) == [ContactChange(GAINED, THREAD, 10.0), ContactChange(LOST, EDGE, 10.0)]
+    assert contact_changes([moved]) == (ContactChange(GAINED, THREAD, 10.0), ContactChange(LOST, EDGE, 10.0))
 
 
 def test_changes_that_one_path_has_alone_are_told() -> None:
-    one = path_with(change(GAINED, 10.0), change(LOST, 5.0))
-    other = path_with(change(GAINED, 10.25), change(LOST, 3.0))
+    one = (ContactChange(GAINED, EDGE, 10.0), ContactChange(LOST, EDGE, 5.0))
+    other = (ContactChange(GAINED, EDGE, 10.25), ContactChange(LOST, EDGE, 3.0))
     alone = ((ContactChange(LOST, EDGE, 5.0),), (ContactChange(LOST, EDGE, 3.0),))
     assert compare_changes(one, other, 1.0) == Comparison((0.25,), *alone)
 
 
 def test_an_exchange_for_one_of_the_same_features_is_left_out() -> None:
-    none, other = path_with(), path_with(change(GAINED, 10.0, THREAD), change(LOST, 10.0))
-    assert compare_changes(path_with(change(GAINED, 10.0), change(LOST, 9.995)), none, 1.0).is_alike
-    assert not compare_changes(path_with(change(GAINED, 10.0), change(LOST, 9.9)), none, 1.0).is_alike
-    assert not compare_changes(other, none, 1.0).is_alike
+    gained = ContactChange(GAINED, EDGE, 10.0)
+    assert compare_changes((gained, ContactChange(LOST, EDGE, 9.995)), (), 1.0).is_alike
+    assert not compare_changes((gained, ContactChange(LOST, EDGE, 9.9)), (), 1.0).is_alike
+    assert not compare_changes((gained, ContactChange(LOST, THREAD, 10.0)), (), 1.0).is_alike

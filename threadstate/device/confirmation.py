@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
-from threadstate.device.contact_changes import WITHIN_DEG, compare_changes
+from threadstate.device.contact_changes import WITHIN_DEG, compare_changes, contact_changes
 from threadstate.device.model import SettledFlag
 
 LEAST_FALL = 1e-3
@@ -28,7 +28,8 @@ def confirmed(path: AssemblyPath, half: AssemblyPath, longest_deg: float, energy
         return replace(path, outcome=AssemblyOutcome.UNDECIDED, flags=flags)
     is_alike = have_same_falls(path, half, longest_deg, LEAST_FALL * energy)
     if path.mu == 0.0:
-        is_alike = is_alike and compare_changes(path, half, WITHIN_DEG).is_alike
+        changes, halved = contact_changes(path.events), contact_changes(half.events)
+        is_alike = is_alike and compare_changes(changes, halved, WITHIN_DEG).is_alike
     return path if is_alike else replace(path, flags=flags)
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from threadstate.device.assembly_model import AssemblyPath, PathEventKind
+from threadstate.device.assembly_model import PathEvent, PathEventKind
 from threadstate.state.model import FeaturePair
 
 WITHIN_DEG = 0.05
@@ -37,25 +38,25 @@ class Comparison(NamedTuple):
         return not self.first_alone and not self.second_alone
 
 
-def contact_changes(path: AssemblyPath) -> list[ContactChange]:
-    """The contacts gained and lost on a path, in order; one that moves to other features is lost and gained."""
+def contact_changes(events: Iterable[PathEvent]) -> tuple[ContactChange, ...]:
+    """The contacts gained and lost in a path's events; one that moves to other features is lost and gained."""
     found = []
-    for event in path.events:
+    for event in events:
         if event.kind in (PathEventKind.GAINED, PathEventKind.MOVED) and event.features is not None:
             found.append(ContactChange(PathEventKind.GAINED, event.features, event.phase_deg))
         if event.kind in (PathEventKind.LOST, PathEventKind.MOVED) and event.features_before is not None:
             found.append(ContactChange(PathEventKind.LOST, event.features_before, event.phase_deg))
-    return found
+    return tuple(found)
 
 
-def compare_changes(one: AssemblyPath, other: AssemblyPath, within_deg: float) -> Comparison:
+def compare_changes(one: Sequence[ContactChange], other: Sequence[ContactChange], within_deg: float) -> Comparison:
     """The changes of two paths that are the same within ``within_deg``, each with the nearest one that is left.
 
     What one path alone loses and gains of the same features within ``RESOLVED_DEG`` is left out.
     """
-    left = contact_changes(other)
+    left = list(other)
     apart, alone = [], []
-    for change in contact_changes(one):
+    for change in one:
         same = [found for found in left if found[:2] == change[:2]]
         nearest = min(same, key=lambda found: abs(found.phase_deg - change.phase_deg), default=None)
         if nearest is None or abs(nearest.phase_deg - change.phase_deg) > within_deg:
