@@ -47,16 +47,17 @@ def test_a_path_is_computed_and_what_is_shown_is_the_answer(explorer: Explorer) 
     explorer.open(f"/#{ENGAGING}")
     explorer.one("#device-fields input")
     assert [value_of(explorer, f"#device-{name}") for name in ("roll", "pitch", "phase")] == ["1", "-2", "10"]
-    choose_device(explorer, strategy="cw", push="8")
+    choose_device(explorer, strategy="cw", push="8", confirm="yes")
     explorer.click("#device-compute")
     explorer.wait_for_text("#turned-outcome", "The bolt engages. Margin of the height on the lead:")
     body = {"pose": {"roll": 1, "pitch": -2, "phase": 10}, "strategy": "cw", "device": {"unit": "in", "push": 8}}
-    answer = computed(explorer, {**body, "library": 1})
+    answer = computed(explorer, {**body, "library": 1, "confirm": True})
     count = len(answer["path"]["phase"])
     assert explorer.text("#turned-readout").startswith(f"point 1 of {count}, phase 10 deg")
     assert len(explorer.all("#turned-events button")) == len(answer["events"])
     assert f"{100 * answer['margins']['lead']:.1f} %" in explorer.text("#turned-outcome")
     assert "push%3D8" in explorer.chromium.current_url
+    assert "confirm%3Dyes" in explorer.chromium.current_url
     explorer.wait(lambda: len(explorer.all("#turned-chart .cursor line")) == 6, "not all curves are drawn")
     explorer.choose("#unit", "mm")
     explorer.wait_for_text("#turned-chart", "height z (mm)")

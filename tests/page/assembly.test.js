@@ -33,6 +33,13 @@ test("what is left empty is left out of the request, what is no number is sent a
   });
 });
 
+test("a path is confirmed where that is chosen", () => {
+  const text = assemblyText({ ...requestOf(""), ...POSE, confirm: "yes" });
+  assert.equal(checkedAssembly(text), text);
+  assert.equal(bodyOf(text, 3).confirm, true);
+  assert.ok(!("confirm" in bodyOf(assemblyText({ ...requestOf(""), ...POSE }), 3)));
+});
+
 test("lengths are converted, and back again to the same text", () => {
   assert.equal(defaultText("k_lateral", "in"), "508");
   assert.equal(defaultText("k_tilt", "in"), "19.685");

@@ -40,7 +40,8 @@ test("a map's request goes into the link and comes back the same", () => {
   assert.equal(TEXT, "phases=2&roll=0&pitch=0&phase=0&mu=0.1&k_tilt=250&strategy=cw&unit=mm");
   assert.deepEqual(mapRequestOf(TEXT), { stored: null, phases: 2, request: { ...REQUEST, roll: "0", pitch: "0", phase: "0" } });
   assert.equal(checkedMap(TEXT), TEXT);
-  for (const text of ["", "phases=5&roll=0&pitch=0&phase=0&unit=mm", "phases=2", TEXT.replace("cw", "sideways"), `${TEXT}&phases=1`]) assert.equal(checkedMap(text), undefined, text);
+  assert.equal(mapText(2, { ...REQUEST, confirm: "yes" }), TEXT);
+  for (const text of ["", "phases=5&roll=0&pitch=0&phase=0&unit=mm", "phases=2", TEXT.replace("cw", "sideways"), `${TEXT}&phases=1`, `${TEXT}&confirm=yes`]) assert.equal(checkedMap(text), undefined, text);
   assert.equal(pathText(TEXT, { roll: 3, pitch: -2, phase: 180 }), "roll=3&pitch=-2&phase=180&mu=0.1&k_tilt=250&strategy=cw&unit=mm");
 });
 

@@ -37,6 +37,11 @@ export const CHOICES = {
     values: { nut: "goes round", bolt: "stays in space" },
     help: "Which axis the hand turns about: the nut's, and the tilt goes round with the phase; or the bolt's own, and it stays in space.",
   },
+  confirm: {
+    label: "steps",
+    values: { no: "as usual", yes: "and half as long" },
+    help: "Whether the path is followed with half the step as well, which takes some three times as long. It is flagged where that moves a fall or a contact, and undecided where it ends otherwise.",
+  },
 };
 const POSE = ["roll", "pitch", "phase"];
 /** The numbers of a device, without those of the pose and the contacts. */
@@ -94,6 +99,7 @@ export function bodyOf(text, library) {
     pose: Object.fromEntries(POSE.map((name) => [name, value(name)])),
     device: { unit: request.unit, ...part([...DEVICE_NUMBERS, "about"]) },
     ...part(["strategy", "mu"]),
+    ...(request.confirm === "yes" ? { confirm: true } : {}),
   };
 }
 

@@ -60,7 +60,7 @@ export class DeviceView {
   fillDevice(request) {
     const { unit } = this.request;
     for (const name of ALL) {
-      if (!POSE.includes(name) && name !== "mu") field(name).value = Object.hasOwn(NUMBERS, name) ? convertedText(name, request[name], request.unit, unit) : request[name];
+      if (![...POSE, "mu", "confirm"].includes(name)) field(name).value = Object.hasOwn(NUMBERS, name) ? convertedText(name, request[name], request.unit, unit) : request[name];
     }
     this.#showStale();
   }

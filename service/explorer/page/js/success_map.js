@@ -30,9 +30,9 @@ const HEAD = /^(?:stored=([0-9]{1,15})&)?phases=([0-9]{1,5})&/;
 /** Orientations of a stored map that are read at once. */
 const PAGE = 1000;
 
-/** The text of a map's request: how many phases, and the device, strategy and friction as `assembly.js` writes them. */
+/** The text of a map's request: how many phases, and the device, strategy and friction as `assembly.js` writes them. No path of a map is confirmed by itself. */
 export function mapText(phases, request) {
-  return `phases=${phases}&${assemblyText({ ...request, roll: "0", pitch: "0", phase: "0" })}`;
+  return `phases=${phases}&${assemblyText({ ...request, roll: "0", pitch: "0", phase: "0", confirm: "no" })}`;
 }
 
 /** The text of a map that the service has stored, at one of its frictions; null where the page has no fields for its device. */
@@ -52,7 +52,7 @@ export function mapRequestOf(text) {
 export function checkedMap(text) {
   const [, stored, phases] = text.match(HEAD) ?? [];
   const isKnown = stored === undefined ? PHASE_COUNTS.includes(Number(phases)) : Number(phases) > 0;
-  return isKnown && checkedAssembly(assemblyOf(text)) !== undefined ? text : undefined;
+  return isKnown && checkedAssembly(assemblyOf(text)) !== undefined && mapRequestOf(text).request.confirm === "no" ? text : undefined;
 }
 
 /** The text of the path of a map that starts at an orientation and phase. */

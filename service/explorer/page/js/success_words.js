@@ -5,7 +5,7 @@ import { OUTCOMES, lateSnapsOf, mapRequestOf, totalsOf } from "./success_map.js"
 import { angle, fixed, unitFactor } from "./units.js";
 
 /** What of a request a map has for all its paths, but the friction. */
-export const OF_MAP = [...Object.keys(NUMBERS), ...Object.keys(CHOICES)].filter((name) => !["roll", "pitch", "phase", "mu"].includes(name));
+export const OF_MAP = [...Object.keys(NUMBERS), ...Object.keys(CHOICES)].filter((name) => !["roll", "pitch", "phase", "mu", "confirm"].includes(name));
 
 export function placeWords({ roll, pitch }) {
   return `roll ${angle(roll)}, pitch ${angle(pitch)}`;

@@ -164,7 +164,7 @@ const REASONS = {
   ambiguous: "a step with friction had several solutions",
   frictionless_fall: "a fall was followed without friction",
   many_contacts: "more than eight contacts with friction",
-  step_dependent: "with half the step it ends otherwise",
+  step_dependent: "with half the step it ends otherwise, or falls or changes contacts elsewhere",
 };
 /** Which margin an outcome rests on first. */
 const DECISIVE = { engaged: "lead", cross_threaded: "play", jammed: "torque", no_snap: "snap", slipped: "offset" };
