@@ -12,7 +12,7 @@ from studies.paths.changes_section import changes_section
 from studies.paths.listing import listed, percentiles
 from studies.paths.study import ACCURACY, FRICTIONS, STEPS_DEG, TILT_DEG, Followed, Found, Halved
 from threadstate.device.confirmation import LEAST_FALL
-from threadstate.device.contact_changes import RESOLVED_DEG
+from threadstate.device.contact_changes import RESOLVED_WITH_FRICTION_DEG
 from threadstate.numbers import number_text
 
 
@@ -58,9 +58,9 @@ within the longest step, and the end to {number_text(ACCURACY)} r: *moved falls*
 where there are more or fewer of them; *moved ends* likewise. Falls are compared that lose more than
 {number_text(LEAST_FALL)} F r, with what follows within {number_text(STEPS_DEG[0])} deg: a lighter one may be followed
 as steps, and one in parts. *Other contacts* are paths of which one step has a contact gained or lost alone, within the
-longest step; what is gained and lost again within {number_text(RESOLVED_DEG)} deg is left out. A contact counts where
-it carries a force: which of two places carries it that are both within the accuracy of contacts, 4e-9 r, of touching
-hangs on the steps.
+longest step; what is gained and lost again within {number_text(RESOLVED_WITH_FRICTION_DEG)} deg is left out. A contact
+counts where it carries a force: which of two places carries it that are both within the accuracy of contacts, 4e-9 r,
+of touching hangs on the steps.
 
 {_halves_table(halves)}
 {listed("Other starts with half the step", starts_changed)}{"".join(_exceptions(some) for some in halves)}"""

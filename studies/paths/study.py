@@ -14,7 +14,13 @@ from threadstate.device import _friction_kernel as fk
 from threadstate.device import _friction_step_kernel as fs
 from threadstate.device.command import LONGEST_STEP_WITH_FRICTION_DEG
 from threadstate.device.confirmation import LEAST_FALL, heavy_falls
-from threadstate.device.contact_changes import Comparison, ContactChange, compare_changes, contact_changes
+from threadstate.device.contact_changes import (
+    RESOLVED_WITH_FRICTION_DEG,
+    Comparison,
+    ContactChange,
+    compare_changes,
+    contact_changes,
+)
 from threadstate.device.friction import (
     FrictionLeg,
     FrictionPath,
@@ -88,7 +94,7 @@ class Halved:
     @property
     def changes(self) -> Comparison:
         """What both have in common of contacts gained and lost, and what each has alone: within the longest step."""
-        return compare_changes(self.whole.changes, self.half.changes, self.step_deg)
+        return compare_changes(self.whole.changes, self.half.changes, self.step_deg, RESOLVED_WITH_FRICTION_DEG)
 
     @property
     def moved(self) -> float:

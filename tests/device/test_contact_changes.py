@@ -8,8 +8,15 @@ import pytest
 
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, PathEvent, PathEventKind
-from threadstate.device.contact_changes import Comparison, ContactChange, compare_changes, contact_changes
+from threadstate.device.contact_changes import (
+    RESOLVED_WITH_FRICTION_DEG,
+    Comparison,
+    ContactChange,
+    compare_changes,
+    contact_changes,
+)
 from threadstate.device.model import SettledFlag
+from threadstate.device.strategy import Strategy
 from threadstate.state.model import FeaturePair
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -44,6 +51,26 @@ def test_half_the_step_neither_adds_nor_moves_a_change(
     path, half = (assemble_pose(UNC, *pose_deg, longest_step=step) for step in (longest_step, 0.5 * longest_step))
     assert half.outcome is path.outcome is not AssemblyOutcome.UNDECIDED
     found = compare_changes(contact_changes(path.events), contact_changes(half.events), RESOLVED_DEG)
+    assert found.is_alike
+    assert len(found.apart_deg) > 5
+
+
+@pytest.mark.parametrize(
+    ("pose_deg", "mu"),
+    [
+        ((1.425362758167977, -2.1924088902434304, 83.25319090770529), 0.02),
+        ((2.5403161557957556, -2.683617268277298, 47.96295857821963), 0.05),
+        ((-1.5843338859349023, -2.846421054112774, 69.43697983638071), 0.05),
+    ],
+)
+def test_with_friction_a_contact_that_a_like_one_takes_over_from_is_told_alike_with_half_the_step(
+    pose_deg: tuple[float, float, float], mu: float
+) -> None:
+    """Both are there for less than a step, and of the same features."""
+    path, half = (assemble_pose(UNC, *pose_deg, mu=mu, strategy=Strategy.CW, longest_step=step) for step in (1.0, 0.5))
+    assert half.outcome is path.outcome is not AssemblyOutcome.UNDECIDED
+    changes, halved = contact_changes(path.events), contact_changes(half.events)
+    found = compare_changes(changes, halved, 0.5, RESOLVED_WITH_FRICTION_DEG)
     assert found.is_alike
     assert len(found.apart_deg) > 5
 

@@ -97,6 +97,9 @@ length: where a bolt has fallen in the shortest step again and again longer ones
 MOST_BARE = 4
 """The most falls without friction in a row: in more of them the path has not the friction that it is said to have."""
 
+MOVED = 0.025
+"""How far (nominal radii) a contact is at most from where it was before a step: farther away it is another one."""
+
 MAX_POINTS = 2500
 
 # A point: phase (rad), push, what holds the bolt, potential, elastic energy, torque, contacts, coordinates, rotation
@@ -293,18 +296,27 @@ def add_branches(
 
 
 @kernel()
-def same_features(i: int, count: int, contacts: Array, path: Path) -> bool:
-    """Whether contacts have the features of a point's."""
+def same_contacts(i: int, count: int, contacts: Array, r: float, path: Path) -> bool:
+    """Whether contacts are a point's: as many, each with the features of one of these that is near, and of another one.
+
+    One that another of the same features takes over from is not.
+    """
     points, all_contacts = path
     if points[i, P_COUNT] != count:
         return False
+    is_taken = np.zeros(count)
     for c in range(count):
-        more = 0
+        best, nearest = -1, MOVED * r
         for h in range(count):
-            more += 1 if contacts[h, K_PAIR] == contacts[c, K_PAIR] else 0
-            more -= 1 if all_contacts[i, h, K_PAIR] == contacts[c, K_PAIR] else 0
-        if more != 0:
+            apart = 0.0
+            for j in range(3):
+                apart += (contacts[c, K_POINT + j] - all_contacts[i, h, K_POINT + j]) ** 2
+            is_like = contacts[c, K_PAIR] == all_contacts[i, h, K_PAIR] and is_taken[h] == 0.0
+            if is_like and math.sqrt(apart) < nearest:
+                best, nearest = h, math.sqrt(apart)
+        if best < 0:
             return False
+        is_taken[best] = 1.0
     return True
 
 
@@ -425,7 +437,7 @@ def follow_friction(
     of contacts; ``branches`` are those of the points that are new.
     """
     setting = (command, device, strip, bolt, nut, new_threads(bolt), new_work(), new_modes_work())
-    turn, growth = phases[1] - phases[0], pushes[1] - pushes[0]
+    turn, growth, r = phases[1] - phases[0], pushes[1] - pushes[0], bolt[pk.R_MAJOR]
     turns = turn != 0.0
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
@@ -517,7 +529,7 @@ def follow_friction(
             i + 1, phases[0] + target * turn, push, next_kind, q, count, contacts, losses, command, device, path
         )
         lost = unexplained(path[0][i], path[0][i + 1])
-        if abs(lost) > ENERGY_STEP * command[M_PUSH] * bolt[pk.R_MAJOR] and next_kind != ON_STRIP:
+        if abs(lost) > ENERGY_STEP * command[M_PUSH] * r and next_kind != ON_STRIP:
             if size > least and not bridging:
                 count = go_back(i, q, contacts, path)
                 step = max(0.5 * size, least)
@@ -528,7 +540,7 @@ def follow_friction(
                 jumps = True
                 continue
             path[0][i + 1, P_FALL] = max(lost, 0.0)
-        changed = next_kind != kind or (next_kind == ON_CONTACTS and not same_features(i, count, contacts, path))
+        changed = next_kind != kind or (next_kind == ON_CONTACTS and not same_contacts(i, count, contacts, r, path))
         if turns and changed and next_kind != ON_STRIP and size * abs(turn) > ABOVE * EVENT_WIDTH:
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, EVENT_WIDTH / abs(turn))

@@ -11,7 +11,7 @@ from threadstate.state.model import FeaturePair
 WITHIN_DEG = 0.05
 """How far apart two changes are at most that are the same: within ten of the steps in which they are told."""
 
-RESOLVED_DEG = 0.01
+RESOLVED_DEG, RESOLVED_WITH_FRICTION_DEG = 0.01, 0.1
 """What a contact loses to another one of the same features within so much of phase is not told apart: twice the width
 of the steps in which contacts change.
 """
@@ -49,10 +49,15 @@ def contact_changes(events: Iterable[PathEvent]) -> tuple[ContactChange, ...]:
     return tuple(found)
 
 
-def compare_changes(one: Sequence[ContactChange], other: Sequence[ContactChange], within_deg: float) -> Comparison:
+def compare_changes(
+    one: Sequence[ContactChange],
+    other: Sequence[ContactChange],
+    within_deg: float,
+    resolved_deg: float = RESOLVED_DEG,
+) -> Comparison:
     """The changes of two paths that are the same within ``within_deg``, each with the nearest one that is left.
 
-    What one path alone loses and gains of the same features within ``RESOLVED_DEG`` is left out.
+    What one path alone loses and gains of the same features within ``resolved_deg`` is left out.
     """
     left = list(other)
     apart, alone = [], []
@@ -64,10 +69,10 @@ def compare_changes(one: Sequence[ContactChange], other: Sequence[ContactChange]
             continue
         apart.append(abs(nearest.phase_deg - change.phase_deg))
         left.remove(nearest)
-    return Comparison(tuple(apart), _without_exchanges(alone), _without_exchanges(left))
+    return Comparison(tuple(apart), _without_exchanges(alone, resolved_deg), _without_exchanges(left, resolved_deg))
 
 
-def _without_exchanges(changes: list[ContactChange]) -> tuple[ContactChange, ...]:
+def _without_exchanges(changes: list[ContactChange], resolved_deg: float) -> tuple[ContactChange, ...]:
     """Changes without pairs of a gain and a loss of the same features that are not told apart."""
     kept: list[ContactChange] = []
     for change in changes:
@@ -77,7 +82,7 @@ def _without_exchanges(changes: list[ContactChange]) -> tuple[ContactChange, ...
                 for found in kept
                 if found.features is change.features
                 and found.kind is not change.kind
-                and abs(found.phase_deg - change.phase_deg) <= RESOLVED_DEG
+                and abs(found.phase_deg - change.phase_deg) <= resolved_deg
             ),
             None,
         )
