@@ -57,6 +57,27 @@ def found(place: Floats, reach: float, threads: pl.Threads) -> Floats:
     return places[:count]
 
 
+def test_a_maximum_within_an_edge_is_found_where_a_fillet_lies_between() -> None:
+    """From the nut's edge phi rises by 3e-4 of the way down the flank, and on 0.008 r below it falls."""
+    rotation = np.array(
+        [
+            [0.9757314448623632, 0.21739295464635103, -0.02623834554492122],
+            [-0.21766732202316835, 0.9759897146324782, -0.008063116945454252],
+            [0.023855490564384654, 0.01357866715636382, 0.9996231966937287],
+        ]
+    )
+    place = place_of(rotation, np.array([-0.000835059093067843, 0.0031954780783076606, -0.0038060654953361323]))
+    places = found(place, TOUCHING, pl.new_threads(BOLT))
+    (within,) = places[places[:, gk.G_PAIR] == THREAD_THREAD]
+    assert 1e-6 * R < within[gk.G_VALUE] < 1e-5 * R
+    beside = np.linalg.norm(places[:, gk.G_POINT : gk.G_POINT + 3] - within[gk.G_POINT : gk.G_POINT + 3], axis=1)
+    (edge,) = places[(places[:, gk.G_PAIR] == THREAD_EDGE) & (beside < 0.02 * R)]
+    work = np.zeros(pl.PLACES_WORK)
+    assert near.follow_place(edge, place, numbers(), BOLT, NUT, pl.new_threads(BOLT), work)
+    assert edge[gk.G_PAIR] == THREAD_THREAD
+    assert np.allclose(edge[gk.G_POINT : gk.G_POINT + 3], within[gk.G_POINT : gk.G_POINT + 3], atol=1e-9 * R)
+
+
 def test_samples_of_both_edges_have_the_lesser_of_g_and_phi() -> None:
     """Of a tilted pose, all round, as at single points of the edges."""
     cos, sin = math.cos(0.05), math.sin(0.05)

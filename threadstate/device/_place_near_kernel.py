@@ -42,8 +42,15 @@ from threadstate.device._gap_kernel import (
     set_edge_jet,
     set_gap,
 )
-from threadstate.device._places_kernel import NEARLY_LEVEL, SAME_PLACE, W_GAP, W_JET, Threads, bracketed_peak
-from threadstate.device._thread_maximum_kernel import MAXIMUM, OUTSIDE, polished_maximum, ridge_maximum, thread_maximum
+from threadstate.device._places_kernel import SAME_PLACE, W_GAP, W_JET, Threads, bracketed_peak
+from threadstate.device._thread_maximum_kernel import (
+    MAXIMUM,
+    NEARLY_LEVEL,
+    OUTSIDE,
+    maximum_within,
+    polished_maximum,
+    ridge_maximum,
+)
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -246,7 +253,8 @@ def from_edge(
     at, up, slope = set_inward(pair, theta, place, bolt, nut, threads)
     if slope > 0.0:
         if slope < NEARLY_LEVEL:
-            at, up, kind = thread_maximum(at, up, 0.0, -math.inf, threads.placement, bolt, nut, jet)
+            inward = -1.0 if pair == THREAD_EDGE else 1.0
+            at, up, kind = maximum_within(at, up, inward, slope, -math.inf, threads.placement, bolt, nut, jet)
         else:
             at, up, converged = nearby_maximum(at, up, 0.0, threads.placement, bolt, nut, jet)
             kind = MAXIMUM if converged else OUTSIDE

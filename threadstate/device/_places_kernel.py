@@ -66,6 +66,8 @@ from threadstate.device._gap_kernel import (
 )
 from threadstate.device._thread_maximum_kernel import (
     MAXIMUM,
+    NEARLY_LEVEL,
+    maximum_within,
     polished_maximum,
     ridge_maximum,
     thread_maximum,
@@ -98,10 +100,6 @@ MAX_PITCHES = 4
 SAME_PLACE, SAME_MAXIMUM = 1e-7, 1e-6
 """Places of the same features that are nearer to each other (nominal radii) are one; so is a maximum along the threads,
 before its last digits are known, that is as near as the second to a place there."""
-
-NEARLY_LEVEL, WITHIN = 0.05, 2e-3
-"""Up to this fall of phi, over the height along the axis, from an edge's place into the threads another maximum is
-looked for beside it, from so far within (nominal radii)."""
 
 MAX_STEPS = 60
 NEWTON_STEPS = 12
@@ -463,8 +461,10 @@ def add_threads(
             rise = inward * threads.jet[TJ_B]
             if rise > -NEARLY_LEVEL:
                 # Where phi falls a little from the edge it may rise again to a maximum just within.
-                z += 0.0 if rise > 0.0 else inward * WITHIN * bolt[pk.R_MAJOR]
-                count, _ = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
+                jet = threads.jet
+                theta, z, kind = maximum_within(theta, z, inward, rise, -reach, placement, bolt, nut, jet)
+                if kind == MAXIMUM:
+                    count, _ = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, work, count, places)
     remember(edges, count, places, threads)
     return count
 

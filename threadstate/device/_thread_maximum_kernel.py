@@ -49,6 +49,10 @@ has reached counts as a maximum."""
 
 POLISH_STEPS = 12
 
+NEARLY_LEVEL, WITHIN = 0.05, 2e-3
+"""Up to this slope of phi along the axis, from an edge's place out of the threads, a maximum within them is looked for
+beside it, from so far within (nominal radii)."""
+
 RIDGE_STEPS, CONVERGING = 8, 0.5
 """Of Newton's method to a ridge on an azimuth: the most steps, and each over the one before."""
 
@@ -194,6 +198,31 @@ def thread_maximum(
         return at, up, MAXIMUM if converged else NONE
     set_jet(at, up, placement, bolt, nut, jet)
     return at, up, kind
+
+
+@kernel(allocates=False)
+def maximum_within(
+    theta: float,
+    z: float,
+    inward: float,
+    rise: float,
+    lowest: float,
+    placement: Array,
+    bolt: Array,
+    nut: Array,
+    jet: Array,
+) -> tuple[float, float, int]:
+    """As :func:`thread_maximum`, one near a place of an edge, from which phi has the slope ``rise`` into both threads.
+
+    ``inward`` is 1 where they are up the bolt's axis from there, -1 where they are down it. It is looked for from the
+    edge where phi rises there; where it falls, or rises but little and there is none, from just within.
+    """
+    if rise > 0.0:
+        at, up, kind = thread_maximum(theta, z, 0.0, lowest, placement, bolt, nut, jet)
+        if kind == MAXIMUM or rise > NEARLY_LEVEL:
+            return at, up, kind
+    within = z + inward * WITHIN * bolt[pk.R_MAJOR]
+    return thread_maximum(theta, within, 0.0, lowest, placement, bolt, nut, jet)
 
 
 @kernel(allocates=False)
