@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from threadstate.contact._stage_kernel import EDGE_THREAD, THREAD_EDGE, THREAD_THREAD
+from threadstate.contact._stage_kernel import EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, new_work
 from threadstate.device import _chart_kernel as ck
 from threadstate.device import _gap_kernel as gk
 from threadstate.device import _place_near_kernel as near
 from threadstate.device import _places_kernel as pl
+from threadstate.device._certificate_kernel import FREE, overlap
+from threadstate.device._settle_kernel import OVERLAP_LIMIT
 from threadstate.device.assemble import assemble_pose
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
 from threadstate.device.strategy import Strategy
@@ -76,6 +78,26 @@ def test_a_maximum_within_an_edge_is_found_where_a_fillet_lies_between() -> None
     assert near.follow_place(edge, place, numbers(), BOLT, NUT, pl.new_threads(BOLT), work)
     assert edge[gk.G_PAIR] == THREAD_THREAD
     assert np.allclose(edge[gk.G_POINT : gk.G_POINT + 3], within[gk.G_POINT : gk.G_POINT + 3], atol=1e-9 * R)
+
+
+def test_a_contact_that_overlaps_by_round_off_on_a_nearly_straight_arc_is_certified() -> None:
+    """By 4e-12 nominal radii (decision 53); 2e-8 deeper, which is more than is allowed, it is not."""
+    rotation = np.array(
+        [
+            [0.999490155356339, -0.002371310601031948, 0.03184032399010419],
+            [0.0015077423328999885, 0.9996310884872599, 0.027118511073309603],
+            [-0.03189288414080723, -0.027056677841321687, 0.9991250072565353],
+        ]
+    )
+    offset = np.array([-0.00653984623936604, -0.005469860233952158, -0.0006576650959660022])
+    said = []
+    for deeper in (0.0, 2e-8 * R):
+        place = place_of(rotation, offset - np.array([0.0, 0.0, deeper]))
+        places = found(place, TOUCHING, pl.new_threads(BOLT))
+        assert places[:, gk.G_VALUE].max() > 1e-12 * R
+        said.append(overlap(place[0:12], OVERLAP_LIMIT * R, len(places), places, BOLT, NUT, new_work()))
+    assert said[0] == FREE
+    assert said[1] != FREE
 
 
 def test_samples_of_both_edges_have_the_lesser_of_g_and_phi() -> None:
