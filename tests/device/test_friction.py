@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -15,13 +15,22 @@ from threadstate.device import _friction_step_kernel as fs
 from threadstate.device import _modes_kernel as mk
 from threadstate.device import _strip_kernel as st
 from threadstate.device.assemble import assemble_pose
-from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPoint, ContactMotion, Held, PathEventKind
+from threadstate.device.assembly_model import (
+    AssemblyOutcome,
+    AssemblyPath,
+    AssemblyPoint,
+    ContactMotion,
+    Held,
+    PathEventKind,
+)
 from threadstate.device.command import command_numbers, strip_numbers
+from threadstate.device.contact_changes import contact_changes
 from threadstate.device.friction import FrictionLeg, FrictionPath, begin_friction, point_of
 from threadstate.device.model import Outcome, SettledFlag, default_device
 from threadstate.device.settle import device_numbers, path_with_friction, settle_pose, settled_rows
 from threadstate.device.strategy import Strategy
 from threadstate.errors import InvalidValueError
+from threadstate.state.model import FeaturePair
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
@@ -250,3 +259,59 @@ def test_a_bolt_settles_with_friction_all_the_way() -> None:
     """Before decision 57 it fell as one without friction on the way."""
     state = settle_pose(UNC, -3.0, 4.0, 0.0, mu=0.1)
     assert (state.outcome, state.flags, state.falls) == (Outcome.SETTLED, (), ())
+
+
+def changes(path: AssemblyPath, features: FeaturePair, low: float, high: float) -> list[tuple[PathEventKind, float]]:
+    """Contacts of these features that a path gains and loses between two phases in degrees."""
+    return [
+        (change.kind, change.phase_deg)
+        for change in contact_changes(path.events)
+        if change.features is features and low < change.phase_deg < high
+    ]
+
+
+def turned(roll: float, pitch: float, phase: float, mu: float, step: float = 1.0) -> AssemblyPath:
+    """A bolt that is turned clockwise; angles in degrees."""
+    return assemble_pose(UNC, roll, pitch, phase, strategy=Strategy.CW, mu=mu, longest_step=step)
+
+
+def test_two_points_of_a_nearly_level_ridge_are_one_contact() -> None:
+    """On it the deepest point runs from one end to the other: for 50 deg two points shared the force."""
+    path = turned(2.443398275329794, 2.0014407856355927, 143.00615586286324, 0.02)
+    for point in path.points:
+        places = [c.point for c in point.contacts if c.features is FeaturePair.THREAD_THREAD]
+        assert all(math.dist(one, other) > 0.1 * R for one, other in combinations(places, 2))
+    assert not changes(path, FeaturePair.THREAD_THREAD, -120.0, -75.0)
+
+
+@pytest.mark.parametrize("step", [1.0, 0.5])
+def test_a_contact_that_a_like_one_beside_it_takes_over_from_is_seen(step: float) -> None:
+    """For 0.9 deg both touch, 0.02 rad apart on the bolt's edge."""
+    path = turned(-0.22865815778796428, -1.8572114764081338, 8.660473603462236, 0.1, step)
+    (first, gained_deg), (second, lost_deg) = changes(path, FeaturePair.EDGE_THREAD, -74.5, -73.0)
+    assert (first, second) == (PathEventKind.GAINED, PathEventKind.LOST)
+    assert gained_deg == pytest.approx(-73.3, abs=0.1)
+    assert lost_deg == pytest.approx(-74.15, abs=0.1)
+
+
+@pytest.mark.parametrize("step", [1.0, 0.5])
+def test_a_bolt_tips_off_the_surface_where_it_would_lie_again_later_in_the_step(step: float) -> None:
+    """Between phases -356.6 and -357.4 deg it does not lie on the surface."""
+    path = turned(1.2777020959327414, 2.484915940493546, -168.16116983823713, 0.2, step)
+    (tips,) = (event for event in path.events if event.kind is PathEventKind.OFF_SURFACE)
+    assert tips.phase_deg == pytest.approx(-356.62, abs=0.1)
+
+
+def test_a_step_is_short_where_the_path_bends() -> None:
+    """At phase -0.3 deg it bends, and a contact that comes 0.2 deg later is soon lost: steps of 0.25 deg missed it."""
+    roll, pitch, phase, mu = -3.3353393116151597, -2.812265307131316, -0.26475808852978844, 0.02
+    for step in (1.0, 0.5):
+        found = changes(turned(roll, pitch, phase, mu, step), FeaturePair.THREAD_EDGE, -1.0, 0.0)
+        assert [kind for kind, _ in found] == [PathEventKind.GAINED, PathEventKind.LOST]
+
+
+def test_the_last_step_of_a_leg_is_not_one_of_round_off() -> None:
+    """This one's was one of 2e-12 deg; in such a step another bolt lost a contact."""
+    path = turned(3.6083457371164442, -1.8548811219210544, -34.61874938587022, 0.05)
+    phases = [point.phase_deg for point in path.points]
+    assert all(one - other > 1e-6 for one, other in pairwise(phases))

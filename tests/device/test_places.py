@@ -59,19 +59,57 @@ def found(place: Floats, reach: float, threads: pl.Threads) -> Floats:
     return places[:count]
 
 
-def test_a_maximum_within_an_edge_is_found_where_a_fillet_lies_between() -> None:
+WITHIN = {
+    "a fillet lies between": (
+        THREAD_EDGE,
+        (
+            (0.9757314448623632, 0.21739295464635103, -0.02623834554492122),
+            (-0.21766732202316835, 0.9759897146324782, -0.008063116945454252),
+            (0.023855490564384654, 0.01357866715636382, 0.9996231966937287),
+        ),
+        (-0.000835059093067843, 0.0031954780783076606, -0.0038060654953361323),
+    ),
+    "phi rises as far as the corner of a crest": (
+        EDGE_THREAD,
+        (
+            (-0.9109029818937728, 0.41262059700673964, 2.242397719525325e-05),
+            (-0.41261935333569555, -0.9109001002072816, -0.0025053333504182485),
+            (-0.0010133261396762655, -0.0022913681865034258, 0.9999968613960588),
+        ),
+        (-8.130418341511673e-05, 0.0005423103327403243, -0.021917340861281484),
+    ),
+    "the ridge begins beside the edge's place": (
+        EDGE_THREAD,
+        (
+            (0.9054544737200818, 0.4243854105972612, -0.00701564626272997),
+            (-0.4244157008778651, 0.9054605218788768, -0.0035434682420341646),
+            (0.004848594501535047, 0.006185999597942582, 0.9999691117931263),
+        ),
+        (-0.0025080548190156465, 0.002179033080642574, -0.004861026864618087),
+    ),
+}
+"""Poses at which a contact of an edge goes on within the threads: its features, rotation and translation (in)."""
+
+
+@pytest.mark.parametrize("case", WITHIN)
+def test_a_maximum_within_an_edge_is_found(case: str) -> None:
+    """It overlaps by 1e-6 to 4e-6 r, and lies between two azimuths on which the search looks for ridges."""
+    pair, rotation, translation = WITHIN[case]
+    place = place_of(np.array(rotation), np.array(translation))
+    places = found(place, TOUCHING, pl.new_threads(BOLT))
+    overlapping = (places[:, gk.G_PAIR] == THREAD_THREAD) & (places[:, gk.G_VALUE] > TOUCHING)
+    (within,) = places[overlapping]
+    assert 1e-6 * R < within[gk.G_VALUE] < 1e-5 * R
+    beside = np.linalg.norm(places[:, gk.G_POINT : gk.G_POINT + 3] - within[gk.G_POINT : gk.G_POINT + 3], axis=1)
+    assert ((places[:, gk.G_PAIR] == pair) & (beside < 0.05 * R)).sum() == 1
+
+
+def test_a_contact_is_followed_across_a_fillet_to_the_maximum_within() -> None:
     """From the nut's edge phi rises by 3e-4 of the way down the flank, and on 0.008 r below it falls."""
-    rotation = np.array(
-        [
-            [0.9757314448623632, 0.21739295464635103, -0.02623834554492122],
-            [-0.21766732202316835, 0.9759897146324782, -0.008063116945454252],
-            [0.023855490564384654, 0.01357866715636382, 0.9996231966937287],
-        ]
-    )
-    place = place_of(rotation, np.array([-0.000835059093067843, 0.0031954780783076606, -0.0038060654953361323]))
+    _, rotation, translation = WITHIN["a fillet lies between"]
+    place = place_of(np.array(rotation), np.array(translation))
     places = found(place, TOUCHING, pl.new_threads(BOLT))
     (within,) = places[places[:, gk.G_PAIR] == THREAD_THREAD]
-    assert 1e-6 * R < within[gk.G_VALUE] < 1e-5 * R
     beside = np.linalg.norm(places[:, gk.G_POINT : gk.G_POINT + 3] - within[gk.G_POINT : gk.G_POINT + 3], axis=1)
     (edge,) = places[(places[:, gk.G_PAIR] == THREAD_EDGE) & (beside < 0.02 * R)]
     work = np.zeros(pl.PLACES_WORK)

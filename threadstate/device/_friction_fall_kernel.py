@@ -63,7 +63,7 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-LONGEST_WAY = 2e-3
+LONGEST_WAY = 5e-4
 """How far (nominal radii) the bolt goes in a step of a fall."""
 
 FIRST_DRAG, LEAST_DRAG, LARGEST_DRAG = 100.0, 0.1, 1e8
@@ -79,9 +79,9 @@ FRICTIONLESS = -1.0
 LEFT = 1e-9
 """The force of the drag, over the push, at which the bolt is in equilibrium."""
 
-MOST_STEPS, LOOKED_AFTER, LEAST_WAY, SLOW = 1000, 100, 1e-5, 1e-3
+MOST_STEPS, LOOKED_AFTER, LEAST_WAY = 1000, 100, 1e-5
 """The most steps of a fall that are tried; after so many each it is looked at whether the bolt has gone so far (nominal
-radii) in them. If it has not, though the force of the drag is more than that over the push, no step goes on."""
+radii) in them. If it has not, no step goes on."""
 
 
 @kernel()
@@ -139,12 +139,12 @@ def flow(
     candidates = np.empty((MOST_CANDIDATES, K_SIZE))
     for h in range(4):
         losses[h] = 0.0
-    drag, friction, left = FIRST_DRAG, 0.0, math.inf
+    drag, friction = FIRST_DRAG, 0.0
     earlier = q.copy()
     modes_work.guessed[0] = 0
     for tried in range(1, MOST_STEPS + 1):
         if tried % LOOKED_AFTER == 0:
-            if left > SLOW and distance(earlier, q, device) < LEAST_WAY * r:
+            if distance(earlier, q, device) < LEAST_WAY * r:
                 break
             copy_numbers(q, earlier)
         for c in range(count):
@@ -166,8 +166,8 @@ def flow(
         count = kept(solved, solutions[1][best], command[M_PUSH])
         for c in range(count):
             copy_numbers(solutions[1][best, c], contacts[c])
-        losses[0], left = friction, drag * way
-        if left <= LEFT:
+        losses[0] = friction
+        if drag * way <= LEFT:
             return ON_CONTACTS, count, GOES_ON
         if lies_beside(q, device, bolt[pk.R_MAJOR]) and lay_flush(
             False, q, push, mu, True, before, contacts, setting, losses

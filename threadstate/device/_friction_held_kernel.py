@@ -21,7 +21,7 @@ from threadstate.device._chart_kernel import (
 from threadstate.device._flush_kernel import tip_over
 from threadstate.device._friction_step_kernel import GOES_ON, ON_PATCH
 from threadstate.device._gap_kernel import G_VALUE
-from threadstate.device._leg_kernel import M_PUSH, ON_CONTACTS, ON_STRIP, ON_SURFACE
+from threadstate.device._leg_kernel import M_PUSH, ON_CONTACTS, ON_STRIP, ON_SURFACE, set_phase
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
@@ -69,6 +69,9 @@ Array = NDArray[np.float64]
 LAID = 3e-3
 """How near (nominal radii) to the level pose on a strip a bolt is laid there: along the strip a step takes it half as
 far."""
+
+LYING_PARTS = 4
+"""A step on the surface is divided into so many parts, and at the end of each the bolt has to lie there."""
 
 BESIDE_TIP = 0.3
 """How much less deep than the deepest one, in what a bolt has been tipped by times the nominal radius, a place is on
@@ -169,6 +172,22 @@ def lay_flush(
     contacts[0, K_MODE], contacts[0, K_PAIR] = SLIPS if lying[L_SLIDES] > 0.0 else STICKS, FLUSH_PAIR
     losses[0], losses[2], losses[3] = lying[L_LOSS], 1.0, lying[L_MOMENT]
     return True
+
+
+@kernel()
+def lies_throughout(phase: float, turn: float, push: float, mu: float, before: Array, setting: Setting) -> bool:
+    """Whether a bolt on the surface lies there in between as well, as it is turned by ``turn`` from ``phase`` (rad).
+
+    The phase is set to that of the end.
+    """
+    command, device, _, bolt, nut, _, _, _ = setting
+    level, lying = np.empty(COORDINATES), np.zeros(LYING_SIZE)
+    lies = True
+    for part in range(1, LYING_PARTS):
+        set_phase(phase + turn * part / LYING_PARTS, command, device)
+        lies = lies and lie_flush(push, mu, True, before, device, bolt, nut, level, lying)[0]
+    set_phase(phase + turn, command, device)
+    return lies
 
 
 @kernel()

@@ -29,7 +29,7 @@ from threadstate.device._chart_kernel import (
 )
 from threadstate.device._descent_kernel import DEEPEST
 from threadstate.device._friction_fall_kernel import FRICTIONLESS, fall_with_friction
-from threadstate.device._friction_held_kernel import ENERGY_STEP, contacts_of_tip, step_held
+from threadstate.device._friction_held_kernel import ENERGY_STEP, contacts_of_tip, lies_throughout, step_held
 from threadstate.device._friction_step_kernel import (
     GOES_ON,
     NO_MINIMUM,
@@ -70,6 +70,7 @@ from threadstate.device._modes_kernel import (
 )
 from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, find_places, new_threads
 from threadstate.device._rest_kernel import new_work
+from threadstate.device._same_contacts_kernel import same_contacts
 from threadstate.device._settle_kernel import LEAST_GAP, OVERLAP_LIMIT, distance
 from threadstate.device._slide_kernel import (
     is_level,
@@ -97,8 +98,9 @@ length: where a bolt has fallen in the shortest step again and again longer ones
 MOST_BARE = 4
 """The most falls without friction in a row: in more of them the path has not the friction that it is said to have."""
 
-MOVED = 0.025
-"""How far (nominal radii) a contact is at most from where it was before a step: farther away it is another one."""
+BENT, LONGER = 1e-4, 4.0
+"""How far (nominal radii) a step may end from where it would as the one before it went; and how many times as far one
+of twice the length would."""
 
 MAX_POINTS = 2500
 
@@ -296,28 +298,16 @@ def add_branches(
 
 
 @kernel()
-def same_contacts(i: int, count: int, contacts: Array, r: float, path: Path) -> bool:
-    """Whether contacts are a point's: as many, each with the features of one of these that is near, and of another one.
+def bend(i: int, q: Array, reached: float, earlier: float, target: float, path: Path, device: Array) -> float:
+    """How far (nominal radii) a step from point i ends from where it would as the one before it went.
 
-    One that another of the same features takes over from is not.
+    The parts of the leg at the point before, at i and at the end are ``earlier``, ``reached`` and ``target``.
     """
-    points, all_contacts = path
-    if points[i, P_COUNT] != count:
-        return False
-    is_taken = np.zeros(count)
-    for c in range(count):
-        best, nearest = -1, MOVED * r
-        for h in range(count):
-            apart = 0.0
-            for j in range(3):
-                apart += (contacts[c, K_POINT + j] - all_contacts[i, h, K_POINT + j]) ** 2
-            is_like = contacts[c, K_PAIR] == all_contacts[i, h, K_PAIR] and is_taken[h] == 0.0
-            if is_like and math.sqrt(apart) < nearest:
-                best, nearest = h, math.sqrt(apart)
-        if best < 0:
-            return False
-        is_taken[best] = 1.0
-    return True
+    before, here = path[0][i - 1, P_COORDINATES : P_COORDINATES + COORDINATES], path[0][i, P_COORDINATES:]
+    ahead = np.empty(COORDINATES)
+    for j in range(COORDINATES):
+        ahead[j] = here[j] + (here[j] - before[j]) * (target - reached) / (reached - earlier)
+    return distance(ahead, q, device) / device[D_SCALE]
 
 
 @kernel()
@@ -442,7 +432,7 @@ def follow_friction(
     longest = command[M_LONGEST] / abs(turn) if turns else LONGEST_PUSH * command[M_LONGEST] / LONGEST_TURN
     least = LEAST_PART * longest
     bridging, falling, jumps, is_shortened, bare, falls = False, False, False, False, 0, 0
-    step, reached, i, kind = FIRST_PART * longest, 0.0, 0, ON_CONTACTS
+    step, reached, earlier, i, kind = FIRST_PART * longest, 0.0, -1.0, 0, ON_CONTACTS
     solutions, last = new_solutions(), new_last_step()
     before, losses = np.empty(PLACE_SIZE), np.zeros(4)
     spare = (np.empty((1, POINT_SIZE)), np.empty((1, MOST_CANDIDATES, K_SIZE)))
@@ -459,8 +449,9 @@ def follow_friction(
     while reached < 1.0:
         if i + 1 == MAX_POINTS:
             return PATH_FULL, i + 1, count
-        size = min(step, 1.0 - reached)
-        target = 1.0 if size == 1.0 - reached else reached + size
+        left = 1.0 - reached
+        size = left if left <= ABOVE * step else step
+        target = 1.0 if size == left else reached + size
         push = pushes[0] + target * growth
         set_phase(phases[0] + reached * turn, command, device)
         set_place(q, device, before)
@@ -469,7 +460,11 @@ def follow_friction(
             kind, q, push, mu, (target - reached) * turn, before, contacts, setting, losses
         )
         tips = next_kind == ON_CONTACTS and kind == ON_SURFACE
-        if tips and size > least and size * abs(turn) > ABOVE * EVENT_WIDTH:
+        is_coarse = size > least and size * abs(turn) > ABOVE * EVENT_WIDTH
+        if is_coarse and next_kind == kind == ON_SURFACE:
+            phase = phases[0] + reached * turn
+            tips = not lies_throughout(phase, (target - reached) * turn, push, mu, before, setting)
+        if tips and is_coarse:
             # Where it tips is narrowed first.
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, EVENT_WIDTH / abs(turn), least)
@@ -540,12 +535,21 @@ def follow_friction(
                 jumps = True
                 continue
             path[0][i + 1, P_FALL] = max(lost, 0.0)
-        changed = next_kind != kind or (next_kind == ON_CONTACTS and not same_contacts(i, count, contacts, r, path))
-        if turns and changed and next_kind != ON_STRIP and size * abs(turn) > ABOVE * EVENT_WIDTH:
+        changed = next_kind != kind
+        is_resolved = not turns or next_kind == ON_STRIP or size * abs(turn) <= ABOVE * EVENT_WIDTH
+        if turns and next_kind == kind == ON_CONTACTS:
+            count_before, contacts_before = int(path[0][i, P_COUNT]), path[1][i]
+            changed = not same_contacts(before, count_before, contacts_before, count, contacts, setting)
+        bent = 0.0
+        goes_on = next_kind == kind == ON_CONTACTS and not changed and path[0][i + 1, P_FALL] == 0.0
+        if goes_on and earlier >= 0.0 and turns:
+            bent = bend(i, q, reached, earlier, target, path, device)
+        if not is_resolved and (changed or bent > BENT):
             count = go_back(i, q, contacts, path)
             step = max(0.5 * size, EVENT_WIDTH / abs(turn))
             continue
         i += 1
+        earlier = reached if goes_on and losses[2] > 0.0 else -1.0
         reached, kind = target, next_kind
         bare = bare if losses[2] == FRICTIONLESS else 0
         if losses[2] > 1.0:
@@ -556,6 +560,8 @@ def follow_friction(
         bridging, falling, jumps, is_shortened = False, False, False, False
         falls = falls + 1 if losses[2] <= 0.0 else 0
         step = next_step(size, falls, longest, least)
+        if LONGER * bent > BENT:
+            step = min(step, size)
     return REACHED, i + 1, count
 
 

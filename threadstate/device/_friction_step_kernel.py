@@ -51,7 +51,7 @@ from threadstate.device._step_modes_kernel import (
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-MOST_RIDGE_CANDIDATES = 6
+MOST_RIDGE_CANDIDATES = 5
 """The most contacts of which the modes are enumerated where contacts are frozen."""
 
 # How a path ends.

@@ -16,7 +16,7 @@ from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers
 from threadstate.contact._stage_kernel import THREAD_THREAD
 from threadstate.device._chart_kernel import COORDINATES, D_SCALE, PLACE_SIZE, set_place
 from threadstate.device._friction_rest_kernel import rests
-from threadstate.device._gap_kernel import G_PAIR, G_POINT, G_THETA, G_VALUE, G_Z
+from threadstate.device._gap_kernel import G_POINT, G_THETA, G_VALUE, G_Z
 from threadstate.device._modes_kernel import (
     AS_LISTED,
     K_FORCE,
@@ -45,7 +45,7 @@ from threadstate.device._modes_kernel import (
     solve_mode,
 )
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
-from threadstate.device._places_kernel import Threads, find_places
+from threadstate.device._places_kernel import Threads, add_thread, find_places
 from threadstate.device._rest_kernel import Work
 from threadstate.device._settle_kernel import distance
 
@@ -61,7 +61,7 @@ DISTINCT = 1e-6
 SAME_CONTACT = 0.03
 """Points of two contacts (nominal radii) that are nearer to each other are one contact's."""
 
-MOST_MOVES, MOST_RIDGE_MOVES = 3, 8
+MOST_MOVES, MOST_RIDGE_MOVES = 3, 12
 """How often contacts of a mode move to places close by, and how often where they are frozen."""
 
 BESIDE_ON_RIDGE = 1e-3
@@ -242,7 +242,8 @@ def solve_moved(
     _, device, _, bolt, nut, threads, _, modes_work = setting
     places, search = modes_work.places, modes_work.search
     r, falls = device[D_SCALE], modes_work.drag[0, 0] > 0.0
-    place, move = np.empty(PLACE_SIZE), np.zeros(4)
+    place, bracket = np.empty(PLACE_SIZE), np.zeros(6)
+    tops = np.empty(MOST_CANDIDATES, dtype=np.int64)
     last_moved, moves = -1, 0
     is_frozen = modes_work.frozen[0] == 1
     while True:
@@ -254,12 +255,18 @@ def solve_moved(
             return UNSOLVED, -1
         set_place(q, device, place)
         found = find_places(REACH * r, place, device, bolt, nut, threads, search, places)
-        beside = overlap_beside(modes, count, r, found, contacts, places)
-        moved = moved_contact(modes, count, is_frozen, places[beside], r, contacts) if beside >= 0 else -1
+        if is_frozen:
+            found = add_on_ridges(modes, count, place, contacts, found, setting, tops)
+            if has_twins(count, tops):
+                return UNSOLVED, -1
+        beside, moved = overlap_beside(modes, count, r, found, contacts, places), -1
+        if beside >= 0:
+            gap = places[beside]
+            moved = contact_below(beside, count, tops) if is_frozen else moved_contact(modes, count, gap, r, contacts)
         if moved < 0 or moves == (MOST_RIDGE_MOVES if is_frozen else MOST_MOVES):
             return SOLVED, beside
         if is_frozen:
-            move_on_ridge(places[beside], moved == last_moved, move, contacts[moved])
+            move_on_ridge(places[beside], moved == last_moved, moves, bracket, contacts[moved])
         for h in range(3):
             contacts[moved, K_POINT + h] = places[beside, G_POINT + h]
         last_moved = moved
@@ -267,11 +274,28 @@ def solve_moved(
 
 
 @kernel(allocates=False)
-def moved_contact(modes: Indices, count: int, is_frozen: bool, gap: Array, r: float, contacts: Array) -> int:
-    """Which contact has moved to a place of overlap, -1 if none is near; of frozen ones only along the threads."""
+def add_on_ridges(
+    modes: Indices, count: int, place: Array, contacts: Array, found: int, setting: Setting, tops: Indices
+) -> int:
+    """Adds the maximum on the ridge of each frozen contact, which may lie between two azimuths of the search, to the
+    ``found`` places; their number then. Sets which place that is, -1 where there is none.
+    """
+    _, device, _, bolt, nut, threads, _, modes_work = setting
+    places, search = modes_work.places, modes_work.search
+    for c in range(count):
+        tops[c] = -1
+        if modes[c] != OPENS and contacts[c, K_PAIR] == THREAD_THREAD:
+            theta, z, reach = contacts[c, K_THETA], contacts[c, K_Z], REACH * device[D_SCALE]
+            found, tops[c] = add_thread(theta, z, 0.0, reach, place, device, bolt, nut, threads, search, found, places)
+    return found
+
+
+@kernel(allocates=False)
+def moved_contact(modes: Indices, count: int, gap: Array, r: float, contacts: Array) -> int:
+    """Which contact has moved to a place of overlap close by, -1 for none."""
     moved, nearest = -1, SAME_CONTACT * r
     for c in range(count):
-        if modes[c] == OPENS or (is_frozen and not (contacts[c, K_PAIR] == gap[G_PAIR] == THREAD_THREAD)):
+        if modes[c] == OPENS:
             continue
         apart = 0.0
         for h in range(3):
@@ -282,21 +306,45 @@ def moved_contact(modes: Indices, count: int, is_frozen: bool, gap: Array, r: fl
 
 
 @kernel(allocates=False)
-def move_on_ridge(gap: Array, has_moved: bool, move: Array, contact: Array) -> None:
-    """Moves a frozen contact to a place of overlap, or to where the line through its last two moves has none.
+def has_twins(count: int, tops: Indices) -> bool:
+    """Whether two frozen contacts are on one ridge, where a single one between them holds as well."""
+    for c in range(count):
+        if tops[c] >= 0 and contact_below(tops[c], c, tops) >= 0:
+            return True
+    return False
+
+
+@kernel(allocates=False)
+def contact_below(top: int, count: int, tops: Indices) -> int:
+    """Which frozen contact is on the ridge whose maximum is a place, -1 for none."""
+    for c in range(count):
+        if tops[c] == top:
+            return c
+    return -1
+
+
+@kernel(allocates=False)
+def move_on_ridge(gap: Array, has_moved: bool, moves: int, bracket: Array, contact: Array) -> None:
+    """Moves a frozen contact towards a place of overlap: to it, or to between the last two points beyond which it was
+    on either side.
 
     The bolt rolls along a ridge that is nearly level: with the contact at one end it is deepest at the other.
-    ``move`` has where the contact was before its last move, and that move: azimuth and height each.
+    ``bracket`` has azimuth, height and way to the deepest place of the last contact from which that is up the azimuth,
+    then of the last from which it is down; a way of zero where there was none. Of the last moves it ``has_moved``
+    another contact, it is begun anew.
     """
     theta, z = contact[K_THETA], contact[K_Z]
     by_theta = (gap[G_THETA] - theta + math.pi) % TWO_PI - math.pi
-    by_z = gap[G_Z] - z
-    to_theta, to_z = theta + by_theta, gap[G_Z]
-    if has_moved and by_theta * move[2] < 0.0:
-        part = move[2] / (move[2] - by_theta)
-        to_theta, to_z = move[0] + part * (theta - move[0]), move[1] + part * (z - move[1])
-    move[0], move[1], move[2], move[3] = theta, z, by_theta, by_z
-    contact[K_THETA], contact[K_Z] = to_theta, to_z
+    if not has_moved:
+        bracket[:] = 0.0
+    here = 0 if by_theta > 0.0 else 3
+    bracket[here], bracket[here + 1], bracket[here + 2] = theta, z, by_theta
+    other = bracket[3 - here : 6 - here]
+    if other[2] == 0.0:
+        contact[K_THETA], contact[K_Z] = theta + by_theta, gap[G_Z]
+        return
+    part = 0.5 if moves % 3 == 2 else by_theta / (by_theta - other[2])
+    contact[K_THETA], contact[K_Z] = theta + part * (other[0] - theta), z + part * (other[1] - z)
 
 
 @kernel(allocates=False)

@@ -53,6 +53,13 @@ NEARLY_LEVEL, WITHIN = 0.05, 2e-3
 """Up to this slope of phi along the axis, from an edge's place out of the threads, a maximum within them is looked for
 beside it, from so far within (nominal radii)."""
 
+BESIDE, LEVEL = (0.0, 0.02, -0.02, 0.05, -0.05), 0.01
+"""The azimuths (rad) from that of an edge's place on which ridges beside it are looked for: one may begin and end
+between two of the search's. On those other than its own up to this slope, from the place into the threads."""
+
+BISECTIONS = 12
+"""Of the part of an azimuth on which there is a ridge."""
+
 RIDGE_STEPS, CONVERGING = 8, 0.5
 """Of Newton's method to a ridge on an azimuth: the most steps, and each over the one before."""
 
@@ -160,7 +167,7 @@ def ridge_maximum(
         at = theta + part * (after - theta)
         z_at, found = ridge_point(at, z + part * (z_after - z), window, placement, bolt, nut, jet)
         if not found:
-            return at, z_at, NONE
+            return theta, z, NONE
         a = jet[TJ_A]
         if abs(after - theta) < NARROW_AZIMUTHS or abs(a) <= SLOPE_LEFT * bolt[pk.R_MAJOR]:
             return at, z_at, MAXIMUM
@@ -182,22 +189,47 @@ def thread_maximum(
     """The maximum of phi over the bolt's thread that is near a point of a ridge, and what there is.
 
     By Newton's method, and where phi is not curved downwards there, as beside a fillet, by steps along the ridge: long
-    ones, and short ones where the ridge is short; where it is shorter than these, by Newton's method from the ridge. A
-    maximum counts from ``lowest`` on.
+    ones, and short ones from where it ends between two of these; where it is shorter than these, by Newton's method
+    from the ridge. A maximum counts from ``lowest`` on.
     """
     at, up, converged = nearby_maximum(theta, z, 0.0, placement, bolt, nut, jet)
     if converged:
         return at, up, MAXIMUM
-    kind = NONE
-    for step in (FIRST_RIDGE_STEP, LATER_RIDGE_STEP):
-        at, up, kind = ridge_maximum(theta, z, base, step, lowest, placement, bolt, nut, jet)
-        if kind != NONE:
-            break
+    at, up, kind = ridge_maximum(theta, z, base, FIRST_RIDGE_STEP, lowest, placement, bolt, nut, jet)
+    if kind == NONE:
+        at, up, kind = ridge_maximum(at, up, base, LATER_RIDGE_STEP, lowest, placement, bolt, nut, jet)
     if kind == NONE:
         at, up, converged = nearby_maximum(at, up, 0.0, placement, bolt, nut, jet)
         return at, up, MAXIMUM if converged else NONE
     set_jet(at, up, placement, bolt, nut, jet)
     return at, up, kind
+
+
+@kernel(allocates=False)
+def ridge_within(
+    theta: float, z: float, inward: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, bool]:
+    """The ridge on an azimuth within the threads, from an edge's height on, and whether there is one close by.
+
+    About the edge itself none need be bracketed: beyond it the thread that it ends may rise as well.
+    """
+    set_jet(theta, z, placement, bolt, nut, jet)
+    low, rises, way = z, inward * jet[TJ_B] > 0.0, WITHIN * bolt[pk.R_MAJOR]
+    while way < FIRST_WINDOW * bolt[pk.P]:
+        high = z + inward * way
+        set_jet(theta, high, placement, bolt, nut, jet)
+        if rises and inward * jet[TJ_B] < 0.0:
+            for _ in range(BISECTIONS):
+                middle = 0.5 * (low + high)
+                set_jet(theta, middle, placement, bolt, nut, jet)
+                if inward * jet[TJ_B] > 0.0:
+                    low = middle
+                else:
+                    high = middle
+            return 0.5 * (low + high), True
+        low, rises = high, inward * jet[TJ_B] > 0.0
+        way *= 2.0
+    return z, False
 
 
 @kernel(allocates=False)
@@ -215,12 +247,21 @@ def maximum_within(
     """As :func:`thread_maximum`, one near a place of an edge, from which phi has the slope ``rise`` into both threads.
 
     ``inward`` is 1 where they are up the bolt's axis from there, -1 where they are down it. It is looked for from the
-    edge where phi rises there; where it falls, or rises but little and there is none, from just within.
+    edge where phi rises there; where it falls, or rises but little and there is none, from ridges within on that
+    azimuth and on those beside it, and from just within.
     """
     if rise > 0.0:
         at, up, kind = thread_maximum(theta, z, 0.0, lowest, placement, bolt, nut, jet)
         if kind == MAXIMUM or rise > NEARLY_LEVEL:
             return at, up, kind
+    for turn in BESIDE:
+        if abs(rise) > LEVEL and turn != 0.0:
+            break
+        ridge, is_near = ridge_within(theta + turn, z, inward, placement, bolt, nut, jet)
+        if is_near:
+            at, up, kind = thread_maximum(theta + turn, ridge, 0.0, lowest, placement, bolt, nut, jet)
+            if kind == MAXIMUM:
+                return at, up, kind
     within = z + inward * WITHIN * bolt[pk.R_MAJOR]
     return thread_maximum(theta, within, 0.0, lowest, placement, bolt, nut, jet)
 
