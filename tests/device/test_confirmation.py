@@ -19,8 +19,8 @@ pytestmark = pytest.mark.slow
 
 UNC = quarter_twenty_unc()
 CALM = (1.0, -2.0, 10.0)
-DEPENDENT = (1.2777020959327414, 2.484915940493546, -168.16116983823713)
-"""With friction 0.2, turned clockwise: a fall comes 2 deg earlier with half the step (docs/paths-checked.md)."""
+FALLING = (1.2777020959327414, 2.484915940493546, -168.16116983823713)
+"""With friction 0.2, turned clockwise, it falls."""
 
 
 def test_a_path_that_half_the_step_does_not_change_is_as_it_is_alone() -> None:
@@ -28,11 +28,17 @@ def test_a_path_that_half_the_step_does_not_change_is_as_it_is_alone() -> None:
     assert assemble_pose(*of, mu=0.1, confirm=True) == assemble_pose(*of, mu=0.1)
 
 
-def test_a_fall_that_half_the_step_moves_is_flagged_beside_the_outcome() -> None:
-    of = (UNC, *DEPENDENT, None, Strategy.CW)
-    alone, found = assemble_pose(*of, mu=0.2), assemble_pose(*of, mu=0.2, confirm=True)
-    assert found == replace(alone, flags=(*alone.flags, SettledFlag.STEP_DEPENDENT))
-    assert found.outcome is not AssemblyOutcome.UNDECIDED
+@pytest.mark.parametrize("kind", [PathEventKind.FALL, PathEventKind.GAINED])
+def test_with_friction_an_event_that_half_the_step_moves_is_flagged_beside_the_outcome(kind: PathEventKind) -> None:
+    """Where it moves it by more than the longest step."""
+    path = assemble_pose(UNC, *FALLING, strategy=Strategy.CW, mu=0.2)
+    at = max((i for i, event in enumerate(path.events) if event.kind is kind), key=lambda i: path.events[i].energy or 0)
+    for moved_deg, flags in ((0.9, ()), (1.1, (SettledFlag.STEP_DEPENDENT,))):
+        event = replace(path.events[at], phase_deg=path.events[at].phase_deg + moved_deg)
+        half = replace(path, events=(*path.events[:at], event, *path.events[at + 1 :]))
+        found = confirmed(path, half, 1.0, 1.0)
+        assert (found.outcome, found.flags) == (path.outcome, (*path.flags, *flags))
+    assert path.outcome is not AssemblyOutcome.UNDECIDED
 
 
 def test_another_outcome_with_half_the_step_is_undecided() -> None:

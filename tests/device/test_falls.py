@@ -168,7 +168,7 @@ def test_a_fall_beside_a_ridge_ends_where_friction_holds_the_bolt(phase_deg: flo
     assert path.outcome is AssemblyOutcome.NO_SNAP
     assert path.margins is not None
     assert path.margins.snap is not None
-    assert 1.0 + path.margins.snap / (0.05 * UNC.thread_pitch) == pytest.approx(0.78, abs=0.03)
+    assert 1.0 + path.margins.snap / (0.05 * UNC.thread_pitch) == pytest.approx(0.8, abs=0.03)
     assert not bare_falls(path)
 
 
@@ -412,7 +412,7 @@ def test_after_a_fall_without_friction_it_grows_from_none() -> None:
 
 def test_a_path_that_falls_without_friction_again_and_again_is_undecided() -> None:
     """Its contacts wedge it in with more than a hundred times the push."""
-    path = assemble_pose(UNC, 4.0, -1.0, 120.0, strategy=Strategy.CW, mu=0.2)
+    path = assemble_pose(UNC, 4.0, -1.0, 120.0, strategy=Strategy.CW, mu=0.2, longest_step=0.5)
     assert (path.outcome, path.flags) == (AssemblyOutcome.UNDECIDED, (SettledFlag.UNSETTLED,))
     last = len(path.points) - 1
     assert bare_falls(path) == list(range(last + 1 - fk.MOST_BARE, last + 1))

@@ -182,13 +182,14 @@ def test_an_aligned_screw_locks_between_the_frictions_of_its_radii(name: str) ->
 
 
 def test_what_a_step_meets_is_one_of_its_contacts() -> None:
-    """Steps have a solution also where the bolt meets what without friction it would not touch; some two falls do not.
+    """Steps have a solution also where the bolt meets what without friction it would not touch; two falls do not.
 
     With the contacts of the frictionless bolt alone 149 steps of this path had none.
     """
     path = assemble_pose(UNC, 2.0, 3.0, 13.0, strategy=Strategy.CW, mu=0.2)
     assert path.outcome is AssemblyOutcome.IDLE
-    assert sum(point.solutions == 0 for point in path.points[1:]) <= 4
+    assert sum(event.kind is PathEventKind.FALL for event in path.events) == 2
+    assert sum(point.solutions == 0 for point in path.points[1:]) < 10
     assert sum(event.kind is PathEventKind.GAINED for event in path.events) >= 5
 
 

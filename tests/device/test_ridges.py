@@ -23,12 +23,12 @@ R = UNC.nominal_diameter / 2.0
 
 def rolled(slope: float, moves: int) -> list[float]:
     """The azimuths of a contact whose deepest point, with the contact at theta, is 6.2 + slope (theta - 6.2)."""
-    contact, gap, move = np.zeros(mk.CONTACT_SIZE), np.zeros(gk.GAP_SIZE), np.zeros(4)
+    contact, gap, bracket = np.zeros(mk.CONTACT_SIZE), np.zeros(gk.GAP_SIZE), np.zeros(6)
     contact[mk.K_THETA] = 6.25
     azimuths = []
     for i in range(moves):
         gap[gk.G_THETA] = (6.2 + slope * (contact[mk.K_THETA] - 6.2)) % (2.0 * math.pi)
-        sm.move_on_ridge(gap, i > 0, move, contact)
+        sm.move_on_ridge(gap, i > 0, i, bracket, contact)
         azimuths.append(float(contact[mk.K_THETA]))
     return azimuths
 

@@ -6,7 +6,13 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from threadstate.device.assembly_model import AssemblyOutcome, AssemblyPath, PathEventKind
-from threadstate.device.contact_changes import WITHIN_DEG, compare_changes, contact_changes
+from threadstate.device.contact_changes import (
+    RESOLVED_DEG,
+    RESOLVED_WITH_FRICTION_DEG,
+    WITHIN_DEG,
+    compare_changes,
+    contact_changes,
+)
 from threadstate.device.model import SettledFlag
 
 LEAST_FALL = 1e-3
@@ -20,16 +26,15 @@ def confirmed(path: AssemblyPath, half: AssemblyPath, longest_deg: float, energy
 
     ``energy`` is push times nominal radius. Where the outcomes differ the path is undecided, with the flag
     ``step_dependent``. Where only a snap or a fall that loses more than ``LEAST_FALL`` is moved by more than the
-    longest step, or is there with one of them alone, it has that flag beside its outcome; without friction also where a
-    contact gained or lost is moved by more than ``WITHIN_DEG``, or is there with one of them alone.
+    longest step, or is there with one of them alone, it has that flag beside its outcome; so where a contact gained or
+    lost is, with friction; without, where it is moved by more than ``WITHIN_DEG``.
     """
     flags = tuple(dict.fromkeys((*path.flags, SettledFlag.STEP_DEPENDENT)))
     if half.outcome is not path.outcome:
         return replace(path, outcome=AssemblyOutcome.UNDECIDED, flags=flags)
-    is_alike = have_same_falls(path, half, longest_deg, LEAST_FALL * energy)
-    if path.mu == 0.0:
-        changes, halved = contact_changes(path.events), contact_changes(half.events)
-        is_alike = is_alike and compare_changes(changes, halved, WITHIN_DEG).is_alike
+    accuracies = (WITHIN_DEG, RESOLVED_DEG) if path.mu == 0.0 else (longest_deg, RESOLVED_WITH_FRICTION_DEG)
+    changes = compare_changes(contact_changes(path.events), contact_changes(half.events), *accuracies)
+    is_alike = have_same_falls(path, half, longest_deg, LEAST_FALL * energy) and changes.is_alike
     return path if is_alike else replace(path, flags=flags)
 
 
