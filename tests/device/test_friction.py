@@ -303,6 +303,13 @@ def test_a_bolt_tips_off_the_surface_where_it_would_lie_again_later_in_the_step(
     assert tips.phase_deg == pytest.approx(-356.62, abs=0.1)
 
 
+def test_a_bolt_that_begins_to_slide_on_the_surface_need_not_lie_in_parts_of_its_first_step() -> None:
+    """In steps of less than 0.1 deg friction has not turned to where the bolt slides, and has it tip and fall back."""
+    path = turned(2.763518232243178, 2.153431998152966, -115.55972364812288, 0.2)
+    assert path.outcome is AssemblyOutcome.IDLE
+    assert all(point.held is Held.SURFACE for point in path.points if point.phase_deg > -350.0)
+
+
 def test_a_step_is_short_where_the_path_bends() -> None:
     """At phase -0.3 deg it bends, and a contact that comes 0.2 deg later is soon lost: steps of 0.25 deg missed it."""
     roll, pitch, phase, mu = -3.3353393116151597, -2.812265307131316, -0.26475808852978844, 0.02

@@ -62,10 +62,12 @@ from threadstate.device._leg_kernel import (
 from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
     K_FORCE,
+    K_MODE,
     K_PAIR,
     K_POINT,
     MOST_CANDIDATES,
     REACH,
+    SLIPS,
     new_modes_work,
 )
 from threadstate.device._places_kernel import MAX_PLACES, PLACES_WORK, find_places, new_threads
@@ -461,7 +463,8 @@ def follow_friction(
         )
         tips = next_kind == ON_CONTACTS and kind == ON_SURFACE
         is_coarse = size > least and size * abs(turn) > ABOVE * EVENT_WIDTH
-        if is_coarse and next_kind == kind == ON_SURFACE:
+        if is_coarse and next_kind == kind == ON_SURFACE and path[1][i, 0, K_MODE] == SLIPS:
+            # From rest friction first turns to where the bolt slides.
             phase = phases[0] + reached * turn
             tips = not lies_throughout(phase, (target - reached) * turn, push, mu, before, setting)
         if tips and is_coarse:
