@@ -253,3 +253,12 @@ def test_clockwise_at_once_from_the_surface_is_idle() -> None:
 def test_another_thread_engages() -> None:
     path = assemble_pose(pair_by_designation("M6-6g/6H"), 0.0, 0.0, 330.0)
     assert path.outcome is AssemblyOutcome.ENGAGED
+
+
+@pytest.mark.parametrize("longest_step", [2.0, 1.5, 1.0, 0.5])
+@pytest.mark.parametrize("phase", [0.0, 30.0, 100.0])
+def test_a_level_bolt_in_phase_comes_to_lie_on_the_strip(phase: float, longest_step: float) -> None:
+    """Its last tilt, below 1e-5 deg, is passed in a bridged step: before, a step that led too far ended some paths."""
+    path = assemble_pose(UNC, 0.0, 0.0, phase, strategy=Strategy.CW, longest_step=longest_step)
+    assert (path.outcome, path.flags) == (AssemblyOutcome.ENGAGED, ())
+    assert [event.kind for event in path.events].count(PathEventKind.ON_STRIP) == 1

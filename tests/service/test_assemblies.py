@@ -103,9 +103,11 @@ def test_the_longest_step_is_taken(client: TestClient) -> None:
 
 
 def test_a_confirmed_path_says_whether_half_the_step_changes_it(client: TestClient) -> None:
-    """docs/paths-checked.md: a fall comes 2 deg earlier with half the step."""
-    pose = {"roll": 1.2777020959327414, "pitch": 2.484915940493546, "phase": -168.16116983823713}
-    body = {"pose": pose, "strategy": "cw", "mu": 0.2}
+    """docs/paths-checked.md: with steps of 0.5 deg a contact comes for 0.08 deg."""
+    body = {
+        "pose": {"roll": -2.2826547470836775, "pitch": 0.508422275923138, "phase": 173.66104075000817},
+        "longest_step": 1.0,
+    }
     answer = client.post(POST, json={**body, "confirm": True}).json()
     with client.stream("POST", POST, json={**body, "confirm": True}, headers=EVENTS) as response:
         assert list(events_of(response.iter_lines()))[-1] == ("answer", answer)

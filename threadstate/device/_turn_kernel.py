@@ -135,6 +135,9 @@ BRIDGE = 2.0 * DEGREE
 """The longest step (rad) tried past a phase at which no step is short enough: beside a level pose and where contacts
 take turns minima are there whose descent goes round in circles."""
 
+PAST_A_FALL = 2.0
+"""Of a step that bridges: it is tried, once, as a fall from there has not come to an end."""
+
 ENERGY_STEP = 1e-6
 """Potential, over push times nominal radius, that a step may leave unexplained by the torque: more is a fall."""
 
@@ -381,7 +384,7 @@ def minimum_near(
         if size > ABOVE * LEAST_STEP and state[S_BRIDGING] == 0.0 and held:
             state[S_STEP] = max(0.25 * size, LEAST_STEP)
         elif status == UNSETTLED and size < min(BRIDGE, left):
-            state[S_BRIDGING] = 1.0
+            state[S_BRIDGING] = max(state[S_BRIDGING], 1.0)
             state[S_STEP] = min(4.0 * size, BRIDGE)
         else:
             state[S_FALLING] = 1.0
@@ -423,6 +426,9 @@ def try_step(
     if state[S_FALLING] > 0.0:
         state[S_KNOWN] = 0.0
         status, found, is_certain = fall_for_certain(trial, setting)
+        if status == UNSETTLED and state[S_BRIDGING] < PAST_A_FALL and left > EVENT_WIDTH:
+            state[S_FALLING], state[S_BRIDGING], state[S_STEP] = 0.0, PAST_A_FALL, EVENT_WIDTH
+            return AGAIN, status, ON_CONTACTS
         leg[0][L_UNCERTAIN] += 0 if is_certain else 1
         return at_minimum(status, found, trial, setting, there)
     return minimum_near(size, left, held, state, setting, trial, there, leg)
