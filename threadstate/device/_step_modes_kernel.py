@@ -330,8 +330,8 @@ def move_on_ridge(gap: Array, has_moved: bool, moves: int, bracket: Array, conta
 
     The bolt rolls along a ridge that is nearly level: with the contact at one end it is deepest at the other.
     ``bracket`` has azimuth, height and way to the deepest place of the last contact from which that is up the azimuth,
-    then of the last from which it is down; a way of zero where there was none. Of the last moves it ``has_moved``
-    another contact, it is begun anew.
+    then of the last from which it is down; a way of zero where there was none. It begins anew where the last of the
+    ``moves`` before was another contact's, and not this one ``has_moved``.
     """
     theta, z = contact[K_THETA], contact[K_Z]
     by_theta = (gap[G_THETA] - theta + math.pi) % TWO_PI - math.pi
