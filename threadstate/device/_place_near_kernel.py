@@ -45,8 +45,8 @@ from threadstate.device._gap_kernel import (
 from threadstate.device._places_kernel import SAME_PLACE, W_GAP, W_JET, Threads, bracketed_peak
 from threadstate.device._thread_maximum_kernel import (
     MAXIMUM,
-    NEARLY_LEVEL,
     OUTSIDE,
+    SLIGHT_SLOPE,
     maximum_within,
     polished_maximum,
     ridge_maximum,
@@ -252,7 +252,7 @@ def from_edge(
     jet = threads.jet
     at, up, slope = set_inward(pair, theta, place, bolt, nut, threads)
     if slope > 0.0:
-        if slope < NEARLY_LEVEL:
+        if slope < SLIGHT_SLOPE:
             inward = -1.0 if pair == THREAD_EDGE else 1.0
             at, up, kind = maximum_within(at, up, inward, slope, -math.inf, threads.placement, bolt, nut, jet)
         else:

@@ -66,7 +66,7 @@ from threadstate.device._gap_kernel import (
 )
 from threadstate.device._thread_maximum_kernel import (
     MAXIMUM,
-    NEARLY_LEVEL,
+    SLIGHT_SLOPE,
     maximum_within,
     polished_maximum,
     ridge_maximum,
@@ -459,7 +459,7 @@ def add_threads(
         if pair == EDGE_THREAD or pair == EDGE_EDGE or pair == THREAD_EDGE:
             set_thread_jet(theta, z, placement, bolt, nut, threads.jet)
             rise = inward * threads.jet[TJ_B]
-            if rise > -NEARLY_LEVEL:
+            if rise > -SLIGHT_SLOPE:
                 # Where phi falls a little from the edge it may rise again to a maximum just within.
                 jet = threads.jet
                 theta, z, kind = maximum_within(theta, z, inward, rise, -reach, placement, bolt, nut, jet)

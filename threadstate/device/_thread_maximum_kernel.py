@@ -49,11 +49,11 @@ has reached counts as a maximum."""
 
 POLISH_STEPS = 12
 
-NEARLY_LEVEL, WITHIN = 0.05, 2e-3
+SLIGHT_SLOPE, WITHIN = 0.05, 2e-3
 """Up to this slope of phi along the axis, from an edge's place out of the threads, a maximum within them is looked for
 beside it, from so far within (nominal radii)."""
 
-BESIDE, LEVEL = (0.0, 0.02, -0.02, 0.05, -0.05), 0.01
+AZIMUTHS_BESIDE, SLIGHTEST_SLOPE = (0.0, 0.02, -0.02, 0.05, -0.05), 0.01
 """The azimuths (rad) from that of an edge's place on which ridges beside it are looked for: one may begin and end
 between two of the search's. On those other than its own up to this slope, from the place into the threads."""
 
@@ -252,10 +252,10 @@ def maximum_within(
     """
     if rise > 0.0:
         at, up, kind = thread_maximum(theta, z, 0.0, lowest, placement, bolt, nut, jet)
-        if kind == MAXIMUM or rise > NEARLY_LEVEL:
+        if kind == MAXIMUM or rise > SLIGHT_SLOPE:
             return at, up, kind
-    for turn in BESIDE:
-        if abs(rise) > LEVEL and turn != 0.0:
+    for turn in AZIMUTHS_BESIDE:
+        if abs(rise) > SLIGHTEST_SLOPE and turn != 0.0:
             break
         ridge, is_near = ridge_within(theta + turn, z, inward, placement, bolt, nut, jet)
         if is_near:
