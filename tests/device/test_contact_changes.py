@@ -40,6 +40,7 @@ CASES = {
 FINER_CASES = {
     "two beside each other on an edge": (-0.48918406288286764, -3.419574175448245, 136.10249608017332),
     "into the threads and back within a step": (-1.4251443118400662, -0.10705262631250356, 92.22327816760749),
+    "from a flank to the fillet beside it": (-2.2826547470836775, 0.508422275923138, 173.66104075000817),
 }
 STEPS = {name: (pose, 2.0) for name, pose in CASES.items()} | {name: (pose, 1.0) for name, pose in FINER_CASES.items()}
 

@@ -86,7 +86,7 @@ def neighbours(device: Device) -> list[tuple[Settled, Settled, Settled]]:
         for one, other in ((before, here), (here, after)):
             total = sp.set_spans(one.knot, other.knot, device.push, one.scene, spans)
             is_alike &= not sp.changes(total, one.knot, other.knot, spans)
-            is_alike &= not sp.hides_change(total, STEP, one.knot, other.knot, spans, BOLT)
+            is_alike &= not sp.hides_change(total, STEP, one.knot, other.knot, spans, one.scene)
         bends = np.abs(before.knot.drift - after.knot.drift).max() > 0.01 * R
         if is_alike and not bends:
             found.append((before, here, after))

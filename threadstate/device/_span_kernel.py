@@ -14,11 +14,24 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._stage_kernel import EDGE_THREAD, THREAD_EDGE
 from threadstate.device._chart_kernel import COORDINATES
-from threadstate.device._gap_kernel import G_GRADIENT, G_HESSIAN, G_NORM, G_PAIR, G_POINT, G_VALUE, GAP_SIZE
+from threadstate.device._gap_kernel import (
+    E_PHI2,
+    EDGE_JET_SIZE,
+    G_GRADIENT,
+    G_HESSIAN,
+    G_NORM,
+    G_PAIR,
+    G_POINT,
+    G_THETA,
+    G_VALUE,
+    GAP_SIZE,
+    set_edge_jet,
+)
 from threadstate.device._knot_kernel import K_PLACES, K_RATED, LOADED, Knot
 from threadstate.device._place_near_kernel import follow_place
-from threadstate.device._places_kernel import MAX_PLACES, SAME_MAXIMUM
+from threadstate.device._places_kernel import MAX_PLACES, SAME_MAXIMUM, W_JET
 from threadstate.device._rest_kernel import Scene
 from threadstate.thread import _profile_kernel as pk
 
@@ -277,7 +290,24 @@ def jumps(was: int, knot: Knot, now: int, far: Knot, step: float) -> bool:
 
 
 @kernel(allocates=False)
-def hides_change(total: int, step: float, one: Knot, other: Knot, spans: Array, bolt: Array) -> bool:
+def leaves_its_maximum(gap: Array, place: Array, scene: Scene) -> bool:
+    """Whether phi along its edge curves upwards, at a pose, where a contact of an edge is at another pose.
+
+    Where a fillet comes to the edge a second maximum may have begun, and the first one ended.
+    """
+    pair, bolt, nut = int(gap[G_PAIR]), scene.bolt, scene.nut
+    jet = scene.work.search[W_JET : W_JET + EDGE_JET_SIZE]
+    if pair == EDGE_THREAD:
+        set_edge_jet(True, gap[G_THETA], place, bolt, nut, jet)
+    elif pair == THREAD_EDGE:
+        set_edge_jet(False, gap[G_THETA], place, nut, bolt, jet)
+    else:
+        return False
+    return jet[E_PHI2] > 0.0
+
+
+@kernel(allocates=False)
+def hides_change(total: int, step: float, one: Knot, other: Knot, spans: Array, scene: Scene) -> bool:
     """Whether a contact that is there at both ends of a step is lost in it for a while, or goes to another place, or
     another one is met in it.
     """
@@ -289,10 +319,15 @@ def hides_change(total: int, step: float, one: Knot, other: Knot, spans: Array, 
             continue
         is_contact = span[SPAN_WAS] > 0.0
         first = SPAN_MULTIPLIER if is_contact else SPAN_OPENING
-        zero = 0.0 if is_contact else LEAST_DIP * bolt[pk.R_MAJOR]
+        zero = 0.0 if is_contact else LEAST_DIP * scene.bolt[pk.R_MAJOR]
         least = least_between(span[first], span[first + 1], span[first + 2], span[first + 3], step)
         if least < -zero:
             return True
-        if is_contact and jumps(int(span[SPAN_FROM]), one, int(span[SPAN_TO]), other, step):
+        was, now = int(span[SPAN_FROM]), int(span[SPAN_TO])
+        if is_contact and (
+            jumps(was, one, now, other, step)
+            or leaves_its_maximum(one.places[was], other.place, scene)
+            or leaves_its_maximum(other.places[now], one.place, scene)
+        ):
             return True
     return False

@@ -581,7 +581,8 @@ def step_on(
         return verdict, status
     lost = unexplained(trial, there, target, setting, leg)
     on_contacts = kind == ON_CONTACTS and next_kind == ON_CONTACTS
-    total = set_spans(here, there, push, Scene(device, bolt, nut, threads, work), spans) if on_contacts else 0
+    scene = Scene(device, bolt, nut, threads, work)
+    total = set_spans(here, there, push, scene, spans) if on_contacts else 0
     missed = first_missed(total, spans, bolt) if state[S_FALLING] + state[S_BRIDGING] == 0.0 else -1
     if missed >= 0 and state[S_REWOUND] < MOST_REWOUND:
         place = there.places[int(spans[missed, SPAN_TO])].copy()
@@ -592,7 +593,7 @@ def step_on(
     changed, at, width = changes(total, here, there, spans), math.nan, math.inf
     if next_kind != kind:
         width = EVENT_WIDTH
-    elif changed or hides_change(total, step, here, there, spans, bolt):
+    elif changed or hides_change(total, step, here, there, spans, scene):
         width = CHANGE_WIDTH
         at = abs(first_change(total, step, spans))
     if refused(target, changed, width, at, lost / unit, state):
