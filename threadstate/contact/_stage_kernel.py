@@ -95,7 +95,7 @@ SPAN_GROWTH = 1.25
 """A motion is searched in spans of time: the first (rad, thread pitches), and the factor to each next one."""
 
 SPAN_REDUCTION = 0.25
-SHORTEST_SPAN = 1e-9
+SHORTEST_SPAN = 1e-14
 """Factor by which a span with too many boxes is shortened, and the shortest one (in units of ``motion_scale``)."""
 
 TOUCH_DEPTH = 1e-10
@@ -410,6 +410,12 @@ def search_threads(
     ):
         # Where no edge contact explains the earliest entry, the threads must have met before it.
         tangency_count, evaluated = rect.tangencies(work.bolt_motion, bolt, nut, reach, work.rectangles, tangencies)
+        if thread_search == RIDGES and (tangency_count == 0 or evaluated == OVERFLOW):
+            # Of a strip between two azimuths only the overlap tells that an edge enters: it has begun in the threads.
+            tangency_count = ridge.contacts_behind_entries(
+                work.entries, reach, work.bolt_motion, bolt, nut, tangencies, 0
+            )
+            evaluated = OVERFLOW if tangency_count == 0 else 0
         if evaluated == OVERFLOW:
             return OVERFLOW, 0, on_surface
     return tangency_count, on_surface_count, on_surface

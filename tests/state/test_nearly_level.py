@@ -1,0 +1,40 @@
+"""A bolt in phase that is all but level: contacts and turns go to limits in the direction of its tilt."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from threadstate.state.model import FeaturePair
+from threadstate.state.solve import solve_pose
+from threadstate.thread.catalogue import quarter_twenty_unc
+
+PAIR = quarter_twenty_unc()
+TIMES = 10.0
+TURN_TOLERANCE, PLACE_TOLERANCE = 1e-5, 1e-5
+"""How far turns over the tilt, and places over the nominal diameter, are from their limits: an earliest one of several
+that tie within 5e-10 deg may be another one."""
+
+CASES = {
+    "some 1e-7 deg": (1.244773113e-7, 1.317139252e-7, -0.588257134),
+    "some 1e-8 deg": (2.63875271e-9, 3.752628839e-8, -1.95510526),
+    "the threads touch first, between two azimuths of the search": (5.3185e-6, 2.6792e-6, -1.76140111),
+}
+
+
+@pytest.mark.parametrize("pose_deg", CASES.values(), ids=CASES.keys())
+def test_a_tilt_ten_times_as_large_has_the_same_first_contact_and_ten_times_the_turn(
+    pose_deg: tuple[float, float, float],
+) -> None:
+    roll, pitch, phase = pose_deg
+    near, far = (solve_pose(PAIR, factor * roll, factor * pitch, phase) for factor in (1.0, TIMES))
+    assert near.lambda_deg is not None
+    assert far.lambda_deg == pytest.approx(TIMES * near.lambda_deg, rel=TURN_TOLERANCE)
+    assert near.contacts[0].features is far.contacts[0].features
+    assert math.dist(near.contacts[0].point, far.contacts[0].point) < PLACE_TOLERANCE * PAIR.nominal_diameter
+
+
+def test_of_the_threads_first_contact_only_an_overlap_that_an_edge_enters_tells() -> None:
+    state = solve_pose(PAIR, *CASES["the threads touch first, between two azimuths of the search"])
+    assert state.contacts[0].features is FeaturePair.THREAD_THREAD
