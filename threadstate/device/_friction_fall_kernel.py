@@ -38,8 +38,8 @@ from threadstate.device._friction_step_kernel import (
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL
 from threadstate.device._knot_kernel import LOADED
 from threadstate.device._leg_kernel import M_PUSH, ON_CONTACTS, ON_SURFACE
-from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._modes_kernel import (
+    COARSE_OVERLAP,
     K_FORCE,
     K_MODE,
     K_NORMAL,
@@ -48,11 +48,11 @@ from threadstate.device._modes_kernel import (
     K_SLIP,
     MOST_CANDIDATES,
     MOST_CONTACTS,
-    OVERLAP,
     STICKS,
     ModesWork,
     set_contact,
 )
+from threadstate.device._modes_kernel import CONTACT_SIZE as K_SIZE
 from threadstate.device._places_kernel import find_places, lowest_height
 from threadstate.device._rest_kernel import Work, free_coordinates, set_metric
 from threadstate.device._settle_kernel import distance
@@ -63,8 +63,8 @@ from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
-LONGEST_WAY = 5e-4
-"""How far (nominal radii) the bolt goes in a step of a fall."""
+LONGEST_WAY, BRIDGED_WAY = 5e-4, 1e-2
+"""How far (nominal radii) the bolt goes in a step of a fall at most, and in one where no shorter step goes on."""
 
 FIRST_DRAG, LEAST_DRAG, LARGEST_DRAG = 100.0, 0.1, 1e8
 """Drags, as forces over the push a way over the nominal radius: that of the first step, that below which the next step
@@ -114,6 +114,58 @@ def has_left(place: Array, bolt: Array) -> int:
 
 
 @kernel()
+def flow_step(
+    drag: float,
+    on_ridges: bool,
+    q: Array,
+    push: float,
+    mu: float,
+    before: Array,
+    count: int,
+    contacts: Array,
+    setting: Setting,
+    solutions: Solutions,
+) -> tuple[int, float]:
+    """The solution that an implicit step with a drag goes to, and how far (nominal radii); infinitely where none is."""
+    device, modes_work = setting[1], setting[7]
+    candidates = np.empty((MOST_CANDIDATES, K_SIZE))
+    for c in range(count):
+        copy_numbers(contacts[c], candidates[c])
+    set_drag(drag, q, before, device, modes_work)
+    number, total = solve_step(q, q, before, push, mu, True, count, candidates, setting, solutions)
+    if number == 0 and on_ridges:
+        number, total = solve_on_ridges(q, before, push, mu, count, contacts, candidates, setting, solutions)
+    if number == 0 or total > MOST_CANDIDATES:
+        return 0, math.inf
+    best = chosen(number, q, count, contacts, device, solutions)
+    return best, distance(q, solutions[0][best], device) / device[D_SCALE]
+
+
+@kernel()
+def longer_step(
+    drag: float,
+    q: Array,
+    push: float,
+    mu: float,
+    before: Array,
+    count: int,
+    contacts: Array,
+    setting: Setting,
+    solutions: Solutions,
+) -> tuple[int, float, float]:
+    """As :func:`flow_step`, with the largest drag below one with which a step goes on; and that drag.
+
+    Where a contact passes a corner no short step may go on, and one that ends beyond it does.
+    """
+    while drag > 0.0:
+        drag = drag / LOWERED_AGAIN if drag > LEAST_DRAG else 0.0
+        best, way = flow_step(drag, True, q, push, mu, before, count, contacts, setting, solutions)
+        if way <= BRIDGED_WAY:
+            return best, way, drag
+    return 0, math.inf, drag
+
+
+@kernel()
 def flow(
     q: Array,
     push: float,
@@ -130,36 +182,37 @@ def flow(
     """Lets the bolt flow with friction from ``q``, in place, to an equilibrium.
 
     The drag is ``lowered`` by that factor from step to step; ``on_ridges`` steps without a solution are solved with
-    contacts of the threads at points of the bolt. Where no step goes on the bolt stays where friction can hold it.
-    Returns what holds it there, its number of contacts and how the path ends there, if it does: NO_MINIMUM where
-    nothing holds it. ``before`` is the pose before the step in which it falls, and is set to the last one.
+    contacts of the threads at points of the bolt. Where no step goes on the bolt stays where friction can hold it, or,
+    ``on_ridges``, a longer one is tried. Returns what holds it there, its number of contacts and how the path ends
+    there, if it does: NO_MINIMUM where nothing holds it. ``before`` is the pose before the step in which it falls, and
+    is set to the last one.
     """
     command, device, bolt, modes_work = setting[0], setting[1], setting[3], setting[7]
     r = device[D_SCALE]
-    candidates = np.empty((MOST_CANDIDATES, K_SIZE))
     for h in range(4):
         losses[h] = 0.0
-    drag, friction = FIRST_DRAG, 0.0
+    drag, solved_drag, friction = FIRST_DRAG, FIRST_DRAG, 0.0
     earlier = q.copy()
     modes_work.guessed[0] = 0
     for tried in range(1, MOST_STEPS + 1):
-        if tried % LOOKED_AFTER == 0:
-            if distance(earlier, q, device) < LEAST_WAY * r:
-                break
-            copy_numbers(q, earlier)
-        for c in range(count):
-            copy_numbers(contacts[c], candidates[c])
-        set_drag(drag, q, before, device, modes_work)
-        number, total = solve_step(q, q, before, push, mu, True, count, candidates, setting, solutions)
-        if number == 0 and on_ridges:
-            number, total = solve_on_ridges(q, before, push, mu, count, contacts, candidates, setting, solutions)
-        best = chosen(number, q, count, contacts, device, solutions)
-        way = distance(q, solutions[0][best], device) / r if number > 0 and total <= MOST_CANDIDATES else math.inf
+        best, way = flow_step(drag, on_ridges, q, push, mu, before, count, contacts, setting, solutions)
+        is_stuck = False
         if way > LONGEST_WAY:
             drag = max(lowered * drag, LEAST_DRAG)
-            if drag > LARGEST_DRAG:
+            is_stuck = drag > LARGEST_DRAG
+        if tried % LOOKED_AFTER == 0:
+            is_stuck = is_stuck or distance(earlier, q, device) < LEAST_WAY * r
+            copy_numbers(q, earlier)
+        if is_stuck:
+            touching = contacts_at_rest(q, push, mu, setting, contacts)
+            if touching > 0 or not on_ridges:
+                return ON_CONTACTS, touching, GOES_ON if touching > 0 else NO_MINIMUM
+            best, way, drag = longer_step(solved_drag, q, push, mu, before, count, contacts, setting, solutions)
+            if math.isinf(way):
                 break
+        elif way > LONGEST_WAY:
             continue
+        solved_drag = drag
         copy_numbers(solutions[0][best], q)
         solved = int(solutions[2][best])
         friction += friction_loss(count, contacts, solved, solutions[1][best])
@@ -193,7 +246,7 @@ def contacts_at_rest(q: Array, push: float, mu: float, setting: Setting, contact
     held = np.empty((MOST_CANDIDATES, K_SIZE))
     set_place(q, device, place)
     found = find_places(
-        OVERLAP * device[D_SCALE], place, device, bolt, nut, threads, modes_work.search, modes_work.places
+        COARSE_OVERLAP * device[D_SCALE], place, device, bolt, nut, threads, modes_work.search, modes_work.places
     )
     count = touching_contacts(found, modes_work.places, held)
     if not rests(q, push, mu, count, held, device):

@@ -106,9 +106,9 @@ TOUCHES = 1e-9
 SLIDES = 1e-12
 """Slip (nominal radii) up to which a contact does not slide."""
 
-OVERLAP = 4e-9
-"""Overlap (nominal radii) of a place that is no contact, from which on a mode is not consistent: half of what the
-certificate of an end allows."""
+OVERLAP, COARSE_OVERLAP = 1e-11, 4e-9
+"""Overlap (nominal radii) of a place that is no contact, from which on a mode is not consistent: as without friction;
+and where the bolt falls or contacts stay at points of a ridge, half of what the certificate of an end allows."""
 
 SLACK = 1e-9
 """By how much, over the push, a force may be outside its cone."""
@@ -693,9 +693,14 @@ def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, con
 
 
 @kernel(allocates=False)
-def overlap_beside(modes: Indices, count: int, r: float, found: int, contacts: Array, places: Array) -> int:
-    """Which of the ``found`` places of a mode's solution overlaps most and is none of its contacts, -1 if none does."""
-    deepest, beside = OVERLAP * r, -1
+def overlap_beside(
+    modes: Indices, count: int, r: float, allowed: float, found: int, contacts: Array, places: Array
+) -> int:
+    """Which of the ``found`` places of a mode's solution overlaps most and is none of its contacts, -1 if none does.
+
+    By more than is ``allowed`` (nominal radii).
+    """
+    deepest, beside = allowed * r, -1
     for j in range(found):
         is_contact = False
         for c in range(count):

@@ -19,6 +19,7 @@ from threadstate.device._friction_rest_kernel import rests
 from threadstate.device._gap_kernel import G_POINT, G_THETA, G_VALUE, G_Z
 from threadstate.device._modes_kernel import (
     AS_LISTED,
+    COARSE_OVERLAP,
     K_FORCE,
     K_HELD,
     K_MODE,
@@ -127,7 +128,7 @@ def enumerate_modes(
     if not turns:
         set_place(q, device, place)
         touching = touching_contacts(
-            find_places(OVERLAP * r, place, device, bolt, nut, threads, search, places), places, contacts
+            find_places(COARSE_OVERLAP * r, place, device, bolt, nut, threads, search, places), places, contacts
         )
         if rests(q, push, mu, touching, contacts, device):
             total = add_solution(total, q, touching, contacts, device, solutions)
@@ -242,6 +243,7 @@ def solve_moved(
     _, device, _, bolt, nut, threads, _, modes_work = setting
     places, search = modes_work.places, modes_work.search
     r, falls = device[D_SCALE], modes_work.drag[0, 0] > 0.0
+    allowed = COARSE_OVERLAP if falls or modes_work.frozen[0] == 1 else OVERLAP
     place, bracket = np.empty(PLACE_SIZE), np.zeros(6)
     tops = np.empty(MOST_CANDIDATES, dtype=np.int64)
     last_moved, moves = -1, 0
@@ -259,7 +261,7 @@ def solve_moved(
             found = add_on_ridges(modes, count, place, contacts, found, setting, tops)
             if has_twins(count, tops):
                 return UNSOLVED, -1
-        beside, moved = overlap_beside(modes, count, r, found, contacts, places), -1
+        beside, moved = overlap_beside(modes, count, r, allowed, found, contacts, places), -1
         if beside >= 0:
             gap = places[beside]
             moved = contact_below(beside, count, tops) if is_frozen else moved_contact(modes, count, gap, r, contacts)
