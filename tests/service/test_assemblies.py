@@ -103,10 +103,12 @@ def test_the_longest_step_is_taken(client: TestClient) -> None:
 
 
 def test_a_confirmed_path_says_whether_half_the_step_changes_it(client: TestClient) -> None:
-    """docs/paths-checked.md: with steps of 0.5 deg a contact comes for 0.08 deg."""
+    """With half of 0.5 deg a contact of this path is replaced by another one for a moment."""
     body = {
-        "pose": {"roll": -2.2826547470836775, "pitch": 0.508422275923138, "phase": 173.66104075000817},
-        "longest_step": 1.0,
+        "pose": {"roll": -2.2228707478823733, "pitch": -0.16150614490357995, "phase": 129.314909475504},
+        "mu": 0.2,
+        "strategy": "cw",
+        "longest_step": 0.5,
     }
     answer = client.post(POST, json={**body, "confirm": True}).json()
     with client.stream("POST", POST, json={**body, "confirm": True}, headers=EVENTS) as response:

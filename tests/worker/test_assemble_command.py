@@ -55,9 +55,9 @@ def test_bad_input_is_a_clear_error(command_line: CommandLine, arguments: tuple[
 
 
 def test_a_confirmed_path_says_whether_half_the_step_changes_it(command_line: CommandLine) -> None:
-    """docs/paths-checked.md: with steps of 0.5 deg a contact comes for 0.08 deg."""
-    pose = ("--roll", "-2.2826547470836775", "--pitch", "0.508422275923138", "--phase", "173.66104075000817")
-    asked = ("assemble", *pose, "--longest-step", "1", "--json")
+    """With half of 0.5 deg a contact of this path is replaced by another one for a moment."""
+    pose = ("--roll", "-2.2228707478823733", "--pitch", "-0.16150614490357995", "--phase", "129.314909475504")
+    asked = ("assemble", *pose, "--mu", "0.2", "--strategy", "cw", "--longest-step", "0.5", "--json")
     alone, confirmed = (json.loads(command_line.here(*asked, *more)[1]) for more in ((), ("--confirm",)))
     assert confirmed.pop("flags") == [*alone.pop("flags"), "step_dependent"]
     assert confirmed == alone
