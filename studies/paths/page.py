@@ -59,7 +59,7 @@ where there are more or fewer of them; *moved ends* likewise. Falls are compared
 {number_text(LEAST_FALL)} F r, with what follows within {number_text(STEPS_DEG[0])} deg: a lighter one may be followed
 as steps, and one in parts. *Other contacts* are paths of which one step has a contact gained or lost alone, within the
 longest step; what is gained and lost again within {number_text(RESOLVED_WITH_FRICTION_DEG)} deg is left out. A contact
-counts where it carries a force: which of two places carries it that are both within the accuracy of contacts, 4e-9 r,
+counts where it carries a force: which of two places carries it that are both within the accuracy of contacts, 1e-11 r,
 of touching hangs on the steps.
 
 {_halves_table(halves)}
