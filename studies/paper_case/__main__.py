@@ -35,7 +35,7 @@ def main() -> None:
     centres = dict(zip(CENTRES, limits[len(by_tilt) :], strict=True))
     shown = shown_paths()
     pictures = chosen.into / "paper-case"
-    pictures.mkdir(exist_ok=True)
+    pictures.mkdir(parents=True, exist_ok=True)
     (pictures / "path.svg").write_text(path_picture(shown))
     (pictures / "limits.svg").write_text(limits_picture(tilts, centres))
     (chosen.into / "paper-case.md").write_text(page(shown, tilts, centres))
