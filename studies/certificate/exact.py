@@ -228,9 +228,9 @@ def tangent(contact: Contact, pose: Pose, parts: Parts) -> Vector:
     return along if x * along[1] - y * along[0] > 0 else scaled(along, arb(-1))
 
 
-def first_pose(pose_deg: Floats) -> Pose:
-    """The orientation of a pose in degrees, with the bolt's origin at the nut's (method, section 2)."""
-    (sa, ca), (sb, cb), (sc, cc) = ((arb(float(one)) * arb.pi() / 180).sin_cos() for one in pose_deg)
+def first_pose(angles: Vector) -> Pose:
+    """The orientation of a pose, angles in rad, with the bolt's origin at the nut's (method, section 2)."""
+    (sa, ca), (sb, cb), (sc, cc) = (one.sin_cos() for one in angles)
     return Pose(
         (
             (cc * cb, cc * sb * sa - sc * ca, cc * sb * ca + sc * sa),
@@ -270,7 +270,8 @@ def exact_state(pair: Pair, pose_deg: Floats, record: Floats) -> ExactState:
         UncoveredError: the record is unresolved, level or a tie, or the solution is not proved.
     """
     with ctx.workprec(PRECISION):
-        return _state(parts_of(pair), first_pose(pose_deg), record)
+        roll, pitch, phase = (arb(float(one)) * arb.pi() / 180 for one in pose_deg)
+        return _state(parts_of(pair), first_pose((roll, pitch, phase)), record)
 
 
 def stage_from_record(pair: Pair, record: Floats, stage: int) -> tuple[Contact, arb]:

@@ -20,13 +20,17 @@ from oracle.overlap import excluded_rows, free_component
 from oracle.pose import pose_rotation
 from oracle.profile import Floats, bolt_profile, nut_profile
 from oracle.state_turns import Turn, deepest_near, earlier_appearance, spreads_from_contact, turns_of
+from studies.certificate.exact import UncoveredError
 from studies.stability.change import SolvedCase, allowed, change_between, leading_contacts, pivot_lever
-from threadstate.state.model import Contact, ContactState, Flag
+from studies.stability.crossings import crossing_height
+from threadstate.state.model import Contact, ContactState, FeaturePair, Flag
 from threadstate.thread.pair import Pair
 
 HALF_WIDTH_DEG = 0.1
 SAMPLES = 20_001
-"""1e-5 deg apart."""
+"""At most 1e-5 deg apart."""
+CROSSING_WIDTH_DEG = 5e-3
+"""How far from a crossing of edges that may be about to part their overlap may be widest."""
 
 _height, _zoom_curve = oracle._height, oracle._zoom_curve
 
@@ -43,18 +47,21 @@ def _highest(feature: int, middle: float, half: float, rot: Floats, bolt: Floats
     return max(best, _zoom_curve(feature, best_u, step, rot, bolt, nut)[0])
 
 
-def first_height_near(pair: Pair, pose_deg: tuple[float, float, float], contact: Contact) -> float:
+def first_height_near(
+    pair: Pair, pose_deg: tuple[float, float, float], contact: Contact, from_deg: float = 0.0
+) -> float:
     """Height of the bolt's origin (pose in degrees) at which either edge first touches near a contact's azimuths.
 
-    In the pair's unit.
+    Near is within ``HALF_WIDTH_DEG``, and no nearer than ``from_deg``. In the pair's unit.
     """
     bolt, nut, rot = bolt_profile(pair), nut_profile(pair), pose_rotation(*pose_deg)
-    half = math.radians(HALF_WIDTH_DEG)
+    half, away = (0.5 * math.radians(HALF_WIDTH_DEG + sign * from_deg) for sign in (-1.0, 1.0))
     on_bolt, on_nut = (math.atan2(point[1], point[0]) for point in (contact.point_bolt, contact.point))
     rot = np.ascontiguousarray(rot)
     return max(
-        float(_highest(feature, azimuth, half, rot, bolt, nut))
+        float(_highest(feature, azimuth + side, half, rot, bolt, nut))
         for feature, azimuth in ((oracle.BOLT_EDGE, on_bolt), (oracle.NUT_EDGE, on_nut))
+        for side in (-away, away)
     )
 
 
@@ -178,12 +185,27 @@ def missed_first(solved: SolvedCase) -> bool:
 
 
 def _missed_beside(lower: SolvedCase, upper: SolvedCase) -> bool:
-    """Whether the lower of two neighbours still touches where the upper one does, before it has come down."""
-    reported = lower.state.poses[0].translation[2]
+    """Whether the lower of two neighbours still touches where the upper one does, before it has come down.
+
+    Where that is a crossing of both edges, which may overlap by less than doubles can tell, it is decided in fifty
+    digits, and what those do not decide counts as missed.
+    """
+    allowed_height = lower.state.poses[0].translation[2] + HEIGHT_TOLERANCE_INCH
     held = leading_contacts(upper.state)
     if 1 not in held:
         return False
-    return first_height_near(lower.case.pair, lower.case.pose_deg, held[1]) > reported + HEIGHT_TOLERANCE_INCH
+    pair, pose_deg, contact = lower.case.pair, lower.case.pose_deg, held[1]
+    if first_height_near(pair, pose_deg, contact) <= allowed_height:
+        return False
+    if contact.features is not FeaturePair.EDGE_EDGE:
+        return True
+    if first_height_near(pair, pose_deg, contact, CROSSING_WIDTH_DEG) > allowed_height:
+        return True
+    try:
+        height = crossing_height(pair, pose_deg, contact, CROSSING_WIDTH_DEG)
+    except UncoveredError:
+        return True
+    return height is not None and height > allowed_height
 
 
 def missed_later(solved: SolvedCase) -> bool:

@@ -16,7 +16,8 @@ An answer fails silently where something that knows nothing of the solver says t
 - **Continuity.** Every perturbed answer is joined to its centre's by steps in which nothing happens. Where there is no
   such path the interval between the two is halved until doubles end or the method refuses, and the two neighbours are
   checked by the brute force of `oracle`: a height may fall only where columns, dense about the lost contact, find no
-  higher one, a turn may pass a neighbour's contact only where rays find no component that appears on the way, an
+  higher one (where two edges cross their overlap is taken to fifty digits: doubles cannot tell one of 1e-17 in from
+  none), a turn may pass a neighbour's contact only where rays find no component that appears on the way, an
   embedment may jump only as the lift does.
 - **Margins.** A class that flips while the contacts stay must have a margin that changes its sign and is no larger
   than the perturbation can change it.

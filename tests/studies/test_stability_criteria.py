@@ -7,14 +7,27 @@ from dataclasses import replace
 
 import pytest
 
+from studies.certificate.exact import UncoveredError
 from studies.methods import Case, Refusal, scaled
 from studies.stability.agreement import Outcome, about, difference, flips_within_margins, outcome, truths
-from studies.stability.brute_force import Event, Fault, explanation, missed_first, missed_later, wrong_embedment
+from studies.stability.brute_force import (
+    CROSSING_WIDTH_DEG,
+    HEIGHT_TOLERANCE_INCH,
+    Event,
+    Fault,
+    explanation,
+    first_height_near,
+    missed_first,
+    missed_later,
+    wrong_embedment,
+)
 from studies.stability.change import SolvedCase, at_scale_one, change_between, has_jumped, is_steady
+from studies.stability.crossings import crossing_height
 from studies.stability.laws import broken_laws
 from studies.stability.place_study import Neighbourhood
 from tests.studies.states import EXACT, FLUSH, PAIR, THREE_POINT, answered
 from threadstate.state.model import ContactState, StateClass
+from threadstate.state.solve import solve_pose
 
 pytestmark = pytest.mark.slow
 
@@ -103,6 +116,28 @@ def test_brute_force_accepts_a_jump_and_no_bolt_that_falls_without_one() -> None
     assert explanation(above, tunnelled) is Fault.MISSED_FIRST
 
 
+ABOVE_DEG = (0.1790897872143572, 0.22899434491659199, 357.71407167189835)
+BELOW_DEG = (0.1790897872143572, 0.22899434491659199, 357.7140716718984)
+"""Between these phases, one unit in the last place apart, two edges part that overlap by 1e-17 in before."""
+
+
+def test_whether_edges_part_is_told_in_fifty_digits_where_doubles_cannot() -> None:
+    above, below = answered(ABOVE_DEG), answered(BELOW_DEG)
+    held = above.state.contacts[0]
+    heights = [crossing_height(PAIR, pose_deg, held, CROSSING_WIDTH_DEG) for pose_deg in (ABOVE_DEG, BELOW_DEG)]
+    assert heights == [pytest.approx(above.state.poses[0].translation[2], abs=1e-10), None]
+    seen_by_doubles = first_height_near(PAIR, BELOW_DEG, held)
+    assert seen_by_doubles > below.state.poses[0].translation[2] + HEIGHT_TOLERANCE_INCH
+    assert explanation(above, below) is Event.FIRST_LOST
+    assert explanation(above, replace(below, case=above.case)) is Fault.MISSED_FIRST
+
+
+def test_a_crossing_that_is_not_near_is_not_decided() -> None:
+    held = answered(ABOVE_DEG).state.contacts[0]
+    with pytest.raises(UncoveredError, match="not widest near"):
+        crossing_height(PAIR, ABOVE_DEG, held, 1e-6)
+
+
 def test_brute_force_finds_a_turn_that_passes_a_contact() -> None:
     right = answered(THREE_POINT)
     assert not missed_later(right)
@@ -180,3 +215,19 @@ def test_flips_need_a_small_margin() -> None:
     least = min(abs(margin) for margin in margins if margin is not None)
     assert flips_within_margins(right, right, 1.01 * least)
     assert not flips_within_margins(right, right, 0.99 * least)
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [
+        (0.5653341813910805, 0.3923694226441425, 2.3251282285121024),
+        (0.1790897789812174, 0.22899435491659198, 2.293028984010698),
+    ],
+)
+def test_a_crossing_whose_faces_doubles_cannot_tell_apart_is_not_taken_for_a_contact(
+    pose: tuple[float, float, float],
+) -> None:
+    """Edges cross there at an angle of 1e-8 rad: signs of a normal that is off by 1e-7 were none."""
+    state = solve_pose(PAIR, *pose)
+    assert len(state.contacts) == 3
+    assert broken_laws(EXACT, SolvedCase(Case(PAIR, pose), state)) == []
