@@ -44,7 +44,7 @@ print("fmul contract" in code, "fmul double" in code)
 MAKERS = ("empty", "zeros", "ones", "full", "array", "eye", "copy", "astype", "argsort")
 """What makes an array in a kernel."""
 
-SCALARS = {"int", "float", "bool", "tuple", "None", "Numbers"}
+SCALARS = {"int", "float", "bool", "tuple", "None", "Numbers", "Pair", "Crossing"}
 """Names in the types that a kernel returns without giving its caller an array."""
 
 

@@ -142,14 +142,18 @@ class BallProfile:
 def ball_profile(profile: Profile) -> BallProfile:
     """The profile of a thread in balls; a sharp corner has the least fillet, which stands for it in the solver."""
     negative = profile.flank_half_angle_neg_deg
-    rising = _half(profile, profile.flank_half_angle_deg)
-    falling = rising if negative is None else _half(profile, negative)
+    rising = profile_half(profile, _tangent(profile.flank_half_angle_deg))
+    falling = rising if negative is None else profile_half(profile, _tangent(negative))
     return BallProfile(rising, falling, arb(profile.thread_pitch), arb(profile.lead) / (2 * arb.pi()))
 
 
-def _half(profile: Profile, half_angle_deg: float) -> Half:
-    angle = arb(half_angle_deg) * arb.pi() / 180
-    tangent = angle.tan()
+def _tangent(half_angle_deg: float) -> arb:
+    return (arb(half_angle_deg) * arb.pi() / 180).tan()
+
+
+def profile_half(profile: Profile, tangent: arb) -> Half:
+    """A half period of a profile with a flank of that tangent of its half-angle."""
+    angle = tangent.atan()
     minor, pitch, major = (arb(d) for d in (profile.minor_diameter, profile.pitch_diameter, profile.major_diameter))
     least = SHARPEST * profile.thread_pitch
     small = arb(max(profile.minor_fillet_radius, least))

@@ -61,13 +61,14 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
         return count, 1, 1e-4, 1e-4
 
     monkeypatch.setattr(stage, "search_edge", crowded_search)
-    monkeypatch.setattr(stage, "search_both_edges", stage.search_both_edges.py_func)
+    for name in ("search_both_edges", "contacts_of_edges"):
+        monkeypatch.setattr(stage, name, getattr(stage, name).py_func)
     pose, out = np.zeros(12), np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE))
     stage.rotation(0.05, 0.02, 1.0, pose)
     pose[11] = 0.01
-    down, none = np.array([0.0, 0.0, -1.0]), np.empty((0, stage.CONTACT_SIZE))
+    down, none, stored = np.array([0.0, 0.0, -1.0]), np.empty((0, stage.CONTACT_SIZE)), np.empty((0, 2))
     count, found_status, _ = stage.earliest(
-        pose, False, down, down, none, 0, 0.02, 1e-12, BOLT, NUT, stage.RIDGES_ONLY, stage.new_work(), out
+        pose, False, down, down, stored, none, 0, 0.02, 1e-12, BOLT, NUT, stage.RIDGES_ONLY, stage.new_work(), out
     )
     assert (count, found_status) == (stage.MAX_CONTACTS, status)
 

@@ -24,6 +24,7 @@ from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _solve_kernel as solve
 from threadstate.contact import _stage_kernel as stage
 from threadstate.contact import _tangency_kernel as tangency
+from threadstate.contact import _wedge_kernel as wedges
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
@@ -97,8 +98,8 @@ def solved(pose: PoseDeg, pair: Pair = PAIR) -> Floats:
 @pytest.mark.parametrize(
     ("pair", "pose", "poses"),
     [
-        (PAIR, (0.10434019382280837, 0.0026860074511310863, 21.513048156163816), 0),
-        (PAIR, (-0.02895388877756049, 0.3574196117469121, 357.7117883697747), 1),
+        (SHARP, (7.122851332087587e-08, -3.768292630537729e-06, 1.5981335955963853), 0),
+        (PAIR, (-4.947909522439637e-10, 3.5935135109799465e-09, 1.5272430881542682), 1),
         (PAIR, (1.735635670838846e-09, 9.606987204942213e-10, 1.9080351168902752), 2),
         (SHARP, (-1.848321590093091e-09, 2.75804603556617e-06, -0.2093575674421757), 2),
     ],
@@ -194,7 +195,8 @@ def test_edges_that_run_along_each_other_are_not_separated() -> None:
     level, _ = descents(pose_at((0.0, 0.0, 0.0), 0.0))
     crest = math.radians(-90.0)
     assert PAIR.bolt.derivatives(P / 4.0)[1] == 0.0 == PAIR.nut.derivatives(P / 4.0)[1]
-    assert not onset.edges_separated(crest, crest, 0.0, new_edge(level, BOLT, NUT, new_kept(0)), np.empty(9))
+    crossing = wedges.crossing_at(crest, crest, 0.0, new_edge(level, BOLT, NUT, new_kept(0)), np.empty(9))
+    assert not wedges.separates(crossing, 1e-12)
 
 
 def test_edges_are_separated_where_they_first_touch() -> None:
@@ -204,7 +206,8 @@ def test_edges_are_separated_where_they_first_touch() -> None:
     assert first.features is FeaturePair.EDGE_EDGE
     motion, _ = descents(pose_at(pose_deg, state.poses[0].translation[2]))
     on_bolt, on_nut = (math.atan2(point[1], point[0]) for point in (first.point_bolt, first.point))
-    assert onset.edges_separated(on_bolt, on_nut, 0.0, new_edge(motion, BOLT, NUT, new_kept(0)), np.empty(9))
+    crossing = wedges.crossing_at(on_bolt, on_nut, 0.0, new_edge(motion, BOLT, NUT, new_kept(0)), np.empty(9))
+    assert wedges.separates(crossing, 1e-12)
 
 
 def test_an_onset_beyond_the_far_end_of_a_part_is_no_contact() -> None:
@@ -218,9 +221,10 @@ def test_an_onset_beyond_the_far_end_of_a_part_is_no_contact() -> None:
     edge, jet, wedge = new_edge(motion, NUT, BOLT, new_kept(0)), np.empty(onset.JET_SIZE), np.empty(9)
     onset.set_jet_beside(theta, 0.0, edge, jet)
     assert 0.0 < jet[onset.J_Z] < P
-    assert onset.is_contact(ONE_THREAD, theta, 0.0, edge, jet, wedge)
+    crossing = wedges.crossing_of(ONE_THREAD, theta, 0.0, edge, jet, wedge)
+    assert wedges.is_contact(ONE_THREAD, theta, 0.0, crossing, edge, jet, wedge)
     jet[onset.J_Z] += P
-    assert not onset.is_contact(ONE_THREAD, theta, 0.0, edge, jet, wedge)
+    assert not wedges.is_contact(ONE_THREAD, theta, 0.0, crossing, edge, jet, wedge)
 
 
 def test_a_full_list_of_candidates_drops_the_latest() -> None:

@@ -12,6 +12,7 @@ from tests.contact.samples import Floats
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _stage_kernel as stage
+from threadstate.contact import _wide_kernel as wide
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.model import FeaturePair
 from threadstate.state.options import SolveOptions
@@ -116,8 +117,8 @@ def test_a_turn_about_an_axis_and_back_is_none() -> None:
     point, axis = np.zeros((3, 2)), np.empty((3, 2))
     point[:, 0] = record[rk.O_CONTACT + rk.P_POINT : rk.O_CONTACT + rk.P_POINT + 3]
     refine.set_unit(((0.3, 0.0), (-0.7, 0.0), (0.1, 0.0)), False, axis)
-    refine.set_moved(start, True, point, axis, (0.6, 0.0), there)
-    refine.set_moved(there, True, point, axis, (-0.6, 0.0), back)
+    wide.set_moved(start, True, point, axis, (0.6, 0.0), there)
+    wide.set_moved(there, True, point, axis, (-0.6, 0.0), back)
     assert np.max(np.abs(there[:, 0] - start[:, 0])) > 0.01
     difference = (back[:, 0] - start[:, 0]) + (back[:, 1] - start[:, 1])
     assert np.max(np.abs(difference)) < 1e-30

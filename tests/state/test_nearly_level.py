@@ -19,6 +19,8 @@ that tie within 5e-10 deg may be another one."""
 CASES = {
     "some 1e-7 deg": (1.244773113e-7, 1.317139252e-7, -0.588257134),
     "some 1e-8 deg": (2.63875271e-9, 3.752628839e-8, -1.95510526),
+    "a second contact that doubles hide": (-6.404057841312052e-09, 2.6224387281405916e-08, -0.13148931561248065),
+    "two of them": (5.3184709903180835e-08, 2.6792007542110766e-08, -1.7614011092283082),
     "the threads touch first, between two azimuths of the search": (5.3185e-6, 2.6792e-6, -1.76140111),
 }
 

@@ -58,7 +58,7 @@ FAULTS = {
     "half of f''": ("tt_high -= f2_low *", "tt_high -= 0.5 * f2_low *"),
     "no term of R1 in g'": ("(a * (r_bound + 3.0 * r1_bound)", "(a * r_bound"),
     "g's sine at the end of a turn in both planes": (
-        "sine_g = smaller(math.sqrt(m1z * m1z + m2z * m2z) + turning_moving * b, 1.0)",
+        "sine_g = smaller(g.sine + turning_moving * b, 1.0)",
         "sine_g = math.sqrt(edge.m1z * edge.m1z + edge.m2z * edge.m2z)",
     ),
     "a third of the change of V": ("d_v = speed_bound *", "d_v = 0.3 * speed_bound *"),

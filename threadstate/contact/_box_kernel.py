@@ -310,6 +310,23 @@ def with_value(of_one: Ranges, value: float, error: float) -> Ranges:
     )
 
 
+@kernel(contract=True, forceinline=True)
+def box_times(i: int, boxes: Array) -> tuple[float, float]:
+    """The middle of a box by time, and half its duration as it is evaluated."""
+    start, end = boxes[X_START + i], boxes[X_END + i]
+    return 0.5 * (start + end), 0.5 * (end - start) + OVERLAP * abs(end)
+
+
+@kernel(contract=True, forceinline=True)
+def set_class(i: int, a: float, b: float, phi: Ranges, g: Ranges, depth: float, p: float, boxes: Array) -> None:
+    """Sets the class of a box, and what is stored with it, from its ranges."""
+    box_class, g_low, by_time, deepest = classify_box(a, b, phi, g, depth, p)
+    boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = box_class, g_low, by_time
+    boxes[X_DEEPEST + i] = deepest
+    boxes[X_DEPTH + i] = smaller(phi.value, g.value)
+    boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = phi.tt_low, phi.tt_high
+
+
 @kernel(contract=True)
 def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profile: Array, boxes: Array) -> None:
     """Evaluates the bounds of the first ``count`` boxes and sets their classes."""
@@ -320,14 +337,9 @@ def classify_boxes(count: int, motion: Array, curve_profile: Array, solid_profil
     sizes = size_numbers(motion, curve_profile, solid_profile)
     for i in range(count):
         a = boxes[X_HALF + i]
-        start, end = boxes[X_START + i], boxes[X_END + i]
-        tau, b = 0.5 * (start + end), 0.5 * (end - start) + OVERLAP * abs(end)
+        tau, b = box_times(i, boxes)
         of_phi, of_g, depth = ranges(boxes[X_THETA + i], a, tau, b, x_axis, y_axis, origin, rest, curve, solid, sizes)
         error = error_beside(tau, sizes) * boxes[X_GAP + i]
         g = with_value(of_g, boxes[X_G_BESIDE + i], error)
         phi = with_value(of_phi, boxes[X_PHI_BESIDE + i], error)
-        box_class, g_low, by_time, deepest = classify_box(a, b, phi, g, depth, p)
-        boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = box_class, g_low, by_time
-        boxes[X_DEEPEST + i] = deepest
-        boxes[X_DEPTH + i] = smaller(phi.value, g.value)
-        boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = phi.tt_low, phi.tt_high
+        set_class(i, a, b, phi, g, depth, p, boxes)

@@ -85,6 +85,24 @@ class PhiPoint(NamedTuple):
     flat_vv: float
 
 
+class GPoint(NamedTuple):
+    """G in the middle of a box, with what it is made of.
+
+    ``p`` and ``q`` are the components of P and Q along g, ``sine`` is that of the angle between the curve's plane and
+    the solid's; ``by_theta`` and ``by_tau`` are derivatives, ``flat`` the second one by theta without the term of r'',
+    ``by_both`` that by theta and tau.
+    """
+
+    p: float
+    q: float
+    sine: float
+    value: float
+    by_theta: float
+    by_tau: float
+    flat: float
+    by_both: float
+
+
 @kernel(contract=True, forceinline=True)
 def curve_at(
     theta: float,
@@ -182,4 +200,29 @@ def phi_at(edge: CurvePoint, k: float, solid: Numbers) -> PhiPoint:
         -edge.r * pr + 2.0 * edge.dr * qr + tt * tt * inverse - f1 * flat_s_tt,
         wr - f1 * ws + tt * vt * inverse - f1 * k_rr * (tr * vt + tt * vr),
         ar - f1 * a_s + vt * vt * inverse - 2.0 * f1 * k_rr * vr * vt,
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def g_at(edge: CurvePoint, x_axis: Numbers, y_axis: Numbers, origin: Numbers, rest: Numbers) -> GPoint:
+    """G in the middle of a box, and its derivatives there.
+
+    Where the axis lies in both planes its sign stays that of the start, whose value is used instead.
+    """
+    turning, sigma, moving = rest[0], rest[1], rest[2]
+    r, dr = edge.r, edge.dr
+    m1z = edge.m1z if moving > 0.0 else x_axis[2]
+    m2z = edge.m2z if moving > 0.0 else y_axis[2]
+    height = edge.height if moving > 0.0 else origin[2]
+    p_g = -sigma * (m1z * edge.cos_theta + m2z * edge.sin_theta)
+    q_g = -sigma * (m2z * edge.cos_theta - m1z * edge.sin_theta)
+    return GPoint(
+        p_g,
+        q_g,
+        math.sqrt(m1z * m1z + m2z * m2z),
+        r * p_g - sigma * height,
+        dr * p_g + r * q_g,
+        -sigma * edge.v[2] * moving,
+        2.0 * dr * q_g - r * p_g,
+        -sigma * edge.w[2] * (turning * moving),
     )

@@ -22,6 +22,7 @@ class Edge(NamedTuple):
         solid: packed profile of the other part.
         kept: earlier contacts on the curve (``_beside_kernel``).
         path: scratch of a point's path.
+        wide: the motion in sums of two doubles (``_refined_edge_kernel``); no rows: the edge is not refined.
     """
 
     motion: Array
@@ -29,6 +30,7 @@ class Edge(NamedTuple):
     solid: Array
     kept: Array
     path: Array
+    wide: Array
 
 
 class Box(NamedTuple):
@@ -43,4 +45,4 @@ class Box(NamedTuple):
 @kernel()
 def new_edge(motion: Array, curve: Array, solid: Array, kept: Array) -> Edge:
     """An edge with scratch of its own."""
-    return Edge(motion, curve, solid, kept, np.empty(PATH_SIZE))
+    return Edge(motion, curve, solid, kept, np.empty(PATH_SIZE), kept[:0])

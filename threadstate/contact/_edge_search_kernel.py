@@ -51,12 +51,13 @@ from threadstate.contact._onset_kernel import (
     TIME_SLACK,
     Candidate,
     insert_candidate,
-    is_contact,
     newton_onset,
     rises,
     set_jet_beside,
 )
 from threadstate.contact._queue_kernel import ROOM, add, row, set_row
+from threadstate.contact._refined_edge_kernel import classify_refined, is_refined
+from threadstate.contact._wedge_kernel import crossing_of, is_contact, is_doubtful
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -104,7 +105,7 @@ SHORTEST = 1e-12
 """A box with at most one onset that is no longer than this, in units of ``motion_scale``, is split by azimuth."""
 
 NARROWEST = 2.0**-51
-"""Half-width (rad) of the narrowest box that is split: of a narrower one the sides are the same number."""
+"""Half-width (rad) of the narrowest box that is split by azimuth: of a narrower one the sides are the same number."""
 
 NEWTON_COST = 24
 """Cost of a failure of Newton's method in a narrow box, in evaluations of a box."""
@@ -113,8 +114,9 @@ OVERFLOW = -1
 
 OUTSIDE, INSIDE, UNDECIDED = range(3)
 
-# A list of entries of edges into open overlaps: their number in the first row; then time, azimuth and axial position on
-# the bolt's thread.
+# A list of entries of edges into open overlaps: in the first row their number, and the earliest time of an onset of
+# which it is doubtful if it is one; then time, azimuth and axial position on the bolt's thread.
+E_DOUBTFUL = 1
 E_TIME, E_THETA, E_Z = range(3)
 ENTRY_SIZE = 3
 MAX_ENTRIES = 16
@@ -188,6 +190,10 @@ def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
                     edge.path,
                 )
     classify_boxes(count, edge.motion, edge.curve, edge.solid, boxes)
+    if is_refined(edge):
+        for i in range(count):
+            if boxes[X_CLASS + i] > EXCLUDED and 0.0 < boxes[X_HALF + i] <= FINE:
+                classify_refined(i, edge, boxes)
 
 
 @kernel(allocates=False)
@@ -224,6 +230,9 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
         scratch[X_START + i], scratch[X_END + i] = start, end
         scratch[X_G_BESIDE + i], scratch[X_PHI_BESIDE + i], scratch[X_GAP + i] = math.nan, math.nan, math.nan
     classify_boxes(PIECES, edge.motion, edge.curve, edge.solid, scratch)
+    if is_refined(edge):
+        for i in range(PIECES):
+            classify_refined(i, edge, scratch)
     touches = kept[number, K_PHI] != 0.0
     tangent = touches and kept[number, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):
@@ -309,7 +318,8 @@ class EdgeSearch(NamedTuple):
         queue: undecided boxes (``_queue_kernel``).
         regions: in the first row how many were kept; then boxes about onsets that are found, in which there is no other
             one, the latest ``MAX_REGIONS``: rows as the fields of ``Box``.
-        entries: onsets that are not contacts: there an edge enters an open overlap.
+        entries: onsets that are not contacts: there an edge enters an open overlap. Then the time of one of which
+            round-off hides if it is.
     """
 
     any_onset: bool
@@ -333,7 +343,10 @@ def list_onset(
     set_jet_beside(t, tau, edge, jet)
     if not rises(box_class, jet) or contact_distance(t, edge.kept) < AZIMUTH_TOLERANCE:
         return count, False
-    if not is_contact(box_class, t, tau, edge, jet, wedge):
+    crossing = crossing_of(box_class, t, tau, edge, jet, wedge)
+    if box_class == ONE_EDGE and is_doubtful(t, tau, crossing, search.tie_tolerance, edge, jet, wedge):
+        search.entries[0, E_DOUBTFUL] = min(search.entries[0, E_DOUBTFUL], tau)
+    if not is_contact(box_class, t, tau, crossing, edge, jet, wedge):
         insert_entry(tau, t, edge.motion, jet, search.entries)
         return count, search.any_onset
     if not is_listed(box_class, t, tau, edge, scratch, count, found):
@@ -465,7 +478,7 @@ def search_edge(
                     continue
                 evaluated += NEWTON_COST if box.half < AZIMUTH_TOLERANCE else 0
             by_time = splits_by_time(box_class, box, shorter, gap, boxes[X_BY_TIME + i] > 0.0, scale)
-            narrowest = min(narrowest, box.half)
+            narrowest = narrowest if by_time else min(narrowest, box.half)
             box = outside_regions(box, search.regions)
             if box.half > 0.0:
                 set_box_at(box, m, boxes)

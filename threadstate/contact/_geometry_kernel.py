@@ -22,7 +22,8 @@ TWO_PI = 2.0 * math.pi
 # A motion, in the frame of the solid that the edge curve meets: start placement (3x3 by rows, then the offset),
 # kind (0 translation, 1 turn), a point of the axis, the unit axis (or the direction of translation), sigma, and 1 where
 # the axis of a turn lies both in the curve's plane and in the solid's (then the two planes meet along it, and an edge
-# point stays on its side of the solid's plane until the turn has brought the planes together).
+# point stays on its side of the solid's plane until the turn has brought the planes together); then 1 where these
+# numbers are the motion meant but for what they are rounded by, 0 where they are the motion meant.
 M_ROT = 0
 M_OFF = 9
 M_KIND = 12
@@ -30,7 +31,8 @@ M_POINT = 13
 M_AXIS = 16
 M_SIGMA = 19
 M_COPLANAR = 20
-MOTION_SIZE = 21
+M_ROUNDED = 21
+MOTION_SIZE = 22
 
 # A path: x(tau) = base + d cos(tau) + e sin(tau) for a turn, base + e tau for a translation; then |dx/dtau|.
 PATH_SIZE = 10

@@ -1,7 +1,6 @@
-"""Onsets of overlap along one part's edge curve: their place and time by root finding, and whether they are contacts.
+"""Onsets of overlap along one part's edge curve: their place and time by root finding.
 
-An onset is where a new arc of the edge curve enters the other solid (``_box_kernel`` gives the equations). It is a
-contact onset unless an overlap is open there already.
+An onset is where a new arc of the edge curve enters the other solid (``_box_kernel`` gives the equations).
 """
 
 from __future__ import annotations
@@ -15,15 +14,14 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._beside_kernel import BESIDE, nearest_contact, values_beside
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_THREAD
+from threadstate.contact._branchless_kernel import profile_numbers, second_derivative_range
 from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._geometry_kernel import (
     M_COPLANAR,
     M_KIND,
     M_SIGMA,
     TWO_PI,
-    edge_point,
     motion_scale,
-    phi_and_gradient,
     place_by_time,
     position,
     set_path,
@@ -31,6 +29,7 @@ from threadstate.contact._geometry_kernel import (
     velocity,
 )
 from threadstate.contact._range_kernel import size_numbers
+from threadstate.contact._refined_edge_kernel import REFINED_ERROR, differences, is_refined, refined_points
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -113,9 +112,32 @@ def set_jet(
     jet[J_G_THETA_TAU] = -sigma * wz
 
 
+@kernel()
+def set_refined_jet(theta: float, tau: float, edge: Edge, jet: Array) -> None:
+    """Sets a jet of a refined edge; beside earlier contacts g and phi are differences from them."""
+    sigma = edge.motion[M_SIGMA]
+    of_curve, of_phi, of_g = refined_points(theta, 0.0, tau, edge)
+    phi, g, _ = differences(theta, tau, sigma * of_phi.phi, of_g.value, edge)
+    r2 = 0.5 * (of_curve.r2_low + of_curve.r2_high)
+    f2_low, f2_high = second_derivative_range(of_phi.u, 0.0, of_phi.rises, profile_numbers(edge.solid))
+    f2 = 0.5 * (f2_low + f2_high)
+    ts, vs = of_phi.t[2], of_phi.v[2]
+    jet[J_G] = of_g.value if math.isnan(g) else g
+    jet[J_PHI] = sigma * of_phi.phi if math.isnan(phi) else phi
+    jet[J_G_THETA], jet[J_G_TAU] = of_g.by_theta, of_g.by_tau
+    jet[J_PHI_THETA], jet[J_PHI_TAU] = sigma * of_phi.phi_t, sigma * of_phi.phi_v
+    jet[J_G_THETA_THETA], jet[J_G_THETA_TAU] = of_g.flat + r2 * of_g.p, of_g.by_both
+    jet[J_PHI_THETA_THETA] = sigma * (of_phi.flat_tt + r2 * (of_phi.p[0] - of_phi.f1 * of_phi.p[2]) - f2 * ts * ts)
+    jet[J_PHI_THETA_TAU] = sigma * (of_phi.flat_tv - f2 * ts * vs)
+    jet[J_X], jet[J_Y], jet[J_Z] = of_curve.place
+
+
 @kernel(allocates=False)
 def set_jet_beside(theta: float, tau: float, edge: Edge, jet: Array) -> None:
     """The same; beside earlier contacts g and phi are differences from them."""
+    if is_refined(edge):
+        set_refined_jet(theta, tau, edge, jet)
+        return
     set_jet(theta, tau, edge.motion, edge.curve, edge.solid, edge.path, jet)
     if edge.kept[0, 0] != 0.0:
         g, phi, _ = values_beside(theta, tau, edge.motion, edge.curve, edge.solid, edge.kept, edge.path)
@@ -124,10 +146,11 @@ def set_jet_beside(theta: float, tau: float, edge: Edge, jet: Array) -> None:
 
 
 @kernel()
-def jet_errors(tau: float, motion: Array, curve_profile: Array, solid_profile: Array) -> tuple[float, float]:
+def jet_errors(tau: float, edge: Edge) -> tuple[float, float]:
     """Bounds on the round-off of g and phi and of their derivatives by theta (docs/certificate.md, section 6)."""
-    k, r, r1, cot, r_minor, base_error, error_by_time, _ = size_numbers(motion, curve_profile, solid_profile)
+    k, r, r1, cot, r_minor, base_error, error_by_time, _ = size_numbers(edge.motion, edge.curve, edge.solid)
     error = (1.0 + cot * (1.0 + abs(k) / r_minor)) * (base_error + error_by_time * abs(tau))
+    error *= REFINED_ERROR if is_refined(edge) else 1.0
     return error, error * (1.0 + 2.0 * math.sqrt(r * r + r1 * r1) / r_minor)
 
 
@@ -166,7 +189,7 @@ def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[int, floa
     theta, half, start, end = box
     value_error, slope_error = 0.0, 0.0
     if kind != ONE_EDGE and not abs(nearest_contact(theta, edge.kept)[0]) < BESIDE:
-        value_error, slope_error = jet_errors(0.5 * (start + end), edge.motion, edge.curve, edge.solid)
+        value_error, slope_error = jet_errors(0.5 * (start + end), edge)
     t = theta
     tau = 0.5 * (start + end)
     span = 0.5 * (end - start)
@@ -192,89 +215,13 @@ def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[int, floa
             t_slack, tau_slack = 1e-13 + t_error, TIME_SLACK * step + tau_error
             if abs(t - theta) <= half * (1.0 + 1e-9) + t_slack and start - tau_slack <= tau <= end + tau_slack:
                 return ROOT_INSIDE, t, tau
-            errors = jet_errors(tau, edge.motion, edge.curve, edge.solid)
+            errors = jet_errors(tau, edge)
             _, _, _, t_error, tau_error = onset_step(kind, jet, errors[0], errors[1])
             if abs(t - theta) > half + t_error or not start - tau_error <= tau <= end + tau_error:
                 return ROOT_BESIDE, t, tau
             return ROOT_AT_SIDE, t, tau
         before, t_error_before = size, t_error
     return NO_ROOT, t, tau
-
-
-@kernel()
-def set_wedge(theta: float, profile: Array, sigma: float, out: Array) -> None:
-    """Unit vectors at the edge point: along the edge (counter-clockwise), into the flat face, into the thread face."""
-    x, y, ex, ey = edge_point(theta, profile)
-    n = math.hypot(ex, ey)
-    ex /= n
-    ey /= n
-    _, gx, gy, gz = phi_and_gradient(x, y, 0.0, profile, sigma)
-    out[0] = ex
-    out[1] = ey
-    out[2] = 0.0
-    out[3] = sigma * ey
-    out[4] = -sigma * ex
-    out[5] = 0.0
-    tx = -gz * ey
-    ty = gz * ex
-    tz = gx * ey - gy * ex
-    n = math.sqrt(tx * tx + ty * ty + tz * tz)
-    if sigma * tz > 0.0:
-        n = -n
-    out[6] = tx / n
-    out[7] = ty / n
-    out[8] = tz / n
-
-
-@kernel()
-def dot(ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> float:
-    """Scalar product."""
-    return ax * bx + ay * by + az * bz
-
-
-@kernel()
-def wedge_components(motion: Array, tau: float, wedge: Array, nx: float, ny: float, nz: float) -> tuple[float, float]:
-    """Components along n of the two face directions at the edge point (``set_wedge``) after ``tau``."""
-    ax, ay, az = turn_vector(wedge[3], wedge[4], wedge[5], motion, tau)
-    bx, by, bz = turn_vector(wedge[6], wedge[7], wedge[8], motion, tau)
-    return dot(ax, ay, az, nx, ny, nz), dot(bx, by, bz, nx, ny, nz)
-
-
-@kernel(allocates=False)
-def edges_separated(curve_theta: float, solid_theta: float, tau: float, edge: Edge, wedge: Array) -> bool:
-    """Whether at a crossing of two edges a plane separates the two wedges."""
-    sigma = edge.motion[M_SIGMA]
-    set_wedge(curve_theta, edge.curve, -sigma, wedge)
-    ex, ey, ez = turn_vector(wedge[0], wedge[1], wedge[2], edge.motion, tau)
-    _, _, sx, sy = edge_point(solid_theta, edge.solid)
-    n = math.hypot(sx, sy)
-    sx /= n
-    sy /= n
-    nx = -ez * sy
-    ny = ez * sx
-    nz = ex * sy - ey * sx
-    n = math.sqrt(nx * nx + ny * ny + nz * nz)
-    if n < 1e-12:
-        return False
-    nx /= n
-    ny /= n
-    nz /= n
-    c1, c2 = wedge_components(edge.motion, tau, wedge, nx, ny, nz)
-    set_wedge(solid_theta, edge.solid, sigma, wedge)
-    s1 = dot(wedge[3], wedge[4], wedge[5], nx, ny, nz)
-    s2 = dot(wedge[6], wedge[7], wedge[8], nx, ny, nz)
-    tol = 1e-12
-    return (c1 >= -tol and c2 >= -tol and s1 <= tol and s2 <= tol) or (
-        c1 <= tol and c2 <= tol and s1 >= -tol and s2 >= -tol
-    )
-
-
-@kernel()
-def face_separated(curve_theta: float, tau: float, nx: float, ny: float, nz: float, edge: Edge, wedge: Array) -> bool:
-    """Whether the wedge at the edge point lies on the side of a face to which the face's outward normal n points."""
-    set_wedge(curve_theta, edge.curve, -edge.motion[M_SIGMA], wedge)
-    c1, c2 = wedge_components(edge.motion, tau, wedge, nx, ny, nz)
-    return c1 >= -1e-12 and c2 >= -1e-12
 
 
 class Candidate(NamedTuple):
@@ -313,20 +260,3 @@ def rises(kind: int, jet: Array) -> bool:
         fall = jet[J_PHI_THETA] - jet[J_G_THETA]
         return (jet[J_G_TAU] * jet[J_PHI_THETA] - jet[J_PHI_TAU] * jet[J_G_THETA]) * fall > 0.0
     return jet[J_PHI_TAU] > 0.0 if kind == ONE_THREAD else jet[J_G_TAU] > 0.0
-
-
-@kernel(allocates=False)
-def is_contact(kind: int, theta: float, tau: float, edge: Edge, jet: Array, wedge: Array) -> bool:
-    """Whether at an onset the wedge at the edge point is outside the other part; else an overlap is open already."""
-    sigma = edge.motion[M_SIGMA]
-    x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
-    if -sigma * z > edge.solid[pk.P]:
-        # Beyond the far end of the part, which is one thread pitch long.
-        return False
-    if kind == ONE_EDGE:
-        return edges_separated(theta, math.atan2(y, x), tau, edge, wedge)
-    if kind == ONE_THREAD:
-        _, gx, gy, gz = phi_and_gradient(x, y, z, edge.solid, sigma)
-        n = math.sqrt(gx * gx + gy * gy + gz * gz)
-        return face_separated(theta, tau, -gx / n, -gy / n, -gz / n, edge, wedge)
-    return face_separated(theta, tau, 0.0, 0.0, sigma, edge, wedge)

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._branchless_kernel import Numbers, larger, second_derivative_range, smaller
-from threadstate.contact._curve_point_kernel import CurvePoint, PhiPoint, curve_at, phi_at
-from threadstate.contact._geometry_kernel import M_KIND, M_OFF, M_POINT, TWO_PI
+from threadstate.contact._curve_point_kernel import CurvePoint, GPoint, PhiPoint, curve_at, g_at, phi_at
+from threadstate.contact._geometry_kernel import M_KIND, M_OFF, M_POINT, M_ROUNDED, TWO_PI
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -139,6 +139,7 @@ def size_numbers(motion: Array, curve_profile: Array, solid_profile: Array) -> N
     ox, oy, oz = motion[M_OFF], motion[M_OFF + 1], motion[M_OFF + 2]
     dx, dy, dz = ox - motion[M_POINT], oy - motion[M_POINT + 1], oz - motion[M_POINT + 2]
     offset = math.sqrt(ox * ox + oy * oy + oz * oz)
+    unit = UNIT * (1.0 + motion[M_ROUNDED])
     arm = math.sqrt(dx * dx + dy * dy + dz * dz)
     return (
         k,
@@ -146,9 +147,9 @@ def size_numbers(motion: Array, curve_profile: Array, solid_profile: Array) -> N
         r1,
         solid_profile[pk.STEEPEST],
         solid_profile[pk.R_MINOR],
-        UNIT * (24.0 * r + 64.0 * r1 + 110.0 * abs(k) + 8.0 * offset),
-        UNIT * (20.0 * r + 17.0 * arm) if turning != 0.0 else 4.0 * UNIT,
-        UNIT * 8.0 * arm * turning,
+        unit * (24.0 * r + 64.0 * r1 + 110.0 * abs(k) + 8.0 * offset),
+        unit * (20.0 * r + 17.0 * arm) if turning != 0.0 else 4.0 * unit,
+        unit * 8.0 * arm * turning,
     )
 
 
@@ -449,51 +450,91 @@ def known_by_radius(phi: Ranges, sigma: float, radius: float, move: float, r_min
 def g_ranges(
     a: float,
     b: float,
-    x_axis: Numbers,
-    y_axis: Numbers,
-    origin: Numbers,
-    rest: Numbers,
+    turning: float,
+    moving: float,
     edge: CurvePoint,
+    g: GPoint,
     change: Changes,
     sizes: Numbers,
+    precision: float,
 ) -> Ranges:
-    """The ranges of g, as :func:`ranges` has them.
-
-    Where the axis lies in both planes its sign stays that of the start, whose value is used instead.
-    """
-    turning, sigma, moving = rest[0], rest[1], rest[2]
-    _, r_bound, r1_bound, _, _, _, _, rate_error = sizes
-    r, dr, r2_low, r2_high = edge.r, edge.dr, edge.r2_low, edge.r2_high
+    """The ranges of g, as :func:`ranges` has them."""
+    r_bound, r1_bound, rate_error = sizes[1], sizes[2], sizes[7] * precision
+    r2_low, r2_high = edge.r2_low, edge.r2_high
     position_error, d_r1, c1, r2_bound = change.position_error, change.d_r1, change.c1, change.r2
-    m1z = edge.m1z if moving > 0.0 else x_axis[2]
-    m2z = edge.m2z if moving > 0.0 else y_axis[2]
-    height = edge.height if moving > 0.0 else origin[2]
     turning_moving = turning * moving
-    p_g = -sigma * (m1z * edge.cos_theta + m2z * edge.sin_theta)
-    q_g = -sigma * (m2z * edge.cos_theta - m1z * edge.sin_theta)
-    sine_g = smaller(math.sqrt(m1z * m1z + m2z * m2z) + turning_moving * b, 1.0)
+    sine_g = smaller(g.sine + turning_moving * b, 1.0)
     tilting = sine_g * a + turning_moving * b
     var_g = sine_g * (a * (r_bound + 3.0 * r1_bound) + 2.0 * r2_bound * a) + turning_moving * b * (
         r_bound + 2.0 * r1_bound
     )
     var_g += r2_bound * (tilting + 32.0 * UNIT) + 4.0 * position_error
-    flat_g = 2.0 * dr * q_g - r * p_g
     g_tau_error = turning_moving * (position_error + rate_error)
     return Ranges(
-        r * p_g - sigma * height,
-        dr * p_g + r * q_g,
-        -sigma * edge.v[2] * moving,
-        flat_g - var_g + (r2_low if p_g > 0.0 else r2_high) * p_g,
-        flat_g + var_g + (r2_high if p_g > 0.0 else r2_low) * p_g,
-        -sigma * edge.w[2] * turning_moving,
+        g.value,
+        g.by_theta,
+        g.by_tau,
+        g.flat - var_g + (r2_low if g.p > 0.0 else r2_high) * g.p,
+        g.flat + var_g + (r2_high if g.p > 0.0 else r2_low) * g.p,
+        g.by_both,
         turning_moving * (change.c2_a + c1 * b + 4.0 * position_error),
         turning_moving * (abs(edge.a[2]) + c1 * a + change.speed * b + 4.0 * (position_error + rate_error)),
-        d_r1 * (abs(p_g) + tilting) + r1_bound * sine_g * a + c1 * tilting + position_error,
+        d_r1 * (abs(g.p) + tilting) + r1_bound * sine_g * a + c1 * tilting + position_error,
         math.inf,
         position_error,
         position_error,
         g_tau_error,
     )
+
+
+@kernel(contract=True, forceinline=True)
+def with_errors(change: Changes, factor: float) -> Changes:
+    """The same changes with so many times the round-off."""
+    return Changes(
+        change.c1,
+        change.r2,
+        change.speed,
+        change.d_r1,
+        change.c2_a,
+        change.position_error * factor,
+        change.velocity_error * factor,
+        change.move,
+        change.inverse_r,
+        change.k_r,
+        change.helix,
+        change.azimuth,
+        change.directions,
+        change.by_time,
+        change.d_t,
+        change.d_v,
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def ranges_about(
+    a: float,
+    tau: float,
+    b: float,
+    rest: Numbers,
+    edge: CurvePoint,
+    middle: PhiPoint,
+    of_g: GPoint,
+    solid: Numbers,
+    sizes: Numbers,
+    precision: float,
+) -> tuple[Ranges, Ranges, float]:
+    """As :func:`ranges`, about what is known of the middle, with ``precision`` times the round-off of doubles."""
+    turning, sigma, moving = rest[0], rest[1], rest[2]
+    change = changes_over(a, b, tau, turning, edge, middle, sizes)
+    near = near_alignment(a, b, turning, edge, middle, change, sizes)
+    rounded = with_errors(change, precision)
+    over = helix_over(a, b, turning, middle, rounded, near, sizes, solid)
+    varied = variations(a, b, turning, middle, rounded, near, over, sizes)
+    phi = phi_ranges(a, sigma, edge, middle, rounded, near, over, varied)
+    phi = known_by_radius(phi, sigma, middle.radius, change.move, sizes[4])
+    g = g_ranges(a, b, turning, moving, edge, of_g, rounded, sizes, precision)
+    sag = change.c2_a * a + turning * (change.c1 * a + change.speed * b) * b + change.position_error * (1.0 + a + b)
+    return phi, g, -sigma * edge.place[2] - abs(edge.t[2]) * a - abs(edge.v[2]) * b - sag
 
 
 @kernel(contract=True, forceinline=True)
@@ -515,15 +556,7 @@ def ranges(
     ``x_axis`` to ``rest`` are the :func:`motion_numbers`, ``curve`` and ``solid`` the :func:`profile_numbers`,
     ``sizes`` the :func:`size_numbers`.
     """
-    turning, sigma = rest[0], rest[1]
     edge = curve_at(theta, a, tau, x_axis, y_axis, origin, rest, curve, sizes[0])
     middle = phi_at(edge, sizes[0], solid)
-    change = changes_over(a, b, tau, turning, edge, middle, sizes)
-    near = near_alignment(a, b, turning, edge, middle, change, sizes)
-    over = helix_over(a, b, turning, middle, change, near, sizes, solid)
-    varied = variations(a, b, turning, middle, change, near, over, sizes)
-    of_phi = phi_ranges(a, sigma, edge, middle, change, near, over, varied)
-    of_phi = known_by_radius(of_phi, sigma, middle.radius, change.move, sizes[4])
-    of_g = g_ranges(a, b, x_axis, y_axis, origin, rest, edge, change, sizes)
-    sag = change.c2_a * a + turning * (change.c1 * a + change.speed * b) * b + change.position_error * (1.0 + a + b)
-    return of_phi, of_g, -sigma * edge.place[2] - abs(edge.t[2]) * a - abs(edge.v[2]) * b - sag
+    of_g = g_at(edge, x_axis, y_axis, origin, rest)
+    return ranges_about(a, tau, b, rest, edge, middle, of_g, solid, sizes, 1.0)

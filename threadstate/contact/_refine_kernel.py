@@ -19,21 +19,21 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact import _tangency_kernel as tk
+from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._double_double_kernel import (
-    WIDE_TWO_PI,
     Pair,
     add,
     azimuth,
     divide,
-    exact_product,
     multiply,
     sine_cosine,
-    sine_versine,
     square_root,
     subtract,
 )
-from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE, motion_scale
+from threadstate.contact._edge_kernel import Edge, new_edge
+from threadstate.contact._geometry_kernel import M_SIGMA, MOTION_SIZE, motion_scale
+from threadstate.contact._refined_edge_kernel import refined_edges
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -51,12 +51,33 @@ from threadstate.contact._stage_kernel import (
     THREAD_THREAD,
     set_motions,
 )
+from threadstate.contact._wide_kernel import (
+    POSE_SIZE,
+    WIDE_MOTION_SIZE,
+    ZERO,
+    Vector,
+    advance,
+    clearance,
+    clearance_slope,
+    dot,
+    edge_slope,
+    entry,
+    plus,
+    product_sum,
+    rotated,
+    rotated_back,
+    round_numbers,
+    set_entry,
+    set_motion,
+    set_moved,
+    set_vector,
+    thread_point,
+    times,
+    vector_at,
+)
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-Vector = tuple[Pair, Pair, Pair]
-
-POSE_SIZE = 12
 
 # What is known of a contact: time, azimuth and axial position on the part that touches with an edge, or with its side
 # (the bolt), and the point in the nut's frame.
@@ -71,95 +92,6 @@ REACH = 1e-3
 SETTLED = 1e-14
 """A step of Newton's method (rad, and times ``motion_scale``) after which the contact is refined: its derivatives, in
 doubles, are right to 1e-6 at tilts of 1e-6 deg, so that 1e-20 is left."""
-
-ZERO: Pair = (0.0, 0.0)
-ONE: Pair = (1.0, 0.0)
-
-
-@kernel(forceinline=True)
-def entry(numbers: Array, i: int) -> Pair:
-    """A row."""
-    return numbers[i, 0], numbers[i, 1]
-
-
-@kernel(forceinline=True)
-def set_entry(numbers: Array, i: int, x: Pair) -> None:
-    """Sets a row."""
-    numbers[i, 0], numbers[i, 1] = x
-
-
-@kernel(forceinline=True)
-def vector_at(numbers: Array, i: int) -> Vector:
-    """Three rows from ``i`` on."""
-    return entry(numbers, i), entry(numbers, i + 1), entry(numbers, i + 2)
-
-
-@kernel(forceinline=True)
-def set_vector(numbers: Array, i: int, v: Vector) -> None:
-    """Sets three rows from ``i`` on."""
-    set_entry(numbers, i, v[0])
-    set_entry(numbers, i + 1, v[1])
-    set_entry(numbers, i + 2, v[2])
-
-
-@kernel()
-def round_numbers(numbers: Array, out: Array) -> None:
-    """Sets doubles to the nearest of such sums."""
-    for i in range(out.shape[0]):
-        out[i] = numbers[i, 0]
-
-
-@kernel()
-def widen_numbers(numbers: Array, out: Array) -> None:
-    """Sets such sums to doubles."""
-    for i in range(numbers.shape[0]):
-        out[i, 0], out[i, 1] = numbers[i], 0.0
-
-
-@kernel()
-def product_sum(a: Pair, x: Pair, b: Pair, y: Pair) -> Pair:
-    """``a x + b y``."""
-    return add(multiply(a, x), multiply(b, y))
-
-
-@kernel()
-def dot(a: Vector, b: Vector) -> Pair:
-    """The scalar product."""
-    return add(product_sum(a[0], b[0], a[1], b[1]), multiply(a[2], b[2]))
-
-
-@kernel()
-def cross(a: Vector, b: Vector) -> Vector:
-    """The cross product."""
-    return (
-        subtract(multiply(a[1], b[2]), multiply(a[2], b[1])),
-        subtract(multiply(a[2], b[0]), multiply(a[0], b[2])),
-        subtract(multiply(a[0], b[1]), multiply(a[1], b[0])),
-    )
-
-
-@kernel()
-def plus(a: Vector, b: Vector) -> Vector:
-    """The sum of two vectors."""
-    return add(a[0], b[0]), add(a[1], b[1]), add(a[2], b[2])
-
-
-@kernel()
-def times(a: Vector, factor: Pair) -> Vector:
-    """A vector times a number."""
-    return multiply(a[0], factor), multiply(a[1], factor), multiply(a[2], factor)
-
-
-@kernel()
-def rotated(pose: Array, v: Vector) -> Vector:
-    """A vector of the bolt's frame in the nut's."""
-    return dot(vector_at(pose, 0), v), dot(vector_at(pose, 3), v), dot(vector_at(pose, 6), v)
-
-
-@kernel()
-def rotated_back(pose: Array, v: Vector) -> Vector:
-    """A vector of the nut's frame in the bolt's."""
-    return plus(plus(times(vector_at(pose, 0), v[0]), times(vector_at(pose, 3), v[1])), times(vector_at(pose, 6), v[2]))
 
 
 @kernel()
@@ -189,115 +121,6 @@ def set_first_pose(roll: float, pitch: float, phase: float, high: float, out: Ar
     )
     set_vector(out, 6, ((-sb[0], -sb[1]), multiply(cb, sa), multiply(cb, ca)))
     set_vector(out, 9, (ZERO, ZERO, (high, 0.0)))
-
-
-@kernel()
-def set_moved(pose: Array, is_turn: bool, point: Array, axis: Array, time: Pair, out: Array) -> None:
-    """Sets the pose after ``time`` of a motion, a turn of up to pi / 4 or a translation along the axis."""
-    a = vector_at(axis, 0)
-    if not is_turn:
-        for i in range(9):
-            set_entry(out, i, entry(pose, i))
-        set_vector(out, 9, plus(vector_at(pose, 9), times(a, time)))
-        return
-    sine, versine = sine_versine(time)
-    minus = (-1.0, 0.0)
-    centre = vector_at(point, 0)
-    for j in range(4):
-        v = entry(pose, j), entry(pose, 3 + j), entry(pose, 6 + j)
-        if j == 3:
-            v = plus(vector_at(pose, 9), times(centre, minus))
-        normal = cross(a, v)
-        v = plus(v, plus(times(normal, sine), times(cross(a, normal), versine)))
-        if j == 3:
-            set_vector(out, 9, plus(centre, v))
-        else:
-            set_entry(out, j, v[0])
-            set_entry(out, 3 + j, v[1])
-            set_entry(out, 6 + j, v[2])
-
-
-@kernel()
-def advance(profile: Array) -> Pair:
-    """The lead per radian."""
-    return divide((profile[pk.LEAD], 0.0), WIDE_TWO_PI)
-
-
-@kernel()
-def fillet_rise(distance: Pair, radius: float) -> tuple[Pair, Pair]:
-    """How far a fillet has left its flat at a distance beside it, and its slope."""
-    root = square_root(multiply(subtract((radius, 0.0), distance), add((radius, 0.0), distance)))
-    rise = divide(multiply(distance, distance), add((radius, 0.0), root))
-    return rise, divide(distance, root)
-
-
-@kernel()
-def fillet_end(height: float, cot: float, radius: float) -> Pair:
-    """How far from the pitch radius along the axis the flat of a fillet ends, at ``height`` from the pitch radius.
-
-    That of method, section 1, with the fillet exactly tangent to the flank of slope ``cot``: where a fillet touches a
-    flank the gap beside it is less than what stored boundaries are rounded by.
-    """
-    squared = add(ONE, exact_product(cot, cot))
-    tangents = multiply(subtract(square_root(squared), ONE), (radius, 0.0))
-    return divide(add((height, 0.0), tangents), (cot, 0.0))
-
-
-@kernel()
-def radius_and_slope(s: Pair, profile: Array) -> tuple[Pair, Pair]:
-    """``f`` and ``f'`` at ``s``."""
-    p, pitch_radius = profile[pk.P], profile[pk.R_PITCH]
-    u = subtract(s, exact_product(p, math.floor(s[0] / p - profile[pk.S_ROOT] / p)))
-    half = 0
-    if u[0] > profile[pk.S_CREST]:
-        half = pk.FALLING
-        u = subtract((0.5 * p, 0.0), u)
-    sign, cot = 1.0 if half == 0 else -1.0, profile[pk.COT + half]
-    if u[0] <= profile[pk.U_FLAT + half]:
-        return (profile[pk.R_MINOR], 0.0), ZERO
-    if u[0] < profile[pk.U_FLANK + half]:
-        end = fillet_end(pitch_radius - profile[pk.R_MINOR], cot, profile[pk.RHO_MINOR])
-        rise, slope = fillet_rise(add(u, end), profile[pk.RHO_MINOR])
-        return add((profile[pk.R_MINOR], 0.0), rise), (sign * slope[0], sign * slope[1])
-    if u[0] <= profile[pk.U_CREST + half]:
-        return add((pitch_radius, 0.0), multiply(u, (cot, 0.0))), (sign * cot, 0.0)
-    if u[0] < profile[pk.U_TOP + half]:
-        end = fillet_end(profile[pk.R_MAJOR] - pitch_radius, cot, profile[pk.RHO_MAJOR])
-        rise, slope = fillet_rise(subtract(end, u), profile[pk.RHO_MAJOR])
-        return subtract((profile[pk.R_MAJOR], 0.0), rise), (sign * slope[0], sign * slope[1])
-    return (profile[pk.R_MAJOR], 0.0), ZERO
-
-
-@kernel()
-def thread_point(theta: Pair, z: Pair, profile: Array) -> tuple[Vector, Vector, Vector]:
-    """The point of a thread in its own frame, its derivative along the helix by azimuth, and along the axis by z."""
-    k = advance(profile)
-    r, slope = radius_and_slope(subtract(z, multiply(k, theta)), profile)
-    s, c = sine_cosine(theta)
-    x, y = multiply(r, c), multiply(r, s)
-    return (x, y, z), ((-y[0], -y[1]), x, k), (multiply(slope, c), multiply(slope, s), ONE)
-
-
-@kernel()
-def edge_slope(along: Vector, up: Vector, k: Pair) -> Vector:
-    """The derivative of an edge by azimuth: along the helix, and back down to the edge's plane."""
-    return plus(along, times(up, (-k[0], -k[1])))
-
-
-@kernel()
-def clearance(x: Vector, profile: Array) -> tuple[Pair, Pair, Pair]:
-    """``r - f(s)`` at a point of the profile's own frame, the radius, and f'."""
-    r = square_root(product_sum(x[0], x[0], x[1], x[1]))
-    f, slope = radius_and_slope(subtract(x[2], multiply(advance(profile), azimuth(x[0], x[1]))), profile)
-    return subtract(r, f), r, slope
-
-
-@kernel()
-def clearance_slope(x: Vector, way: Vector, r: Pair, slope: Pair, k: Pair) -> Pair:
-    """The derivative of the clearance along a way."""
-    radial = divide(product_sum(x[0], way[0], x[1], way[1]), r)
-    turn = divide(subtract(multiply(x[0], way[1]), multiply(x[1], way[0])), multiply(r, r))
-    return subtract(radial, multiply(slope, subtract(way[2], multiply(k, turn))))
 
 
 @kernel()
@@ -360,25 +183,26 @@ def refine_edge(
     pose: Array,
     point: Array,
     axis: Array,
-    motion: Array,
-    bolt: Array,
-    nut: Array,
+    edge: Edge,
     moved: Array,
     refined: Array,
 ) -> bool:
-    """Newton's method from ``refined``, in place, for a contact on an edge; False where it does not settle nearby."""
-    on_bolt = pair == EDGE_EDGE or pair == EDGE_SURFACE or pair == EDGE_THREAD
-    curve, solid = (bolt, nut) if on_bolt else (nut, bolt)
+    """Newton's method from ``refined``, in place, for a contact on an edge; False where it does not settle nearby.
+
+    Its derivatives are those of the ``edge``.
+    """
+    sigma = edge.motion[M_SIGMA]
+    bolt, nut = (edge.curve, edge.solid) if sigma > 0.0 else (edge.solid, edge.curve)
     kind = ONE_EDGE if pair == EDGE_EDGE else (ONE_THREAD if pair == EDGE_THREAD or pair == THREAD_EDGE else ONE_PLANE)
-    path, jet = np.empty(PATH_SIZE), np.empty(onset.JET_SIZE)
-    unit = motion_scale(motion, bolt)
+    jet = np.empty(onset.JET_SIZE)
+    unit = motion_scale(edge.motion, bolt)
     theta, time = entry(refined, F_THETA), entry(refined, F_TIME)
     start, since = theta[0], time[0]
     settled = False
     for _ in range(MOST_STEPS):
         set_moved(pose, is_turn, point, axis, time, moved)
-        onset.set_jet(theta[0], time[0], motion, curve, solid, path, jet)
-        set_edge_residuals(on_bolt, theta, moved, bolt, nut, jet, refined)
+        onset.set_jet_beside(theta[0], time[0], edge, jet)
+        set_edge_residuals(sigma > 0.0, theta, moved, bolt, nut, jet, refined)
         if settled:
             set_entry(refined, F_THETA, theta)
             set_entry(refined, F_TIME, time)
@@ -445,7 +269,11 @@ def refine_found(
     moved: Array,
     refined: Array,
 ) -> bool:
-    """Refines a contact that a motion has come to, in ``refined``, and the pose then; False where nothing settles."""
+    """Refines a contact that a motion has come to, in ``refined``, and the pose then; False where nothing settles.
+
+    On an edge it is tried once more with derivatives in sums of two doubles: beside a double root those in doubles have
+    no two digits.
+    """
     pair = int(contact[K_PAIR])
     start, centre, direction = np.empty(POSE_SIZE), np.empty(3), np.empty(3)
     round_numbers(pose, start)
@@ -455,8 +283,15 @@ def refine_found(
     set_motions(start, is_turn, False, centre, direction, bolt_motion, nut_motion)
     if pair == THREAD_THREAD:
         return refine_thread(is_turn, pose, point, axis, bolt_motion, bolt, nut, moved, refined)
-    motion = nut_motion if pair == BASE_EDGE or pair == THREAD_EDGE else bolt_motion
-    return refine_edge(pair, is_turn, pose, point, axis, motion, bolt, nut, moved, refined)
+    bolt_edge = new_edge(bolt_motion, bolt, nut, new_kept(0))
+    nut_edge = new_edge(nut_motion, nut, bolt, new_kept(0))
+    on_nut = pair == BASE_EDGE or pair == THREAD_EDGE
+    if refine_edge(pair, is_turn, pose, point, axis, nut_edge if on_nut else bolt_edge, moved, refined):
+        return True
+    exact = np.empty((WIDE_MOTION_SIZE, 2))
+    set_motion(pose, point, axis, exact)
+    bolt_edge, nut_edge = refined_edges(bolt_edge, nut_edge, exact)
+    return refine_edge(pair, is_turn, pose, point, axis, nut_edge if on_nut else bolt_edge, moved, refined)
 
 
 @kernel()

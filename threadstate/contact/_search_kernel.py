@@ -17,7 +17,22 @@ _ROW, _TABLE = _FLOAT[::1], _FLOAT[:, ::1]
 _PROFILE = types.Array(_FLOAT, 1, "C", readonly=True)
 _WORK = types.NamedTuple((_ROW, _ROW, *4 * (_TABLE,), _ROW, _ROW, *3 * (_TABLE,)), Work)
 _RETURNED = types.Tuple((_INT, _INT, _FLOAT))
-_STAGE = (_ROW, types.boolean, _ROW, _ROW, _TABLE, _INT, _FLOAT, _FLOAT, _PROFILE, _PROFILE, _INT, _WORK, _TABLE)
+_STAGE = (
+    _ROW,
+    types.boolean,
+    _ROW,
+    _ROW,
+    _TABLE,
+    _TABLE,
+    _INT,
+    _FLOAT,
+    _FLOAT,
+    _PROFILE,
+    _PROFILE,
+    _INT,
+    _WORK,
+    _TABLE,
+)
 
 SEARCH = Pointer(earliest, _RETURNED(*_STAGE))
 search_at = SEARCH.at

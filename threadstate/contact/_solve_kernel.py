@@ -12,6 +12,7 @@ from threadstate._compile import kernel
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
+from threadstate.contact import _wide_kernel as wide
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
 from threadstate.contact._lift_kernel import RETRY_OFFSET, crests_overlap, least_lift
 from threadstate.contact._search_kernel import Search, search_address, search_at
@@ -184,6 +185,7 @@ class Course(NamedTuple):
         second: its second one.
         point: the first contact, (3, 2).
         axis: of the latest turn, (3, 2).
+        motion: the latest, (18, 2).
         first: the first contact, refined.
         latest: the latest one, refined.
         known: the first two contacts.
@@ -195,6 +197,7 @@ class Course(NamedTuple):
     second: Array
     point: Array
     axis: Array
+    motion: Array
     first: Array
     latest: Array
     known: Array
@@ -210,6 +213,7 @@ def new_course(work: Work) -> Course:
         np.empty((12, 2)),
         np.zeros((3, 2)),
         np.zeros((3, 2)),
+        np.empty((wide.WIDE_MOTION_SIZE, 2)),
         np.empty((refine.REFINED_SIZE, 2)),
         np.empty((refine.REFINED_SIZE, 2)),
         np.empty((2, CONTACT_SIZE)),
@@ -269,10 +273,10 @@ def solve_pose(
         record[rk.O_STATUS] = UNRESOLVED
         return
     pose = np.empty(12)
-    refine.round_numbers(course.pose, pose)
+    wide.round_numbers(course.pose, pose)
     append_stage(1, course.known[0], pose, bolt, nut, record)
     for i in range(3):
-        refine.set_entry(course.point, i, refine.entry(course.first, refine.F_POINT + i))
+        wide.set_entry(course.point, i, wide.entry(course.first, refine.F_POINT + i))
     if simultaneous > 1:
         add_flag(record, rk.FLAG_TIE)
         record[rk.O_LAMBDA] = 0.0
@@ -285,7 +289,7 @@ def solve_pose(
         if left < 0:
             return
     second = np.empty(12)
-    refine.round_numbers(course.second, second)
+    wide.round_numbers(course.second, second)
     append_stage(2, course.known[1], second, bolt, nut, record)
 
     # The turn about the pivot axis, in the sense that lowers the bolt's origin.
@@ -322,15 +326,20 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: S
     simultaneous = 1
     if scene.options[S_CONVEX] > 0.0 and meets_surface_first(pose, bolt, nut, found[0]):
         pose[11] = found[0, K_TIME]
-        refine.widen_numbers(pose, course.pose)
+        wide.widen_numbers(pose, course.pose)
         refine.set_unrefined(found[0], course.pose, course.first)
     else:
         tie, limit = scene.options[S_TIE], high + bolt[pk.P]
+        start = np.empty((12, 2))
+        refine.set_first_pose(roll, pitch, phase, high, start)
+        course.axis[2, 0] = -1.0
+        wide.set_motion(start, course.point, course.axis, course.motion)
         count, status, _ = search(
             pose,
             False,
             point,
             down,
+            course.motion,
             course.known,
             0,
             limit,
@@ -344,9 +353,6 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: S
         if status != RESOLVED or count == 0:
             return 0
         simultaneous, time = sort_simultaneous(found, count, tie)
-        start = np.empty((12, 2))
-        refine.set_first_pose(roll, pitch, phase, high, start)
-        course.axis[2, 0] = -1.0
         _, settles = refine.refine_contact(
             False,
             start,
@@ -376,8 +382,9 @@ def second_stage(pose: Array, scene: Scene, search: Search, course: Course, reco
     found, known, bolt, nut = course.found, course.known, scene.bolt, scene.nut
     pair = int(known[0, K_PAIR])
     refine.set_second_axis(pair, course.first, course.pose, bolt, nut, course.axis)
-    refine.round_numbers(course.point, point)
-    refine.round_numbers(course.axis, axis)
+    wide.round_numbers(course.point, point)
+    wide.round_numbers(course.axis, axis)
+    wide.set_motion(course.pose, course.point, course.axis, course.motion)
     limit, flush, count = scene.options[S_TURN_LIMIT], -1.0, 0
     tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
     if pair == EDGE_SURFACE:
@@ -387,7 +394,20 @@ def second_stage(pose: Array, scene: Scene, search: Search, course: Course, reco
     # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
     if flush < 0.0 or scene.options[S_CONVEX] == 0.0:
         count, status, _ = search(
-            pose, True, point, axis, known, 1, limit, tie, bolt, nut, thread_search_of(scene), course.work, found
+            pose,
+            True,
+            point,
+            axis,
+            course.motion,
+            known,
+            1,
+            limit,
+            tie,
+            bolt,
+            nut,
+            thread_search_of(scene),
+            course.work,
+            found,
         )
         if status != RESOLVED:
             record[rk.O_STATUS] = UNRESOLVED
@@ -427,8 +447,8 @@ def set_pivot_offset(second: Array, course: Course, record: Array) -> float:
     (a length a rad).
     """
     point, axis = np.empty(3), np.empty(3)
-    refine.round_numbers(course.point, point)
-    refine.round_numbers(course.axis, axis)
+    wide.round_numbers(course.point, point)
+    wide.round_numbers(course.axis, axis)
     ox, oy, oz = second[9] - point[0], second[10] - point[1], second[11] - point[2]
     cx = axis[1] * oz - axis[2] * oy
     cy = axis[2] * ox - axis[0] * oz
@@ -457,17 +477,31 @@ def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> 
     """The turn about the pivot axis up to the third contact, the drop and the embedment."""
     second, point, axis = np.empty(12), np.empty(3), np.empty(3)
     found, known, bolt, nut = course.found, course.known, scene.bolt, scene.nut
-    refine.round_numbers(course.second, second)
-    refine.round_numbers(course.point, point)
-    refine.round_numbers(course.axis, axis)
+    wide.round_numbers(course.second, second)
+    wide.round_numbers(course.point, point)
+    wide.round_numbers(course.axis, axis)
     tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
+    wide.set_motion(course.second, course.point, course.axis, course.motion)
     limit, flush = scene.options[S_TURN_LIMIT], -1.0
     if lies_in_both_planes(int(known[0, K_PAIR])) and lies_in_both_planes(int(known[1, K_PAIR])):
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - FLUSH_MARGIN
     count, status, _ = search(
-        second, True, point, axis, known, 2, limit, tie, bolt, nut, thread_search_of(scene), course.work, found
+        second,
+        True,
+        point,
+        axis,
+        course.motion,
+        known,
+        2,
+        limit,
+        tie,
+        bolt,
+        nut,
+        thread_search_of(scene),
+        course.work,
+        found,
     )
     if status != RESOLVED:
         record[rk.O_STATUS] = UNRESOLVED
@@ -501,7 +535,7 @@ def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> 
     if not settles:
         record[rk.O_STATUS] = UNRESOLVED
         return
-    refine.round_numbers(fine_third, third)
+    wide.round_numbers(fine_third, third)
     append_third_pose(third, second[11] - third[11], simultaneous, scene, search, course, record)
 
 

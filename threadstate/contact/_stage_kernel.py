@@ -18,6 +18,7 @@ from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._edge_kernel import Edge, new_edge
 from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
+    E_DOUBTFUL,
     ENTRY_SIZE,
     MAX_ENTRIES,
     MAX_REGIONS,
@@ -40,6 +41,8 @@ from threadstate.contact._onset_kernel import (
     MAX_CANDIDATES,
 )
 from threadstate.contact._queue_kernel import new_queue
+from threadstate.contact._refined_edge_kernel import refined_edges
+from threadstate.contact._wide_kernel import wide_motion
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -93,6 +96,10 @@ FIRST_SPAN_TURN = math.radians(2.0)
 FIRST_SPAN_HEIGHT = 0.05
 SPAN_GROWTH = 1.25
 """A motion is searched in spans of time: the first (rad, thread pitches), and the factor to each next one."""
+
+TIE_SHARE = 1e-3
+"""Of a turn with more contacts in the tolerance of a tie than are listed: contacts within this share of it are a tie
+where refined edges tell them apart. Of bolts that are all but level all turns are as short as the tolerance."""
 
 SPAN_REDUCTION = 0.25
 SHORTEST_SPAN = 1e-14
@@ -162,6 +169,7 @@ def set_motions(
         bolt_motion[16 + i] = axis[i]
     bolt_motion[19] = 1.0
     bolt_motion[20] = 1.0 if coplanar else 0.0
+    bolt_motion[21] = nut_motion[21] = 0.0
     nut_motion[12] = bolt_motion[12]
     nut_motion[19] = -1.0
     nut_motion[20] = bolt_motion[20]
@@ -421,39 +429,25 @@ def search_threads(
     return tangency_count, on_surface_count, on_surface
 
 
-def earliest(
-    pose: Array,
+@kernel()
+def contacts_of_edges(
+    bolt_edge: Edge,
+    nut_edge: Edge,
     is_turn: bool,
-    point: Array,
-    axis: Array,
     known: Array,
     known_count: int,
     limit: float,
     tie_tolerance: float,
-    bolt: Array,
-    nut: Array,
     thread_search: int,
     work: Work,
     out: Array,
 ) -> tuple[int, int, float]:
-    """The earliest contacts of a motion by all pairs of features, sorted by time.
-
-    Kernels call it as a ``Search`` of ``_search_kernel``, which compiles it.
-
-    ``known`` holds the contacts through which the axis of a turn runs; they are not found again. Returns the number of
-    contacts (all within ``tie_tolerance`` of the earliest are listed, or the status is UNRESOLVED), a status, and the
-    earliest time at which an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how
-    thread on thread is searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
-    """
-    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(known_count))
-    nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(known_count))
-    keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
-    coplanar = axis_in_both_planes(known, known_count)
-    set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
-    work.entries[0, 0] = 0.0
+    """The earliest contacts of a motion of two edges and their threads, as :func:`earliest` has them."""
+    bolt, nut = bolt_edge.curve, nut_edge.curve
+    work.entries[0, 0], work.entries[0, E_DOUBTFUL] = 0.0, math.inf
     search = EdgeSearch(not is_turn, tie_tolerance, work.boxes, work.scratch, work.queue, work.regions, work.entries)
     bolt_count, nut_count, best, status = search_both_edges(limit, is_turn, bolt_edge, nut_edge, search, work)
-    if status != RESOLVED:
+    if status != RESOLVED or work.entries[0, E_DOUBTFUL] <= best + tie_tolerance:
         return 0, UNRESOLVED, best
     reach = min(limit, best + tie_tolerance)
     unexplained = not is_turn and best < limit
@@ -476,6 +470,54 @@ def earliest(
     if may_lack_ties(count, bolt_count, nut_count, tie_tolerance, work, out):
         return count, UNRESOLVED, best
     return count, RESOLVED, best
+
+
+def earliest(
+    pose: Array,
+    is_turn: bool,
+    point: Array,
+    axis: Array,
+    exact: Array,
+    known: Array,
+    known_count: int,
+    limit: float,
+    tie_tolerance: float,
+    bolt: Array,
+    nut: Array,
+    thread_search: int,
+    work: Work,
+    out: Array,
+) -> tuple[int, int, float]:
+    """The earliest contacts of a motion by all pairs of features, sorted by time.
+
+    Kernels call it as a ``Search`` of ``_search_kernel``, which compiles it.
+
+    ``exact`` is the motion in sums of two doubles (``_wide_kernel.set_motion``), of which pose, point and axis are the
+    nearest doubles, or has no rows: then these are meant. ``known`` holds the contacts through which the axis of a turn
+    runs; they are not found again. Returns the number of contacts (all within ``tie_tolerance`` of the earliest, or
+    within ``TIE_SHARE`` of a turn, are listed, or the status is UNRESOLVED), a status, and the earliest time at which
+    an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how thread on thread is
+    searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
+    """
+    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(known_count))
+    nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(known_count))
+    keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
+    coplanar = axis_in_both_planes(known, known_count)
+    set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
+    count, status, best = contacts_of_edges(
+        bolt_edge, nut_edge, is_turn, known, known_count, limit, tie_tolerance, thread_search, work, out
+    )
+    if status != RESOLVED:
+        wide = exact if exact.shape[0] > 0 else wide_motion(bolt_edge.motion)
+        bolt_edge, nut_edge = refined_edges(bolt_edge, nut_edge, wide)
+        count, status, best = contacts_of_edges(
+            bolt_edge, nut_edge, is_turn, known, known_count, limit, tie_tolerance, thread_search, work, out
+        )
+        if status != RESOLVED and is_turn and TIE_SHARE * best < tie_tolerance:
+            count, status, best = contacts_of_edges(
+                bolt_edge, nut_edge, is_turn, known, known_count, limit, TIE_SHARE * best, thread_search, work, out
+            )
+    return count, status, best
 
 
 @kernel()

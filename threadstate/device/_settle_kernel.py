@@ -105,7 +105,20 @@ def first_height(
     known = np.empty((2, sk.CONTACT_SIZE))
     axis = np.array([0.0, 0.0, -1.0])
     count, status, _ = search(
-        pose, False, np.zeros(3), axis, known, 0, high + bolt[pk.P], tie_tolerance, bolt, nut, sk.RIDGES, stage, found
+        pose,
+        False,
+        np.zeros(3),
+        axis,
+        np.empty((0, 2)),
+        known,
+        0,
+        high + bolt[pk.P],
+        tie_tolerance,
+        bolt,
+        nut,
+        sk.RIDGES,
+        stage,
+        found,
     )
     if status != sk.RESOLVED or count == 0:
         return False, 0.0

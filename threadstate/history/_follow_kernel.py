@@ -34,7 +34,6 @@ from threadstate.contact._onset_kernel import (
     J_Z,
     JET_SIZE,
     ROOT_INSIDE,
-    is_contact,
     newton_onset,
     rises,
     set_jet_beside,
@@ -72,6 +71,7 @@ from threadstate.contact._stage_kernel import (
     turned,
 )
 from threadstate.contact._surface_kernel import start_height
+from threadstate.contact._wedge_kernel import crossing_of, is_contact
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -86,6 +86,7 @@ class Work(NamedTuple):
         bolt_kept: earlier contacts on the bolt's edge.
         nut_kept: those on the nut's.
         path: path of a point.
+        wide: no rows: edges are not refined.
         jet: of an edge point.
         wedge: unit vectors at an edge point.
         placement: of the bolt.
@@ -98,6 +99,7 @@ class Work(NamedTuple):
     bolt_kept: Array
     nut_kept: Array
     path: Array
+    wide: Array
     jet: Array
     wedge: Array
     placement: Array
@@ -129,6 +131,7 @@ def new_work() -> Work:
         new_kept(2),
         new_kept(2),
         np.empty(PATH_SIZE),
+        np.empty((0, 2)),
         np.empty(JET_SIZE),
         np.empty(9),
         np.empty(tk.PLACEMENT_SIZE),
@@ -177,7 +180,8 @@ def follow_edge_point(kind: int, theta: float, tau: float, edge: Edge, work: Wor
         is_peak = jet[J_G_THETA_THETA] < 0.0 and jet[J_PHI] >= 0.0
     if not is_peak or not rises(kind, jet) or contact_distance(t, edge.kept) < AZIMUTH_TOLERANCE:
         return False, t, time
-    return is_contact(kind, t, time, edge, jet, work.wedge), t, time
+    crossing = crossing_of(kind, t, time, edge, jet, work.wedge)
+    return is_contact(kind, t, time, crossing, edge, jet, work.wedge), t, time
 
 
 @kernel()
@@ -215,7 +219,7 @@ def follow_candidate(
         return True
     if pair == BASE_EDGE or pair == THREAD_EDGE:
         kind = int(ONE_PLANE) if pair == BASE_EDGE else int(ONE_THREAD)
-        edge = Edge(work.nut_motion, nut, bolt, work.nut_kept, work.path)
+        edge = Edge(work.nut_motion, nut, bolt, work.nut_kept, work.path, work.wide)
         found, theta, time = follow_edge_point(kind, candidate[F_NUT_AZIMUTH], tau, edge, work)
         r = pk.radius(-nut[pk.LEAD] / (2.0 * math.pi) * theta, nut)
         contact[K_BOLT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
@@ -223,7 +227,7 @@ def follow_candidate(
         contact[K_X], contact[K_Y], contact[K_Z] = r * math.cos(theta), r * math.sin(theta), 0.0
     else:
         kind = int(ONE_EDGE) if pair == EDGE_EDGE else int(ONE_PLANE) if pair == EDGE_SURFACE else int(ONE_THREAD)
-        edge = Edge(work.bolt_motion, bolt, nut, work.bolt_kept, work.path)
+        edge = Edge(work.bolt_motion, bolt, nut, work.bolt_kept, work.path, work.wide)
         found, theta, time = follow_edge_point(kind, candidate[F_BOLT_AZIMUTH], tau, edge, work)
         contact[K_BOLT_AZIMUTH] = theta
         contact[K_NUT_AZIMUTH] = math.atan2(jet[J_Y], jet[J_X])
