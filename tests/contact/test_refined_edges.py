@@ -139,8 +139,15 @@ def test_a_crossing_is_doubtful_where_its_signs_or_its_time_are() -> None:
         (-0.02895388877756049, 0.3574196117469121, 357.7117883697747),
         (0.05054066502838833, -0.019260628383938924, 357.71368527412494),
         (-0.07156067013024908, -0.07916843071604061, 251.43422606866707),
+        (4.0, -4.0, 26.24169921875),
     ],
-    ids=["a first contact beside its double root", "a second one", "edges that graze", "an edge as level as a face"],
+    ids=[
+        "a first contact beside its double root",
+        "a second one",
+        "edges that graze",
+        "an edge as level as a face",
+        "beside the first",
+    ],
 )
 def test_a_pose_whose_contact_round_off_hides_is_decided(pose: PoseDeg) -> None:
     state = solve_pose(PAIR, *pose)

@@ -284,6 +284,8 @@ def is_doubtful(
 ) -> bool:
     """Whether round-off hides if a crossing of two edges is a contact, or when it is to within ``tie_tolerance``.
 
+    Of refined edges the time is what can be known: beside the contact that a turn is about it may be no better.
+
     Its place and time have an error of that of g and phi over the sine of the edges' angle, and their common normal has
     one of that of the tangents there over this sine once more (docs/certificate.md, section 6).
     """
@@ -292,7 +294,7 @@ def is_doubtful(
     is_turn = edge.motion[M_KIND] != 0.0
     x, y, ex, ey = edge_point(theta, edge.curve)
     _, _, _, t_error, tau_error = onset_step(ONE_EDGE, jet, *crossing_errors(theta, tau, edge))
-    if not tau_error <= tie_tolerance:
+    if not is_refined(edge) and not tau_error <= tie_tolerance:
         return True
     set_path(x, y, edge.motion, edge.path)
     vx, vy, _ = velocity(edge.path, tau, is_turn)
