@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 import time
 
 import httpx2
@@ -31,8 +32,8 @@ def _slow(seconds: float, monkeypatch: pytest.MonkeyPatch) -> list[float]:
     return begun
 
 
-def _at_once(settings: dict[str, str], count: int) -> list[httpx2.Response]:
-    """The answers to that many requests that are sent at once."""
+def _at_once(settings: dict[str, str], count: int, answered: threading.Event | None = None) -> list[httpx2.Response]:
+    """The answers to that many requests that are sent at once; ``answered`` is set when all are there."""
 
     app = service_app(read_settings(settings))
     app.openapi()
@@ -40,7 +41,10 @@ def _at_once(settings: dict[str, str], count: int) -> list[httpx2.Response]:
     async def ask() -> list[httpx2.Response]:
         transport = httpx2.ASGITransport(app)
         async with httpx2.AsyncClient(transport=transport, base_url="http://service") as client:
-            return await asyncio.gather(*(client.post("/v1/solve", json=SOLVE) for _ in range(count)))
+            answers = await asyncio.gather(*(client.post("/v1/solve", json=SOLVE) for _ in range(count)))
+        if answered is not None:
+            answered.set()
+        return answers
 
     return asyncio.run(ask())
 
@@ -66,12 +70,20 @@ def test_more_than_can_wait_are_refused(made_up: StoredLibrary, monkeypatch: pyt
 def test_request_over_its_time_is_given_up_and_keeps_its_place(
     made_up: StoredLibrary, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # Long enough that the second is given up while the first still computes, though it came seconds later.
-    begun = _slow(4.0, monkeypatch)
-    answers = _at_once({DATABASE: made_up.database, CONCURRENCY: "1", TIME_LIMIT_S: "1"}, 2)
+    begun = list[float]()
+    answered = threading.Event()
+
+    def slow(*_: object) -> tuple[()]:
+        begun.append(time.monotonic())
+        answered.wait(60)
+        return ()
+
+    monkeypatch.setattr("service.solve.solve_poses", slow)
+    answers = _at_once({DATABASE: made_up.database, CONCURRENCY: "1", TIME_LIMIT_S: "3"}, 2, answered)
     for answer in answers:
         assert problem(answer, 503).type.endswith(":out-of-time")
         assert answer.headers["Retry-After"] == "1"
+    assert begun, "neither was begun"
     assert len(begun) == 1, "one that still waited for a place was begun"
 
 
