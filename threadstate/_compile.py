@@ -15,13 +15,15 @@ _njit: Any = njit
 """Its type does not know ``no_cfunc_wrapper``."""
 
 
-def kernel(*, contract: bool = False, allocates: bool = True, **options: object) -> Callable[[Callable[..., Any]], Any]:
+def kernel(
+    *, contract: bool = False, allocates: bool = False, **options: object
+) -> Callable[[Callable[..., Any]], Any]:
     """A decorator for kernels: compiled when first called, and cached on disk.
 
     Args:
         contract: whether a product and a sum may be rounded once. For bounds and brackets, never for a result.
-        allocates: whether it makes arrays, or is handed new ones by what it calls. One that works on those of its
-            caller alone does not count references to them, which took a tenth of a path's time.
+        allocates: whether it makes or returns arrays, or is handed them by what it calls. One that works on those of
+            its caller alone does not count references to them, which took an eighth of the time of a pose.
         options: further options of ``numba.njit``.
     """
 

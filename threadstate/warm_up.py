@@ -15,9 +15,11 @@ from pathlib import Path
 import numpy as np
 
 from threadstate.contact._record_kernel import RECORD_SIZE
-from threadstate.contact._solve_kernel import OPTIONS_SIZE, solve_with
+from threadstate.contact._solve_kernel import solve_with
 from threadstate.device.compile import device_is_compiled, load_device, load_turning, turning_is_compiled
 from threadstate.history.estimates import estimates_are_compiled, load_estimates
+from threadstate.state.options import SolveOptions
+from threadstate.state.records import packed_options
 from threadstate.state.solve import solve_poses
 from threadstate.statics.compile import load_statics, statics_are_compiled
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -88,7 +90,8 @@ def compile_all_but_search() -> None:
     """
     pair = quarter_twenty_unc()
     none = np.empty((0, 3))
-    solve_with(none, np.zeros(OPTIONS_SIZE), pair.bolt.packed, pair.nut.packed, 0, np.empty((0, RECORD_SIZE)))
+    options = packed_options(pair, SolveOptions())
+    solve_with(none, options, pair.bolt.packed, pair.nut.packed, 0, np.empty((0, RECORD_SIZE)))
     load_estimates(pair)
 
 

@@ -37,7 +37,7 @@ BESIDE = 0.1
 """Distance (rad) from a contact up to which g and phi are taken as differences: farther they are no more exact."""
 
 
-@kernel()
+@kernel(allocates=True)
 def new_kept(room: int) -> Array:
     """An empty list with room for so many contacts."""
     return np.zeros((1 + room, KEPT_SIZE))
@@ -89,7 +89,7 @@ def half_difference(u: float, du: float, half: int, profile: Array) -> float:
     return sign * total
 
 
-@kernel(allocates=False)
+@kernel()
 def radius_difference(s: float, ds: float, profile: Array) -> float:
     """``f(s + ds) - f(s)`` for less than a half period, with an error of a few units of 1e-16 of ``ds`` times f'."""
     u, half = pk.fold(s, profile)
@@ -123,7 +123,7 @@ def nearest_contact(theta: float, kept: Array) -> tuple[float, float, int]:
     return nearest, contact, row
 
 
-@kernel(allocates=False)
+@kernel()
 def values_beside(
     theta: float, tau: float, motion: Array, curve_profile: Array, solid_profile: Array, kept: Array, path: Array
 ) -> tuple[float, float, float]:

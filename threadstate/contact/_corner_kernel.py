@@ -87,7 +87,7 @@ def set_depths(s: float, of_nut: bool, r: float, p: float, k: float, m: Numbers,
         depths[i] = smaller(sign * (surface - radius), smaller(sign * at_z, p - sign * at_z))
 
 
-@kernel()
+@kernel(allocates=True)
 def deepest_corner_point(placement: Array, bolt: Array, nut: Array) -> tuple[float, float, float]:
     """The greatest depth found along the corners of both crests, and its place (theta, z) on the bolt's thread.
 

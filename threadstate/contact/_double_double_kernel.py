@@ -127,7 +127,7 @@ def sine_versine(x: Pair) -> tuple[Pair, Pair]:
 @kernel()
 def sine_cosine(x: Pair) -> tuple[Pair, Pair]:
     """The sine and the cosine of an angle (rad) of a few turns at most."""
-    n = math.floor(x[0] / HALF_PI[0] + 0.5)
+    n = float(math.floor(x[0] / HALF_PI[0] + 0.5))
     s, v = sine_versine(subtract(x, multiply((n, 0.0), HALF_PI)))
     c = subtract((1.0, 0.0), v)
     quarter = n - 4.0 * math.floor(0.25 * n)

@@ -42,7 +42,7 @@ class Box(NamedTuple):
     end: float
 
 
-@kernel()
+@kernel(allocates=True)
 def new_edge(motion: Array, curve: Array, solid: Array, kept: Array) -> Edge:
     """An edge with scratch of its own."""
     return Edge(motion, curve, solid, kept, np.empty(PATH_SIZE), kept[:0])

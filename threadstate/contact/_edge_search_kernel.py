@@ -196,7 +196,7 @@ def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
                 classify_refined(i, edge, boxes)
 
 
-@kernel(allocates=False)
+@kernel()
 def evaluate_box(box: Box, edge: Edge, boxes: Array) -> float:
     """The class of a single box, which is set as the first one of ``boxes``."""
     set_box_at(box, 0, boxes)
@@ -210,7 +210,7 @@ def contact_distance(theta: float, kept: Array) -> float:
     return abs(nearest_contact(theta, kept)[0])
 
 
-@kernel(allocates=False)
+@kernel()
 def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edge, scratch: Array) -> tuple[bool, bool]:
     """Whether the bend of phi from the nearest contact to a box excludes a tangency with the thread in it.
 
@@ -266,7 +266,7 @@ def onset_only_outside(box_class: int, box: Box, edge: Edge, scratch: Array, jet
     return place == ROOT_INSIDE and (abs(t - theta) >= half or tau <= start or tau >= end)
 
 
-@kernel(allocates=False)
+@kernel()
 def is_the_one(box_class: int, box: Box, t: float, tau: float, edge: Edge, scratch: Array) -> bool:
     """Whether a root in a box, or beside it, is the only one there: the box widened to it has at most one, too."""
     theta, half, start, end = box
@@ -331,7 +331,7 @@ class EdgeSearch(NamedTuple):
     entries: Array
 
 
-@kernel()
+@kernel(allocates=True)
 def list_onset(
     box_class: int, t: float, tau: float, edge: Edge, search: EdgeSearch, scratch: Array, count: int, found: Array
 ) -> tuple[int, bool]:
@@ -395,7 +395,7 @@ def outside_regions(box: Box, regions: Array) -> Box:
     return Box(theta, half, start, end)
 
 
-@kernel()
+@kernel(allocates=True)
 def close_by_onset(
     box_class: int, box: Box, since: float, best: float, edge: Edge, search: EdgeSearch, count: int, found: Array
 ) -> tuple[bool, int, float]:

@@ -20,7 +20,7 @@ XP_THETA, XP_CORNER, XP_X, XP_Y = range(4)
 EXTREME_SIZE = 4
 
 
-@kernel(allocates=False)
+@kernel()
 def base_outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, float, float]:
     """The edge point of the bolt at ``theta`` in the nut's plane, and its derivative; the bolt is flush."""
     x, y, dx, dy = edge_point(theta, bolt)
@@ -32,14 +32,14 @@ def base_outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, 
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def distance_outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
     """How far the bolt's edge at ``theta`` lies outside the nut's outline, radially."""
     x, y, _, _ = base_outline(theta, pose, bolt)
     return math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
 
 
-@kernel(allocates=False)
+@kernel()
 def outline_root(a: float, b: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
     """Azimuth in [a, b] where the outlines cross (``corner``) or the edge runs across (nx, ny) (Illinois)."""
     fa = outline_value(a, corner, nx, ny, pose, bolt, nut)
@@ -66,7 +66,7 @@ def outline_root(a: float, b: float, corner: bool, nx: float, ny: float, pose: A
     return a if abs(fa) < abs(fb) else b
 
 
-@kernel(allocates=False)
+@kernel()
 def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array, bolt: Array, nut: Array) -> float:
     """The function whose root :func:`outline_root` finds."""
     if corner:
@@ -98,7 +98,7 @@ def set_corners(pose: Array, bolt: Array, nut: Array, theta: Array, over: Array,
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, out: Array) -> int:
     """The patch's farthest points across the axis (ax, ay) (left, then right) and along it (forth, then back).
 

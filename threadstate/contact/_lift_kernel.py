@@ -155,14 +155,14 @@ def edge_point_inside_until(theta: float, high: float, edge: Edge, bounds: Array
     return inside_until(edge.path, 0.0, high, 1.0, edge.solid, edge.motion[M_SIGMA], bounds)
 
 
-@kernel()
+@kernel(allocates=True)
 def edges_without_contacts(bolt: Array, nut: Array, work: Work) -> tuple[Edge, Edge]:
     """The bolt's and the nut's edge by the motions of ``work``, without earlier contacts."""
     bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(0))
     return bolt_edge, new_edge(work.nut_motion, nut, bolt, new_kept(0))
 
 
-@kernel()
+@kernel(allocates=True)
 def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array, work: Work) -> tuple[int, float]:
     """Whether a point overlaps at ``lift`` (INSIDE, OUTSIDE or UNDECIDED), and the lift up to which it does."""
     bounds = np.empty(BOUNDS_SIZE)
@@ -189,7 +189,7 @@ def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array,
     return INSIDE, lift + inside_until(path, 0.0, left, 1.0, nut, 1.0, bounds)
 
 
-@kernel()
+@kernel(allocates=True)
 def crests_overlap(pose: Array, lift: float, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether a crest is found inside the other part at ``lift``: its corner, or the bolt's lowest in the nut."""
     bolt_motion = work.bolt_motion
@@ -202,7 +202,7 @@ def crests_overlap(pose: Array, lift: float, bolt: Array, nut: Array, work: Work
     return max(depth, lowest_depth) > WITNESS_DEPTH * bolt[pk.P]
 
 
-@kernel()
+@kernel(allocates=True)
 def contact_below(
     pose: Array,
     lift: float,
@@ -247,7 +247,7 @@ def least_lift(
     return climb_witnesses(pose, above, height, height, height, tie_tolerance, bolt, nut, search, work, found)
 
 
-@kernel()
+@kernel(allocates=True)
 def lift_to_last_touch(
     pose: Array,
     height: float,

@@ -57,7 +57,7 @@ NO_ROOT, ROOT_INSIDE, ROOT_BESIDE, ROOT_AT_SIDE = range(4)
 """Where Newton's method ends: at no root, in the box, certainly beside it, beside it by less than its round-off."""
 
 
-@kernel(allocates=False)
+@kernel()
 def set_jet(
     theta: float, tau: float, motion: Array, curve_profile: Array, solid_profile: Array, path: Array, jet: Array
 ) -> None:
@@ -132,7 +132,7 @@ def set_refined_jet(theta: float, tau: float, edge: Edge, jet: Array) -> None:
     jet[J_X], jet[J_Y], jet[J_Z] = of_curve.place
 
 
-@kernel(allocates=False)
+@kernel()
 def set_jet_beside(theta: float, tau: float, edge: Edge, jet: Array) -> None:
     """The same; beside earlier contacts g and phi are differences from them."""
     if is_refined(edge):
@@ -178,7 +178,7 @@ def onset_step(
     return det, (f1 * b - f0 * d) / det, (f0 * c - f1 * a) / det, t_error, tau_error
 
 
-@kernel(allocates=False)
+@kernel()
 def newton_onset(kind: int, box: Box, edge: Edge, jet: Array) -> tuple[int, float, float]:
     """The one onset or end of overlap in a box, or near it, by Newton's method: where it is, its azimuth and time.
 

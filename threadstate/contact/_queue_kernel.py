@@ -20,7 +20,7 @@ ROOM = 8192
 Q_THETA, Q_HALF, Q_START, Q_END = range(4)
 
 
-@kernel()
+@kernel(allocates=True)
 def new_queue() -> Array:
     """A queue with room for so many boxes."""
     return np.empty((ROOM, 4))

@@ -207,7 +207,7 @@ def append_flush_point(
     record[O_CONTACTS] = n + 1
 
 
-@kernel()
+@kernel(allocates=True)
 def append_strip_corner(contact: Array, pose: Array, bolt: Array, nut: Array, record: Array) -> None:
     """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage.
 

@@ -221,7 +221,7 @@ def set_first_rectangles(
     return count, evaluated
 
 
-@kernel()
+@kernel(allocates=True)
 def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array) -> tuple[int, int]:
     """All contacts of thread with thread before ``limit``, earliest first, and the number of rectangles evaluated.
 

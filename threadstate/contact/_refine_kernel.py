@@ -176,7 +176,7 @@ def set_unrefined(contact: Array, pose: Array, refined: Array) -> None:
         set_entry(refined, F_AXIAL, rotated_back(pose, x)[2])
 
 
-@kernel()
+@kernel(allocates=True)
 def refine_edge(
     pair: int,
     is_turn: bool,
@@ -207,7 +207,7 @@ def refine_edge(
             set_entry(refined, F_THETA, theta)
             set_entry(refined, F_TIME, time)
             return True
-        _, d_theta, d_time, _, _ = onset.onset_step(kind, jet, 0.0, 0.0)
+        _, d_theta, d_time, _, _ = onset.onset_step(int(kind), jet, 0.0, 0.0)
         theta, time = add(theta, (d_theta, 0.0)), add(time, (d_time, 0.0))
         if not (abs(theta[0] - start) <= REACH and abs(time[0] - since) <= REACH * unit):
             return False
@@ -215,7 +215,7 @@ def refine_edge(
     return False
 
 
-@kernel()
+@kernel(allocates=True)
 def refine_thread(
     is_turn: bool,
     pose: Array,
@@ -257,7 +257,7 @@ def refine_thread(
     return False
 
 
-@kernel()
+@kernel(allocates=True)
 def refine_found(
     is_turn: bool,
     pose: Array,

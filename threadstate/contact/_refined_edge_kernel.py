@@ -57,7 +57,7 @@ residuals, and far more than what the sums round off."""
 NOWHERE: Vector = (ZERO, ZERO, ZERO)
 
 
-@kernel()
+@kernel(allocates=True)
 def refined_edges(bolt_edge: Edge, nut_edge: Edge, wide: Array) -> tuple[Edge, Edge]:
     """Both edges with the bolt's motion in sums of two doubles: that is meant, and their numbers are rounded."""
     bolt_edge.motion[M_ROUNDED] = nut_edge.motion[M_ROUNDED] = 1.0
@@ -65,7 +65,7 @@ def refined_edges(bolt_edge: Edge, nut_edge: Edge, wide: Array) -> tuple[Edge, E
     return with_motion(bolt_edge, nearest), with_motion(nut_edge, inverse_motion(nearest))
 
 
-@kernel()
+@kernel(allocates=True)
 def with_motion(edge: Edge, wide: Array) -> Edge:
     """An edge with its motion in sums of two doubles."""
     return Edge(edge.motion, edge.curve, edge.solid, edge.kept, edge.path, wide)

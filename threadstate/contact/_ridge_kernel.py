@@ -106,7 +106,7 @@ FAR = 1.5
 """That is known before the maximum is located where by second derivatives it is so many times as far."""
 
 
-@kernel(allocates=False)
+@kernel()
 def nearby_maximum(
     theta: float, z: float, time_range: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
@@ -150,7 +150,7 @@ def nearby_maximum(
     return theta, z, False
 
 
-@kernel(allocates=False)
+@kernel()
 def ridge_bracket(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, float]:
@@ -171,7 +171,7 @@ def ridge_bracket(
         w *= 4.0
 
 
-@kernel(allocates=False)
+@kernel()
 def ridge_point(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, bool]:
@@ -194,7 +194,7 @@ def ridge_point(
             high = middle
 
 
-@kernel(allocates=False)
+@kernel()
 def bracketed_maximum(
     theta: float, z: float, step: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
@@ -233,7 +233,7 @@ def bracketed_maximum(
             after, z_after = middle, z_middle
 
 
-@kernel(allocates=False)
+@kernel()
 def is_far(theta: float, z: float, placement: Array, bolt: Array, nut: Array, time_range: float, jet: Array) -> bool:
     """Whether by its second derivatives phi has a maximum near (theta, z) from which, by its rate, it does not reach
     zero within ``time_range``.
@@ -247,7 +247,7 @@ def is_far(theta: float, z: float, placement: Array, bolt: Array, nut: Array, ti
     return abs(jet[TJ_PHI] + rise) > time_range * jet[TJ_RATE]
 
 
-@kernel(allocates=False)
+@kernel()
 def follow_maximum(
     theta: float,
     z: float,
@@ -359,7 +359,7 @@ def ridge_maxima(
     return places
 
 
-@kernel()
+@kernel(allocates=True)
 def deepest_thread_point(
     motion: Array, shallow: float, azimuths: int, bolt: Array, nut: Array
 ) -> tuple[bool, float, float, float]:
@@ -439,7 +439,7 @@ def ridge_contacts(motion: Array, bolt: Array, nut: Array, limit: float, azimuth
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def contacts_at_crossings(
     start: float,
     end: float,
@@ -472,7 +472,7 @@ def contacts_at_crossings(
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def contacts_at_instants(
     end: float,
     instants: int,
@@ -503,7 +503,7 @@ def contacts_at_instants(
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def contacts_behind_entries(
     entries: Array, limit: float, motion: Array, bolt: Array, nut: Array, found: Array, count: int
 ) -> int:

@@ -97,7 +97,7 @@ def turn_to_flush(pose: Array, axis: Array) -> float:
     return math.atan2(axis[0] * ny - axis[1] * nx, nz)
 
 
-@kernel()
+@kernel(allocates=True)
 def append_flush_pose(
     stage: int,
     pose: Array,
@@ -205,7 +205,7 @@ class Course(NamedTuple):
     work: Work
 
 
-@kernel()
+@kernel(allocates=True)
 def new_course(work: Work) -> Course:
     """A course with arrays of its own."""
     return Course(
@@ -253,7 +253,7 @@ def drop_found(dropped: int, simultaneous: int, found: Array) -> int:
     return simultaneous - dropped
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_pose(
     roll: float,
     pitch: float,
@@ -313,7 +313,7 @@ def solve_pose(
     choose_shorter_turn(record, other_record)
 
 
-@kernel()
+@kernel(allocates=True)
 def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: Search, course: Course) -> int:
     """The way straight down to the first contact: how many begin at once; 0: unresolved."""
     pose, down, point = np.empty(12), np.array([0.0, 0.0, -1.0]), np.zeros(3)
@@ -372,7 +372,7 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: S
     return simultaneous
 
 
-@kernel()
+@kernel(allocates=True)
 def second_stage(pose: Array, scene: Scene, search: Search, course: Course, record: Array) -> int:
     """The turn about the tangent at the first contact up to the second one.
 
@@ -441,7 +441,7 @@ def second_stage(pose: Array, scene: Scene, search: Search, course: Course, reco
     return drop_found(1, simultaneous, found)
 
 
-@kernel()
+@kernel(allocates=True)
 def set_pivot_offset(second: Array, course: Course, record: Array) -> float:
     """Sets the distance of the bolt's origin from the pivot axis; returns by how much a turn about it lifts the origin
     (a length a rad).
@@ -472,7 +472,7 @@ def choose_shorter_turn(record: Array, other_record: Array) -> None:
         copy_numbers(other_record, record)
 
 
-@kernel()
+@kernel(allocates=True)
 def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> None:
     """The turn about the pivot axis up to the third contact, the drop and the embedment."""
     second, point, axis = np.empty(12), np.empty(3), np.empty(3)
@@ -539,7 +539,7 @@ def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> 
     append_third_pose(third, second[11] - third[11], simultaneous, scene, search, course, record)
 
 
-@kernel()
+@kernel(allocates=True)
 def append_third_pose(
     third: Array, drop: float, simultaneous: int, scene: Scene, search: Search, course: Course, record: Array
 ) -> None:
@@ -584,7 +584,7 @@ def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Arra
     solve_with(poses, options, bolt, nut, search_address(), rows)
 
 
-@kernel(nogil=True)
+@kernel(nogil=True, allocates=True)
 def solve_with(poses: Array, options: Array, bolt: Array, nut: Array, address: int, rows: Array) -> None:
     """As :func:`solve_rows`, with the address of the compiled search."""
     search = search_at(address)

@@ -220,7 +220,7 @@ def may_be_truncated(listed: Array, count: int, until: float) -> bool:
     return count == listed.shape[0] and listed[count - 1, 0] <= until
 
 
-@kernel()
+@kernel(allocates=True)
 def new_work() -> Work:
     """The scratch arrays of one thread of work."""
     return Work(
@@ -394,7 +394,7 @@ def may_lack_ties(count: int, bolt_count: int, nut_count: int, tie_tolerance: fl
     )
 
 
-@kernel()
+@kernel(allocates=True)
 def search_threads(
     is_turn: bool, reach: float, unexplained: bool, thread_search: int, bolt: Array, nut: Array, work: Work
 ) -> tuple[int, int, Array]:
@@ -429,7 +429,7 @@ def search_threads(
     return tangency_count, on_surface_count, on_surface
 
 
-@kernel()
+@kernel(allocates=True)
 def contacts_of_edges(
     bolt_edge: Edge,
     nut_edge: Edge,
@@ -520,7 +520,7 @@ def earliest(
     return count, status, best
 
 
-@kernel()
+@kernel(allocates=True)
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
     bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(count))

@@ -71,7 +71,7 @@ TJ_ZT = 11
 TANGENCY_JET_SIZE = 12
 
 
-@kernel(allocates=False)
+@kernel()
 def set_placement(motion: Array, tau: float, placement: Array) -> None:
     """Sets the placement of the bolt after ``tau`` of a motion."""
     if motion[M_KIND] == 0.0:
@@ -121,7 +121,7 @@ def rotated(x: float, y: float, z: float, placement: Array) -> tuple[float, floa
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def set_jet(theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array) -> None:
     """Phi and its derivatives at (theta, z) of the bolt's thread, for a placement.
 

@@ -113,7 +113,7 @@ def point_in_nut(lowest: Array, placement: Array, bolt: Array) -> tuple[float, f
     return m[0] * bx + m[1] * by + m[2] * z + off[0], m[3] * bx + m[4] * by + m[5] * z + off[1]
 
 
-@kernel()
+@kernel(allocates=True)
 def deepest_lowest_point(placement: Array, bolt: Array, nut: Array) -> tuple[float, float, float]:
     """The greatest depth in the nut of a lowest point of the bolt's thread, and its place (theta, z) on it.
 
@@ -135,7 +135,7 @@ def deepest_lowest_point(placement: Array, bolt: Array, nut: Array) -> tuple[flo
     return deepest, at_theta, at_z
 
 
-@kernel()
+@kernel(allocates=True)
 def thread_surface_contacts(motion: Array, bolt: Array, nut: Array, reach: float, found: Array, count: int) -> int:
     """Adds the contacts of the bolt's thread with the nut's surface up to ``reach``; returns their number then.
 
@@ -205,7 +205,7 @@ def add_touch(time: float, lowest: Array, placement: Array, bolt: Array, nut: Ar
     return count + 1
 
 
-@kernel()
+@kernel(allocates=True)
 def follow_turn(
     turn: float,
     near: float,

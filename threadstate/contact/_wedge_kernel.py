@@ -102,7 +102,7 @@ class Crossing(NamedTuple):
     solid_2: float
 
 
-@kernel(allocates=False)
+@kernel()
 def crossing_at(curve_theta: float, solid_theta: float, tau: float, edge: Edge, wedge: Array) -> Crossing:
     """The crossing of two edges at an onset."""
     sigma = edge.motion[M_SIGMA]
@@ -179,11 +179,11 @@ def refined_crossing(theta: Pair, tau: Pair, edge: Edge) -> Crossing:
 @kernel()
 def refined_root(theta: float, tau: float, jet: Array) -> tuple[Pair, Pair]:
     """The azimuth and the time of a crossing of refined edges, a step of Newton's method beyond their doubles."""
-    _, d_theta, d_tau, _, _ = onset_step(ONE_EDGE, jet, 0.0, 0.0)
+    _, d_theta, d_tau, _, _ = onset_step(int(ONE_EDGE), jet, 0.0, 0.0)
     return add((theta, 0.0), (d_theta, 0.0)), add((tau, 0.0), (d_tau, 0.0))
 
 
-@kernel(allocates=False)
+@kernel()
 def crossing_of(kind: int, theta: float, tau: float, edge: Edge, jet: Array, wedge: Array) -> Crossing:
     """The crossing at an onset of a kind of box; with an angle of zero where no edges cross."""
     if kind != ONE_EDGE:
@@ -238,7 +238,7 @@ def is_beyond_end(jet: Array, edge: Edge) -> bool:
     return -edge.motion[M_SIGMA] * jet[J_Z] > edge.solid[pk.P]
 
 
-@kernel(allocates=False)
+@kernel()
 def crossing_beside(
     theta: float, tau: float, d_theta: float, d_tau: float, edge: Edge, jet: Array, wedge: Array
 ) -> Crossing:
@@ -256,7 +256,7 @@ def crossing_beside(
     return crossing_at(theta + d_theta, math.atan2(at_y, at_x) + turn, tau + d_tau, edge, wedge)
 
 
-@kernel(allocates=False)
+@kernel()
 def changes_at_corners(
     theta: float, tau: float, t_error: float, tau_error: float, edge: Edge, jet: Array, wedge: Array
 ) -> bool:
@@ -278,7 +278,7 @@ def changes_at_corners(
     return False
 
 
-@kernel(allocates=False)
+@kernel()
 def is_doubtful(
     theta: float, tau: float, crossing: Crossing, tie_tolerance: float, edge: Edge, jet: Array, wedge: Array
 ) -> bool:
@@ -293,7 +293,7 @@ def is_doubtful(
         return False
     is_turn = edge.motion[M_KIND] != 0.0
     x, y, ex, ey = edge_point(theta, edge.curve)
-    _, _, _, t_error, tau_error = onset_step(ONE_EDGE, jet, *crossing_errors(theta, tau, edge))
+    _, _, _, t_error, tau_error = onset_step(int(ONE_EDGE), jet, *crossing_errors(theta, tau, edge))
     if not is_refined(edge) and not tau_error <= tie_tolerance:
         return True
     set_path(x, y, edge.motion, edge.path)
@@ -319,7 +319,7 @@ def face_separated(curve_theta: float, tau: float, nx: float, ny: float, nz: flo
     return c1 >= -1e-12 and c2 >= -1e-12
 
 
-@kernel(allocates=False)
+@kernel()
 def is_contact(kind: int, theta: float, tau: float, crossing: Crossing, edge: Edge, jet: Array, wedge: Array) -> bool:
     """Whether at an onset the wedge at the edge point is outside the other part; else an overlap is open already.
 

@@ -186,7 +186,7 @@ def fillet_end(height: float, cot: float, radius: float) -> Pair:
 def radius_and_slope(s: Pair, profile: Array) -> tuple[Pair, Pair]:
     """``f`` and ``f'`` at ``s``."""
     p, pitch_radius = profile[pk.P], profile[pk.R_PITCH]
-    u = subtract(s, exact_product(p, math.floor(s[0] / p - profile[pk.S_ROOT] / p)))
+    u = subtract(s, exact_product(p, float(math.floor(s[0] / p - profile[pk.S_ROOT] / p))))
     half = 0
     if u[0] > profile[pk.S_CREST]:
         half = pk.FALLING
@@ -249,7 +249,7 @@ def set_motion(pose: Array, point: Array, axis: Array, motion: Array) -> None:
         set_entry(motion, W_AXIS + i, entry(axis, i))
 
 
-@kernel()
+@kernel(allocates=True)
 def wide_motion(motion: Array) -> Array:
     """A motion of ``_geometry_kernel`` in sums of two doubles, (18, 2)."""
     wide = np.zeros((WIDE_MOTION_SIZE, 2))
@@ -260,7 +260,7 @@ def wide_motion(motion: Array) -> Array:
     return wide
 
 
-@kernel()
+@kernel(allocates=True)
 def nearest_motion(motion: Array) -> Array:
     """The motion whose rotation is the nearest one and whose axis is a unit vector.
 
@@ -278,7 +278,7 @@ def nearest_motion(motion: Array) -> Array:
     return nearest
 
 
-@kernel()
+@kernel(allocates=True)
 def inverse_motion(motion: Array) -> Array:
     """The motion of the nut in the bolt's frame, of that of the bolt in the nut's."""
     inverse = np.empty((WIDE_MOTION_SIZE, 2))

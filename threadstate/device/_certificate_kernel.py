@@ -49,7 +49,7 @@ FINE_AZIMUTHS = MAX_AZIMUTHS
 FREE, EDGE_INSIDE, THREAD_INSIDE = range(3)
 
 
-@kernel()
+@kernel(allocates=True)
 def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, nut: Array, stage: Work) -> int:
     """Whether the parts overlap at a pose by more than ``limit`` (a length), beside the places at which they touch."""
     on_bolt = new_edge(stage.bolt_motion, bolt, nut, new_kept(MAX_PLACES))
@@ -74,7 +74,7 @@ def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, n
     return THREAD_INSIDE if threads_overlap(pose, limit, stage.bolt_motion, stage.nut_motion, bolt, nut) else FREE
 
 
-@kernel()
+@kernel(allocates=True)
 def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: Array, bolt: Array, nut: Array) -> bool:
     """Whether a search finds the threads to overlap by more than ``limit``; the motions are scratch.
 
@@ -102,7 +102,7 @@ def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: A
     return False
 
 
-@kernel()
+@kernel(allocates=True)
 def ridge_is_inside(pose: Array, limit: float, bolt: Array, nut: Array) -> bool:
     """Whether a maximum of phi along its ridges, sampled more finely than on the way, is above ``limit``."""
     grid = np.empty(GRID_SIZE)

@@ -36,7 +36,7 @@ TERMS = 9
 """Terms of the series in the square of the angle; up to 1 rad the first one left out is below 1e-18."""
 
 
-@kernel(allocates=False)
+@kernel()
 def angle_functions(angle2: float) -> tuple[float, float, float, float]:
     """``a = (1 - cos t) / t^2``, ``b = (t - sin t) / t^3``, ``a' / t`` and ``b' / t`` of the square of an angle."""
     a, b, a1, b1 = 0.0, 0.0, 0.0, 0.0
@@ -55,7 +55,7 @@ def angle_functions(angle2: float) -> tuple[float, float, float, float]:
     return a, b, a1, b1
 
 
-@kernel(allocates=False)
+@kernel()
 def set_turn(x: float, y: float, z: float, u: float, v: float, turn: Array) -> None:
     """Sets ``I + u [e] + v [e]^2`` of a rotation vector e."""
     turn[0] = 1.0 - v * (y * y + z * z)
@@ -69,7 +69,7 @@ def set_turn(x: float, y: float, z: float, u: float, v: float, turn: Array) -> N
     turn[8] = 1.0 - v * (x * x + y * y)
 
 
-@kernel(allocates=False)
+@kernel()
 def set_place(q: Array, device: Array, place: Array) -> None:
     """Sets rotation, translation, centre and the chart's derivatives at coordinates ``q``."""
     x, y, z = q[0], q[1], q[2]
@@ -95,7 +95,7 @@ def set_place(q: Array, device: Array, place: Array) -> None:
     place[N_FUNCTIONS + 3] = b1
 
 
-@kernel(allocates=False)
+@kernel()
 def second_order(place: Array, i: int, j: int, out: Array) -> None:
     """Sets ``Q`` of two unit vectors of the coordinates ``e``: the second derivative of ``w`` there."""
     e = place[N_VECTOR : N_VECTOR + 3]
@@ -127,7 +127,7 @@ def second_order(place: Array, i: int, j: int, out: Array) -> None:
         out[2] += 0.5 * (-a1 * along * cz + b1 * along * ccz + b * fz)
 
 
-@kernel(allocates=False)
+@kernel()
 def to_chart(place: Array, gradient: Array, hessian: Array, scratch: Array) -> None:
     """Brings a gradient and a Hessian by ``(w, C)`` to the coordinates ``(e, C)``, in place."""
     jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
@@ -158,7 +158,7 @@ def to_chart(place: Array, gradient: Array, hessian: Array, scratch: Array) -> N
         gradient[i] = jacobian[i] * x + jacobian[3 + i] * y + jacobian[6 + i] * z
 
 
-@kernel(allocates=False)
+@kernel()
 def set_deviation(q: Array, device: Array, deviation: Array) -> None:
     """Sets the deviation from the command: the rotation vector, then the centre's shift."""
     for i in range(3):
@@ -166,7 +166,7 @@ def set_deviation(q: Array, device: Array, deviation: Array) -> None:
         deviation[3 + i] = q[3 + i] - device[D_PLACE + i]
 
 
-@kernel(allocates=False)
+@kernel()
 def elastic_energy(q: Array, device: Array, gradient: Array) -> float:
     """The elastic energy, and sets its gradient by ``q``."""
     energy = 0.0

@@ -91,7 +91,7 @@ class Descent(NamedTuple):
     overlap_left: float
 
 
-@kernel(allocates=False)
+@kernel()
 def move(n: int, step: Array, q: Array, device: Array, trial: Array) -> None:
     """Sets the coordinates after a step."""
     copy_numbers(q, trial)
@@ -100,7 +100,7 @@ def move(n: int, step: Array, q: Array, device: Array, trial: Array) -> None:
         trial[j] += step[i] / scale(j, device)
 
 
-@kernel(allocates=False)
+@kernel()
 def length_between(n: int, q: Array, other: Array, device: Array, work: Work) -> float:
     """How far apart two places of the bolt are, in the metric that is set."""
     for i in range(n):
@@ -109,7 +109,7 @@ def length_between(n: int, q: Array, other: Array, device: Array, work: Work) ->
     return length_of(n, work.step, work.metric)
 
 
-@kernel(allocates=False)
+@kernel()
 def minimise_model(n: int, count: int, damping: float, work: Work) -> float:
     """Sets the step to the minimum of the damped model under the linearised contacts; its length, inf where none is."""
     for i in range(n):
@@ -125,7 +125,7 @@ def minimise_model(n: int, count: int, damping: float, work: Work) -> float:
     return length_of(n, work.step, work.metric) if status == SOLVED else math.inf
 
 
-@kernel()
+@kernel(allocates=True)
 def descend_followed(q: Array, known: int, descent: Descent, scene: Scene) -> tuple[int, int]:
     """As :func:`descend`, with few searches: the first ``known`` of the places are followed from where they are.
 
@@ -139,7 +139,7 @@ def descend_followed(q: Array, known: int, descent: Descent, scene: Scene) -> tu
     return descend(q, descent, scene)
 
 
-@kernel(allocates=False)
+@kernel()
 def descend(q: Array, descent: Descent, scene: Scene) -> tuple[int, int]:
     """As :func:`descend_with`, first with the samples of the device's numbers, and from where no step leads on with the
     finest: two places beside each other may be missed between samples, in turns.
@@ -150,7 +150,7 @@ def descend(q: Array, descent: Descent, scene: Scene) -> tuple[int, int]:
     return status, count
 
 
-@kernel(allocates=False)
+@kernel()
 def descend_finely(q: Array, descent: Descent, scene: Scene) -> tuple[int, int]:
     """As :func:`descend_with`, with the finest samples."""
     parts = scene.device[D_FINE]
@@ -190,7 +190,7 @@ class Step(NamedTuple):
     has_risen: bool
 
 
-@kernel(allocates=False)
+@kernel()
 def save_contacts(count: int, work: Work) -> None:
     """Saves places and multipliers before a trial."""
     for i in range(count):
@@ -198,7 +198,7 @@ def save_contacts(count: int, work: Work) -> None:
     copy_numbers(work.multipliers, work.saved_multipliers)
 
 
-@kernel(allocates=False)
+@kernel()
 def set_pose_again(n: int, q: Array, count: int, push: float, device: Array, work: Work) -> None:
     """Sets what belongs to a pose again, after a trial: places and multipliers that were saved, and what follows."""
     for i in range(count):
@@ -211,7 +211,7 @@ def set_pose_again(n: int, q: Array, count: int, push: float, device: Array, wor
     set_constraints(n, count, work.places, device, work.normals, work.limits)
 
 
-@kernel(allocates=False)
+@kernel()
 def take_step(q: Array, searches: bool, stand: Stand, descent: Descent, scene: Scene) -> Step:
     """A step of the descent from ``q``, in place; damped until it lowers the potential.
 
@@ -268,7 +268,7 @@ def end_beside_contacts(scene: Scene) -> int:
     return UNSETTLED
 
 
-@kernel()
+@kernel(allocates=True)
 def descend_with(q: Array, known: int, searches: bool, descent: Descent, scene: Scene) -> tuple[int, int, bool]:
     """Descends from ``q``, in place, to a minimum of the potential; how it ended, the number of places there, and
     whether it ended because no step led on.

@@ -76,7 +76,7 @@ def set_flush(device: Array, q: Array) -> bool:
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def centre_of_pressure(
     q: Array, push: float, place: Array, device: Array, friction: Array
 ) -> tuple[float, float, float, float]:
@@ -153,7 +153,7 @@ def exit_side(hull: Array, size: int, x: float, y: float, force: float, place: A
     return least, side
 
 
-@kernel()
+@kernel(allocates=True)
 def flush_until(push: float, device: Array, bolt: Array, nut: Array, level: Array) -> tuple[float, float]:
     """The push up to which the level pose is stable, from ``push`` on, and the direction (rad) in which the bolt tips.
 
@@ -193,7 +193,7 @@ def tip_over(direction: float, angle: float, place: Array, q: Array) -> None:
         q[i] += m[i] * x + m[3 + i] * y
 
 
-@kernel()
+@kernel(allocates=True)
 def flush_is_reached(q: Array, push: float, place: Array, device: Array, bolt: Array, nut: Array) -> bool:
     """Whether the bolt, nearly level on the nut's surface, goes on to lie flush: stable, and at a lower potential."""
     if math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) > NEARLY_LEVEL:

@@ -113,7 +113,7 @@ def has_left(place: Array, bolt: Array) -> int:
     return GOES_ON
 
 
-@kernel()
+@kernel(allocates=True)
 def flow_step(
     drag: float,
     on_ridges: bool,
@@ -165,7 +165,7 @@ def longer_step(
     return 0, math.inf, drag
 
 
-@kernel()
+@kernel(allocates=True)
 def flow(
     q: Array,
     push: float,
@@ -238,7 +238,7 @@ def flow(
     return ON_CONTACTS, touching, GOES_ON if touching > 0 else NO_MINIMUM
 
 
-@kernel()
+@kernel(allocates=True)
 def contacts_at_rest(q: Array, push: float, mu: float, setting: Setting, contacts: Array) -> int:
     """The number of contacts that hold the bolt where it is, which are set; 0 where they do not."""
     _, device, _, bolt, nut, threads, _, modes_work = setting
@@ -256,7 +256,7 @@ def contacts_at_rest(q: Array, push: float, mu: float, setting: Setting, contact
     return kept(count, contacts, push)
 
 
-@kernel()
+@kernel(allocates=True)
 def fall_with_friction(
     q: Array,
     push: float,
@@ -309,7 +309,7 @@ def fall_without_friction(q: Array, push: float, setting: Setting, contacts: Arr
     return ON_CONTACTS, count, TOO_MANY if count > MOST_CONTACTS else GOES_ON
 
 
-@kernel()
+@kernel(allocates=True)
 def lay_without_friction(q: Array, push: float, device: Array, contacts: Array) -> tuple[int, int, int]:
     """Lays a bolt flush on the surface, in place, in equilibrium without friction; returns as :func:`flow`."""
     if not device[D_RIGID] > 0.0:

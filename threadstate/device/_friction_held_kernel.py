@@ -81,7 +81,7 @@ ENERGY_STEP = 2e-5
 """Potential, over push times nominal radius, that a step may leave unexplained: more is a fall."""
 
 
-@kernel()
+@kernel(allocates=True)
 def strip_contacts(
     q: Array, push: float, mu: float, sense: float, setting: Setting, trial: Array, contacts: Array
 ) -> int:
@@ -111,7 +111,7 @@ def strip_contacts(
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def slide_on_strip(
     q: Array, push: float, mu: float, turn: float, setting: Setting, contacts: Array, losses: Array
 ) -> int:
@@ -132,7 +132,7 @@ def slide_on_strip(
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def lay_flush(
     falls: bool,
     q: Array,
@@ -174,7 +174,7 @@ def lay_flush(
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def lies_throughout(phase: float, turn: float, push: float, mu: float, before: Array, setting: Setting) -> bool:
     """Whether a bolt on the surface lies there in between as well, as it is turned by ``turn`` from ``phase`` (rad).
 
@@ -190,7 +190,7 @@ def lies_throughout(phase: float, turn: float, push: float, mu: float, before: A
     return lies
 
 
-@kernel()
+@kernel(allocates=True)
 def contacts_of_tip(q: Array, push: float, setting: Setting, contacts: Array) -> int:
     """Sets the contacts of a bolt that has been tipped off the surface, each with its share of the push; their number.
 

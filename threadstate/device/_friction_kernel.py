@@ -134,7 +134,7 @@ Branches = tuple[Array, Array, Indices]
 of; as many as there is room for, the last -1 where there are no more."""
 
 
-@kernel()
+@kernel(allocates=True)
 def torque_with(q: Array, count: int, contacts: Array, command: Array, device: Array) -> float:
     """The hand's work a radian of phase, of contacts with their whole forces."""
     by_q = np.empty(COORDINATES)
@@ -153,7 +153,7 @@ def torque_with(q: Array, count: int, contacts: Array, command: Array, device: A
     return torque
 
 
-@kernel()
+@kernel(allocates=True)
 def add_path_point(
     i: int,
     phase: float,
@@ -222,7 +222,7 @@ def unexplained(before: Array, after: Array) -> float:
     return lost + height * (after[P_PUSH] - before[P_PUSH])
 
 
-@kernel()
+@kernel(allocates=True)
 def set_branch(
     k: int,
     number: int,
@@ -299,7 +299,7 @@ def add_branches(
     return added
 
 
-@kernel()
+@kernel(allocates=True)
 def bend(i: int, q: Array, reached: float, earlier: float, target: float, path: Path, device: Array) -> float:
     """How far (nominal radii) a step from point i ends from where it would as the one before it went.
 
@@ -341,7 +341,7 @@ class LastStep(NamedTuple):
     end: Array
 
 
-@kernel()
+@kernel(allocates=True)
 def new_last_step() -> LastStep:
     """One without which the first step begins."""
     return LastStep(
@@ -353,7 +353,7 @@ def new_last_step() -> LastStep:
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def set_last_step(size: float, begin: Array, end: Array, count: int, contacts: Array, last: LastStep) -> None:
     """Sets the last step."""
     last.size[0], last.found[0] = size, count
@@ -395,7 +395,7 @@ def step_on_contacts(
     return ended, next_count
 
 
-@kernel(allocates=False)
+@kernel()
 def next_step(size: float, falls: int, longest: float, least: float) -> float:
     """How long the step after one of a size is, the last of so many falls in a row."""
     if falls == 0:
@@ -404,7 +404,7 @@ def next_step(size: float, falls: int, longest: float, least: float) -> float:
     return max(FIRST_PART * longest * 0.5**tried, least)
 
 
-@kernel(nogil=True)
+@kernel(nogil=True, allocates=True)
 def follow_friction(
     q: Array,
     phases: Array,
@@ -568,7 +568,7 @@ def follow_friction(
     return REACHED, i + 1, count
 
 
-@kernel(nogil=True)
+@kernel(nogil=True, allocates=True)
 def certified_pose(q: Array, device: Array, bolt: Array, nut: Array) -> int:
     """What the certificate says of overlaps at a pose, whose places of contact are searched for."""
     r = bolt[pk.R_MAJOR]

@@ -46,7 +46,7 @@ BEYOND = 1e-8
 """By how much a velocity may be outside the cones' polar, over its size, where no edge is added."""
 
 
-@kernel()
+@kernel(allocates=True)
 def rests(q: Array, push: float, mu: float, count: int, contacts: Array, device: Array) -> bool:
     """Whether forces within the contacts' cones balance device and push where the bolt is; sets them.
 

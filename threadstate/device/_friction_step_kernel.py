@@ -66,7 +66,7 @@ FREE_STEPS = 60
 """Steps of the descent without friction that says which contacts a step may gain."""
 
 
-@kernel(allocates=False)
+@kernel()
 def add_candidate(count: int, gap: Array, device: Array, apart: float, contacts: Array) -> int:
     """Adds a place of overlap to a step's contacts, unless one is nearer than ``apart`` (nominal radii) to it already.
 
@@ -82,7 +82,7 @@ def add_candidate(count: int, gap: Array, device: Array, apart: float, contacts:
     return count + 1
 
 
-@kernel(allocates=False)
+@kernel()
 def friction_of(contact: Array) -> float:
     """The size of a contact's force across its normal."""
     normal, square = 0.0, 0.0
@@ -92,7 +92,7 @@ def friction_of(contact: Array) -> float:
     return math.sqrt(max(square - normal * normal, 0.0))
 
 
-@kernel(allocates=False)
+@kernel()
 def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Array) -> float:
     """The work that friction takes in a step: the mean of its sizes before and after, over the slip.
 
@@ -109,7 +109,7 @@ def friction_loss(earlier_count: int, earlier: Array, count: int, contacts: Arra
     return loss
 
 
-@kernel(allocates=False)
+@kernel()
 def chosen(total: int, carried: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
     """Which solution the path goes on with: that of the modes before, else the one nearest to ``carried``."""
     places, all_contacts, counts = solutions
@@ -127,7 +127,7 @@ def chosen(total: int, carried: Array, count: int, contacts: Array, device: Arra
     return best
 
 
-@kernel(allocates=False)
+@kernel()
 def add_free_contacts(total: int, found: int, push: float, device: Array, work: Work, candidates: Array) -> int:
     """Adds the contacts of a bolt without friction, as many as there is room for; the number of candidates then."""
     places, multipliers = work.places, work.multipliers
@@ -137,7 +137,7 @@ def add_free_contacts(total: int, found: int, push: float, device: Array, work: 
     return total
 
 
-@kernel(allocates=False)
+@kernel()
 def kept(count: int, contacts: Array, push: float) -> int:
     """Moves the contacts that carry a force to the front; their number."""
     used = 0
@@ -151,7 +151,7 @@ def kept(count: int, contacts: Array, push: float) -> int:
     return used
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_step(
     q: Array,
     free: Array,
@@ -184,7 +184,7 @@ def solve_step(
             return number, known
 
 
-@kernel(allocates=False)
+@kernel()
 def solve_on_ridges(
     q: Array,
     before: Array,
@@ -210,7 +210,7 @@ def solve_on_ridges(
     return number, total
 
 
-@kernel()
+@kernel(allocates=True)
 def ramp_friction(
     free: Array,
     found: int,
@@ -274,7 +274,7 @@ def ramp_friction(
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def step_with_friction(
     q: Array,
     push: float,

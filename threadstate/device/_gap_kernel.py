@@ -41,7 +41,7 @@ LEAST_BEND = 1e-9
 """Second derivative by azimuth, in nominal radii, below which a maximum counts as flat: its point stays where it is."""
 
 
-@kernel(allocates=False)
+@kernel()
 def solid_jet(x: float, y: float, z: float, profile: Array, sigma: float, out: Array) -> float:
     """``phi = sigma (r - f(s))`` at a point; sets its gradient (3 numbers) and its Hessian (9, by rows)."""
     k = profile[pk.LEAD] / TWO_PI
@@ -66,7 +66,7 @@ def solid_jet(x: float, y: float, z: float, profile: Array, sigma: float, out: A
     return sigma * (r - f)
 
 
-@kernel(allocates=False)
+@kernel()
 def edge_vectors(theta: float, profile: Array, out: Array) -> None:
     """Sets the edge point at an azimuth and its first two derivatives, each of three numbers."""
     k = profile[pk.LEAD] / TWO_PI
@@ -78,7 +78,7 @@ def edge_vectors(theta: float, profile: Array, out: Array) -> None:
     out[6], out[7], out[8] = (ddr - r) * c - 2.0 * dr * s, (ddr - r) * s + 2.0 * dr * c, 0.0
 
 
-@kernel(allocates=False)
+@kernel()
 def moved_point(of_bolt: bool, place: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
     """A point of one part in the other part's frame: of the bolt in the nut's, or of the nut in the bolt's."""
     m = place[N_ROTATION : N_ROTATION + 9]
@@ -92,7 +92,7 @@ def moved_point(of_bolt: bool, place: Array, x: float, y: float, z: float) -> tu
     return m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z
 
 
-@kernel(allocates=False)
+@kernel()
 def moved_vector(of_bolt: bool, place: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
     """A vector of one part in the other part's frame."""
     m = place[N_ROTATION : N_ROTATION + 9]
@@ -101,7 +101,7 @@ def moved_vector(of_bolt: bool, place: Array, x: float, y: float, z: float) -> t
     return m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z
 
 
-@kernel(allocates=False)
+@kernel()
 def set_edge_jet(of_bolt: bool, theta: float, place: Array, curve: Array, solid: Array, out: Array) -> None:
     """Sets g and phi of an edge point, and their derivatives by its azimuth."""
     sigma = 1.0 if of_bolt else -1.0
@@ -127,7 +127,7 @@ def set_edge_jet(of_bolt: bool, theta: float, place: Array, curve: Array, solid:
     out[E_PHI2] = sigma * (br - f1 * bs + tt * tt / rr - f2 * ts * ts - 2.0 * f1 * kr / rr * tr * tt)
 
 
-@kernel(allocates=False)
+@kernel()
 def edge_depth(of_bolt: bool, theta: float, place: Array, curve: Array, solid: Array) -> float:
     """The lesser of g and phi of an edge point."""
     sigma = 1.0 if of_bolt else -1.0
@@ -137,7 +137,7 @@ def edge_depth(of_bolt: bool, theta: float, place: Array, curve: Array, solid: A
     return min(-sigma * z, sigma * (math.sqrt(x * x + y * y) - pk.radius(z - k * math.atan2(y, x), solid)))
 
 
-@kernel(allocates=False)
+@kernel()
 def add_second_order(
     of_bolt: bool, weight: float, gradient: Array, arm: Array, place: Array, hessian: Array, scratch: Array
 ) -> None:
@@ -171,7 +171,7 @@ def add_second_order(
             hessian[3 + j, 2] += weight * cz
 
 
-@kernel(allocates=False)
+@kernel()
 def set_point_derivatives(of_bolt: bool, arm: Array, place: Array, out: Array) -> None:
     """Sets the derivative of the moved point by (w, C): 3 x 6."""
     m = place[N_ROTATION : N_ROTATION + 9]
@@ -194,7 +194,7 @@ def set_point_derivatives(of_bolt: bool, arm: Array, place: Array, out: Array) -
             out[i, 3 + j] = -m[3 * j + i]
 
 
-@kernel(allocates=False)
+@kernel()
 def set_gap(
     pair: int,
     theta: float,

@@ -78,7 +78,7 @@ class Knot(NamedTuple):
     slopes: Array
 
 
-@kernel()
+@kernel(allocates=True)
 def new_knot() -> Knot:
     """An empty one."""
     return Knot(
@@ -95,7 +95,7 @@ def new_knot() -> Knot:
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def copy_knot(knot: Knot, other: Knot) -> None:
     """Sets another one to a knot."""
     for i in range(3):
@@ -113,7 +113,7 @@ def copy_knot(knot: Knot, other: Knot) -> None:
     copy_numbers(knot.slopes, other.slopes)
 
 
-@kernel(allocates=False)
+@kernel()
 def set_loaded(push: float, knot: Knot) -> None:
     """Sets the contacts that carry a force from a knot's places."""
     used = 0
@@ -166,7 +166,7 @@ class Carried(NamedTuple):
     inverse: Array
 
 
-@kernel(allocates=False)
+@kernel()
 def set_carried(command_rates: Array, place: Array, carried: Carried) -> None:
     """Sets it at a pose."""
     turn, by_chart, inverse = carried
@@ -183,7 +183,7 @@ def set_carried(command_rates: Array, place: Array, carried: Carried) -> None:
         by_chart[i] = inverse[3 * i] * turn[0] + inverse[3 * i + 1] * turn[1] + inverse[3 * i + 2] * turn[2]
 
 
-@kernel()
+@kernel(allocates=True)
 def set_pull(count: int, command_rates: Array, carried: Carried, device: Array, work: Work, pull: Array) -> None:
     """Sets what a radian of phase adds to the forces on the coordinates while they stay: of the springs, as the
     commanded place moves, and of the contacts, as the bolt is carried round.
@@ -215,7 +215,7 @@ def set_pull(count: int, command_rates: Array, carried: Carried, device: Array, 
             pull[h] += by_chart[j] * (moment[0] * second[0] + moment[1] * second[1] + moment[2] * second[2])
 
 
-@kernel()
+@kernel(allocates=True)
 def set_rates(count: int, command_rates: Array, scene: Scene, knot: Knot) -> bool:
     """Sets a knot's derivatives by the phase, which are 0: with contacts held, H q' + A^T m' = pull, A q' = -change.
 
@@ -260,7 +260,7 @@ def set_rates(count: int, command_rates: Array, scene: Scene, knot: Knot) -> boo
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_held(n: int, size: int, lower: Array, columns: Array, closing: Array, rate: Array) -> bool:
     """Solves H x + A^T m = b, A x = c in place: ``rate`` is b and then x, ``closing`` c and then m.
 
@@ -290,7 +290,7 @@ def solve_held(n: int, size: int, lower: Array, columns: Array, closing: Array, 
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def set_bend(step: float, here: Knot, there: Knot) -> None:
     """Sets how the derivatives of the coordinates have changed in a step, where both are known."""
     if here.numbers[K_RATED] > 0 and there.numbers[K_RATED] > 0:

@@ -97,7 +97,7 @@ def set_phase(phase: float, command: Array, device: Array) -> None:
     device[D_PLACE + 2] += command[M_HEIGHT]
 
 
-@kernel(allocates=False)
+@kernel()
 def set_command_rates(command: Array, device: Array, rates: Array) -> None:
     """Sets the axis about which the command turns the bolt, and what a radian of phase moves its centre's place by."""
     for i in range(COORDINATES):
@@ -112,7 +112,7 @@ def set_command_rates(command: Array, device: Array, rates: Array) -> None:
         rates[4] = device[D_CENTRE] * device[D_ROTATION + 2]
 
 
-@kernel()
+@kernel(allocates=True)
 def torque_of(q: Array, count: int, contacts: Array, command: Array, device: Array) -> float:
     """The hand's work a radian of phase: the torque about the axis that the phase turns about."""
     by_q, rates = np.empty(COORDINATES), np.empty(COORDINATES)
@@ -153,7 +153,7 @@ def add_change(kind: int, phase: float, before: float, was: Array, now: Array, r
         events[row, E_POINT + h] = at[G_POINT + h]
 
 
-@kernel(allocates=False)
+@kernel()
 def kind_of_change(span: Array, one: Knot, other: Knot) -> int:
     """GAINED, LOST or MOVED, which a place of two points does; UNCHANGED where it carries a force at both or none."""
     if span[SPAN_WAS] != span[SPAN_IS]:
@@ -161,7 +161,7 @@ def kind_of_change(span: Array, one: Knot, other: Knot) -> int:
     return MOVED if span[SPAN_WAS] > 0.0 and has_moved(span, one, other) else UNCHANGED
 
 
-@kernel()
+@kernel(allocates=True)
 def add_changes(phase: float, before: float, total: int, spans: Array, one: Knot, other: Knot, leg: Leg) -> None:
     """Adds the events of contacts between two points: of those that go on, of those gained, then of those lost."""
     result, _, _, events = leg
@@ -175,7 +175,7 @@ def add_changes(phase: float, before: float, total: int, spans: Array, one: Knot
                 add_change(kind, phase, before, was, now, result, events)
 
 
-@kernel()
+@kernel(allocates=True)
 def add_point(phase: float, kind: int, q: Array, here: Knot, command: Array, device: Array, leg: Leg) -> bool:
     """Adds a point to the path; False where it is full."""
     result, points, all_contacts, _ = leg
@@ -215,7 +215,7 @@ def has_snapped(leg: Leg, bolt: Array) -> bool:
     return False
 
 
-@kernel()
+@kernel(allocates=True)
 def add_fall(phase: float, before: float, q: Array, trial: Array, lost: float, device: Array, leg: Leg) -> None:
     """Adds a fall from ``q`` to ``trial``; ``lost`` is the potential lost."""
     result, _, _, events = leg
@@ -233,7 +233,7 @@ def add_fall(phase: float, before: float, q: Array, trial: Array, lost: float, d
         events[row, E_POINT + j] = place[N_CENTRE + j]
 
 
-@kernel()
+@kernel(allocates=True)
 def potential_of(q: Array, push: float, device: Array) -> float:
     """The potential of the bolt."""
     by_q = np.empty(COORDINATES)
@@ -244,6 +244,10 @@ def potential_of(q: Array, push: float, device: Array) -> float:
 def add_kind_events(target: float, before: float, kind: int, next_kind: int, result: Array, events: Array) -> None:
     """Adds the events of a step in which something else comes to hold the bolt."""
     if kind != ON_CONTACTS and next_kind != kind:
-        add_event(OFF_FLUSH if kind == ON_SURFACE else OFF_STRIP, target, before, FLUSH_PAIR, -1.0, result, events)
+        add_event(
+            OFF_FLUSH if kind == ON_SURFACE else OFF_STRIP, target, before, float(FLUSH_PAIR), -1.0, result, events
+        )
     if next_kind != ON_CONTACTS and next_kind != kind:
-        add_event(ON_FLUSH if next_kind == ON_SURFACE else ON_FLANK, target, before, -1.0, FLUSH_PAIR, result, events)
+        add_event(
+            ON_FLUSH if next_kind == ON_SURFACE else ON_FLANK, target, before, -1.0, float(FLUSH_PAIR), result, events
+        )

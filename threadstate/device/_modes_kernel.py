@@ -157,7 +157,7 @@ class ModesWork(NamedTuple):
 SOLVED, UNSOLVED = range(2)
 
 
-@kernel()
+@kernel(allocates=True)
 def new_modes_work() -> ModesWork:
     """The arrays of a step of a bolt that does not fall."""
     return ModesWork(
@@ -178,7 +178,7 @@ def new_modes_work() -> ModesWork:
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def solve_linear(n: int, matrix: Array) -> bool:
     """Solves n equations in place, the right side in column n; False where they are singular."""
     for i in range(n):
@@ -203,7 +203,7 @@ def solve_linear(n: int, matrix: Array) -> bool:
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def set_velocities(point: Array, place: Array, device: Array, out: Array) -> None:
     """Sets the velocity of the bolt's point by each free coordinate, as lengths: 3 rows."""
     n = free_coordinates(device)
@@ -224,7 +224,7 @@ def set_velocities(point: Array, place: Array, device: Array, out: Array) -> Non
         out[0, i], out[1, i], out[2, i] = wy * az - wz * ay, wz * ax - wx * az, wx * ay - wy * ax
 
 
-@kernel(allocates=False)
+@kernel()
 def set_slip(before: Array, place: Array, contact: Array) -> None:
     """Sets the slip of a contact: how far the bolt's point there has come along the nut's tangent plane."""
     x = contact[K_POINT] - place[N_CENTRE]
@@ -243,7 +243,7 @@ def set_slip(before: Array, place: Array, contact: Array) -> None:
         contact[K_SLIP + i] -= along * contact[K_NORMAL + i]
 
 
-@kernel(allocates=False)
+@kernel()
 def tangent(which: int, contact: Array) -> tuple[float, float, float]:
     """One of two unit vectors across a contact's normal; its axis without its part along the normal is the first."""
     nx, ny, nz = contact[K_NORMAL], contact[K_NORMAL + 1], contact[K_NORMAL + 2]
@@ -257,7 +257,7 @@ def tangent(which: int, contact: Array) -> tuple[float, float, float]:
     return ny * uz - nz * uy, nz * ux - nx * uz, nx * uy - ny * ux
 
 
-@kernel(allocates=False)
+@kernel()
 def match_places(modes: Indices, count: int, contacts: Array, found: int, r: float, work: ModesWork) -> bool:
     """Sets which place each contact is now, the nearest one, -1 of one that opens and has none; False where another has
     none. Where contacts are frozen each begins at its own.
@@ -285,7 +285,7 @@ def match_places(modes: Indices, count: int, contacts: Array, found: int, r: flo
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def follow_contacts(
     modes: Indices,
     count: int,
@@ -314,7 +314,7 @@ def follow_contacts(
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def follow_places(
     modes: Indices,
     count: int,
@@ -346,7 +346,7 @@ def follow_places(
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def set_equations(
     modes: Indices,
     count: int,
@@ -462,7 +462,7 @@ def set_equations(
     return size
 
 
-@kernel(allocates=False)
+@kernel()
 def set_contact(gap: Array, contact: Array) -> None:
     """Sets point, normal and features of a contact to those of its place."""
     for h in range(3):
@@ -471,7 +471,7 @@ def set_contact(gap: Array, contact: Array) -> None:
     contact[K_PAIR], contact[K_THETA], contact[K_Z] = gap[G_PAIR], gap[G_THETA], gap[G_Z]
 
 
-@kernel(allocates=False)
+@kernel()
 def set_first_unknowns(
     modes: Indices,
     count: int,
@@ -517,7 +517,7 @@ def set_first_unknowns(
     return mu * r / longest
 
 
-@kernel(allocates=False)
+@kernel()
 def largest(size: int, values: Array) -> float:
     """The largest size of the first values."""
     worst = 0.0
@@ -526,7 +526,7 @@ def largest(size: int, values: Array) -> float:
     return worst
 
 
-@kernel(allocates=False)
+@kernel()
 def leaves_cones(modes: Indices, count: int, mu: float, off: float, forces: Array) -> bool:
     """Whether a contact pulls, or one that sticks has more friction than it can, by more than ``off``.
 
@@ -545,7 +545,7 @@ def leaves_cones(modes: Indices, count: int, mu: float, off: float, forces: Arra
     return False
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_mode(
     modes: Indices,
     count: int,
@@ -661,7 +661,7 @@ def solve_mode(
     return UNSOLVED
 
 
-@kernel(allocates=False)
+@kernel()
 def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, contacts: Array, falls: bool) -> bool:
     """Whether the forces of a mode's solution are what the mode says: in their cones, and against the slip.
 
@@ -692,7 +692,7 @@ def cones_hold(modes: Indices, count: int, mu: float, unit: float, r: float, con
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def overlap_beside(
     modes: Indices, count: int, r: float, allowed: float, found: int, contacts: Array, places: Array
 ) -> int:

@@ -39,7 +39,7 @@ an outline bends away from a chord by less."""
 MAX_ROOT_STEPS, PEAK_STEPS = 100, 40
 
 
-@kernel(allocates=False)
+@kernel()
 def outline_point(
     on_nut: bool, theta: float, place: Array, bolt: Array, nut: Array
 ) -> tuple[float, float, float, float]:
@@ -56,7 +56,7 @@ def outline_point(
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def azimuth_on(on_nut: bool, x: float, y: float, place: Array) -> float:
     """The azimuth, on the nut or on the bolt, of a point of the nut's surface."""
     if on_nut:
@@ -66,7 +66,7 @@ def azimuth_on(on_nut: bool, x: float, y: float, place: Array) -> float:
     return math.atan2(m[1] * dx + m[4] * dy, m[0] * dx + m[3] * dy)
 
 
-@kernel(allocates=False)
+@kernel()
 def in_patch(on_nut: bool, x: float, y: float, place: Array, bolt: Array, nut: Array) -> bool:
     """Whether a point of an outline lies in the patch: of the nut's outline in the bolt, of the bolt's off the hole."""
     theta = azimuth_on(not on_nut, x, y, place)
@@ -76,7 +76,7 @@ def in_patch(on_nut: bool, x: float, y: float, place: Array, bolt: Array, nut: A
     return math.hypot(x, y) >= pk.radius(-nut[pk.LEAD] / TWO_PI * theta, nut)
 
 
-@kernel(allocates=False)
+@kernel()
 def add_point(on_nut: bool, theta: float, place: Array, bolt: Array, nut: Array, count: int, points: Array) -> int:
     """Adds a point of an outline to a list, unless it is full; their number then."""
     if count == points.shape[0]:
@@ -87,14 +87,14 @@ def add_point(on_nut: bool, theta: float, place: Array, bolt: Array, nut: Array,
     return count + 1
 
 
-@kernel(allocates=False)
+@kernel()
 def add_crossing(low: float, high: float, place: Array, bolt: Array, nut: Array, count: int, points: Array) -> int:
     """Adds the corner of the patch at which the bolt's outline crosses the nut's between two azimuths."""
     theta = outline_root(low, high, True, 0.0, 0.0, place, bolt, nut)
     return add_point(False, theta, place, bolt, nut, count, points)
 
 
-@kernel(allocates=False)
+@kernel()
 def entry_between(low: float, high: float, place: Array, bolt: Array, nut: Array) -> float:
     """The azimuth between two at which the bolt's outline is farthest outside the nut's (golden sections)."""
     for _ in range(PEAK_STEPS):
@@ -106,7 +106,7 @@ def entry_between(low: float, high: float, place: Array, bolt: Array, nut: Array
     return 0.5 * (low + high)
 
 
-@kernel(allocates=False)
+@kernel()
 def patch_points(place: Array, bolt: Array, nut: Array, points: Array) -> int:
     """Sets the samples of both outlines that lie in the patch, and its corners; returns their number."""
     count = 0
@@ -134,7 +134,7 @@ def patch_points(place: Array, bolt: Array, nut: Array, points: Array) -> int:
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def convex_hull(points: Array, count: int, hull: Array) -> int:
     """Sets the corners of the convex hull of points of the plane, counter-clockwise (monotone chains); their number."""
     # Sorted by x, then y: by y first, and stably by x after that.
@@ -158,7 +158,7 @@ def convex_hull(points: Array, count: int, hull: Array) -> int:
     return size
 
 
-@kernel(allocates=False)
+@kernel()
 def farthest_azimuth(
     on_nut: bool, theta: float, nx: float, ny: float, place: Array, bolt: Array, nut: Array
 ) -> tuple[bool, float]:
@@ -195,7 +195,7 @@ def farthest_azimuth(
     return True, low
 
 
-@kernel(allocates=False)
+@kernel()
 def refine_side(hull: Array, size: int, i: int, place: Array, bolt: Array, nut: Array, points: Array) -> int:
     """Adds to a hull, in place, the points of the patch farthest beyond its i-th side; its size then.
 
@@ -226,7 +226,7 @@ def refine_side(hull: Array, size: int, i: int, place: Array, bolt: Array, nut: 
     return convex_hull(points, count, hull) if count > size else size
 
 
-@kernel(allocates=False)
+@kernel()
 def nearest_side(hull: Array, size: int, x: float, y: float) -> tuple[float, int]:
     """How far a point is inside a convex polygon, negative: outside; and the side of which that is said."""
     least, nearest = math.inf, 0
@@ -239,7 +239,7 @@ def nearest_side(hull: Array, size: int, x: float, y: float) -> tuple[float, int
     return (least, nearest) if size > 2 else (-math.inf, 0)
 
 
-@kernel(allocates=False)
+@kernel()
 def hull_margin(
     hull: Array, size: int, x: float, y: float, place: Array, bolt: Array, nut: Array, points: Array
 ) -> tuple[float, int, int]:

@@ -75,14 +75,14 @@ ON_PLANE, ON_PHI, ON_BOTH, ANY = range(4)
 """What is greatest at a place along an edge: g, phi, or the lesser where they cross; or it is not known."""
 
 
-@kernel(allocates=False)
+@kernel()
 def set_placement(place: Array, threads: Threads) -> None:
     """Sets the placement of the threads to that of a pose."""
     copy_numbers(place[N_ROTATION : N_ROTATION + 9], threads.placement[0:9])
     copy_numbers(place[N_OFFSET : N_OFFSET + 3], threads.placement[9:12])
 
 
-@kernel(allocates=False)
+@kernel()
 def place_near(
     gap: Array, place: Array, bolt: Array, nut: Array, threads: Threads, edge_jet: Array
 ) -> tuple[int, float, float]:
@@ -100,7 +100,7 @@ def place_near(
     return pair, theta, 0.0
 
 
-@kernel(allocates=False)
+@kernel()
 def follow_place(
     gap: Array, place: Array, device: Array, bolt: Array, nut: Array, threads: Threads, work: Array
 ) -> bool:
@@ -112,7 +112,7 @@ def follow_place(
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def is_one_place(gap: Array, other: Array, bolt: Array) -> bool:
     """Whether two places of overlap have the same point."""
     apart = 0.0
@@ -121,7 +121,7 @@ def is_one_place(gap: Array, other: Array, bolt: Array) -> bool:
     return apart < SAME_PLACE * bolt[pk.R_MAJOR]
 
 
-@kernel(allocates=False)
+@kernel()
 def follow_all(
     count: int, place: Array, device: Array, bolt: Array, nut: Array, threads: Threads, work: Array, places: Array
 ) -> bool:
@@ -135,7 +135,7 @@ def follow_all(
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def edge_place(
     of_bolt: bool, was: float, kind: int, place: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[int, float]:
@@ -150,7 +150,7 @@ def edge_place(
     return edge_peak(True, math.atan2(y, x), kind, place, bolt, nut, jet)
 
 
-@kernel(allocates=False)
+@kernel()
 def point_of_edge(of_bolt: bool, theta: float, place: Array, curve: Array) -> tuple[float, float]:
     """Where a point of an edge is across the other part's axis."""
     r = pk.radius(-curve[pk.LEAD] / TWO_PI * theta, curve)
@@ -158,7 +158,7 @@ def point_of_edge(of_bolt: bool, theta: float, place: Array, curve: Array) -> tu
     return x, y
 
 
-@kernel(allocates=False)
+@kernel()
 def kind_of(pair: int) -> int:
     """What is greatest at an edge's place with this pair of features."""
     if pair == EDGE_SURFACE or pair == BASE_EDGE:
@@ -166,7 +166,7 @@ def kind_of(pair: int) -> int:
     return ON_BOTH if pair == EDGE_EDGE else ON_PHI
 
 
-@kernel(allocates=False)
+@kernel()
 def newton_peak(
     of_bolt: bool, was: float, kind: int, place: Array, curve: Array, solid: Array, jet: Array
 ) -> tuple[bool, float]:
@@ -192,7 +192,7 @@ def newton_peak(
     return False, at
 
 
-@kernel(allocates=False)
+@kernel()
 def edge_peak(
     of_bolt: bool, was: float, kind: int, place: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[int, float]:
@@ -215,7 +215,7 @@ def edge_peak(
     return NOWHERE, was
 
 
-@kernel(allocates=False)
+@kernel()
 def deeper_edge(
     pair: int, theta: float, depth: float, place: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[int, float]:
@@ -228,7 +228,7 @@ def deeper_edge(
     return pair, theta
 
 
-@kernel(allocates=False)
+@kernel()
 def set_inward(
     pair: int, theta: float, place: Array, bolt: Array, nut: Array, threads: Threads
 ) -> tuple[float, float, float]:
@@ -244,7 +244,7 @@ def set_inward(
     return at, up, inward * threads.jet[TJ_B]
 
 
-@kernel(allocates=False)
+@kernel()
 def from_edge(
     pair: int, theta: float, place: Array, bolt: Array, nut: Array, threads: Threads
 ) -> tuple[int, float, float]:
@@ -265,7 +265,7 @@ def from_edge(
     return pair, theta, 0.0
 
 
-@kernel(allocates=False)
+@kernel()
 def from_thread(
     theta: float, z: float, place: Array, bolt: Array, nut: Array, threads: Threads, edge_jet: Array
 ) -> tuple[int, float, float]:

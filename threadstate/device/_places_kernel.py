@@ -145,7 +145,7 @@ S_AZIMUTHS, S_PARTS, S_POINTS = 0, 1, 2
 SAMPLES_SIZE = S_POINTS + 4 * SAMPLES * FINEST
 
 
-@kernel()
+@kernel(allocates=True)
 def new_threads(bolt: Array) -> Threads:
     """The work of the search of places for a pair, of which this is the bolt."""
     grid = np.empty(GRID_SIZE)
@@ -165,19 +165,19 @@ def new_threads(bolt: Array) -> Threads:
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def forget_maxima(threads: Threads) -> None:
     """Forgets the maxima that are remembered: the next search is of another path."""
     threads.known_count[0] = 0
 
 
-@kernel(allocates=False)
+@kernel()
 def thread_azimuths(device: Array) -> int:
     """On how many azimuths of the bolt's thread ridges are searched: twice as many where edges are sampled finest."""
     return RIDGE_AZIMUTHS if device[D_FINE] == FINE else MAX_AZIMUTHS
 
 
-@kernel(allocates=False)
+@kernel()
 def set_samples(parts: int, bolt: Array, nut: Array, samples: Array) -> None:
     """Sets the samples of both edges, each interval divided into parts."""
     samples[S_PARTS] = parts
@@ -192,7 +192,7 @@ def set_samples(parts: int, bolt: Array, nut: Array, samples: Array) -> None:
         samples[at + count] = r * math.sin(theta)
 
 
-@kernel(contract=True, allocates=False)
+@kernel(contract=True)
 def set_depths(
     of_bolt: bool, count: int, place: Array, edge_x: Array, edge_y: Array, solid: Array, depths: Array
 ) -> None:
@@ -212,7 +212,7 @@ def set_depths(
         depths[i] = smaller(-sigma * z, sigma * (away - radius))
 
 
-@kernel(allocates=False)
+@kernel()
 def bracketed_peak(
     of_bolt: bool, low: float, high: float, place: Array, curve: Array, solid: Array, jet: Array
 ) -> tuple[int, float]:
@@ -268,7 +268,7 @@ def bracketed_peak(
     return kind, at
 
 
-@kernel(allocates=False)
+@kernel()
 def peak_beside(
     of_bolt: bool, middle: float, step: float, place: Array, curve: Array, solid: Array, jet: Array
 ) -> tuple[int, float]:
@@ -288,7 +288,7 @@ def peak_beside(
     return -1, middle
 
 
-@kernel(allocates=False)
+@kernel()
 def add_place(
     pair: int,
     theta: float,
@@ -317,7 +317,7 @@ def add_place(
     return count + 1, count
 
 
-@kernel(allocates=False)
+@kernel()
 def find_places(
     reach: float,
     place: Array,
@@ -375,7 +375,7 @@ def find_places(
     return add_threads(reach, place, device, bolt, nut, threads, work, count, places)
 
 
-@kernel(allocates=False)
+@kernel()
 def add_beside(
     i: int, reach: float, place: Array, device: Array, bolt: Array, nut: Array, work: Array, count: int, places: Array
 ) -> int:
@@ -405,7 +405,7 @@ def add_beside(
     return count
 
 
-@kernel(allocates=False)
+@kernel()
 def add_threads(
     reach: float,
     place: Array,
@@ -469,14 +469,14 @@ def add_threads(
     return count
 
 
-@kernel(allocates=False)
+@kernel()
 def set_base(base: float, place: Array, placement: Array) -> None:
     """Moves a placement of the bolt, in its axes, to where a height over its base is that of the base."""
     for i in range(3):
         placement[9 + i] = place[N_OFFSET + i] + base * place[N_ROTATION + 3 * i + 2]
 
 
-@kernel()
+@kernel(allocates=True)
 def remember(edges: int, count: int, places: Array, threads: Threads) -> None:
     """Remembers the places on the threads, which come after those on edges, and forgets maxima that are long missed."""
     known = threads.known
@@ -500,19 +500,19 @@ def remember(edges: int, count: int, places: Array, threads: Threads) -> None:
     threads.known_count[0] = kept
 
 
-@kernel(allocates=False)
+@kernel()
 def set_known(theta: float, z: float, missed: float, row: Array) -> None:
     """Sets a maximum that is remembered."""
     row[KNOWN_THETA], row[KNOWN_Z], row[KNOWN_MISSED] = theta, z, missed
 
 
-@kernel(allocates=False)
+@kernel()
 def lowest_height(place: Array, bolt: Array) -> float:
     """A height that no point of the bolt is below."""
     return place[N_OFFSET + 2] - bolt[pk.R_MAJOR] * math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
 
 
-@kernel(allocates=False)
+@kernel()
 def place_of_maximum(count: int, places: Array, jet: Array, near: float) -> int:
     """Which place of thread on thread is within ``near`` of a jet's point, -1 for none."""
     for i in range(count):
@@ -523,7 +523,7 @@ def place_of_maximum(count: int, places: Array, jet: Array, near: float) -> int:
     return -1
 
 
-@kernel(allocates=False)
+@kernel()
 def add_thread(
     theta: float,
     z: float,

@@ -20,7 +20,7 @@ MAX_ROUNDS = 100
 SOLVED, INFEASIBLE, ENDLESS = range(3)
 
 
-@kernel(allocates=False)
+@kernel()
 def cholesky(matrix: Array, n: int, factor: Array) -> bool:
     """Sets the lower factor of a symmetric matrix (its first n rows); False where it is not positive definite."""
     for i in range(n):
@@ -37,7 +37,7 @@ def cholesky(matrix: Array, n: int, factor: Array) -> bool:
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def solve_lower(factor: Array, n: int, vector: Array) -> None:
     """Solves ``L x = v`` in place."""
     for i in range(n):
@@ -47,7 +47,7 @@ def solve_lower(factor: Array, n: int, vector: Array) -> None:
         vector[i] = total / factor[i, i]
 
 
-@kernel(allocates=False)
+@kernel()
 def solve_upper(factor: Array, n: int, vector: Array) -> None:
     """Solves ``L^T x = v`` in place."""
     for i in range(n - 1, -1, -1):
@@ -57,7 +57,7 @@ def solve_upper(factor: Array, n: int, vector: Array) -> None:
         vector[i] = total / factor[i, i]
 
 
-@kernel(allocates=False)
+@kernel()
 def solve_program(
     n: int,
     factor: Array,

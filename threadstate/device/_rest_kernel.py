@@ -115,7 +115,7 @@ class Scene(NamedTuple):
     work: Work
 
 
-@kernel()
+@kernel(allocates=True)
 def new_work() -> Work:
     """New scratch arrays."""
     return Work(
@@ -142,19 +142,19 @@ def new_work() -> Work:
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def coordinate(i: int, device: Array) -> int:
     """Which coordinate the i-th free one is: a rigid twist leaves out the third."""
     return i + 1 if device[D_RIGID] > 0.0 and i >= 2 else i
 
 
-@kernel(allocates=False)
+@kernel()
 def scale(j: int, device: Array) -> float:
     """What a coordinate is multiplied by to be a length."""
     return device[D_SCALE] if j < 3 else 1.0
 
 
-@kernel()
+@kernel(allocates=True)
 def set_metric(n: int, place: Array, device: Array, metric: Array) -> None:
     """Sets the metric diag(r^2, r^2, r^2, 1, 1, 1) at the bolt's origin in the free coordinates as lengths."""
     r, c = device[D_SCALE], device[D_CENTRE]
@@ -180,7 +180,7 @@ def set_metric(n: int, place: Array, device: Array, metric: Array) -> None:
             metric[i, j] = total
 
 
-@kernel(allocates=False)
+@kernel()
 def length_of(n: int, step: Array, metric: Array) -> float:
     """The length of a step in the metric."""
     total = 0.0
@@ -190,7 +190,7 @@ def length_of(n: int, step: Array, metric: Array) -> float:
     return math.sqrt(max(total, 0.0))
 
 
-@kernel(allocates=False)
+@kernel()
 def set_constraints(n: int, count: int, places: Array, device: Array, normals: Array, limits: Array) -> None:
     """Sets the linearised contacts ``normals . step <= limits`` in the free coordinates as lengths."""
     for i in range(count):
@@ -200,13 +200,13 @@ def set_constraints(n: int, count: int, places: Array, device: Array, normals: A
         limits[i] = -places[i, G_VALUE]
 
 
-@kernel(allocates=False)
+@kernel()
 def free_coordinates(device: Array) -> int:
     """How many coordinates are free."""
     return COORDINATES - 1 if device[D_RIGID] > 0.0 else COORDINATES
 
 
-@kernel(allocates=False)
+@kernel()
 def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, gradient: Array) -> float:
     """The potential; sets its gradient in the free coordinates as lengths."""
     energy = elastic_energy(q, device, by_q)
@@ -217,7 +217,7 @@ def set_gradient(n: int, q: Array, push: float, device: Array, by_q: Array, grad
     return energy + push * q[5]
 
 
-@kernel(allocates=False)
+@kernel()
 def solve(n: int, factor: Array, rows: int, slack: float, forces: Array, work: Work) -> int:
     """Sets the step, and the forces, of the program of a gradient and the linearised constraints that are set."""
     return solve_program(
@@ -235,7 +235,7 @@ def solve(n: int, factor: Array, rows: int, slack: float, forces: Array, work: W
     )
 
 
-@kernel(allocates=False)
+@kernel()
 def short_descent(n: int, count: int, push: float, r: float, work: Work) -> float:
     """The size of a short step of the steepest descent over the feasible motions; sets the contacts' multipliers.
 
@@ -254,7 +254,7 @@ def short_descent(n: int, count: int, push: float, r: float, work: Work) -> floa
     return stiffness * length_of(n, step, work.metric)
 
 
-@kernel(allocates=False)
+@kernel()
 def add_pressing(n: int, count: int, push: float, work: Work) -> tuple[int, float]:
     """Adds the constraints that keep the bolt on the contacts on which it presses to those of the places.
 
@@ -319,7 +319,7 @@ def back_to_contact(
             return count, False, False
 
 
-@kernel(allocates=False)
+@kernel()
 def correct(n: int, rows: int, tolerance: float, q: Array, device: Array, work: Work) -> float:
     """Moves the bolt, in place, the shortest way to where the linearised constraints hold; how far, NaN: there is none.
 
@@ -339,7 +339,7 @@ def correct(n: int, rows: int, tolerance: float, q: Array, device: Array, work: 
     return length
 
 
-@kernel(allocates=False)
+@kernel()
 def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) -> None:
     """Sets the Hessian of the potential with the contacts' curvature, by the multipliers; stiffer across contacts."""
     places, normals, multipliers = work.places, work.normals, work.multipliers
@@ -358,7 +358,7 @@ def set_model(n: int, count: int, device: Array, stiffening: float, work: Work) 
             work.model[i, j] = total
 
 
-@kernel(allocates=False)
+@kernel()
 def set_convex_model(n: int, count: int, device: Array, work: Work) -> float:
     """Sets the model, as stiff across contacts as it takes to be convex, with its Cholesky factor; how stiff that is.
 

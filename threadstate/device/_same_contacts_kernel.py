@@ -21,7 +21,7 @@ MOVED = 0.025
 """How far (nominal radii) a contact is at most from where it was before a step: farther away it is another one."""
 
 
-@kernel()
+@kernel(allocates=True)
 def same_contacts(
     before: Array, count_before: int, contacts_before: Array, count: int, contacts: Array, setting: Setting
 ) -> bool:
@@ -48,7 +48,7 @@ def same_contacts(
     return True
 
 
-@kernel(allocates=False)
+@kernel()
 def is_same_place(before: Array, contact: Array, after: Array, setting: Setting) -> bool:
     """Whether a contact after a step, followed back to the pose before, is at the place of one before; also where
     either is nowhere near there.

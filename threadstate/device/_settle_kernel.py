@@ -92,7 +92,7 @@ LEAST_GAP = 1e-9
 """Gap (nominal radii) up to which a place of the end counts as touching for the certificate."""
 
 
-@kernel()
+@kernel(allocates=True)
 def first_height(
     rotation: Array, tie_tolerance: float, bolt: Array, nut: Array, search: Search, stage: sk.Work
 ) -> tuple[bool, float]:
@@ -136,7 +136,7 @@ def set_command(rotation: Array, height: float, device: Array, q: Array) -> None
         q[3 + i] = device[D_PLACE + i]
 
 
-@kernel()
+@kernel(allocates=True)
 def add_point(q: Array, push: float, device: Array, path: Array, result: Array) -> None:
     """Adds a point to the path; a full path leaves it out."""
     i = int(result[R_PATH])
@@ -152,7 +152,7 @@ def add_point(q: Array, push: float, device: Array, path: Array, result: Array) 
     result[R_PATH] = i + 1
 
 
-@kernel()
+@kernel(allocates=True)
 def distance(q: Array, other: Array, device: Array) -> float:
     """How far apart two places of the bolt are, in the metric at the first."""
     n = free_coordinates(device)
@@ -167,7 +167,7 @@ def distance(q: Array, other: Array, device: Array) -> float:
     return length_of(n, step, metric)
 
 
-@kernel()
+@kernel(allocates=True)
 def add_fall(before: Array, after: Array, push: float, device: Array, result: Array, falls: Array) -> bool:
     """Adds a fall at a push, if the bolt has gone far enough for one; False: there are too many."""
     if distance(before, after, device) <= STEP_LENGTH * device[D_SCALE]:
@@ -186,7 +186,7 @@ def add_fall(before: Array, after: Array, push: float, device: Array, result: Ar
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def lie_until(q: Array, at: float, push: float, scene: Scene, result: Array, path: Array) -> tuple[bool, float]:
     """Whether a bolt that lies flush at a push ``at`` does so up to the whole one, and the push up to which it does.
 
@@ -206,7 +206,7 @@ def lie_until(q: Array, at: float, push: float, scene: Scene, result: Array, pat
     return False, reached
 
 
-@kernel()
+@kernel(allocates=True)
 def follow_push(q: Array, tip: Array, push: float, scene: Scene, result: Array, falls: Array, path: Array) -> None:
     """Follows the bolt from ``q``, in place, while the push grows from 0 to ``push``; sets result, falls and path.
 
@@ -284,7 +284,7 @@ def settle_rows(
     settle_with(rotations, heights, tips, push, device, bolt, nut, search_address(), rows)
 
 
-@kernel(nogil=True)
+@kernel(nogil=True, allocates=True)
 def settle_with(
     rotations: Array,
     heights: Array,

@@ -73,7 +73,7 @@ L_X, L_Y, L_FORCE, L_FRICTION, L_MOMENT, L_LOSS, L_SLIDES = 0, 1, 2, 3, 5, 6, 7
 LYING_SIZE = 8
 
 
-@kernel()
+@kernel(allocates=True)
 def lies_beside(q: Array, device: Array, r: float) -> bool:
     """Whether a bolt is nearly level, near the nut's surface."""
     place = np.empty(PLACE_SIZE)
@@ -82,7 +82,7 @@ def lies_beside(q: Array, device: Array, r: float) -> bool:
     return tilt < NEARLY_LEVEL and abs(place[N_OFFSET + 2]) < NEAR_SURFACE * r
 
 
-@kernel()
+@kernel(allocates=True)
 def is_level(q: Array, device: Array) -> bool:
     """Whether a bolt is level."""
     place = np.empty(PLACE_SIZE)
@@ -90,7 +90,7 @@ def is_level(q: Array, device: Array) -> bool:
     return math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) < LEVEL_TILT
 
 
-@kernel(allocates=False)
+@kernel()
 def set_weights(count: int, points: Array, x: float, y: float, r: float, rates: Array, weights: Array) -> bool:
     """Sets the weights of greatest entropy of points whose centre is (x, y); False where it is not inside them.
 
@@ -123,7 +123,7 @@ def set_weights(count: int, points: Array, x: float, y: float, r: float, rates: 
     return False
 
 
-@kernel(allocates=False)
+@kernel()
 def set_weights_inside(count: int, points: Array, x: float, y: float, r: float, rates: Array, weights: Array) -> bool:
     """As :func:`set_weights`, of the first point inside on the way from (x, y) to the middle of the points."""
     middle_x, middle_y = 0.0, 0.0
@@ -138,7 +138,7 @@ def set_weights_inside(count: int, points: Array, x: float, y: float, r: float, 
     return False
 
 
-@kernel(allocates=False)
+@kernel()
 def highest(count: int, points: Array, x: float, y: float, ax: float, ay: float) -> float:
     """The largest exponent of the weights."""
     most = -math.inf
@@ -147,7 +147,7 @@ def highest(count: int, points: Array, x: float, y: float, ax: float, ay: float)
     return most
 
 
-@kernel(allocates=False)
+@kernel()
 def weighted_sums(
     count: int, points: Array, x: float, y: float, ax: float, ay: float, weights: Array
 ) -> tuple[float, float, float, float, float, float]:
@@ -168,7 +168,7 @@ def weighted_sums(
     return total, mx / total, my / total, xx / total, xy / total, yy / total
 
 
-@kernel(allocates=False)
+@kernel()
 def set_friction(
     count: int, points: Array, weights: Array, strength: float, before: Array, place: Array, r: float, out: Array
 ) -> float:
@@ -206,7 +206,7 @@ def set_friction(
     return loss
 
 
-@kernel()
+@kernel(allocates=True)
 def slide_to_balance(
     count: int,
     points: Array,
@@ -252,7 +252,7 @@ def slide_to_balance(
     return False, loss
 
 
-@kernel()
+@kernel(allocates=True)
 def lie_flush(
     push: float,
     mu: float,

@@ -57,7 +57,7 @@ SPAN_SIZE = 13
 MAX_SPANS = 2 * MAX_PLACES
 
 
-@kernel(allocates=False)
+@kernel()
 def set_end(end: int, i: int, gap: Array, push: float, knot: Knot, span: Array) -> None:
     """Sets one end of a span, 0 or 1: place i of a knot, or with -1 a place that is not in its list."""
     span[SPAN_FROM + end] = i
@@ -70,7 +70,7 @@ def set_end(end: int, i: int, gap: Array, push: float, knot: Knot, span: Array) 
     span[SPAN_OPENING + 2 * end], span[SPAN_OPENING + 2 * end + 1] = -gap[G_VALUE], opening
 
 
-@kernel(allocates=False)
+@kernel()
 def set_no_end(end: int, span: Array) -> None:
     """Sets one end of a span to nothing: its place is not there."""
     span[SPAN_FROM + end] = -1.0
@@ -79,7 +79,7 @@ def set_no_end(end: int, span: Array) -> None:
         span[first + 2 * end], span[first + 2 * end + 1] = 0.0, 0.0
 
 
-@kernel(allocates=False)
+@kernel()
 def index_of(gap: Array, knot: Knot, bolt: Array) -> int:
     """Which place of a knot has the point of another one; -1: none."""
     for i in range(knot.numbers[K_PLACES]):
@@ -91,7 +91,7 @@ def index_of(gap: Array, knot: Knot, bolt: Array) -> int:
     return -1
 
 
-@kernel(allocates=False)
+@kernel()
 def nearest_like(gap: Array, near: float, knot: Knot, taken: Array) -> int:
     """Which place of a knot that is not taken has the features of another one and is nearest to it; -1: none is near.
 
@@ -111,7 +111,7 @@ def nearest_like(gap: Array, near: float, knot: Knot, taken: Array) -> int:
     return best if 2.0 * nearest < next_one else -1
 
 
-@kernel()
+@kernel(allocates=True)
 def set_spans(one: Knot, other: Knot, push: float, scene: Scene, spans: Array) -> int:
     """Sets a span for each place of two knots; their number.
 
@@ -154,7 +154,7 @@ def set_spans(one: Knot, other: Knot, push: float, scene: Scene, spans: Array) -
     return total
 
 
-@kernel(allocates=False)
+@kernel()
 def add_new_spans(
     total: int, taken: Array, gap: Array, one: Knot, other: Knot, push: float, scene: Scene, spans: Array
 ) -> int:
@@ -176,7 +176,7 @@ def add_new_spans(
     return total
 
 
-@kernel(allocates=False)
+@kernel()
 def join_spans(total: int, near: float, one: Knot, other: Knot, spans: Array) -> None:
     """Makes one span of that of a contact that ends and that of one that begins nearer to it than a length.
 
@@ -205,7 +205,7 @@ def join_spans(total: int, near: float, one: Knot, other: Knot, spans: Array) ->
             spans[best, SPAN_IS], spans[best, SPAN_WHOLE] = 0.0, 0.0
 
 
-@kernel(allocates=False)
+@kernel()
 def least_between(a: float, a1: float, b: float, b1: float, h: float) -> float:
     """The least value on [0, h] of the cubic with these values and derivatives at both ends."""
     c1, c2, c3 = h * a1, 3.0 * (b - a) - h * (2.0 * a1 + b1), 2.0 * (a - b) + h * (a1 + b1)
@@ -221,7 +221,7 @@ def least_between(a: float, a1: float, b: float, b1: float, h: float) -> float:
     return least
 
 
-@kernel(allocates=False)
+@kernel()
 def changes(total: int, one: Knot, other: Knot, spans: Array) -> bool:
     """Whether a place carries a force at one end of its span alone, or at both with other features."""
     for k in range(total):
@@ -232,13 +232,13 @@ def changes(total: int, one: Knot, other: Knot, spans: Array) -> bool:
     return False
 
 
-@kernel(allocates=False)
+@kernel()
 def has_moved(span: Array, one: Knot, other: Knot) -> bool:
     """Whether a place has other features at the end of its span."""
     return one.places[int(span[SPAN_FROM]), G_PAIR] != other.places[int(span[SPAN_TO]), G_PAIR]
 
 
-@kernel(allocates=False)
+@kernel()
 def first_missed(total: int, spans: Array, bolt: Array) -> int:
     """The first span of a place that is known at its end alone, and overlaps at its beginning; -1 where none does."""
     for k in range(total):
@@ -248,7 +248,7 @@ def first_missed(total: int, spans: Array, bolt: Array) -> int:
     return -1
 
 
-@kernel(allocates=False)
+@kernel()
 def first_change(total: int, step: float, spans: Array) -> float:
     """About where in a step of the phase the first of its changes comes, from its beginning; NaN where none is sure.
 
@@ -270,7 +270,7 @@ def first_change(total: int, step: float, spans: Array) -> float:
     return first
 
 
-@kernel(allocates=False)
+@kernel()
 def jumps(was: int, knot: Knot, now: int, far: Knot, step: float) -> bool:
     """Whether a contact's normal changes in a step as its derivatives at both ends do not explain.
 
@@ -289,7 +289,7 @@ def jumps(was: int, knot: Knot, now: int, far: Knot, step: float) -> bool:
     return jump > min(JUMP * math.sqrt(square), min(abs(knot.slopes[was]), abs(far.slopes[now])))
 
 
-@kernel(allocates=False)
+@kernel()
 def leaves_its_maximum(gap: Array, place: Array, scene: Scene) -> bool:
     """Whether phi along its edge curves upwards, at a pose, where a contact of an edge is at another pose.
 
@@ -306,7 +306,7 @@ def leaves_its_maximum(gap: Array, place: Array, scene: Scene) -> bool:
     return jet[E_PHI2] > 0.0
 
 
-@kernel(allocates=False)
+@kernel()
 def hides_change(total: int, step: float, one: Knot, other: Knot, spans: Array, scene: Scene) -> bool:
     """Whether a contact that is there at both ends of a step is lost in it for a while, or goes to another place, or
     another one is met in it.

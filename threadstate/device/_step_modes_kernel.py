@@ -78,7 +78,7 @@ Setting = tuple[Array, Array, Array, Array, Array, Threads, Work, ModesWork]
 """Command, device, strip, bolt, nut, and the work of searches, descents and modes."""
 
 
-@kernel()
+@kernel(allocates=True)
 def new_solutions() -> Solutions:
     """Room for the solutions of a step."""
     return (
@@ -88,7 +88,7 @@ def new_solutions() -> Solutions:
     )
 
 
-@kernel()
+@kernel(allocates=True)
 def enumerate_modes(
     q: Array,
     carried: Array,
@@ -179,7 +179,7 @@ def enumerate_modes(
     return total, has_met
 
 
-@kernel(allocates=False)
+@kernel()
 def add_solution(total: int, q: Array, count: int, contacts: Array, device: Array, solutions: Solutions) -> int:
     """Adds a solution of a step unless the bolt is there in one already; their number then."""
     places, all_contacts, counts = solutions
@@ -195,7 +195,7 @@ def add_solution(total: int, q: Array, count: int, contacts: Array, device: Arra
     return total + 1
 
 
-@kernel()
+@kernel(allocates=True)
 def places_of_contacts(modes: Indices, count: int, contacts: Array, q: Array, setting: Setting) -> int:
     """Sets the places with which a mode begins at ``q``: AS_LISTED, or the number of those that a search has found
     where a contact cannot be followed; none where contacts are frozen, which have their own.
@@ -210,7 +210,7 @@ def places_of_contacts(modes: Indices, count: int, contacts: Array, q: Array, se
     return find_places(REACH * device[D_SCALE], place, device, bolt, nut, threads, work.search, work.places)
 
 
-@kernel(allocates=False)
+@kernel()
 def touching_contacts(found: int, places: Array, contacts: Array) -> int:
     """Sets contacts without forces at the ``found`` places, as many as there is room for; their number."""
     count = min(found, MOST_CONTACTS)
@@ -221,7 +221,7 @@ def touching_contacts(found: int, places: Array, contacts: Array) -> int:
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_moved(
     modes: Indices,
     count: int,
@@ -275,7 +275,7 @@ def solve_moved(
         moves += 1
 
 
-@kernel(allocates=False)
+@kernel()
 def add_on_ridges(
     modes: Indices, count: int, place: Array, contacts: Array, found: int, setting: Setting, tops: Indices
 ) -> int:
@@ -292,7 +292,7 @@ def add_on_ridges(
     return found
 
 
-@kernel(allocates=False)
+@kernel()
 def moved_contact(modes: Indices, count: int, gap: Array, r: float, contacts: Array) -> int:
     """Which contact has moved to a place of overlap close by, -1 for none."""
     moved, nearest = -1, SAME_CONTACT * r
@@ -307,7 +307,7 @@ def moved_contact(modes: Indices, count: int, gap: Array, r: float, contacts: Ar
     return moved
 
 
-@kernel(allocates=False)
+@kernel()
 def has_twins(count: int, tops: Indices) -> bool:
     """Whether two frozen contacts are on one ridge, where a single one between them holds as well."""
     for c in range(count):
@@ -316,7 +316,7 @@ def has_twins(count: int, tops: Indices) -> bool:
     return False
 
 
-@kernel(allocates=False)
+@kernel()
 def contact_below(top: int, count: int, tops: Indices) -> int:
     """Which frozen contact is on the ridge whose maximum is a place, -1 for none."""
     for c in range(count):
@@ -325,7 +325,7 @@ def contact_below(top: int, count: int, tops: Indices) -> int:
     return -1
 
 
-@kernel(allocates=False)
+@kernel()
 def move_on_ridge(gap: Array, has_moved: bool, moves: int, bracket: Array, contact: Array) -> None:
     """Moves a frozen contact towards a place of overlap: to it, or to between the last two points beyond which it was
     on either side.
@@ -349,7 +349,7 @@ def move_on_ridge(gap: Array, has_moved: bool, moves: int, bracket: Array, conta
     contact[K_THETA], contact[K_Z] = theta + part * (other[0] - theta), z + part * (other[1] - z)
 
 
-@kernel(allocates=False)
+@kernel()
 def is_same(contact: Array, gap: Array, most: float) -> bool:
     """Whether a place is nearer to a contact than so far, and so that contact's."""
     apart = 0.0
@@ -358,7 +358,7 @@ def is_same(contact: Array, gap: Array, most: float) -> bool:
     return math.sqrt(apart) < most
 
 
-@kernel(allocates=False)
+@kernel()
 def set_guess(
     part: float, q: Array, begun: Array, reached: Array, count: int, contacts: Array, work: ModesWork
 ) -> None:
@@ -373,7 +373,7 @@ def set_guess(
         copy_numbers(contacts[c], work.guessed_contacts[c])
 
 
-@kernel(allocates=False)
+@kernel()
 def match_guess(count: int, candidates: Array, r: float, work: ModesWork, matches: Indices) -> int:
     """Sets which contact of the guess each candidate is, -1 where none; the number of the guess's modes, -1 if it does
     not fit.
@@ -398,7 +398,7 @@ def match_guess(count: int, candidates: Array, r: float, work: ModesWork, matche
     return code if matched > 0 and matched == int(work.guessed[0]) else -1
 
 
-@kernel(allocates=False)
+@kernel()
 def copy_guess(is_frozen: bool, guessed: Array, contact: Array) -> None:
     """Sets point, normal and force of a contact to those of a guess, and where on its edge or thread it is, unless it
     is frozen.

@@ -65,7 +65,7 @@ CONTACT_SIZE = 8
 MAX_CONTACTS = 8
 
 
-@kernel()
+@kernel(allocates=True)
 def set_strip(near: float, device: Array, strip: Array, bolt: Array, q: Array) -> bool:
     """Sets the coordinates of the level pose on the strip whose height is nearest to ``near``; False without one.
 
@@ -103,7 +103,7 @@ def strip_parameters(i: int, height: float, strip: Array) -> tuple[float, float]
     return strip[S_LOW] + part * (strip[S_HIGH] - strip[S_LOW]), height * (i // END_SAMPLES)
 
 
-@kernel()
+@kernel(allocates=True)
 def set_strip_rows(
     mu: float, sense: float, place: Array, device: Array, strip: Array, nut: Array, rows: Array, points: Array
 ) -> int:
@@ -147,7 +147,7 @@ def set_strip_rows(
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def strip_holds(
     q: Array,
     push: float,

@@ -64,14 +64,14 @@ RIDGE_STEPS, CONVERGING = 8, 0.5
 """Of Newton's method to a ridge on an azimuth: the most steps, and each over the one before."""
 
 
-@kernel(allocates=False)
+@kernel()
 def reduced(slope: float, retained: float, before: float) -> float:
     """The slope at a retained end of a bracket, reduced as Anderson and Bjorck (1973) do, after a step to ``slope``."""
     factor = 1.0 - slope / before
     return retained * (factor if factor > 0.0 else 0.5)
 
 
-@kernel(allocates=False)
+@kernel()
 def ridge_point(
     theta: float, z: float, window: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, bool]:
@@ -119,7 +119,7 @@ def ridge_point(
         i += 1
 
 
-@kernel(allocates=False)
+@kernel()
 def ridge_maximum(
     theta: float,
     z: float,
@@ -182,7 +182,7 @@ def ridge_maximum(
         i += 1
 
 
-@kernel(allocates=False)
+@kernel()
 def thread_maximum(
     theta: float, z: float, base: float, lowest: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, int]:
@@ -205,7 +205,7 @@ def thread_maximum(
     return at, up, kind
 
 
-@kernel(allocates=False)
+@kernel()
 def ridge_within(
     theta: float, z: float, inward: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, bool]:
@@ -232,7 +232,7 @@ def ridge_within(
     return z, False
 
 
-@kernel(allocates=False)
+@kernel()
 def maximum_within(
     theta: float,
     z: float,
@@ -266,7 +266,7 @@ def maximum_within(
     return thread_maximum(theta, within, 0.0, lowest, placement, bolt, nut, jet)
 
 
-@kernel(allocates=False)
+@kernel()
 def polished_maximum(
     theta: float, z: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:

@@ -180,7 +180,7 @@ Setting = tuple[Array, Array, Array, Array, Array, Threads, Work]
 """What a leg is followed with: command, device, strip, bolt, nut, and the work of searches and descents."""
 
 
-@kernel()
+@kernel(allocates=True)
 def set_flush_contact(q: Array, push: float, device: Array, contacts: Array) -> int:
     """Sets the resultant of the pressure on the nut's surface as one contact; 1."""
     place = np.empty(PLACE_SIZE)
@@ -205,7 +205,7 @@ def predict(step: float, q: Array, here: Knot, device: Array, trial: Array) -> N
         copy_numbers(q, trial)
 
 
-@kernel()
+@kernel(allocates=True)
 def laid_level(
     q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array
 ) -> tuple[int, int]:
@@ -232,7 +232,7 @@ def laid_level(
     return ON_CONTACTS, 0
 
 
-@kernel()
+@kernel(allocates=True)
 def fall_down(
     q: Array, push: float, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
 ) -> tuple[int, int]:
@@ -255,7 +255,7 @@ def fall_down(
     return status, found
 
 
-@kernel()
+@kernel(allocates=True)
 def fall_for_certain(q: Array, setting: Setting) -> tuple[int, int, bool]:
     """Falls from ``q``, in place: how the descent ended, the number of places there, and whether it certainly ends so.
 
@@ -279,7 +279,7 @@ def fall_for_certain(q: Array, setting: Setting) -> tuple[int, int, bool]:
     return status, found, False
 
 
-@kernel()
+@kernel(allocates=True)
 def closed_step(kind: int, q: Array, setting: Setting, there: Knot, trial: Array) -> bool:
     """The pose on the surface or the strip at a new command: whether it is held there; sets its contacts.
 
@@ -325,7 +325,7 @@ def descent_near(q: Array, known: int, steps: int, setting: Setting) -> tuple[in
     return descend_followed(q, known, wanted, Scene(device, bolt, nut, threads, work))
 
 
-@kernel()
+@kernel(allocates=True)
 def set_found(found: int, setting: Setting, there: Knot) -> None:
     """Sets the knot of where a descent has ended at contacts, with so many places."""
     command, device, _, bolt, nut, threads, work = setting
@@ -349,7 +349,7 @@ def at_minimum(status: int, found: int, trial: Array, setting: Setting, there: K
     return TAKEN, AT_REST, ON_CONTACTS
 
 
-@kernel()
+@kernel(allocates=True)
 def minimum_near(
     size: float, left: float, held: bool, state: Array, setting: Setting, trial: Array, there: Knot, leg: Leg
 ) -> tuple[int, int, int]:
@@ -494,7 +494,7 @@ def go_on(target: float, kind: int, is_smooth: bool, after_change: bool, longest
     state[S_FINE] = state[S_FINE] if is_smooth or state[S_FINE] == ALWAYS else 0.0
 
 
-@kernel()
+@kernel(allocates=True)
 def begin(q: Array, kind: int, start: float, parts: int, state: Array, setting: Setting, here: Knot) -> int:
     """Sets the state of a leg and its contacts at its beginning; how the descent there ended.
 
@@ -517,7 +517,7 @@ def begin(q: Array, kind: int, start: float, parts: int, state: Array, setting: 
     return status
 
 
-@kernel()
+@kernel(allocates=True)
 def overlaps_at(i: int, gap: Array, setting: Setting, leg: Leg) -> bool:
     """Whether a place of overlap, followed in place to a point of the path, overlaps there, or is not clearly open."""
     command, device, _, bolt, nut, threads, work = setting
@@ -530,7 +530,7 @@ def overlaps_at(i: int, gap: Array, setting: Setting, leg: Leg) -> bool:
     return gap[G_VALUE] > -LEAST_DIP * bolt[pk.R_MAJOR]
 
 
-@kernel()
+@kernel(allocates=True)
 def go_back(missed: Array, q: Array, state: Array, setting: Setting, here: Knot, leg: Leg) -> bool:
     """Takes a path back to before a place overlaps that the search has missed until now, and has it known there.
 
@@ -559,7 +559,7 @@ def go_back(missed: Array, q: Array, state: Array, setting: Setting, here: Knot,
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def step_on(
     end: float, q: Array, state: Array, setting: Setting, here: Knot, there: Knot, spans: Array, leg: Leg
 ) -> tuple[int, int]:
@@ -618,7 +618,7 @@ def step_on(
     return TAKEN, status
 
 
-@kernel()
+@kernel(allocates=True)
 def follow_phase(
     q: Array, kind: int, start: float, end: float, stop_at_snap: bool, setting: Setting, leg: Leg
 ) -> tuple[int, int]:
@@ -655,7 +655,7 @@ def follow_phase(
     return TURNED, int(state[S_KIND])
 
 
-@kernel()
+@kernel(allocates=True)
 def certified_end(q: Array, kind: int, setting: Setting, stage: StageWork) -> int:
     """What the certificate says of the overlap at a leg's end; moves the bolt, in place, to the last digits."""
     command, device, _, bolt, nut, threads, work = setting
@@ -675,7 +675,7 @@ def certified_end(q: Array, kind: int, setting: Setting, stage: StageWork) -> in
     return overlap(place[0:12], OVERLAP_LIMIT * r, touching, work.places, bolt, nut, stage)
 
 
-@kernel(nogil=True)
+@kernel(nogil=True, allocates=True)
 def turn_with(
     q: Array,
     kind: int,

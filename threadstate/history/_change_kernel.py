@@ -110,7 +110,7 @@ def is_near(one: Array, other: Array, first_only: bool, limits: Array) -> bool:
     )
 
 
-@kernel()
+@kernel(allocates=True)
 def is_one_throughout(
     roll: float,
     pitch: float,
@@ -148,7 +148,7 @@ def is_one_throughout(
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def place_of_change(
     roll: float,
     pitch: float,
@@ -233,7 +233,7 @@ def place_of_change(
     return 0.5 * (a + others[count - 1])
 
 
-@kernel(nogil=True)
+@kernel(nogil=True, allocates=True)
 def places_of_changes(
     orientations: Array,
     low: Array,

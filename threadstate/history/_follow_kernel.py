@@ -122,7 +122,7 @@ SAME_PLACE = 1e-6
 """A contact nearer to an earlier one, as a multiple of its distance from the axis (its x and y added), is that one."""
 
 
-@kernel()
+@kernel(allocates=True)
 def new_work() -> Work:
     """The scratch arrays of one thread of work."""
     return Work(
@@ -236,7 +236,7 @@ def follow_candidate(
     return found and 0.0 < time <= limit
 
 
-@kernel()
+@kernel(allocates=True)
 def earliest_candidate(
     stage: int,
     pose: Array,
@@ -276,7 +276,7 @@ def earliest_candidate(
     return contact[K_TIME] < math.inf
 
 
-@kernel()
+@kernel(allocates=True)
 def follow_pose(
     roll: float,
     pitch: float,

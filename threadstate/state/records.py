@@ -75,7 +75,7 @@ def packed_options(pair: Pair, options: SolveOptions) -> Floats:
         and outline_is_convex(pair.bolt)
         and outline_is_convex(pair.nut)
     )
-    packed = np.zeros(4)
+    packed = np.zeros(sk.OPTIONS_SIZE)
     packed[sk.S_TURN_LIMIT] = math.radians(options.turn_limit_deg)
     packed[sk.S_TIE] = options.tie_tolerance * pair.thread_pitch
     packed[sk.S_CONVEX] = float(convex)

@@ -29,14 +29,14 @@ MOST_STALLED = 5
 """The iteration ends after so many steps that take a tenth neither off the residuals nor off residuals and gap."""
 
 
-@kernel()
+@kernel(allocates=True)
 def assign(target: Array, values: Array) -> None:
     """Sets each element: an assignment to a slice compiles the text of its error too, for seconds."""
     for i in range(target.shape[0]):
         target[i] = values[i]
 
 
-@kernel()
+@kernel(allocates=True)
 def boundary_step(point: Array, direction: Array, start: int, size: int) -> float:
     """The largest step that keeps ``point + step direction`` in the cone at ``start``; infinite if every one does."""
     d0, p0 = direction[start], point[start]
@@ -56,7 +56,7 @@ def boundary_step(point: Array, direction: Array, start: int, size: int) -> floa
     return c / bottom if bottom > 0.0 else math.inf
 
 
-@kernel()
+@kernel(allocates=True)
 def into_cones(point: Array, sizes: Integers) -> None:
     """Shifts ``point`` along the cones' axes into their interior, unless it lies there."""
     worst = -math.inf
@@ -77,7 +77,7 @@ def into_cones(point: Array, sizes: Integers) -> None:
             start += size
 
 
-@kernel()
+@kernel(allocates=True)
 def factor(matrix: Array) -> bool:
     """Cholesky's factor of a symmetric positive matrix, in its lower triangle; False if it is not positive."""
     n = matrix.shape[0]
@@ -98,7 +98,7 @@ def factor(matrix: Array) -> bool:
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_factored(factored: Array, right: Array) -> None:
     """Solves by Cholesky's factor, in place."""
     n = right.shape[0]
@@ -112,7 +112,7 @@ def solve_factored(factored: Array, right: Array) -> None:
         right[i] /= factored[i, i]
 
 
-@kernel()
+@kernel(allocates=True)
 def set_scaling(s: Array, z: Array, sizes: Integers, scaling: Array, eta: Array) -> bool:
     """Nesterov and Todd's scaling of each cone: its hyperbolic Householder vector and its factor.
 
@@ -138,7 +138,7 @@ def set_scaling(s: Array, z: Array, sizes: Integers, scaling: Array, eta: Array)
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def scale(vector: Array, sizes: Integers, scaling: Array, eta: Array, inverse: bool) -> None:
     """Multiplies by the scaling W, or by its inverse, in place."""
     sign = -1.0 if inverse else 1.0
@@ -279,7 +279,7 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
     return best
 
 
-@kernel()
+@kernel(allocates=True)
 def search_direction(
     residual: float,
     rx: Array,
@@ -316,7 +316,7 @@ def search_direction(
     return step
 
 
-@kernel()
+@kernel(allocates=True)
 def corrected_target(lam: Array, ds: Array, dz: Array, centre: float, sizes: Integers, target: Array) -> None:
     """What the scaled directions shall sum to: ``lam`` divided into -lam o lam - ds o dz + centre e."""
     start = 0

@@ -97,14 +97,14 @@ def deepest_forces(mu: float, weights: Array, start: Array, basis: Array, grasp:
     return float(x[d]) if gap < math.inf else math.inf
 
 
-@kernel()
+@kernel(allocates=True)
 def set_solution(target: Array, solution: Array) -> None:
     """Sets both rows."""
     assign(target[0], solution[0])
     assign(target[1], solution[1])
 
 
-@kernel()
+@kernel(allocates=True)
 def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """The least pull that a contact needs where contacts carry any tangential force, over all forces of the family.
 
@@ -177,7 +177,7 @@ def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> flo
     return float(x[count]) if gap < math.inf else math.inf
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_dense(matrix: Array, right: Array) -> bool:
     """Solves linear equations in place by elimination with pivots; False where they are singular."""
     n = right.shape[0]
@@ -313,19 +313,19 @@ def solver_addresses() -> Solvers:
     return program_address(), DEEPEST.address, NEWTON.address
 
 
-@kernel()
+@kernel(allocates=True)
 def friction_program(mu: float, weights: Array, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """As :func:`deepest_forces`, at its address."""
     return float(deepest_at(grasp.solvers[1])(mu, weights, start, basis, grasp, solution))
 
 
-@kernel()
+@kernel(allocates=True)
 def polish(mu: float, basis: Array, grasp: Grasp, solution: Array) -> float:
     """As :func:`newton_friction`, at its address."""
     return float(newton_at(grasp.solvers[2])(mu, basis, grasp, solution))
 
 
-@kernel()
+@kernel(allocates=True)
 def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """The least friction of the family, by Dinkelbach's iteration from forces that ``mu`` suffices for.
 
@@ -364,7 +364,7 @@ def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Arra
     return mu
 
 
-@kernel()
+@kernel(allocates=True)
 def narrowed(
     mu: float,
     load: Array,

@@ -176,7 +176,7 @@ def wedge_with(
     return FOUND, low, mu
 
 
-@kernel()
+@kernel(allocates=True)
 def limit_of_pairs(load: Array, points: Array, normals: Array, twist: Array) -> float:
     """The friction from which on two of three contacts wedge and the third balances what they do not.
 
@@ -321,7 +321,7 @@ def hold_with(
     return FOUND, low, mu
 
 
-@kernel()
+@kernel(allocates=True)
 def least_forces_with(solvers: Solvers, load: Array, mu: float, points: Array, normals: Array, forces: Array) -> float:
     """Forces within the cones at ``mu`` that balance a load, of least largest normal part, into ``forces`` (3 k).
 
@@ -387,7 +387,7 @@ def search_addresses() -> Searches:
     return solver_addresses(), WEDGE.address, HOLD.address
 
 
-@kernel()
+@kernel(allocates=True)
 def wedge_by(
     searches: Searches, points: Array, normals: Array, forces: Array, twist: Array
 ) -> tuple[int, float, float]:
@@ -396,7 +396,7 @@ def wedge_by(
     return found
 
 
-@kernel()
+@kernel(allocates=True)
 def hold_by(
     searches: Searches,
     load: Array,

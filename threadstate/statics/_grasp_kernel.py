@@ -48,7 +48,7 @@ class Grasp(NamedTuple):
     solvers: Solvers
 
 
-@kernel()
+@kernel(allocates=True)
 def set_frames(normals: Array, frames: Array) -> None:
     """Two unit vectors across each normal; normals of shape (k, 3), frames of shape (k, 2, 3)."""
     for i in range(normals.shape[0]):
@@ -76,7 +76,7 @@ def set_frames(normals: Array, frames: Array) -> None:
         frames[i, 1, 2] = x * ay - y * ax
 
 
-@kernel()
+@kernel(allocates=True)
 def set_matrix(points: Array, matrix: Array) -> None:
     """Sets ``Grasp.matrix`` of points (k, 3)."""
     for i in range(points.shape[0]):
@@ -90,7 +90,7 @@ def set_matrix(points: Array, matrix: Array) -> None:
         matrix[3 * i + 2, 0], matrix[3 * i + 2, 1] = y, -x
 
 
-@kernel()
+@kernel(allocates=True)
 def orthogonal_factor(matrix: Array, reflections: Array, upper: Array, order: NDArray[np.intp]) -> int:
     """Householder's QR of the transposed grasp matrix, columns by size; its rank."""
     rows = matrix.shape[0]
@@ -145,7 +145,7 @@ def orthogonal_factor(matrix: Array, reflections: Array, upper: Array, order: ND
     return min(6, rows)
 
 
-@kernel()
+@kernel(allocates=True)
 def new_grasp(points: Array, normals: Array, solvers: Solvers) -> Grasp:
     """The grasp of contacts at points of shape (k, 3)."""
     k = points.shape[0]
@@ -160,7 +160,7 @@ def new_grasp(points: Array, normals: Array, solvers: Solvers) -> Grasp:
     return Grasp(normals, frames, matrix, reflections, upper, order, rank, solvers)
 
 
-@kernel()
+@kernel(allocates=True)
 def reflect(grasp: Grasp, vector: Array) -> None:
     """Multiplies by Q, in place."""
     for j in range(grasp.rank - 1, -1, -1):
@@ -171,7 +171,7 @@ def reflect(grasp: Grasp, vector: Array) -> None:
             vector[i] -= 2.0 * dot * grasp.reflections[j, i]
 
 
-@kernel()
+@kernel(allocates=True)
 def balancing_forces(load: Array, grasp: Grasp, forces: Array) -> float:
     """The forces of least norm whose wrenches sum to ``-load``, as far as any do; the norm of what is left over."""
     forces[:] = 0.0
@@ -191,7 +191,7 @@ def balancing_forces(load: Array, grasp: Grasp, forces: Array) -> float:
     return math.sqrt(left)
 
 
-@kernel()
+@kernel(allocates=True)
 def internal_forces(grasp: Grasp) -> Array:
     """An orthonormal basis of the forces that balance each other, as rows of (3 k - rank, 3 k): Q's last columns."""
     size = grasp.matrix.shape[0]
@@ -202,14 +202,14 @@ def internal_forces(grasp: Grasp) -> Array:
     return basis
 
 
-@kernel()
+@kernel(allocates=True)
 def normal_part(forces: Array, grasp: Grasp, i: int) -> float:
     """The normal force of contact i."""
     n = grasp.normals[i]
     return forces[3 * i] * n[0] + forces[3 * i + 1] * n[1] + forces[3 * i + 2] * n[2]
 
 
-@kernel()
+@kernel(allocates=True)
 def tangential_part(forces: Array, grasp: Grasp, i: int) -> tuple[float, float]:
     """The tangential force of contact i in its frame."""
     a, b = grasp.frames[i, 0], grasp.frames[i, 1]
@@ -219,7 +219,7 @@ def tangential_part(forces: Array, grasp: Grasp, i: int) -> tuple[float, float]:
     )
 
 
-@kernel()
+@kernel(allocates=True)
 def friction_of(forces: Array, grasp: Grasp) -> float:
     """The least friction that every contact force needs; infinite if one of them pulls.
 
@@ -241,7 +241,7 @@ def friction_of(forces: Array, grasp: Grasp) -> float:
     return worst
 
 
-@kernel()
+@kernel(allocates=True)
 def twist_of(velocities: Array, grasp: Grasp, twist: Array) -> None:
     """The twist that gives the contacts these velocities (3 k), by least squares."""
     moved = velocities.copy()
@@ -260,7 +260,7 @@ def twist_of(velocities: Array, grasp: Grasp, twist: Array) -> None:
         twist[grasp.order[j]] = total / grasp.upper[j, j]
 
 
-@kernel()
+@kernel(allocates=True)
 def contact_velocities(twist: Array, grasp: Grasp, found: Array) -> float:
     """Normal and tangential velocity of every contact, into ``found`` (k, 2); the largest of them."""
     largest = 0.0
@@ -279,7 +279,7 @@ def contact_velocities(twist: Array, grasp: Grasp, found: Array) -> float:
     return largest
 
 
-@kernel()
+@kernel(allocates=True)
 def least_ratio(found: Array, largest: float) -> float:
     """The least ratio of normal to tangential velocity of contacts that move: less friction does no work against them.
 
@@ -296,7 +296,7 @@ def least_ratio(found: Array, largest: float) -> float:
     return least
 
 
-@kernel()
+@kernel(allocates=True)
 def least_ratio_of(twist: Array, grasp: Grasp) -> float:
     """As :func:`least_ratio`, of a twist; minus infinity if it is zero."""
     found = np.empty((grasp.normals.shape[0], 2))
@@ -304,7 +304,7 @@ def least_ratio_of(twist: Array, grasp: Grasp) -> float:
     return least_ratio(found, largest) if largest > 0.0 else -math.inf
 
 
-@kernel()
+@kernel(allocates=True)
 def withstands(twist: Array, mu: float, load: Array, grasp: Grasp) -> float:
     """How large contact forces at ``mu`` must be, over the load, to withstand a motion that the load drives.
 

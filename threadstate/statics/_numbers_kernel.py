@@ -24,14 +24,14 @@ NUMBERS_SIZE = 6
 DONE, OPEN_PATCH, NO_HULL, NO_NORMAL = range(4)
 
 
-@kernel()
+@kernel(allocates=True)
 def set_bounds(status: int, lower: float, upper: float, bounds: Array) -> None:
     """Sets two bounds of a least friction; zero and infinity where nothing was found and nothing proved."""
     bounds[0] = 0.0 if status == OPEN else lower
     bounds[1] = math.inf if status == OPEN else upper
 
 
-@kernel()
+@kernel(allocates=True)
 def contact_numbers(searches: Searches, load: Array, points: Array, normals: Array, numbers: Array) -> None:
     """Sets the margin and the bounds of both least frictions of contacts at points (k, 3) with normals (k, 3)."""
     k = points.shape[0]
@@ -47,7 +47,7 @@ def contact_numbers(searches: Searches, load: Array, points: Array, normals: Arr
     set_bounds(status, lower, upper, numbers[N_HOLD:])
 
 
-@kernel()
+@kernel(allocates=True)
 def patch_numbers(load: Array, hull: Array, numbers: Array) -> None:
     """Sets the numbers of a level patch with that hull (n, 2); it never wedges.
 
@@ -63,7 +63,7 @@ def patch_numbers(load: Array, hull: Array, numbers: Array) -> None:
             numbers[N_STATUS] = OPEN_PATCH
 
 
-@kernel(nogil=True)
+@kernel(nogil=True, allocates=True)
 def statics_rows(
     searches: Searches, records: Array, loads: Array, radius: float, bolt: Array, nut: Array, rows: Array
 ) -> None:

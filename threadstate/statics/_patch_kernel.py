@@ -15,7 +15,7 @@ OUTLINE_SAMPLES = 360
 """Points of the bolt's outline from which the hull is made."""
 
 
-@kernel()
+@kernel(allocates=True)
 def patch_points(pose: Array, bolt: Array, nut: Array, points: Array) -> int:
     """Points of the bolt's outline outside the nut's, and where they cross, into ``points`` (2 OUTLINE_SAMPLES, 2).
 
@@ -38,13 +38,13 @@ def patch_points(pose: Array, bolt: Array, nut: Array, points: Array) -> int:
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def turns_left(a: Array, b: Array, c: Array) -> bool:
     """Whether c lies to the left of the line from a to b."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0
 
 
-@kernel()
+@kernel(allocates=True)
 def convex_hull(points: Array, hull: Array) -> int:
     """The extreme points of points (n, 2), counter-clockwise, into ``hull`` (n + 1, 2): Andrew's monotone chain.
 
@@ -67,7 +67,7 @@ def convex_hull(points: Array, hull: Array) -> int:
     return count - 1
 
 
-@kernel()
+@kernel(allocates=True)
 def patch_hull(pose: Array, bolt: Array, nut: Array, hull: Array) -> int:
     """The extreme points of the patch of a flush bolt, counter-clockwise, into ``hull`` (2 OUTLINE_SAMPLES + 1, 2).
 

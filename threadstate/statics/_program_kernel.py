@@ -19,7 +19,7 @@ def program_address() -> int:
     return PROGRAM.address
 
 
-@kernel()
+@kernel(allocates=True)
 def solve_with(program: int, c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Array) -> float:
     """As ``solve_program``, with the program at an address."""
     return float(program_at(program)(c, g, h, sizes, x, z))

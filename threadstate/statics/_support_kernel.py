@@ -30,7 +30,7 @@ def support_margin(load: Array, points: Array, normals: Array) -> float:
     return float(margin_with(program_address(), load, points, normals))
 
 
-@kernel()
+@kernel(allocates=True)
 def margin_with(program: int, load: Array, points: Array, normals: Array) -> float:
     """The margin of a load on contacts at points (k, 3) with normals (k, 3).
 
@@ -57,7 +57,7 @@ def margin_with(program: int, load: Array, points: Array, normals: Array) -> flo
     return max(depth, 0.0) if not math.isnan(depth) else 0.0
 
 
-@kernel()
+@kernel(allocates=True)
 def distance_by_faces(load: Array, rays: Array) -> float:
     """The distance of ``-load`` from the cone of rays (k, 6): the least of those from the faces it projects into."""
     k = rays.shape[0]
@@ -96,7 +96,7 @@ def distance_by_faces(load: Array, rays: Array) -> float:
     return math.sqrt(least)
 
 
-@kernel()
+@kernel(allocates=True)
 def distance_by_program(program: int, load: Array, rays: Array) -> float:
     """As :func:`distance_by_faces`, for any number of rays, by the solver of cone programs at an address."""
     k = rays.shape[0]
@@ -125,7 +125,7 @@ def distance_by_program(program: int, load: Array, rays: Array) -> float:
     return math.sqrt(distance)
 
 
-@kernel()
+@kernel(allocates=True)
 def depth_in_simplex(load: Array, rays: Array) -> float:
     """The distance of ``-load`` from the sides of the cone of rays that it lies in; NaN if the rays are dependent.
 
@@ -155,7 +155,7 @@ def depth_in_simplex(load: Array, rays: Array) -> float:
     return depth
 
 
-@kernel()
+@kernel(allocates=True)
 def patch_margin(load: Array, hull: Array) -> float:
     """The margin of a load on a level patch whose hull (n, 2) runs counter-clockwise.
 
@@ -187,7 +187,7 @@ def patch_margin(load: Array, hull: Array) -> float:
     return -math.sqrt(distance * distance + across)
 
 
-@kernel()
+@kernel(allocates=True)
 def distance_to_side(mx: float, my: float, fz: float, a: Array, b: Array) -> float:
     """The distance of (mx, my, fz) from the plane cone of the rays (y, -x, 1) of two points."""
     aa = a[0] * a[0] + a[1] * a[1] + 1.0

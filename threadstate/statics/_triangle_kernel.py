@@ -17,13 +17,13 @@ from threadstate._compile import kernel
 Array = NDArray[np.float64]
 
 
-@kernel()
+@kernel(allocates=True)
 def inner(a: Array, b: Array) -> float:
     """The product of two vectors of three numbers."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@kernel()
+@kernel(allocates=True)
 def set_cross(a: Array, b: Array, out: Array) -> None:
     """Sets the cross product."""
     out[0] = a[1] * b[2] - a[2] * b[1]
@@ -31,7 +31,7 @@ def set_cross(a: Array, b: Array, out: Array) -> None:
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
-@kernel()
+@kernel(allocates=True)
 def friction_along(normal: Array, along: Array) -> float:
     """The friction at which a force along a unit vector lies on the cone's boundary; infinite if it pulls."""
     n = inner(normal, along)
@@ -43,7 +43,7 @@ def friction_along(normal: Array, along: Array) -> float:
     return math.sqrt(x * x + y * y + z * z) / n
 
 
-@kernel()
+@kernel(allocates=True)
 def pair_friction(points: Array, normals: Array, i: int, j: int, along: Array) -> tuple[float, float]:
     """The friction that contacts i and j need to press against each other, at i and at j; both infinite if they cannot.
 
@@ -64,7 +64,7 @@ def pair_friction(points: Array, normals: Array, i: int, j: int, along: Array) -
     return at_i, at_j
 
 
-@kernel()
+@kernel(allocates=True)
 def sectors_wedge(mu: float, points: Array, normals: Array) -> bool:
     """Whether forces within the cones that lie in the plane of three points, and are not all zero, balance each other.
 
@@ -110,7 +110,7 @@ def sectors_wedge(mu: float, points: Array, normals: Array) -> bool:
     return True
 
 
-@kernel()
+@kernel(allocates=True)
 def third_contact_friction(load: Array, points: Array, normals: Array, i: int, j: int, k: int) -> float:
     """The least friction at which contact k balances a load's moment about the line of contacts i and j.
 
@@ -134,7 +134,7 @@ def third_contact_friction(load: Array, points: Array, normals: Array, i: int, j
     return -n / t if t > 0.0 else math.inf
 
 
-@kernel()
+@kernel(allocates=True)
 def hinge_twist(load: Array, points: Array, i: int, j: int, twist: Array) -> None:
     """Sets the rotation about the line of contacts i and j that the load drives."""
     along = points[j] - points[i]
@@ -149,7 +149,7 @@ def hinge_twist(load: Array, points: Array, i: int, j: int, twist: Array) -> Non
         twist[3 + m] = sign * linear[m]
 
 
-@kernel()
+@kernel(allocates=True)
 def set_twist_about(angular: Array, point: Array, twist: Array) -> None:
     """Sets the twist (angular, linear at the origin) that turns about a point at rest."""
     linear = np.empty(3)
@@ -159,7 +159,7 @@ def set_twist_about(angular: Array, point: Array, twist: Array) -> None:
         twist[3 + m] = linear[m]
 
 
-@kernel()
+@kernel(allocates=True)
 def sliding_twist(
     load: Array, mu: float, points: Array, normals: Array, i: int, j: int, k: int, along: Array, twist: Array
 ) -> bool:
