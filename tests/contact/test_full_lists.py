@@ -68,7 +68,21 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
     pose[11] = 0.01
     down, none, stored = np.array([0.0, 0.0, -1.0]), np.empty((0, stage.CONTACT_SIZE)), np.empty((0, 2))
     count, found_status, _ = stage.earliest(
-        pose, False, down, down, stored, none, 0, 0.02, 1e-12, BOLT, NUT, stage.RIDGES_ONLY, stage.new_work(), out
+        pose,
+        False,
+        down,
+        down,
+        stored,
+        none,
+        0,
+        0.02,
+        1e-12,
+        BOLT,
+        NUT,
+        stage.RIDGES_ONLY,
+        False,
+        stage.new_work(),
+        out,
     )
     assert (count, found_status) == (stage.MAX_CONTACTS, status)
 

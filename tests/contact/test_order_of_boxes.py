@@ -186,6 +186,6 @@ def test_what_is_undecided_from_the_earliest_contact_on_is_searched_again(
     monkeypatch.setattr(stage, "search_edge", search)
     work = stage.new_work()
     edges = second_turn((2.0, -4.0, 3.0), work)
-    *_, best, status = stage.search_both_edges.py_func(0.08, True, *edges, wanted_of(work), work)
+    *_, best, status = stage.search_both_edges.py_func(0.08, stage.FIRST_SPAN_TURN, True, *edges, wanted_of(work), work)
     assert (best, status) == (5e-3, stage.RESOLVED)
     assert starts[0:4:2] == since

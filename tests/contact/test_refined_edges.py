@@ -140,6 +140,9 @@ def test_a_crossing_is_doubtful_where_its_signs_or_its_time_are() -> None:
         (0.05054066502838833, -0.019260628383938924, 357.71368527412494),
         (-0.07156067013024908, -0.07916843071604061, 251.43422606866707),
         (4.0, -4.0, 26.24169921875),
+        (-4.564366480721452e-10, 2.097801656884374e-09, 2.1959579326156136),
+        (0.5653341877907689, 0.39236941264432434, 2.3251282331231677),
+        (0.38108159361209676, -1.4226935217666812, 7.681436594145521),
     ],
     ids=[
         "a first contact beside its double root",
@@ -147,6 +150,9 @@ def test_a_crossing_is_doubtful_where_its_signs_or_its_time_are() -> None:
         "edges that graze",
         "an edge as level as a face",
         "beside the first",
+        "a turn of 2e-9 deg onto a strip",
+        "a flush first contact",
+        "one in doubles that is none",
     ],
 )
 def test_a_pose_whose_contact_round_off_hides_is_decided(pose: PoseDeg) -> None:

@@ -52,7 +52,7 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
         followed.append(course.axis.copy())
 
     monkeypatch.setattr(sk, "third_stage", third_stage)
-    for stage in ("first_stage", "second_stage"):
+    for stage in ("first_stage", "second_stage", "next_contact"):
         monkeypatch.setattr(sk, stage, getattr(sk, stage).py_func)
     options = np.zeros(4)
     options[[sk.S_TURN_LIMIT, sk.S_TIE]] = math.radians(45.0), 1e-6 * PAIR.thread_pitch

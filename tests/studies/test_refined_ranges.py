@@ -24,8 +24,8 @@ from threadstate.contact._wide_kernel import WIDE_MOTION_SIZE
 from threadstate.thread import _profile_kernel as pk
 from threadstate.thread.profile import Profile
 
-SMALLEST = 2.0**-10
-"""Half-width (rad) of boxes up to which a search takes middles in sums of two doubles."""
+WIDEST = 2.0**-3
+"""Half-width (rad) of the widest boxes of a search."""
 
 
 def two_doubles(number: arb) -> tuple[float, float]:
@@ -74,12 +74,12 @@ def refined_claims(one: Box) -> Claims:
 
 
 def boxes(number: int, count: int) -> Iterator[Box]:
-    """Narrow boxes of random motions of every form and stage."""
+    """Boxes of random motions of every form and stage."""
     choose = np.random.default_rng([301, number])
     for i in range(count):
         search = with_packed_profiles(random_search(FORMS[i % len(FORMS)], STAGES[i % len(STAGES)], choose))
         one = random_box(search, choose)
-        yield Box(search, one.theta, min(one.half, SMALLEST), one.start, one.end, visited=False)
+        yield Box(search, one.theta, min(one.half, WIDEST), one.start, one.end, visited=False)
 
 
 @cache

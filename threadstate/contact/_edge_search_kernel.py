@@ -78,6 +78,10 @@ FINE = 2.0**-10
 """Half-width (rad) of boxes from which on what is known of earlier contacts is used: of larger ones most are dropped
 without, at less cost."""
 
+SHALLOW = 1e-11
+"""Depth (thread pitches) that no point of a box exceeds: of refined edges a wider one is evaluated in sums of two
+doubles, too. Round-off hides what is in it, where that of a deeper one is its width's."""
+
 PIECES = 8
 """Of the way from an earlier contact to a box: so many boxes are evaluated at once."""
 
@@ -191,8 +195,10 @@ def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
                 )
     classify_boxes(count, edge.motion, edge.curve, edge.solid, boxes)
     if is_refined(edge):
+        shallow = SHALLOW * edge.solid[pk.P]
         for i in range(count):
-            if boxes[X_CLASS + i] > EXCLUDED and 0.0 < boxes[X_HALF + i] <= FINE:
+            is_narrow = 0.0 < boxes[X_HALF + i] <= FINE
+            if boxes[X_CLASS + i] > EXCLUDED and (is_narrow or 0.0 < boxes[X_DEEPEST + i] < shallow):
                 classify_refined(i, edge, boxes)
 
 
@@ -422,13 +428,16 @@ def splits_by_time(box_class: int, box: Box, shorter: bool, gap: float, by_time:
     """Whether an undecided box is split by time: where its bounds say so (``by_time``), as long as it is not short.
 
     And where it is slender, or is as narrow as the way to the nearest contact allows that excludes it in a ``shorter``
-    time.
+    time. The narrowest ones are split by time alone.
     """
     duration = box.end - box.start
+    shortest = NARROWEST * min(scale, box.end)
+    if box.half < NARROWEST:
+        return duration > shortest
     if box_class < UNDECIDED_BOX:
         return (by_time and duration > SHORTEST * scale) or (shorter and box.half < gap / NARROW)
     return (
-        (by_time and duration > NARROWEST * scale)
+        (by_time and duration > shortest)
         or duration > SLENDER * scale * box.half
         or (shorter and box.half < gap / NARROW)
     )

@@ -222,7 +222,21 @@ def contact_below(
     raised = pose.copy()
     raised[11] += lift
     count, status, best = search(
-        raised, False, down, down, np.empty((0, 2)), found, 0, reach, tie_tolerance, bolt, nut, RIDGES_ONLY, work, found
+        raised,
+        False,
+        down,
+        down,
+        np.empty((0, 2)),
+        found,
+        0,
+        reach,
+        tie_tolerance,
+        bolt,
+        nut,
+        RIDGES_ONLY,
+        False,
+        work,
+        found,
     )
     first = min(best, found[0, K_TIME]) if count > 0 else best
     return count, lift - min(first, reach), status

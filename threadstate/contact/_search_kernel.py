@@ -30,6 +30,7 @@ _STAGE = (
     _PROFILE,
     _PROFILE,
     _INT,
+    types.boolean,
     _WORK,
     _TABLE,
 )

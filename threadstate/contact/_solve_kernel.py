@@ -52,6 +52,9 @@ Array = NDArray[np.float64]
 S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE = range(4)
 OPTIONS_SIZE = 4
 
+UNDECIDED_CONTACT = -1
+"""In place of how many contacts begin at once."""
+
 FLUSH_MARGIN = 1e-9
 """Where a turn ends flush, contacts are searched for up to this much (rad) before: there all edges meet at once."""
 
@@ -314,9 +317,76 @@ def solve_pose(
 
 
 @kernel(allocates=True)
+def next_contact(
+    is_turn: bool,
+    pose: Array,
+    exact: Array,
+    known_count: int,
+    limit: float,
+    tie: float,
+    scene: Scene,
+    search: Search,
+    course: Course,
+    moved: Array,
+    refined: Array,
+) -> tuple[int, float]:
+    """The earliest contacts of a motion up to ``limit``, in ``course.found``: how many begin at once, and when.
+
+    ``pose`` and ``exact`` are where it begins, in doubles and in sums of two; point and axis are those of the course.
+    Sets the pose ``moved`` to where it ends and what is ``refined`` of the first contact. None: 0; UNDECIDED_CONTACT:
+    the search did not end, or what it ends with is no contact, with refined edges neither.
+    """
+    point, axis = np.empty(3), np.empty(3)
+    wide.round_numbers(course.point, point)
+    wide.round_numbers(course.axis, axis)
+    wide.set_motion(exact, course.point, course.axis, course.motion)
+    bolt, nut, found, search_threads = scene.bolt, scene.nut, course.found, thread_search_of(scene)
+    # One call for both, as it is compiled into each place from which it is called.
+    for i in range(2):
+        count, status, _ = search(
+            pose,
+            is_turn,
+            point,
+            axis,
+            course.motion,
+            course.known,
+            known_count,
+            limit,
+            tie,
+            bolt,
+            nut,
+            search_threads,
+            i == 1,
+            course.work,
+            found,
+        )
+        if status != RESOLVED:
+            break
+        if count == 0:
+            return 0, limit
+        simultaneous, time = sort_simultaneous(found, count, tie)
+        time, settles = refine.refine_contact(
+            is_turn,
+            exact,
+            course.point,
+            course.axis,
+            bolt,
+            nut,
+            found[0],
+            time,
+            simultaneous == 1,
+            moved,
+            refined,
+        )
+        if settles:
+            return simultaneous, time
+    return UNDECIDED_CONTACT, limit
+
+
+@kernel(allocates=True)
 def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: Search, course: Course) -> int:
     """The way straight down to the first contact: how many begin at once; 0: unresolved."""
-    pose, down, point = np.empty(12), np.array([0.0, 0.0, -1.0]), np.zeros(3)
+    pose = np.empty(12)
     found, bolt, nut = course.found, scene.bolt, scene.nut
     rotation(roll, pitch, phase, pose)
     pose[9] = 0.0
@@ -329,44 +399,14 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: S
         wide.widen_numbers(pose, course.pose)
         refine.set_unrefined(found[0], course.pose, course.first)
     else:
-        tie, limit = scene.options[S_TIE], high + bolt[pk.P]
+        limit = high + bolt[pk.P]
         start = np.empty((12, 2))
         refine.set_first_pose(roll, pitch, phase, high, start)
         course.axis[2, 0] = -1.0
-        wide.set_motion(start, course.point, course.axis, course.motion)
-        count, status, _ = search(
-            pose,
-            False,
-            point,
-            down,
-            course.motion,
-            course.known,
-            0,
-            limit,
-            tie,
-            bolt,
-            nut,
-            thread_search_of(scene),
-            course.work,
-            found,
+        simultaneous, _ = next_contact(
+            False, pose, start, 0, limit, scene.options[S_TIE], scene, search, course, course.pose, course.first
         )
-        if status != RESOLVED or count == 0:
-            return 0
-        simultaneous, time = sort_simultaneous(found, count, tie)
-        _, settles = refine.refine_contact(
-            False,
-            start,
-            course.point,
-            course.axis,
-            bolt,
-            nut,
-            found[0],
-            time,
-            simultaneous == 1,
-            course.pose,
-            course.first,
-        )
-        if not settles:
+        if simultaneous <= 0:
             return 0
     copy_numbers(found[0], course.known[0])
     return simultaneous
@@ -384,59 +424,38 @@ def second_stage(pose: Array, scene: Scene, search: Search, course: Course, reco
     refine.set_second_axis(pair, course.first, course.pose, bolt, nut, course.axis)
     wide.round_numbers(course.point, point)
     wide.round_numbers(course.axis, axis)
-    wide.set_motion(course.pose, course.point, course.axis, course.motion)
-    limit, flush, count = scene.options[S_TURN_LIMIT], -1.0, 0
-    tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
+    limit, flush, simultaneous, turn = scene.options[S_TURN_LIMIT], -1.0, 0, math.nan
     if pair == EDGE_SURFACE:
         flush = turn_to_flush(pose, axis)
         if flush <= limit:
             limit = flush - FLUSH_MARGIN
     # With convex outlines the bolt lies wholly on the other side of the axis and above the nut until it is flush.
     if flush < 0.0 or scene.options[S_CONVEX] == 0.0:
-        count, status, _ = search(
-            pose,
+        simultaneous, turn = next_contact(
             True,
-            point,
-            axis,
-            course.motion,
-            known,
+            pose,
+            course.pose,
             1,
             limit,
-            tie,
-            bolt,
-            nut,
-            thread_search_of(scene),
-            course.work,
-            found,
+            scene.options[S_TIE] / bolt[pk.R_MAJOR],
+            scene,
+            search,
+            course,
+            course.second,
+            course.latest,
         )
-        if status != RESOLVED:
+        if simultaneous == UNDECIDED_CONTACT:
             record[rk.O_STATUS] = UNRESOLVED
             return -1
-    if count == 0:
+    if simultaneous == 0:
         if flush >= 0.0 and append_flush_pose(2, pose, point, axis, flush, bolt, nut, extremes, record):
             record[rk.O_LAMBDA] = flush
         else:
             add_flag(record, rk.FLAG_NO_SECOND | rk.FLAG_NO_THIRD)
         return -1
-    simultaneous, time = sort_simultaneous(found, count, tie)
     if simultaneous > 1:
         add_flag(record, rk.FLAG_TIE)
-    record[rk.O_LAMBDA], settles = refine.refine_contact(
-        True,
-        course.pose,
-        course.point,
-        course.axis,
-        bolt,
-        nut,
-        found[0],
-        time,
-        simultaneous == 1,
-        course.second,
-        course.latest,
-    )
-    if not settles:
-        record[rk.O_STATUS] = UNRESOLVED
-        return -1
+    record[rk.O_LAMBDA] = turn
     copy_numbers(found[0], known[1])
     return drop_found(1, simultaneous, found)
 
@@ -476,37 +495,24 @@ def choose_shorter_turn(record: Array, other_record: Array) -> None:
 def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> None:
     """The turn about the pivot axis up to the third contact, the drop and the embedment."""
     second, point, axis = np.empty(12), np.empty(3), np.empty(3)
-    found, known, bolt, nut = course.found, course.known, scene.bolt, scene.nut
+    known, bolt, nut = course.known, scene.bolt, scene.nut
     wide.round_numbers(course.second, second)
     wide.round_numbers(course.point, point)
     wide.round_numbers(course.axis, axis)
-    tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
-    wide.set_motion(course.second, course.point, course.axis, course.motion)
     limit, flush = scene.options[S_TURN_LIMIT], -1.0
     if lies_in_both_planes(int(known[0, K_PAIR])) and lies_in_both_planes(int(known[1, K_PAIR])):
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - FLUSH_MARGIN
-    count, status, _ = search(
-        second,
-        True,
-        point,
-        axis,
-        course.motion,
-        known,
-        2,
-        limit,
-        tie,
-        bolt,
-        nut,
-        thread_search_of(scene),
-        course.work,
-        found,
+    third, fine_third, latest = np.empty(12), np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
+    tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
+    simultaneous, turn = next_contact(
+        True, second, course.second, 2, limit, tie, scene, search, course, fine_third, latest
     )
-    if status != RESOLVED:
+    if simultaneous == UNDECIDED_CONTACT:
         record[rk.O_STATUS] = UNRESOLVED
         return
-    if count == 0:
+    if simultaneous == 0:
         extremes = np.empty((4, fk.EXTREME_SIZE))
         if flush > 0.0 and append_flush_pose(3, second, point, axis, flush, bolt, nut, extremes, record):
             record[rk.O_MU] = flush
@@ -515,26 +521,9 @@ def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> 
         else:
             add_flag(record, rk.FLAG_NO_THIRD)
         return
-    simultaneous, time = sort_simultaneous(found, count, tie)
     if simultaneous > 1:
         add_flag(record, rk.FLAG_TIE)
-    third, fine_third, latest = np.empty(12), np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
-    record[rk.O_MU], settles = refine.refine_contact(
-        True,
-        course.second,
-        course.point,
-        course.axis,
-        bolt,
-        nut,
-        found[0],
-        time,
-        simultaneous == 1,
-        fine_third,
-        latest,
-    )
-    if not settles:
-        record[rk.O_STATUS] = UNRESOLVED
-        return
+    record[rk.O_MU] = turn
     wide.round_numbers(fine_third, third)
     append_third_pose(third, second[11] - third[11], simultaneous, scene, search, course, record)
 

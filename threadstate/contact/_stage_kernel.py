@@ -41,7 +41,7 @@ from threadstate.contact._onset_kernel import (
     MAX_CANDIDATES,
 )
 from threadstate.contact._queue_kernel import new_queue
-from threadstate.contact._refined_edge_kernel import refined_edges
+from threadstate.contact._refined_edge_kernel import is_refined, refined_edges
 from threadstate.contact._wide_kernel import wide_motion
 from threadstate.thread import _profile_kernel as pk
 
@@ -97,9 +97,14 @@ FIRST_SPAN_HEIGHT = 0.05
 SPAN_GROWTH = 1.25
 """A motion is searched in spans of time: the first (rad, thread pitches), and the factor to each next one."""
 
-TIE_SHARE = 1e-3
-"""Of a turn with more contacts in the tolerance of a tie than are listed: contacts within this share of it are a tie
-where refined edges tell them apart. Of bolts that are all but level all turns are as short as the tolerance."""
+TIE_SHARES = (1e-3, 1e-6)
+"""Of a turn whose contacts within the tolerance of a tie are too many to be listed, or to be searched for: contacts
+within this share of it are a tie where refined edges tell them apart, else within the next one. Of bolts that are all
+but level all turns are as short as the tolerance."""
+
+MOST_STUCK = 2
+"""So often a search in doubles is tried again in a shorter span that ends at the same time: then round-off hides what
+is there, and refined edges are searched."""
 
 SPAN_REDUCTION = 0.25
 SHORTEST_SPAN = 1e-14
@@ -296,15 +301,21 @@ def axis_in_both_planes(known: Array, known_count: int) -> bool:
 
 
 @kernel()
+def may_share(best: float, tie_tolerance: float) -> bool:
+    """Whether a turn up to its earliest contact is so short that contacts within a smaller share of it can tie."""
+    return 2.0 * TIE_SHARES[-1] * best < tie_tolerance
+
+
+@kernel()
 def search_both_edges(
-    limit: float, is_turn: bool, bolt_edge: Edge, nut_edge: Edge, search: EdgeSearch, work: Work
+    limit: float, span: float, is_turn: bool, bolt_edge: Edge, nut_edge: Edge, search: EdgeSearch, work: Work
 ) -> tuple[int, int, float, int]:
-    """The onsets of both edges, in spans of time that grow.
+    """The onsets of both edges, in spans of time that grow, the first one of that length.
 
     Returns the number of candidates of the bolt's and of the nut's edge, the earliest time and a status.
     """
     bolt_count, nut_count, best, since = 0, 0, limit, 0.0
-    span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt_edge.curve[pk.P]
+    stuck, stuck_at = 0, -math.inf
     while since < best:
         until = min(since + span, limit)
         bolt_count, bolt_evaluated, best, bolt_closed = search_edge(
@@ -316,6 +327,12 @@ def search_both_edges(
         closed = min(bolt_closed, nut_closed)
         if bolt_evaluated == OVERFLOW or nut_evaluated == OVERFLOW:
             # What is undecided from the earliest contact on may still begin with it.
+            if closed >= best and is_turn and is_refined(bolt_edge) and may_share(best, search.tie_tolerance):
+                return bolt_count, nut_count, best, UNRESOLVED
+            stuck = stuck + 1 if closed == stuck_at else 0
+            stuck_at = closed
+            if stuck == MOST_STUCK and not is_refined(bolt_edge):
+                return bolt_count, nut_count, best, UNRESOLVED
             since = closed if closed < best else since
             span *= SPAN_REDUCTION
             if span < SHORTEST_SPAN * motion_scale(bolt_edge.motion, bolt_edge.curve):
@@ -437,16 +454,20 @@ def contacts_of_edges(
     known: Array,
     known_count: int,
     limit: float,
+    span: float,
     tie_tolerance: float,
     thread_search: int,
     work: Work,
     out: Array,
 ) -> tuple[int, int, float]:
-    """The earliest contacts of a motion of two edges and their threads, as :func:`earliest` has them."""
+    """The earliest contacts of a motion of two edges and their threads, as :func:`earliest` has them.
+
+    ``span`` is the length of the first span of time that is searched.
+    """
     bolt, nut = bolt_edge.curve, nut_edge.curve
     work.entries[0, 0], work.entries[0, E_DOUBTFUL] = 0.0, math.inf
     search = EdgeSearch(not is_turn, tie_tolerance, work.boxes, work.scratch, work.queue, work.regions, work.entries)
-    bolt_count, nut_count, best, status = search_both_edges(limit, is_turn, bolt_edge, nut_edge, search, work)
+    bolt_count, nut_count, best, status = search_both_edges(limit, span, is_turn, bolt_edge, nut_edge, search, work)
     if status != RESOLVED or work.entries[0, E_DOUBTFUL] <= best + tie_tolerance:
         return 0, UNRESOLVED, best
     reach = min(limit, best + tie_tolerance)
@@ -485,6 +506,7 @@ def earliest(
     bolt: Array,
     nut: Array,
     thread_search: int,
+    refined: bool,
     work: Work,
     out: Array,
 ) -> tuple[int, int, float]:
@@ -495,28 +517,36 @@ def earliest(
     ``exact`` is the motion in sums of two doubles (``_wide_kernel.set_motion``), of which pose, point and axis are the
     nearest doubles, or has no rows: then these are meant. ``known`` holds the contacts through which the axis of a turn
     runs; they are not found again. Returns the number of contacts (all within ``tie_tolerance`` of the earliest, or
-    within ``TIE_SHARE`` of a turn, are listed, or the status is UNRESOLVED), a status, and the earliest time at which
-    an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how thread on thread is
-    searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY.
+    within one of ``TIE_SHARES`` of a turn, are listed, or the status is UNRESOLVED), a status, and the earliest time at
+    which an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how thread on thread is
+    searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY. ``refined``: with
+    refined edges from the beginning, as what a search in doubles finds is no contact.
     """
     bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(known_count))
     nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(known_count))
     keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
-    count, status, best = contacts_of_edges(
-        bolt_edge, nut_edge, is_turn, known, known_count, limit, tie_tolerance, thread_search, work, out
-    )
+    count, status, best = 0, UNRESOLVED, limit
+    span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt[pk.P]
+    if not refined:
+        count, status, best = contacts_of_edges(
+            bolt_edge, nut_edge, is_turn, known, known_count, limit, span, tie_tolerance, thread_search, work, out
+        )
     if status != RESOLVED:
         wide = exact if exact.shape[0] > 0 else wide_motion(bolt_edge.motion)
         bolt_edge, nut_edge = refined_edges(bolt_edge, nut_edge, wide)
+        # What doubles take for an onset, if for no certain one, says how long the motion may be.
+        span = min(span, best) if best > 0.0 else span
         count, status, best = contacts_of_edges(
-            bolt_edge, nut_edge, is_turn, known, known_count, limit, tie_tolerance, thread_search, work, out
+            bolt_edge, nut_edge, is_turn, known, known_count, limit, span, tie_tolerance, thread_search, work, out
         )
-        if status != RESOLVED and is_turn and TIE_SHARE * best < tie_tolerance:
-            count, status, best = contacts_of_edges(
-                bolt_edge, nut_edge, is_turn, known, known_count, limit, TIE_SHARE * best, thread_search, work, out
-            )
+        for share in TIE_SHARES:
+            if status != RESOLVED and is_turn and share * best < tie_tolerance:
+                tie = share * best
+                count, status, best = contacts_of_edges(
+                    bolt_edge, nut_edge, is_turn, known, known_count, limit, span, tie, thread_search, work, out
+                )
     return count, status, best
 
 

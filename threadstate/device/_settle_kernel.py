@@ -117,6 +117,7 @@ def first_height(
         bolt,
         nut,
         sk.RIDGES,
+        False,
         stage,
         found,
     )
