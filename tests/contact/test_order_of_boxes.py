@@ -189,3 +189,22 @@ def test_what_is_undecided_from_the_earliest_contact_on_is_searched_again(
     *_, best, status = stage.search_both_edges.py_func(0.08, stage.FIRST_SPAN_TURN, True, *edges, wanted_of(work), work)
     assert (best, status) == (5e-3, stage.RESOLVED)
     assert starts[0:4:2] == since
+
+
+@pytest.mark.parametrize(("moves", "status"), [(0.0, stage.UNRESOLVED), (1e-4, stage.RESOLVED)])
+def test_a_search_in_doubles_that_ends_at_the_same_time_in_shorter_spans_is_given_up(
+    monkeypatch: pytest.MonkeyPatch, moves: float, status: int
+) -> None:
+    """Interpreted, with a search that gives up six times, each time so much later; refined edges are searched then."""
+    ends: list[float] = []
+
+    def search(_start: float, until: float, *_: object) -> tuple[int, int, float, float]:
+        ends.append(until)
+        tries = len(ends) // 2
+        return (0, edge_search.OVERFLOW, 0.08, 2e-3 + moves * tries) if tries < 6 else (0, 8, 0.08, until)
+
+    monkeypatch.setattr(stage, "search_edge", search)
+    work = stage.new_work()
+    edges = second_turn((2.0, -4.0, 3.0), work)
+    assert stage.search_both_edges.py_func(0.08, 0.05, True, *edges, wanted_of(work), work)[3] == status
+    assert ends[:6:2] == pytest.approx([0.05, 2e-3 + 0.0125, 2e-3 + moves + 0.003125], abs=moves)
