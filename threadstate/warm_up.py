@@ -71,7 +71,8 @@ def main(*, serving: bool = False) -> None:
     if kernels_are_compiled() and (serving or turning_is_compiled()):
         print(f"Loading the kernels from {_cache()} ...", flush=True)
     else:
-        print(f"Compiling the kernels into {_cache()}: once, about a minute ...", flush=True)
+        duration = "a minute or two" if serving else "some minutes"
+        print(f"Compiling the kernels into {_cache()}: once, {duration} ...", flush=True)
         # Each finds in the cache what the other has compiled by then; what fails there is compiled here.
         with ExitStack() as stack:
             for code in others:
