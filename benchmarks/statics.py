@@ -22,7 +22,6 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.statics import _numbers_kernel as nk
-from threadstate.statics._friction_kernel import search_addresses
 from threadstate.statics._last_pose_kernel import set_contacts
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
@@ -98,9 +97,8 @@ def scenes(pair: Pair, count: int) -> list[Scene]:
 def closed_forms(some: list[Scene]) -> Floats:
     """Rows of numbers of scenes."""
     rows = np.zeros((len(some), nk.NUMBERS_SIZE))
-    addresses = search_addresses()
     for row, scene in zip(rows, some, strict=True):
-        nk.contact_numbers(addresses, scene.load, scene.points, scene.normals, row)
+        nk.contact_numbers(scene.load, scene.points, scene.normals, row)
     return rows
 
 

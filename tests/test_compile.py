@@ -20,7 +20,7 @@ def callee(x, count, is_negative):
 def caller(x, count):
     return callee(x, 1, True) + callee(x, 2, False) + callee(x, count, x > 0.0)
 
-print(caller(3.0, 4), caller.py_func(3.0, 4), len(callee.signatures))
+print(caller(3.0, 4), caller.py_func(3.0, 4), len(callee.as_callee.signatures))
 """
 
 ROUNDING = """
@@ -35,8 +35,9 @@ def caller(x):
     return callee(x) - 1.0
 
 caller(3.0)
-(code,) = callee.inspect_llvm().values()
-print("fmul contract" in code, "fmul double" in code)
+(code,) = caller.inspect_llvm().values()
+(subtracted,) = (line for line in code.splitlines() if line.endswith("-1.000000e+00"))
+print("fmul contract" in code, "fadd contract" in subtracted)
 """
 
 
@@ -44,11 +45,10 @@ AHEAD = """
 import sys
 from threadstate import warm_up
 from threadstate.device import compile as device
-from threadstate.statics import compile as statics
 
-warm_up.compile_all_but_search()
-statics.compile_without_states()
-device.compile_without_search()
+warm_up.compile_level()
+warm_up.compile_solver()
+device.compile_device()
 device.compile_turning()
 device.compile_friction()
 warm_up.load_kernels()

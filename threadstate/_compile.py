@@ -1,4 +1,4 @@
-"""How kernels are compiled (docs/decisions/0018-kernel-compilation.md).
+"""How kernels are compiled (docs/decisions/0018-kernel-compilation.md, 0064-callees-are-linked.md).
 
 Every kernel says all that decides its machine code: numba lets a callee inherit what it leaves open from the caller
 that is compiled first, so that the same sources would give other bits in a process that begins elsewhere.
@@ -9,7 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from numba import njit, types
+from numba import njit
+
+from threadstate._callee import CALLEE, ENTRY, let_kernels_call
 
 _njit: Any = njit
 """Its type does not know ``no_cfunc_wrapper``."""
@@ -18,7 +20,7 @@ _njit: Any = njit
 def kernel(
     *, contract: bool = False, allocates: bool = False, **options: object
 ) -> Callable[[Callable[..., Any]], Any]:
-    """A decorator for kernels: compiled when first called, and cached on disk.
+    """A decorator for kernels: compiled when Python first calls them, with all that they call, and cached on disk.
 
     Args:
         contract: whether a product and a sum may be rounded once. For bounds and brackets, never for a result.
@@ -28,21 +30,16 @@ def kernel(
     """
 
     def compiled(function: Callable[..., Any]) -> Any:
-        fastmath = {"contract"} if contract else False
-        decorate = _njit(
-            cache=True, error_model="numpy", fastmath=fastmath, no_cfunc_wrapper=True, _nrt=allocates, **options
-        )
-        return _without_literals(decorate(function))
+        how = {
+            "error_model": "numpy",
+            "fastmath": {"contract"} if contract else False,
+            "no_cfunc_wrapper": True,
+            "_nrt": allocates,
+            **options,
+        }
+        entry = _njit(cache=True, pipeline_class=ENTRY, **how)(function)
+        callee = _njit(pipeline_class=CALLEE, no_cpython_wrapper=True, **how)(function)
+        let_kernels_call(entry, callee)
+        return entry
 
     return compiled
-
-
-def _without_literals(dispatcher: Any) -> Any:
-    """Let calls with constants share the one specialisation: numba makes another for every constant of a caller."""
-    template = dispatcher.get_call_template
-
-    def get_call_template(args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
-        return template(tuple(map(types.unliteral, args)), {name: types.unliteral(one) for name, one in kws.items()})
-
-    dispatcher.get_call_template = get_call_template
-    return dispatcher

@@ -34,7 +34,7 @@ LOOK_DAYS = 1.0
 """How long a subdirectory is kept after its last use, and how often the last use is recorded and others are checked."""
 SETTING = "THREADSTATE_NUMBA_CACHE_DIR"
 _NUMBA_SETTING = "NUMBA_CACHE_DIR"
-_MARKS = (b"njit", b"@kernel", b"cfunc")
+_MARKS = (b"njit", b"@kernel", b"numba.core")
 """What the source of a kernel holds, and of how it is compiled."""
 _VERSION_DIGITS = 16
 _MARKER = "used"

@@ -15,31 +15,36 @@ from pathlib import Path
 import numpy as np
 
 from threadstate.contact._record_kernel import RECORD_SIZE
-from threadstate.contact._solve_kernel import solve_with
-from threadstate.device.compile import device_is_compiled, load_device, load_turning, turning_is_compiled
+from threadstate.contact._solve_kernel import solve_rows
+from threadstate.device.compile import (
+    compile_device,
+    compile_friction,
+    compile_turning,
+    device_is_compiled,
+    load_device,
+    load_turning,
+    turning_is_compiled,
+)
 from threadstate.history.estimates import estimates_are_compiled, load_estimates
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import packed_options
 from threadstate.state.solve import solve_poses
-from threadstate.statics.compile import load_statics, statics_are_compiled
+from threadstate.statics.compile import compile_forces, load_statics, statics_are_compiled
 from threadstate.thread.catalogue import quarter_twenty_unc
 
-POSES_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0), (-4.0, 0.0, 131.0))
-"""Poses (roll, pitch, phase) whose solution calls every kernel that is called from Python, in each way it is: level and
-in phase (a strip of flank), level and out of phase (a patch), tilted (all that the three stages may need)."""
+LEVEL_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0))
+"""Level poses (roll, pitch, phase): one in phase, on a strip of flank, and one that is not, on a patch."""
 
-COMPILE_SEARCH = "from threadstate.contact._search_kernel import search_address; search_address()"
-COMPILE_DEVICE = "from threadstate.device.compile import compile_without_search; compile_without_search()"
-COMPILE_TURNING = "from threadstate.device.compile import compile_turning; compile_turning()"
-COMPILE_FRICTION = "from threadstate.device.compile import compile_friction; compile_friction()"
-COMPILE_STATICS = "from threadstate.statics.compile import compile_without_states; compile_without_states()"
+POSES_DEG = (*LEVEL_DEG, (-4.0, 0.0, 131.0))
+"""Poses whose solution calls every kernel that is called from Python, in each way it is: with a tilted one, which calls
+all that the three stages may need."""
 
-_LAST_COMPILED = ("_solve_kernel.solve_with-*.nbc", "_stage_kernel.earliest-*.nbc")
+COMPILE_LEVEL = "from threadstate.warm_up import compile_level; compile_level()"
 
 
 def kernels_are_compiled() -> bool:
     """Whether the cache contains the kernels that :func:`load_kernels` loads, so that this is fast."""
-    solver_is_compiled = all(any(_cache().glob(name)) for name in _LAST_COMPILED)
+    solver_is_compiled = any(_cache().glob("_solve_kernel.solve_rows-*.nbc"))
     return solver_is_compiled and estimates_are_compiled() and statics_are_compiled() and device_is_compiled()
 
 
@@ -63,42 +68,45 @@ def load_kernels_exclusively() -> None:
 
 
 def main(*, serving: bool = False) -> None:
-    """Load the kernels and report the progress; where the cache has none, processes beside this one compile them."""
+    """Load the kernels and report the progress; where the cache has none, compile them in two processes."""
     start = time.perf_counter()
-    others: tuple[str, ...] = (COMPILE_SEARCH, COMPILE_DEVICE, COMPILE_STATICS)
-    if not serving:
-        others += (COMPILE_TURNING, COMPILE_FRICTION)
     if kernels_are_compiled() and (serving or turning_is_compiled()):
         print(f"Loading the kernels from {_cache()} ...", flush=True)
     else:
-        duration = "a minute or two" if serving else "some minutes"
+        duration = "about a minute" if serving else "a minute or two"
         print(f"Compiling the kernels into {_cache()}: once, {duration} ...", flush=True)
-        # Each finds in the cache what the other has compiled by then; what fails there is compiled here.
-        with ExitStack() as stack:
-            for code in others:
-                stack.enter_context(subprocess.Popen([sys.executable, "-c", code]))  # nosec B603 - fixed code
-            compile_all_but_search()
+        # What fails there is compiled here.
+        with subprocess.Popen([sys.executable, "-c", COMPILE_LEVEL]):  # nosec B603 - fixed code
+            compile_solver()
+            compile_device()
+            if not serving:
+                compile_turning()
+                compile_friction()
     load_kernels()
     if not serving:
         load_turning()
     print(f"Kernels ready after {time.perf_counter() - start:.1f} s.", flush=True)
 
 
-def compile_all_but_search() -> None:
-    """Compile what solves poses, but for the search that it is given the address of: for no pose there is no search.
-
-    With it what follows contacts between two states.
-    """
+def compile_solver() -> None:
+    """Compile what solves poses, and what follows contacts between two states."""
     pair = quarter_twenty_unc()
     none = np.empty((0, 3))
     options = packed_options(pair, SolveOptions())
-    solve_with(none, options, pair.bolt.packed, pair.nut.packed, 0, np.empty((0, RECORD_SIZE)))
+    solve_rows(none, options, pair.bolt.packed, pair.nut.packed, np.empty((0, RECORD_SIZE)))
     load_estimates(pair)
+
+
+def compile_level() -> None:
+    """Compile what solves level poses, and the statics: they share nothing with what solves tilted ones."""
+    pair = quarter_twenty_unc()
+    load_statics(pair, solve_poses(pair, LEVEL_DEG))
+    compile_forces()
 
 
 def _cache() -> Path:
     """The cache directory of this checkout's kernels, below the chosen one."""
-    return Path(str(solve_with.stats.cache_path))
+    return Path(str(solve_rows.stats.cache_path))
 
 
 if __name__ == "__main__":

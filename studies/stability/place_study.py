@@ -41,13 +41,15 @@ class Neighbourhood:
     """A centre and the known sides of the events around it, each with the route that leads there.
 
     The centre is a side itself once an answer was found to be steep about it, no event being in between. ``events``
-    holds every event that was explained, with the two answers on its sides.
+    holds every event that was explained, with the two answers on its sides, ``solved`` what was solved on the way: the
+    ways of several trials are halved at the same cases.
     """
 
     method: Method
     centre: SolvedCase
     sides: list[tuple[SolvedCase, Route]] = field(default_factory=list)
     events: list[tuple[Explanation, SolvedCase, SolvedCase]] = field(default_factory=list)
+    solved: dict[Case, Answer] = field(default_factory=dict)
 
     def route_to(self, solved: SolvedCase, *, divisible: bool) -> Route | None:
         """What lies between the centre and an answer; None if more than can be followed.
@@ -109,7 +111,9 @@ class Neighbourhood:
             case = between(near.case, far.case)
             if same_input(case, near.case) or same_input(case, far.case):
                 return near, far
-            state = self.method.answers([case])[0]
+            if case not in self.solved:
+                self.solved[case] = self.method.answers([case])[0]
+            state = self.solved[case]
             if not isinstance(state, ContactState):
                 return near, far
             middle = SolvedCase(case, state)

@@ -67,7 +67,7 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
     stage.rotation(0.05, 0.02, 1.0, pose)
     pose[11] = 0.01
     down, none, stored = np.array([0.0, 0.0, -1.0]), np.empty((0, stage.CONTACT_SIZE)), np.empty((0, 2))
-    count, found_status, _ = stage.earliest(
+    count, found_status, _ = stage.earliest.py_func(
         pose,
         False,
         down,

@@ -44,6 +44,7 @@ def test_what_does_not_settle_is_searched_for_again_with_refined_edges(
     def refined(*arguments: Any) -> tuple[float, bool]:
         return arguments[7], next(answers)
 
+    monkeypatch.setattr(solve, "earliest", search)
     monkeypatch.setattr(refine, "refine_contact", refined)
     course = solve.new_course(stage.new_work())
     course.axis[2, 0] = 1.0
@@ -52,8 +53,6 @@ def test_what_does_not_settle_is_searched_for_again_with_refined_edges(
     stage.rotation(0.05, 0.02, 1.0, pose)
     exact[:, 0] = pose
     moved, latest = np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
-    count, time = solve.next_contact.py_func(
-        True, pose, exact, 1, math.pi / 4, 1e-12, scene, search, course, moved, latest
-    )
+    count, time = solve.next_contact.py_func(True, pose, exact, 1, math.pi / 4, 1e-12, scene, course, moved, latest)
     assert (count, asked) == (expected, searches)
     assert time == (0.01 if expected > 0 else math.pi / 4)

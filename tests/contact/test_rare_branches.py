@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
-from numba import njit
 
 from oracle import lift as oracle_lift
 from oracle.contact_rules import Touch, frame_gap, normal_faults, region_faults, surface_gaps
@@ -30,7 +28,6 @@ from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, 
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._edge_kernel import Box, new_edge
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
-from threadstate.contact._search_kernel import search_address, search_at
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.decode import decoded_states
 from threadstate.state.model import FeaturePair
@@ -69,16 +66,9 @@ def descents(pose: Floats) -> tuple[Floats, Floats]:
     return bolt_motion, nut_motion
 
 
-def _with_search(pose: Floats, address: int, bolt: Floats, nut: Floats, tie: float, found: Floats) -> tuple[float, int]:
-    return lift.least_lift(pose, tie, bolt, nut, search_at(address), stage.new_work(), found)
-
-
-_LEAST_LIFT: Any = njit(_with_search)
-
-
 def least_lift(pose: Floats) -> float:
     found = np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE))
-    length, status = _LEAST_LIFT(pose, search_address(), BOLT, NUT, TIE_INCH, found)
+    length, status = lift.least_lift(pose, TIE_INCH, BOLT, NUT, stage.new_work(), found)
     assert status == stage.RESOLVED
     return float(length)
 

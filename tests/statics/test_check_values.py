@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from threadstate.statics import _friction_kernel as fk
 from threadstate.statics._effort_kernel import turn_effort
-from threadstate.statics._program_kernel import program_address
 from threadstate.statics._support_kernel import distance_by_faces, distance_by_program, patch_margin, support_margin
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -126,7 +125,7 @@ def test_three_contacts_on_a_plane_carry_every_push_within_their_triangle() -> N
             assert hold(load, points, normals)[1:] == (0.0, 0.0)
         else:
             distance = distance_by_faces(unit, rays)
-            assert distance == pytest.approx(distance_by_program(program_address(), unit, rays), abs=1e-8)
+            assert distance == pytest.approx(distance_by_program(unit, rays), abs=1e-8)
             assert support_margin(load, points, normals) == pytest.approx(-distance, abs=1e-14)
             assert patch_margin(load, points[:, :2]) == pytest.approx(-distance, abs=1e-12)
             assert hold(load, points, normals)[0] == fk.NEVER

@@ -12,8 +12,8 @@ pytestmark = pytest.mark.slow
 LOADED = """
 import signal
 import worker.preload
-from threadstate.contact._solve_kernel import solve_with
-print(len(solve_with.signatures), signal.getsignal(signal.SIGINT) is signal.SIG_IGN)
+from threadstate.contact._solve_kernel import solve_rows
+print(len(solve_rows.signatures), signal.getsignal(signal.SIGINT) is signal.SIG_IGN)
 """
 WARM_UP = "from threadstate.warm_up import main; main()"
 

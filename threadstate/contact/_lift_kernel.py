@@ -30,7 +30,6 @@ from threadstate.contact._geometry_kernel import (
     set_path_from,
     velocity,
 )
-from threadstate.contact._search_kernel import Search
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     K_BOLT_AZIMUTH,
@@ -48,6 +47,7 @@ from threadstate.contact._stage_kernel import (
     THREAD_THREAD,
     UNRESOLVED,
     Work,
+    earliest,
     set_motions,
 )
 from threadstate.contact._surface_kernel import start_height
@@ -210,7 +210,6 @@ def contact_below(
     tie_tolerance: float,
     bolt: Array,
     nut: Array,
-    search: Search,
     work: Work,
     found: Array,
 ) -> tuple[int, float, int]:
@@ -221,7 +220,7 @@ def contact_below(
     down = np.array([0.0, 0.0, -1.0])
     raised = pose.copy()
     raised[11] += lift
-    count, status, best = search(
+    count, status, best = earliest(
         raised,
         False,
         down,
@@ -244,7 +243,7 @@ def contact_below(
 
 @kernel()
 def least_lift(
-    pose: Array, tie_tolerance: float, bolt: Array, nut: Array, search: Search, work: Work, found: Array
+    pose: Array, tie_tolerance: float, bolt: Array, nut: Array, work: Work, found: Array
 ) -> tuple[float, int]:
     """The least lift after which the solids of an overlapping pose do not overlap, and a status.
 
@@ -254,11 +253,11 @@ def least_lift(
     height = start_height(pose, bolt) - pose[11]
     if height <= 0.0:
         return 0.0, RESOLVED
-    lift, status = lift_to_last_touch(pose, height, tie_tolerance, bolt, nut, search, work, found)
+    lift, status = lift_to_last_touch(pose, height, tie_tolerance, bolt, nut, work, found)
     above = lift + RETRY_OFFSET * bolt[pk.P]
     if status != RESOLVED or not crests_overlap(pose, above, bolt, nut, work):
         return lift, status
-    return climb_witnesses(pose, above, height, height, height, tie_tolerance, bolt, nut, search, work, found)
+    return climb_witnesses(pose, above, height, height, height, tie_tolerance, bolt, nut, work, found)
 
 
 @kernel(allocates=True)
@@ -268,12 +267,11 @@ def lift_to_last_touch(
     tie_tolerance: float,
     bolt: Array,
     nut: Array,
-    search: Search,
     work: Work,
     found: Array,
 ) -> tuple[float, int]:
     """The least lift as the touches found on the way down from ``height`` have it, and a status."""
-    count, last, status = contact_below(pose, height, height, tie_tolerance, bolt, nut, search, work, found)
+    count, last, status = contact_below(pose, height, height, tie_tolerance, bolt, nut, work, found)
     if last <= 1e-8 * bolt[pk.P]:
         return 0.0, status
     proved_from = last
@@ -284,7 +282,7 @@ def lift_to_last_touch(
         proved_from = contact_overlaps_from(found[0], last, bolt_edge, nut_edge, np.empty(BOUNDS_SIZE))
     if proved_from <= 0.0 or status != RESOLVED:
         return last, status
-    return climb_witnesses(pose, 0.0, proved_from, last, height, tie_tolerance, bolt, nut, search, work, found)
+    return climb_witnesses(pose, 0.0, proved_from, last, height, tie_tolerance, bolt, nut, work, found)
 
 
 @kernel()
@@ -297,7 +295,6 @@ def climb_witnesses(
     tie_tolerance: float,
     bolt: Array,
     nut: Array,
-    search: Search,
     work: Work,
     found: Array,
 ) -> tuple[float, int]:
@@ -316,11 +313,11 @@ def climb_witnesses(
             outcome, _ = find_witness(pose, lift + RETRY_OFFSET * bolt[pk.P], height, bolt, nut, work)
             beyond = RETRY_OFFSET * bolt[pk.P] if outcome == OUTSIDE else 4.0 * near
             _, end, status = contact_below(
-                pose, lift + beyond, beyond + 4.0 * near, tie_tolerance, bolt, nut, search, work, found
+                pose, lift + beyond, beyond + 4.0 * near, tie_tolerance, bolt, nut, work, found
             )
             return end, status
         lift = reached + near
-    return lowest_free_contact(pose, lift, last, height, tie_tolerance, bolt, nut, search, work, found)
+    return lowest_free_contact(pose, lift, last, height, tie_tolerance, bolt, nut, work, found)
 
 
 @kernel()
@@ -332,7 +329,6 @@ def lowest_free_contact(
     tie_tolerance: float,
     bolt: Array,
     nut: Array,
-    search: Search,
     work: Work,
     found: Array,
 ) -> tuple[float, int]:
@@ -348,9 +344,7 @@ def lowest_free_contact(
         start = contact_lift - near
         if start <= lift:
             return least_step, RESOLVED
-        _, contact_lift, status = contact_below(
-            pose, start, start - lift, tie_tolerance, bolt, nut, search, work, found
-        )
+        _, contact_lift, status = contact_below(pose, start, start - lift, tie_tolerance, bolt, nut, work, found)
         if status != RESOLVED:
             break
         if contact_lift <= lift:

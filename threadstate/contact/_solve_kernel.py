@@ -15,7 +15,6 @@ from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _wide_kernel as wide
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
 from threadstate.contact._lift_kernel import RETRY_OFFSET, crests_overlap, least_lift
-from threadstate.contact._search_kernel import Search, search_address, search_at
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     CONTACT_SIZE,
@@ -37,6 +36,7 @@ from threadstate.contact._stage_kernel import (
     THREAD_THREAD,
     UNRESOLVED,
     Work,
+    earliest,
     edges_overlap,
     new_work,
     rotation,
@@ -264,14 +264,13 @@ def solve_pose(
     options: Array,
     bolt: Array,
     nut: Array,
-    search: Search,
     work: Work,
     record: Array,
 ) -> None:
     """Solves one tilted pose (angles in rad) into ``record``; see ``_record_kernel`` for its layout."""
     clear_record(record)
     scene, course = Scene(options, bolt, nut), new_course(work)
-    simultaneous = first_stage(roll, pitch, phase, scene, search, course)
+    simultaneous = first_stage(roll, pitch, phase, scene, course)
     if simultaneous == 0:
         record[rk.O_STATUS] = UNRESOLVED
         return
@@ -284,11 +283,12 @@ def solve_pose(
         add_flag(record, rk.FLAG_TIE)
         record[rk.O_LAMBDA] = 0.0
         copy_numbers(course.found[1], course.known[1])
-        course.second[:] = course.pose
+        for i in range(course.pose.shape[0]):
+            copy_numbers(course.pose[i], course.second[i])
         refine.set_unrefined(course.known[1], course.second, course.latest)
         left = drop_found(2, simultaneous, course.found)
     else:
-        left = second_stage(pose, scene, search, course, record)
+        left = second_stage(pose, scene, course, record)
         if left < 0:
             return
     second = np.empty(12)
@@ -300,19 +300,19 @@ def solve_pose(
     rise = set_pivot_offset(second, course, record)
     if left > 0:
         record[rk.O_MU] = 0.0
-        append_third_pose(second, 0.0, left, scene, search, course, record)
+        append_third_pose(second, 0.0, left, scene, course, record)
         return
     if rise > 0.0:
         refine.reverse(course.axis)
     if abs(rise) > options[S_TIE]:
-        third_stage(scene, search, course, record)
+        third_stage(scene, course, record)
         return
     # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is chosen.
     add_flag(record, rk.FLAG_BALANCED)
     other_record = record.copy()
-    third_stage(scene, search, course, record)
+    third_stage(scene, course, record)
     refine.reverse(course.axis)
-    third_stage(scene, search, course, other_record)
+    third_stage(scene, course, other_record)
     choose_shorter_turn(record, other_record)
 
 
@@ -325,7 +325,6 @@ def next_contact(
     limit: float,
     tie: float,
     scene: Scene,
-    search: Search,
     course: Course,
     moved: Array,
     refined: Array,
@@ -341,9 +340,8 @@ def next_contact(
     wide.round_numbers(course.axis, axis)
     wide.set_motion(exact, course.point, course.axis, course.motion)
     bolt, nut, found, search_threads = scene.bolt, scene.nut, course.found, thread_search_of(scene)
-    # One call for both, as it is compiled into each place from which it is called.
     for i in range(2):
-        count, status, _ = search(
+        count, status, _ = earliest(
             pose,
             is_turn,
             point,
@@ -384,7 +382,7 @@ def next_contact(
 
 
 @kernel(allocates=True)
-def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: Search, course: Course) -> int:
+def first_stage(roll: float, pitch: float, phase: float, scene: Scene, course: Course) -> int:
     """The way straight down to the first contact: how many begin at once; 0: unresolved."""
     pose = np.empty(12)
     found, bolt, nut = course.found, scene.bolt, scene.nut
@@ -404,7 +402,7 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: S
         refine.set_first_pose(roll, pitch, phase, high, start)
         course.axis[2, 0] = -1.0
         simultaneous, _ = next_contact(
-            False, pose, start, 0, limit, scene.options[S_TIE], scene, search, course, course.pose, course.first
+            False, pose, start, 0, limit, scene.options[S_TIE], scene, course, course.pose, course.first
         )
         if simultaneous <= 0:
             return 0
@@ -413,7 +411,7 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, search: S
 
 
 @kernel(allocates=True)
-def second_stage(pose: Array, scene: Scene, search: Search, course: Course, record: Array) -> int:
+def second_stage(pose: Array, scene: Scene, course: Course, record: Array) -> int:
     """The turn about the tangent at the first contact up to the second one.
 
     Returns how many third contacts begin with it; -1: there is no second one, or it is unresolved.
@@ -439,7 +437,6 @@ def second_stage(pose: Array, scene: Scene, search: Search, course: Course, reco
             limit,
             scene.options[S_TIE] / bolt[pk.R_MAJOR],
             scene,
-            search,
             course,
             course.second,
             course.latest,
@@ -492,7 +489,7 @@ def choose_shorter_turn(record: Array, other_record: Array) -> None:
 
 
 @kernel(allocates=True)
-def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> None:
+def third_stage(scene: Scene, course: Course, record: Array) -> None:
     """The turn about the pivot axis up to the third contact, the drop and the embedment."""
     second, point, axis = np.empty(12), np.empty(3), np.empty(3)
     known, bolt, nut = course.known, scene.bolt, scene.nut
@@ -506,9 +503,7 @@ def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> 
             limit = flush - FLUSH_MARGIN
     third, fine_third, latest = np.empty(12), np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
     tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
-    simultaneous, turn = next_contact(
-        True, second, course.second, 2, limit, tie, scene, search, course, fine_third, latest
-    )
+    simultaneous, turn = next_contact(True, second, course.second, 2, limit, tie, scene, course, fine_third, latest)
     if simultaneous == UNDECIDED_CONTACT:
         record[rk.O_STATUS] = UNRESOLVED
         return
@@ -525,12 +520,12 @@ def third_stage(scene: Scene, search: Search, course: Course, record: Array) -> 
         add_flag(record, rk.FLAG_TIE)
     record[rk.O_MU] = turn
     wide.round_numbers(fine_third, third)
-    append_third_pose(third, second[11] - third[11], simultaneous, scene, search, course, record)
+    append_third_pose(third, second[11] - third[11], simultaneous, scene, course, record)
 
 
 @kernel(allocates=True)
 def append_third_pose(
-    third: Array, drop: float, simultaneous: int, scene: Scene, search: Search, course: Course, record: Array
+    third: Array, drop: float, simultaneous: int, scene: Scene, course: Course, record: Array
 ) -> None:
     """Appends the third pose and its contacts, the first ``simultaneous`` found; sets the drop and the embedment."""
     bolt, nut, work = scene.bolt, scene.nut, course.work
@@ -550,7 +545,7 @@ def append_third_pose(
         or edges_overlap(third, contacts, 2 + simultaneous, bolt, nut, work)
         or crests_overlap(third, RETRY_OFFSET * bolt[pk.P], bolt, nut, work)
     ):
-        lift, status = least_lift(third, scene.options[S_TIE], bolt, nut, search, work, course.found)
+        lift, status = least_lift(third, scene.options[S_TIE], bolt, nut, work, course.found)
         record[rk.O_EMBEDMENT] = lift
         if status != RESOLVED:
             record[rk.O_STATUS] = UNRESOLVED
@@ -565,18 +560,12 @@ def threads_touch(contacts: Array) -> bool:
     return False
 
 
+@kernel(nogil=True, allocates=True)
 def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> None:
     """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE).
 
     The global interpreter lock is released meanwhile.
     """
-    solve_with(poses, options, bolt, nut, search_address(), rows)
-
-
-@kernel(nogil=True, allocates=True)
-def solve_with(poses: Array, options: Array, bolt: Array, nut: Array, address: int, rows: Array) -> None:
-    """As :func:`solve_rows`, with the address of the compiled search."""
-    search = search_at(address)
     work = new_work()
     for i in range(poses.shape[0]):
-        solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, search, work, rows[i])
+        solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, work, rows[i])

@@ -493,6 +493,7 @@ def contacts_of_edges(
     return count, RESOLVED, best
 
 
+@kernel(allocates=True)
 def earliest(
     pose: Array,
     is_turn: bool,
@@ -511,8 +512,6 @@ def earliest(
     out: Array,
 ) -> tuple[int, int, float]:
     """The earliest contacts of a motion by all pairs of features, sorted by time.
-
-    Kernels call it as a ``Search`` of ``_search_kernel``, which compiles it.
 
     ``exact`` is the motion in sums of two doubles (``_wide_kernel.set_motion``), of which pose, point and axis are the
     nearest doubles, or has no rows: then these are meant. ``known`` holds the contacts through which the axis of a turn

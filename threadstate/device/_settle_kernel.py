@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact import _stage_kernel as sk
 from threadstate.contact._geometry_kernel import copy_numbers
-from threadstate.contact._search_kernel import Search, search_address, search_at
 from threadstate.contact._surface_kernel import start_height
 from threadstate.device._certificate_kernel import FREE, overlap
 from threadstate.device._chart_kernel import (
@@ -93,9 +92,7 @@ LEAST_GAP = 1e-9
 
 
 @kernel(allocates=True)
-def first_height(
-    rotation: Array, tie_tolerance: float, bolt: Array, nut: Array, search: Search, stage: sk.Work
-) -> tuple[bool, float]:
+def first_height(rotation: Array, tie_tolerance: float, bolt: Array, nut: Array, stage: sk.Work) -> tuple[bool, float]:
     """The height of the bolt's origin at its first contact from above, on the nut's axis; whether it is certain."""
     pose = np.zeros(12)
     copy_numbers(rotation[0:9], pose[0:9])
@@ -104,7 +101,7 @@ def first_height(
     found = np.empty((sk.MAX_CONTACTS, sk.CONTACT_SIZE))
     known = np.empty((2, sk.CONTACT_SIZE))
     axis = np.array([0.0, 0.0, -1.0])
-    count, status, _ = search(
+    count, status, _ = sk.earliest(
         pose,
         False,
         np.zeros(3),
@@ -267,6 +264,7 @@ def follow_push(q: Array, tip: Array, push: float, scene: Scene, result: Array, 
     add_point(q, push, device, path, result)
 
 
+@kernel(nogil=True, allocates=True)
 def settle_rows(
     rotations: Array,
     heights: Array,
@@ -282,24 +280,7 @@ def settle_rows(
     A height is that of the first contact, NaN: to be found. A tip is a rotation vector in the commanded bolt's axes,
     zero but of a level bolt (``follow_push``).
     """
-    settle_with(rotations, heights, tips, push, device, bolt, nut, search_address(), rows)
-
-
-@kernel(nogil=True, allocates=True)
-def settle_with(
-    rotations: Array,
-    heights: Array,
-    tips: Array,
-    push: float,
-    device: Array,
-    bolt: Array,
-    nut: Array,
-    address: int,
-    rows: Rows,
-) -> None:
-    """As :func:`settle_rows`, with the address of the compiled search."""
     results, ends, placements, places, multipliers, falls, paths = rows
-    search = search_at(address)
     stage = sk.new_work()
     work = new_work()
     threads = new_threads(bolt)
@@ -311,7 +292,7 @@ def settle_with(
         height = heights[i]
         is_certain = True
         if math.isnan(height):
-            is_certain, height = first_height(rotations[i], TIE * bolt[pk.P], bolt, nut, search, stage)
+            is_certain, height = first_height(rotations[i], TIE * bolt[pk.P], bolt, nut, stage)
         results[i, R_HEIGHT] = height
         if not is_certain:
             results[i, R_STATUS] = NO_FIRST_CONTACT

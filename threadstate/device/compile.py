@@ -40,12 +40,12 @@ def load_turning() -> None:
     settle_poses(pair, POSES_DEG[:1], mu=LITTLE_FRICTION)
 
 
-def compile_without_search() -> None:
-    """Compile what settles poses, but for the search that it is given the address of: for no pose there is none."""
+def compile_device() -> None:
+    """Compile what settles poses."""
     pair = quarter_twenty_unc()
     numbers = device_numbers(pair, default_device().in_unit(pair.unit))
     none = np.empty((0, 9)), np.empty(0), np.empty((0, 3))
-    sk.settle_with(*none, 1.0, numbers, pair.bolt.packed, pair.nut.packed, 0, new_rows(0))
+    sk.settle_rows(*none, 1.0, numbers, pair.bolt.packed, pair.nut.packed, new_rows(0))
 
 
 def compile_turning() -> None:
@@ -70,7 +70,7 @@ def _setting() -> tuple[Floats, ...]:
 
 def device_is_compiled() -> bool:
     """Whether the cache contains the kernels of settled states without friction."""
-    return _is_compiled(sk.settle_with, "_settle_kernel.settle_with")
+    return _is_compiled(sk.settle_rows, "_settle_kernel.settle_rows")
 
 
 def turning_is_compiled() -> bool:

@@ -21,8 +21,8 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 
 STATES = (
+    "_callee.py",
     "_compile.py",
-    "_pointer.py",
     "errors.py",
     "units.py",
     "thread/*.py",
@@ -36,7 +36,6 @@ STATES = (
     "statics/_last_pose_kernel.py",
     "statics/_numbers_kernel.py",
     "statics/_patch_kernel.py",
-    "statics/_program_kernel.py",
     "statics/_support_kernel.py",
     "statics/_triangle_kernel.py",
     "statics/hold_bounds.py",
@@ -55,8 +54,8 @@ STATES = (
 )
 """The sources that decide what is stored of states, whatever the method."""
 HELD = (
+    "_callee.py",
     "_compile.py",
-    "_pointer.py",
     "errors.py",
     "units.py",
     "thread/*.py",

@@ -157,6 +157,7 @@ def scale(vector: Array, sizes: Integers, scaling: Array, eta: Array, inverse: b
         start += size
 
 
+@kernel(allocates=True)
 def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Array) -> float:
     """Solves a cone program into ``x`` (n) and ``z`` (m); the largest relative residual or gap it ended with.
 

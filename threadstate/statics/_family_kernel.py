@@ -10,16 +10,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import types
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate._pointer import Pointer
-from threadstate.statics._cone_kernel import assign
+from threadstate.statics._cone_kernel import assign, solve_program
 from threadstate.statics._grasp_kernel import (
     RANK_TOLERANCE,
     Grasp,
-    Solvers,
     contact_velocities,
     friction_of,
     least_ratio,
@@ -28,7 +25,6 @@ from threadstate.statics._grasp_kernel import (
     twist_of,
     withstands,
 )
-from threadstate.statics._program_kernel import program_address, program_at
 
 Array = NDArray[np.float64]
 
@@ -44,6 +40,7 @@ REGULAR = 1e-11
 """Added to the diagonal of Newton's equations: forces that no sliding contact feels stay as they are."""
 
 
+@kernel(allocates=True)
 def deepest_forces(mu: float, weights: Array, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """Finds the forces of the family that are deepest in their cones at ``mu``, and the twist that says so.
 
@@ -81,7 +78,7 @@ def deepest_forces(mu: float, weights: Array, start: Array, basis: Array, grasp:
             g[3 * i + 1, j] = -a
             g[3 * i + 2, j] = -b
             g[m - 1, j] += n * per
-    gap = program_at(grasp.solvers[0])(c, g, h, sizes, x, z)
+    gap = solve_program(c, g, h, sizes, x, z)
     for i in range(3 * k):
         total = start[i]
         for j in range(d):
@@ -168,7 +165,7 @@ def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> flo
             n = normal_part(left[j], grasp, i)
             g[i, j] = -n
             g[k, j] += n * per
-    gap = program_at(grasp.solvers[0])(c, g, h, np.ones(k + 1, np.intp), x, z)
+    gap = solve_program(c, g, h, np.ones(k + 1, np.intp), x, z)
     for i in range(3 * k):
         solution[0, i] = start[i]
         for j in range(count):
@@ -205,6 +202,7 @@ def solve_dense(matrix: Array, right: Array) -> bool:
     return True
 
 
+@kernel(allocates=True)
 def newton_friction(mu: float, basis: Array, grasp: Grasp, solution: Array) -> float:
     """Newton's method on the conditions of a least friction, from forces near them; the friction it comes to.
 
@@ -297,34 +295,6 @@ def newton_friction(mu: float, basis: Array, grasp: Grasp, solution: Array) -> f
     return mu
 
 
-_ROW, _TABLE = types.float64[::1], types.float64[:, ::1]
-_ORDER = types.Array(types.intp, 1, "C")
-_SOLVERS = types.UniTuple(types.int64, 3)
-_GRASP = types.NamedTuple(
-    (_TABLE, types.float64[:, :, ::1], _TABLE, _TABLE, _TABLE, _ORDER, types.intp, _SOLVERS), Grasp
-)
-DEEPEST = Pointer(deepest_forces, types.float64(types.float64, _ROW, _ROW, _TABLE, _GRASP, _TABLE))
-NEWTON = Pointer(newton_friction, types.float64(types.float64, _TABLE, _GRASP, _TABLE))
-deepest_at, newton_at = DEEPEST.at, NEWTON.at
-
-
-def solver_addresses() -> Solvers:
-    """The addresses in this process."""
-    return program_address(), DEEPEST.address, NEWTON.address
-
-
-@kernel(allocates=True)
-def friction_program(mu: float, weights: Array, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
-    """As :func:`deepest_forces`, at its address."""
-    return float(deepest_at(grasp.solvers[1])(mu, weights, start, basis, grasp, solution))
-
-
-@kernel(allocates=True)
-def polish(mu: float, basis: Array, grasp: Grasp, solution: Array) -> float:
-    """As :func:`newton_friction`, at its address."""
-    return float(newton_at(grasp.solvers[2])(mu, basis, grasp, solution))
-
-
 @kernel(allocates=True)
 def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Array) -> float:
     """The least friction of the family, by Dinkelbach's iteration from forces that ``mu`` suffices for.
@@ -341,11 +311,11 @@ def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Arra
             largest = max(largest, weights[i])
         for i in range(k):
             weights[i] = max(weights[i] / largest, LEAST_WEIGHT)
-        friction_program(mu, weights, start, basis, grasp, solution)
+        deepest_forces(mu, weights, start, basis, grasp, solution)
         lower = friction_of(solution[0], grasp)
         if not lower < mu:
             weights[:] = 1.0
-            friction_program(mu, weights, start, basis, grasp, solution)
+            deepest_forces(mu, weights, start, basis, grasp, solution)
             lower = friction_of(solution[0], grasp)
             if not lower < mu:
                 break
@@ -353,7 +323,7 @@ def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Arra
         near = lower > mu * (1.0 - 1e-6)
         mu = lower
         if near:
-            polished = polish(mu, basis, grasp, solution)
+            polished = newton_friction(mu, basis, grasp, solution)
             if polished < math.inf:
                 lower = friction_of(solution[0], grasp)
                 if lower <= mu * (1.0 + 1e-13):
@@ -394,7 +364,7 @@ def narrowed(
         if mu - low <= 1e-9 * mu:
             break
         tried = mu * (1.0 - part) if low == 0.0 else 0.5 * (low + mu)
-        friction_program(tried, weights, start, basis, grasp, tried_solution)
+        deepest_forces(tried, weights, start, basis, grasp, tried_solution)
         lower = friction_of(tried_solution[0], grasp)
         if lower < mu * (1.0 - ROUND_OFF):
             mu = lower
@@ -420,7 +390,7 @@ def narrowed(
         else:
             part *= 10.0
     set_solution(tried_solution, solution)
-    if low < mu * (1.0 - 1e-9) and polish(mu, basis, grasp, tried_solution) < math.inf:
+    if low < mu * (1.0 - 1e-9) and newton_friction(mu, basis, grasp, tried_solution) < math.inf:
         lower = friction_of(tried_solution[0], grasp)
         if lower <= mu * (1.0 + ROUND_OFF):
             mu = min(mu, lower)

@@ -8,24 +8,20 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import types
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate._pointer import Pointer
-from threadstate.statics._cone_kernel import assign
+from threadstate.statics._cone_kernel import assign, solve_program
 from threadstate.statics._family_kernel import (
     ROUND_OFF,
-    friction_program,
+    deepest_forces,
     improved,
     least_pull,
     narrowed,
-    polish,
-    solver_addresses,
+    newton_friction,
 )
 from threadstate.statics._grasp_kernel import (
     RANK_TOLERANCE,
-    Solvers,
     balancing_forces,
     contact_velocities,
     friction_of,
@@ -37,7 +33,6 @@ from threadstate.statics._grasp_kernel import (
     tangential_part,
     twist_of,
 )
-from threadstate.statics._program_kernel import program_at
 from threadstate.statics._triangle_kernel import (
     hinge_twist,
     inner,
@@ -58,9 +53,8 @@ BALANCE_TOLERANCE = 1e-9
 FOUND, NEVER, OPEN = range(3)
 
 
-def wedge_with(
-    solvers: Solvers, points: Array, normals: Array, forces: Array, twist: Array
-) -> tuple[int, float, float]:
+@kernel(allocates=True)
+def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -> tuple[int, float, float]:
     """Bounds of the least friction at which forces at the contacts that are not all zero balance each other.
 
     The contacts' points and normals have shape (k, 3). ``forces`` (3 k) is filled in with such forces at the upper
@@ -73,7 +67,7 @@ def wedge_with(
     k = normals.shape[0]
     forces[:] = 0.0
     twist[:] = 0.0
-    grasp = new_grasp(points, normals, solvers)
+    grasp = new_grasp(points, normals)
     d = 3 * k - grasp.rank
     if d == 0:
         return NEVER, math.inf, math.inf
@@ -131,7 +125,7 @@ def wedge_with(
     mu = math.inf
     weights = np.ones(k)
     for guess in (0.5, 5.0, 50.0):
-        friction_program(guess, weights, start, rest, grasp, solution)
+        deepest_forces(guess, weights, start, rest, grasp, solution)
         mu = friction_of(solution[0], grasp)
         if mu < math.inf:
             break
@@ -161,8 +155,8 @@ def wedge_with(
                 high = tried
             else:
                 low = tried
-        friction_program(high, weights, start, rest, grasp, solution)
-        polished = polish(high, rest, grasp, solution)
+        deepest_forces(high, weights, start, rest, grasp, solution)
+        polished = newton_friction(high, rest, grasp, solution)
         if abs(polished - high) <= 10.0 * ROUND_OFF * high:
             for i in range(3 * k):
                 forces[i] = solution[0, i]
@@ -208,8 +202,8 @@ def limit_of_pairs(load: Array, points: Array, normals: Array, twist: Array) -> 
     return limit
 
 
-def hold_with(
-    solvers: Solvers,
+@kernel(allocates=True)
+def hold_friction(
     load: Array,
     points: Array,
     normals: Array,
@@ -230,7 +224,7 @@ def hold_with(
         The status, the lower and the upper bound; both infinite where no friction holds the load.
     """
     k = normals.shape[0]
-    grasp = new_grasp(points, normals, solvers)
+    grasp = new_grasp(points, normals)
     size = 0.0
     for m in range(6):
         size += load[m] * load[m]
@@ -278,7 +272,7 @@ def hold_with(
     mu = math.inf
     below = min(limit, 1e3)
     for part in (0.25, 0.9, 0.999, 0.999999):
-        friction_program(part * below, weights, start, basis, grasp, solution)
+        deepest_forces(part * below, weights, start, basis, grasp, solution)
         mu = friction_of(solution[0], grasp)
         if mu < math.inf:
             break
@@ -294,7 +288,7 @@ def hold_with(
         return FOUND, low, mu
     if mu == math.inf and wedge < math.inf:
         for part in (1.00001, 2.0, 100.0):
-            friction_program(part * below, weights, start, basis, grasp, solution)
+            deepest_forces(part * below, weights, start, basis, grasp, solution)
             mu = friction_of(solution[0], grasp)
             if mu < math.inf:
                 break
@@ -322,14 +316,14 @@ def hold_with(
 
 
 @kernel(allocates=True)
-def least_forces_with(solvers: Solvers, load: Array, mu: float, points: Array, normals: Array, forces: Array) -> float:
+def least_forces(load: Array, mu: float, points: Array, normals: Array, forces: Array) -> float:
     """Forces within the cones at ``mu`` that balance a load, of least largest normal part, into ``forces`` (3 k).
 
     Returns:
         The least friction that they need; infinite if none were found.
     """
     k = normals.shape[0]
-    grasp = new_grasp(points, normals, solvers)
+    grasp = new_grasp(points, normals)
     size = 0.0
     for m in range(6):
         size += load[m] * load[m]
@@ -361,7 +355,7 @@ def least_forces_with(solvers: Solvers, load: Array, mu: float, points: Array, n
                 g[3 * i + 1, j] = -a
                 g[3 * i + 2, j] = -b
                 g[3 * k + i, j] = n
-        program_at(solvers[0])(c, g, h, sizes, x, z)
+        solve_program(c, g, h, sizes, x, z)
         for j in range(d):
             for i in range(3 * k):
                 forces[i] += x[j] * basis[j, i]
@@ -369,75 +363,3 @@ def least_forces_with(solvers: Solvers, load: Array, mu: float, points: Array, n
     for i in range(3 * k):
         forces[i] *= size
     return needed
-
-
-_ROW, _TABLE = types.float64[::1], types.float64[:, ::1]
-_FOUND = types.Tuple((types.int64, types.float64, types.float64))
-_SOLVERS = types.UniTuple(types.int64, 3)
-WEDGE = Pointer(wedge_with, _FOUND(_SOLVERS, _TABLE, _TABLE, _ROW, _ROW))
-HOLD = Pointer(hold_with, _FOUND(_SOLVERS, _ROW, _TABLE, _TABLE, types.float64, _ROW, _ROW, _ROW, _ROW))
-wedge_at, hold_at = WEDGE.at, HOLD.at
-
-Searches = tuple[Solvers, int, int]
-"""The addresses of the solvers, of :func:`wedge_with` and of :func:`hold_with`."""
-
-
-def search_addresses() -> Searches:
-    """The addresses in this process."""
-    return solver_addresses(), WEDGE.address, HOLD.address
-
-
-@kernel(allocates=True)
-def wedge_by(
-    searches: Searches, points: Array, normals: Array, forces: Array, twist: Array
-) -> tuple[int, float, float]:
-    """As :func:`wedge_with`, at its address."""
-    found: tuple[int, float, float] = wedge_at(searches[1])(searches[0], points, normals, forces, twist)
-    return found
-
-
-@kernel(allocates=True)
-def hold_by(
-    searches: Searches,
-    load: Array,
-    points: Array,
-    normals: Array,
-    wedge: float,
-    wedge_forces: Array,
-    wedge_twist: Array,
-    forces: Array,
-    twist: Array,
-) -> tuple[int, float, float]:
-    """As :func:`hold_with`, at its address."""
-    found: tuple[int, float, float] = hold_at(searches[2])(
-        searches[0], load, points, normals, wedge, wedge_forces, wedge_twist, forces, twist
-    )
-    return found
-
-
-def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -> tuple[int, float, float]:
-    """As :func:`wedge_with`, with the addresses of this process."""
-    found: tuple[int, float, float] = wedge_by(search_addresses(), points, normals, forces, twist)
-    return found
-
-
-def hold_friction(
-    load: Array,
-    points: Array,
-    normals: Array,
-    wedge: float,
-    wedge_forces: Array,
-    wedge_twist: Array,
-    forces: Array,
-    twist: Array,
-) -> tuple[int, float, float]:
-    """As :func:`hold_with`, with the addresses of this process."""
-    found: tuple[int, float, float] = hold_by(
-        search_addresses(), load, points, normals, wedge, wedge_forces, wedge_twist, forces, twist
-    )
-    return found
-
-
-def least_forces(load: Array, mu: float, points: Array, normals: Array, forces: Array) -> float:
-    """As :func:`least_forces_with`, with the addresses of this process."""
-    return float(least_forces_with(solver_addresses(), load, mu, points, normals, forces))

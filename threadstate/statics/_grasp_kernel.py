@@ -21,9 +21,6 @@ RANK_TOLERANCE = 1e-10
 """Relative size below which a direction of the contacts' wrenches is none."""
 
 
-Solvers = tuple[int, int, int]
-
-
 class Grasp(NamedTuple):
     """Contacts with what is computed of them once.
 
@@ -35,7 +32,6 @@ class Grasp(NamedTuple):
         upper: shape (6, 6), R.
         order: shape (6).
         rank: of the matrix.
-        solvers: the addresses of the solver of cone programs and of what ``_family_kernel`` has compiled once.
     """
 
     normals: Array
@@ -45,7 +41,6 @@ class Grasp(NamedTuple):
     upper: Array
     order: NDArray[np.intp]
     rank: int
-    solvers: Solvers
 
 
 @kernel(allocates=True)
@@ -146,7 +141,7 @@ def orthogonal_factor(matrix: Array, reflections: Array, upper: Array, order: ND
 
 
 @kernel(allocates=True)
-def new_grasp(points: Array, normals: Array, solvers: Solvers) -> Grasp:
+def new_grasp(points: Array, normals: Array) -> Grasp:
     """The grasp of contacts at points of shape (k, 3)."""
     k = points.shape[0]
     frames = np.empty((k, 2, 3))
@@ -157,7 +152,7 @@ def new_grasp(points: Array, normals: Array, solvers: Solvers) -> Grasp:
     upper = np.zeros((6, 6))
     order = np.empty(6, np.intp)
     rank = orthogonal_factor(matrix, reflections, upper, order)
-    return Grasp(normals, frames, matrix, reflections, upper, order, rank, solvers)
+    return Grasp(normals, frames, matrix, reflections, upper, order, rank)
 
 
 @kernel(allocates=True)

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._record_kernel import FLAG_FLUSH, O_CONTACTS, O_FLAGS, O_POSE, O_POSES
-from threadstate.statics._friction_kernel import OPEN, Searches, hold_by, wedge_by
+from threadstate.statics._friction_kernel import OPEN, hold_friction, wedge_friction
 from threadstate.statics._last_pose_kernel import set_contacts
 from threadstate.statics._patch_kernel import OUTLINE_SAMPLES, patch_hull
-from threadstate.statics._support_kernel import margin_with, patch_margin
+from threadstate.statics._support_kernel import patch_margin, support_margin
 
 Array = NDArray[np.float64]
 
@@ -32,18 +32,18 @@ def set_bounds(status: int, lower: float, upper: float, bounds: Array) -> None:
 
 
 @kernel(allocates=True)
-def contact_numbers(searches: Searches, load: Array, points: Array, normals: Array, numbers: Array) -> None:
+def contact_numbers(load: Array, points: Array, normals: Array, numbers: Array) -> None:
     """Sets the margin and the bounds of both least frictions of contacts at points (k, 3) with normals (k, 3)."""
     k = points.shape[0]
     forces, twist = np.zeros(3 * k), np.zeros(6)
-    status, lower, upper = wedge_by(searches, points, normals, forces, twist)
+    status, lower, upper = wedge_friction(points, normals, forces, twist)
     set_bounds(status, lower, upper, numbers[N_WEDGE:])
-    numbers[N_MARGIN] = margin_with(searches[0][0], load, points, normals)
+    numbers[N_MARGIN] = support_margin(load, points, normals)
     if numbers[N_MARGIN] >= 0.0:
         numbers[N_HOLD], numbers[N_HOLD + 1] = 0.0, 0.0
         return
     found, moved = np.zeros(3 * k), np.zeros(6)
-    status, lower, upper = hold_by(searches, load, points, normals, upper, forces, twist, found, moved)
+    status, lower, upper = hold_friction(load, points, normals, upper, forces, twist, found, moved)
     set_bounds(status, lower, upper, numbers[N_HOLD:])
 
 
@@ -64,9 +64,7 @@ def patch_numbers(load: Array, hull: Array, numbers: Array) -> None:
 
 
 @kernel(nogil=True, allocates=True)
-def statics_rows(
-    searches: Searches, records: Array, loads: Array, radius: float, bolt: Array, nut: Array, rows: Array
-) -> None:
+def statics_rows(records: Array, loads: Array, radius: float, bolt: Array, nut: Array, rows: Array) -> None:
     """Sets the rows (n, NUMBERS_SIZE) of decided records under loads (n, 6) about each bolt's origin.
 
     Moments of the loads are over ``radius``.
@@ -94,4 +92,4 @@ def statics_rows(
             row[N_STATUS] = NO_NORMAL
             continue
         points /= radius
-        contact_numbers(searches, load, points, normals, row)
+        contact_numbers(load, points, normals, row)

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.statics._cone_kernel import factor, solve_factored
-from threadstate.statics._program_kernel import program_address, program_at
+from threadstate.statics._cone_kernel import factor, solve_factored, solve_program
 
 Array = NDArray[np.float64]
 
@@ -25,13 +24,8 @@ FEW_RAYS = 4
 """Up to so many rays each face of their cone is tried; the faces double with every ray."""
 
 
-def support_margin(load: Array, points: Array, normals: Array) -> float:
-    """As :func:`margin_with`, with the compiled solver of cone programs."""
-    return float(margin_with(program_address(), load, points, normals))
-
-
 @kernel(allocates=True)
-def margin_with(program: int, load: Array, points: Array, normals: Array) -> float:
+def support_margin(load: Array, points: Array, normals: Array) -> float:
     """The margin of a load on contacts at points (k, 3) with normals (k, 3).
 
     Dependent rays (a strip of flank): a load among them is supported, but how far it is from the sides of their cone is
@@ -50,7 +44,7 @@ def margin_with(program: int, load: Array, points: Array, normals: Array) -> flo
         nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
         rays[i, 0], rays[i, 1], rays[i, 2] = y * nz - z * ny, z * nx - x * nz, x * ny - y * nx
         rays[i, 3], rays[i, 4], rays[i, 5] = nx, ny, nz
-    distance = distance_by_faces(unit, rays) if k <= FEW_RAYS else distance_by_program(program, unit, rays)
+    distance = distance_by_faces(unit, rays) if k <= FEW_RAYS else distance_by_program(unit, rays)
     if distance > SPAN_TOLERANCE:
         return -distance
     depth = depth_in_simplex(unit, rays)
@@ -97,8 +91,8 @@ def distance_by_faces(load: Array, rays: Array) -> float:
 
 
 @kernel(allocates=True)
-def distance_by_program(program: int, load: Array, rays: Array) -> float:
-    """As :func:`distance_by_faces`, for any number of rays, by the solver of cone programs at an address."""
+def distance_by_program(load: Array, rays: Array) -> float:
+    """As :func:`distance_by_faces`, for any number of rays, by the solver of cone programs."""
     k = rays.shape[0]
     g = np.zeros((7 + k, k + 1))
     h = np.zeros(7 + k)
@@ -115,7 +109,7 @@ def distance_by_program(program: int, load: Array, rays: Array) -> float:
         g[7 + i, i] = -1.0
     x = np.zeros(k + 1)
     z = np.zeros(7 + k)
-    program_at(program)(c, g, h, sizes, x, z)
+    solve_program(c, g, h, sizes, x, z)
     distance = 0.0
     for m in range(6):
         left = load[m]

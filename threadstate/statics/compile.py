@@ -7,16 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.state.model import ContactState
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics._friction_kernel import least_forces
 from threadstate.statics.extras import Extra, extras_of
 from threadstate.statics.load import Load
-from threadstate.statics.rows import statics_rows, stored_statics
+from threadstate.statics.rows import stored_statics
 from threadstate.statics.solve import statics_of
 from threadstate.statics.wrench_cone import contact_maps, opening
-from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
 
@@ -27,9 +25,8 @@ def load_statics(pair: Pair, states: Sequence[ContactState]) -> None:
         extras_of(pair, state, statics_of(pair, state, Load(force=(0.1, 0.0, -1.0)), 0.5), [Extra.REACTION])
 
 
-def compile_without_states() -> None:
-    """Compile what needs no solved state: rows of no states, and the forces on three contacts of a plane."""
-    statics_rows(quarter_twenty_unc(), np.empty((0, RECORD_SIZE)))
+def compile_forces() -> None:
+    """Compile what no level state calls: the forces on three contacts."""
     points, normals = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
     least_forces(np.array([0.0, 0.0, 0.1, 0.0, 0.0, -1.0]), 1.0, points, normals, np.zeros(9))
     turn_effort(1.0, 0.0, points, normals, 0.1, 1.0)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.statics._program_kernel import program_address, solve_with
+from threadstate.statics._cone_kernel import solve_program
 
 Floats = NDArray[np.float64]
 
@@ -198,7 +198,7 @@ def solve_cone_program(
 ) -> tuple[Floats, Floats]:
     """What ``solve_program`` of ``_cone_kernel`` finds: x and z."""
     x, z = np.zeros(g.shape[1]), np.zeros(g.shape[0])
-    solve_with(program_address(), c, np.ascontiguousarray(g), h, np.array(sizes, np.intp), x, z)
+    solve_program(c, np.ascontiguousarray(g), h, np.array(sizes, np.intp), x, z)
     return x, z
 
 

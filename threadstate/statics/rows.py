@@ -13,7 +13,6 @@ from threadstate.state.encode import geometry_records
 from threadstate.state.flat_base import require_flat_base
 from threadstate.state.model import Answer, ContactState
 from threadstate.statics import _numbers_kernel as nk
-from threadstate.statics._friction_kernel import search_addresses
 from threadstate.statics.load import Load
 from threadstate.statics.solve import statics_of
 from threadstate.statics.stored import StoredStatics
@@ -37,7 +36,7 @@ def statics_rows(pair: Pair, records: Floats, load: Load | None = None) -> Float
     radius = pair.nominal_diameter / 2.0
     loads = loads_about(origins(records), load or Load())
     loads[:, :3] /= radius
-    nk.statics_rows(search_addresses(), records, loads, radius, pair.bolt.packed, pair.nut.packed, rows)
+    nk.statics_rows(records, loads, radius, pair.bolt.packed, pair.nut.packed, rows)
     rows[on_strips(records), nk.N_STATUS] = nk.OPEN_PATCH
     return rows
 

@@ -126,7 +126,7 @@ def _numbers(wrench: Floats, scaled: Touching) -> Floats:
     elif scaled.strip:
         strip_numbers(wrench, points, normals, scaled.own, numbers)
     else:
-        nk.contact_numbers(fk.search_addresses(), wrench, points, normals, numbers)
+        nk.contact_numbers(wrench, points, normals, numbers)
     return numbers
 
 
@@ -137,7 +137,7 @@ def strip_numbers(wrench: Floats, points: Floats, normals: Floats, corners: int,
     """
     ends = len(points) // 2
     at = [0, ends - 1, ends, len(points) - 1][:corners]
-    nk.contact_numbers(fk.search_addresses(), wrench, points[at], normals[at], numbers)
+    nk.contact_numbers(wrench, points[at], normals[at], numbers)
     lower = numbers[nk.N_WEDGE]
     numbers[nk.N_WEDGE] = 0.0
     for step in STEPS:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.statics._program_kernel import program_address, solve_with
+from threadstate.statics._cone_kernel import solve_program
 
 Floats = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ def solved_program(c: Floats, g: Floats, h: Floats, sizes: list[int]) -> tuple[F
     """Both solutions of a cone program, as ``_cone_kernel.solve_program`` has it; approximations."""
     x, z = np.zeros(len(c)), np.zeros(len(h))
     g, h = np.ascontiguousarray(g, dtype=np.float64), np.ascontiguousarray(h, dtype=np.float64)
-    solve_with(program_address(), np.ascontiguousarray(c), g, h, np.array(sizes, np.intp), x, z)
+    solve_program(np.ascontiguousarray(c), g, h, np.array(sizes, np.intp), x, z)
     return x, z
 
 
