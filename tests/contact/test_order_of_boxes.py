@@ -48,7 +48,9 @@ def second_turn(pose_deg: tuple[float, float, float], work: stage.Work) -> tuple
 
 
 def wanted_of(work: stage.Work) -> edge_search.EdgeSearch:
-    return edge_search.EdgeSearch(False, TIE, work.boxes, work.scratch, work.queue, work.regions, work.entries)
+    return edge_search.EdgeSearch(
+        False, TIE, work.boxes, work.scratch, work.queue, work.regions, work.entries, work.jet, work.wedge
+    )
 
 
 def test_boxes_wait_by_their_starts_and_the_last_of_equals_comes_first() -> None:

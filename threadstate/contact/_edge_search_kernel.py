@@ -44,7 +44,6 @@ from threadstate.contact._onset_kernel import (
     J_X,
     J_Y,
     J_Z,
-    JET_SIZE,
     ROOT_AT_SIDE,
     ROOT_BESIDE,
     ROOT_INSIDE,
@@ -326,6 +325,8 @@ class EdgeSearch(NamedTuple):
             one, the latest ``MAX_REGIONS``: rows as the fields of ``Box``.
         entries: onsets that are not contacts: there an edge enters an open overlap. Then the time of one of which
             round-off hides if it is.
+        jet: scratch of an onset.
+        wedge: scratch of a crossing.
     """
 
     any_onset: bool
@@ -335,9 +336,11 @@ class EdgeSearch(NamedTuple):
     queue: Array
     regions: Array
     entries: Array
+    jet: Array
+    wedge: Array
 
 
-@kernel(allocates=True)
+@kernel()
 def list_onset(
     box_class: int, t: float, tau: float, edge: Edge, search: EdgeSearch, scratch: Array, count: int, found: Array
 ) -> tuple[int, bool]:
@@ -345,7 +348,7 @@ def list_onset(
 
     Returns the number found, and whether it ends the search.
     """
-    jet, wedge = np.empty(JET_SIZE), np.empty(9)
+    jet, wedge = search.jet, search.wedge
     set_jet_beside(t, tau, edge, jet)
     if not rises(box_class, jet) or contact_distance(t, edge.kept) < AZIMUTH_TOLERANCE:
         return count, False
@@ -370,10 +373,10 @@ def keep_region(box_class: int, box: Box, t: float, tau: float, edge: Edge, sear
     """
     scratch, regions = search.scratch, search.regions
     room = contact_distance(t, edge.kept)
-    duration = box.end - box.start
+    half, duration = box.half, box.end - box.start
     for i in range(VECTOR_WIDTH):
-        size = 2.0**i
-        set_box_at(Box(t, size * box.half, tau - size * duration, tau + size * duration), i, scratch)
+        set_box_at(Box(t, half, tau - duration, tau + duration), i, scratch)
+        half, duration = 2.0 * half, 2.0 * duration
     evaluate_boxes(VECTOR_WIDTH, edge, scratch)
     number = int(regions[0, 0])
     place = 1 + number % MAX_REGIONS
@@ -401,7 +404,7 @@ def outside_regions(box: Box, regions: Array) -> Box:
     return Box(theta, half, start, end)
 
 
-@kernel(allocates=True)
+@kernel()
 def close_by_onset(
     box_class: int, box: Box, since: float, best: float, edge: Edge, search: EdgeSearch, count: int, found: Array
 ) -> tuple[bool, int, float]:
@@ -409,9 +412,8 @@ def close_by_onset(
 
     One in the box is listed in ``found`` if it begins in time. Returns the number there then, and the earliest time.
     """
-    jet = np.empty(JET_SIZE)
     is_narrow = box.half < AZIMUTH_TOLERANCE
-    place, t, tau = newton_onset(box_class, box, edge, jet)
+    place, t, tau = newton_onset(box_class, box, edge, search.jet)
     is_located = place == ROOT_INSIDE or place == ROOT_BESIDE or (place == ROOT_AT_SIDE and is_narrow)
     if is_located and is_the_one(box_class, box, t, tau, edge, search.scratch):
         if place == ROOT_INSIDE:
@@ -420,7 +422,7 @@ def close_by_onset(
             count, ends = list_onset(box_class, t, tau, edge, search, search.scratch, count, found)
             best = min(best, tau) if ends else best
         return True, count, best
-    return is_narrow and onset_only_outside(box_class, box, edge, search.scratch, jet), count, best
+    return is_narrow and onset_only_outside(box_class, box, edge, search.scratch, search.jet), count, best
 
 
 @kernel(forceinline=True)

@@ -38,10 +38,12 @@ from threadstate.contact._onset_kernel import (
     C_Y,
     C_Z,
     CANDIDATE_SIZE,
+    JET_SIZE,
     MAX_CANDIDATES,
 )
 from threadstate.contact._queue_kernel import new_queue
 from threadstate.contact._refined_edge_kernel import is_refined, refined_edges
+from threadstate.contact._wedge_kernel import WEDGE_SIZE
 from threadstate.contact._wide_kernel import wide_motion
 from threadstate.thread import _profile_kernel as pk
 
@@ -62,7 +64,10 @@ class Work(NamedTuple):
         nut_motion: motion of the nut in the bolt's frame.
         rectangles: rectangles of the bolt's thread.
         tangencies: contacts of thread with thread.
+        on_surface: contacts of the bolt's thread with the surface.
         entries: where edges enter open overlaps.
+        jet: an onset's jet.
+        wedge: the wedge of a crossing.
     """
 
     boxes: Array
@@ -75,7 +80,10 @@ class Work(NamedTuple):
     nut_motion: Array
     rectangles: Array
     tangencies: Array
+    on_surface: Array
     entries: Array
+    jet: Array
+    wedge: Array
 
 
 # Pairs of features, in the order of ``FeaturePair``.
@@ -239,7 +247,10 @@ def new_work() -> Work:
         np.empty(MOTION_SIZE),
         np.empty((rect.MAX_RECTANGLES, rect.RECTANGLE_SIZE)),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
+        np.empty((ts.MAX_FOUND, tk.TANGENCY_SIZE)),
         np.zeros((1 + MAX_ENTRIES, ENTRY_SIZE)),
+        np.empty(JET_SIZE),
+        np.empty(WEDGE_SIZE),
     )
 
 
@@ -379,13 +390,12 @@ def list_thread_contacts(
     known: Array,
     known_count: int,
     bolt: Array,
-    on_surface: Array,
     work: Work,
     count: int,
     out: Array,
 ) -> int:
     """Adds the contacts of threads to those found, without the known ones; returns how many there are then."""
-    tangencies = work.tangencies
+    tangencies, on_surface = work.tangencies, work.on_surface
     for i in range(tangency_count):
         x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
         if not is_known(x, y, z, known, known_count, bolt):
@@ -411,17 +421,16 @@ def may_lack_ties(count: int, bolt_count: int, nut_count: int, tie_tolerance: fl
     )
 
 
-@kernel(allocates=True)
+@kernel()
 def search_threads(
     is_turn: bool, reach: float, unexplained: bool, thread_search: int, bolt: Array, nut: Array, work: Work
-) -> tuple[int, int, Array]:
-    """The contacts of threads up to ``reach``: how many of thread with thread, or OVERFLOW; how many of the bolt's
-    thread on the surface; and these.
+) -> tuple[int, int]:
+    """The contacts of threads up to ``reach``, into ``work``: how many of thread with thread, or OVERFLOW; and how many
+    of the bolt's thread on the surface.
 
     ``unexplained``: an edge enters, and no contact of an edge says why.
     """
     tangencies = work.tangencies
-    on_surface = np.empty((ts.MAX_FOUND, tk.TANGENCY_SIZE))
     tangency_count = 0
     if thread_search != PROVED:
         tangency_count = ridge.ridge_contacts(work.bolt_motion, bolt, nut, reach, RIDGE_AZIMUTHS, tangencies)
@@ -429,7 +438,7 @@ def search_threads(
             tangency_count = ridge.contacts_behind_entries(
                 work.entries, reach, work.bolt_motion, bolt, nut, tangencies, tangency_count
             )
-    on_surface_count = ts.thread_surface_contacts(work.bolt_motion, bolt, nut, reach, on_surface, 0)
+    on_surface_count = ts.thread_surface_contacts(work.bolt_motion, bolt, nut, reach, work.on_surface, 0)
     if thread_search == PROVED or (
         thread_search == RIDGES and unexplained and tangency_count == 0 and on_surface_count == 0
     ):
@@ -442,11 +451,11 @@ def search_threads(
             )
             evaluated = OVERFLOW if tangency_count == 0 else 0
         if evaluated == OVERFLOW:
-            return OVERFLOW, 0, on_surface
-    return tangency_count, on_surface_count, on_surface
+            return OVERFLOW, 0
+    return tangency_count, on_surface_count
 
 
-@kernel(allocates=True)
+@kernel()
 def contacts_of_edges(
     bolt_edge: Edge,
     nut_edge: Edge,
@@ -466,7 +475,17 @@ def contacts_of_edges(
     """
     bolt, nut = bolt_edge.curve, nut_edge.curve
     work.entries[0, 0], work.entries[0, E_DOUBTFUL] = 0.0, math.inf
-    search = EdgeSearch(not is_turn, tie_tolerance, work.boxes, work.scratch, work.queue, work.regions, work.entries)
+    search = EdgeSearch(
+        not is_turn,
+        tie_tolerance,
+        work.boxes,
+        work.scratch,
+        work.queue,
+        work.regions,
+        work.entries,
+        work.jet,
+        work.wedge,
+    )
     bolt_count, nut_count, best, status = search_both_edges(limit, span, is_turn, bolt_edge, nut_edge, search, work)
     if status != RESOLVED or work.entries[0, E_DOUBTFUL] <= best + tie_tolerance:
         return 0, UNRESOLVED, best
@@ -476,15 +495,11 @@ def contacts_of_edges(
         nut_count > 0 and work.nut_found[0, C_TIME] <= best + tie_tolerance
     ):
         unexplained = False
-    tangency_count, on_surface_count, on_surface = search_threads(
-        is_turn, reach, unexplained, thread_search, bolt, nut, work
-    )
+    tangency_count, on_surface_count = search_threads(is_turn, reach, unexplained, thread_search, bolt, nut, work)
     if tangency_count == OVERFLOW:
         return 0, UNRESOLVED, best
     count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
-    count = list_thread_contacts(
-        tangency_count, on_surface_count, known, known_count, bolt, on_surface, work, count, out
-    )
+    count = list_thread_contacts(tangency_count, on_surface_count, known, known_count, bolt, work, count, out)
     # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best

@@ -45,6 +45,8 @@ TANGENT_ERROR = 4e-15
 REFINED_TANGENT_ERROR = 1e-28
 """The same of refined edges."""
 
+WEDGE_SIZE = 9
+
 AZIMUTH_ROUNDING = 4e-16
 """Of an azimuth of up to a radian that is stored as a double."""
 

@@ -71,7 +71,7 @@ from threadstate.contact._stage_kernel import (
     turned,
 )
 from threadstate.contact._surface_kernel import start_height
-from threadstate.contact._wedge_kernel import crossing_of, is_contact
+from threadstate.contact._wedge_kernel import WEDGE_SIZE, crossing_of, is_contact
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -133,7 +133,7 @@ def new_work() -> Work:
         np.empty(PATH_SIZE),
         np.empty((0, 2)),
         np.empty(JET_SIZE),
-        np.empty(9),
+        np.empty(WEDGE_SIZE),
         np.empty(tk.PLACEMENT_SIZE),
         np.empty(tk.TANGENCY_JET_SIZE),
         np.empty((tk.MAX_TANGENCIES, tk.TANGENCY_SIZE)),
