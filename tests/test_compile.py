@@ -41,6 +41,39 @@ print("fmul contract" in code, "fadd contract" in subtracted)
 """
 
 
+LINKED = """
+import gc
+from pathlib import Path
+from numba import njit
+from threadstate._compile import kernel
+
+@kernel()
+def deepest(x):
+    return 3.0 * x
+
+@kernel()
+def between(x):
+    total = 0.0
+    while total < x:
+        total += deepest(x) - 2.0 * x
+BRANCHES
+    return total + deepest(total)
+
+@kernel()
+def entry(x):
+    return between(x) + between(2.0 * x)
+
+plain = njit(lambda x: entry(x) + between(x))
+print(entry(1.0), plain(1.0), gc.isenabled())
+print(*(kernel.signatures for kernel in (deepest, between)))
+print(*sorted(path.name.split("-")[0] for path in Path(FOLDER).rglob("*.nbi")))
+(code,) = entry.inspect_llvm().values()
+print(*(line.split()[1] for line in code.splitlines() if line.startswith("define") and "between" in line))
+"""
+
+BRANCHES = "\n".join(f"    if total < -{i}.0:\n        total = deepest(total) / (total - {i}.5)" for i in range(1, 40))
+"""Too many to be inlined."""
+
 AHEAD = """
 import sys
 from threadstate import warm_up
@@ -119,6 +152,18 @@ def test_a_kernel_does_not_take_over_how_its_first_caller_rounds(tmp_path: Path)
     for callee in (False, True):
         code = ROUNDING.replace("CALLEE", str(callee)).replace("CALLER", str(not callee))
         assert printed(code, tmp_path) == [str(callee), str(not callee)]
+
+
+def test_callees_are_linked_and_not_compiled_by_themselves(tmp_path: Path) -> None:
+    """Only what Python calls is compiled and cached; what that calls is no function of its own to anyone else.
+
+    A function that is no kernel may call them, too.
+    """
+    entry, plain, collects, *rest = printed(
+        LINKED.replace("FOLDER", repr(str(tmp_path))).replace("BRANCHES", BRANCHES), tmp_path
+    )
+    assert (entry, plain, collects) == ("12.0", "16.0", "True")
+    assert rest == ["[]", "[]", "kernels.entry", "internal"]
 
 
 def test_what_is_compiled_ahead_is_what_is_called() -> None:

@@ -22,11 +22,19 @@ class _EntryLibrary(JITCodeLibrary):
     """The code of a kernel that Python calls, with all that it calls."""
 
     def _optimize_final_module(self) -> None:
-        """Optimise callees as functions that nothing else calls: their arguments too, and none is left unused."""
-        for function in self._final_module.functions:
-            if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
-                function.linkage = Linkage.internal
+        """Optimise callees as functions that nothing else calls: their arguments too, and none is left unused.
+
+        They get names of their own: LLVM's linker would hand them to another's code that looks for the same name.
+        """
+        defined = [one for one in self._final_module.functions if not one.is_declaration]
+        (entry, *_) = (one.name for one in defined if one.linkage == Linkage.external)
+        for one in defined:
+            if one.linkage == Linkage.linkonce_odr:
+                one.linkage = Linkage.internal
         super()._optimize_final_module()
+        for one in self._final_module.functions:
+            if one.linkage == Linkage.internal:
+                one.name = f"{one.name}.{entry}"
 
 
 class _CalleeLibrary(JITCodeLibrary):
