@@ -66,23 +66,9 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
     pose, out = np.zeros(12), np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE))
     stage.rotation(0.05, 0.02, 1.0, pose)
     pose[11] = 0.01
-    down, none, stored = np.array([0.0, 0.0, -1.0]), np.empty((0, stage.CONTACT_SIZE)), np.empty((0, 2))
+    wanted = stage.Wanted(0.02, 1e-12, stage.RIDGES_ONLY)
     count, found_status, _ = stage.earliest.py_func(
-        pose,
-        False,
-        down,
-        down,
-        stored,
-        none,
-        0,
-        0.02,
-        1e-12,
-        BOLT,
-        NUT,
-        stage.RIDGES_ONLY,
-        False,
-        stage.new_work(),
-        out,
+        stage.way_down.py_func(pose), wanted, False, BOLT, NUT, stage.new_work(), out
     )
     assert (count, found_status) == (stage.MAX_CONTACTS, status)
 

@@ -36,8 +36,8 @@ def test_what_does_not_settle_is_searched_for_again_with_refined_edges(
     answers = iter(settles)
 
     def search(*arguments: Any) -> tuple[int, int, float]:
-        asked.append(arguments[12])
-        count, contacts = found[len(asked) - 1], arguments[14]
+        asked.append(arguments[2])
+        count, contacts = found[len(asked) - 1], arguments[6]
         contacts[0, stage.K_TIME] = 0.01
         return max(count, 0), stage.RESOLVED if count >= 0 else stage.UNRESOLVED, 0.01
 

@@ -46,9 +46,11 @@ from threadstate.contact._stage_kernel import (
     THREAD_SURFACE,
     THREAD_THREAD,
     UNRESOLVED,
+    Wanted,
     Work,
     earliest,
     set_motions,
+    way_down,
 )
 from threadstate.contact._surface_kernel import start_height
 from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, set_placement
@@ -217,26 +219,10 @@ def contact_below(
 
     Returns how many contacts are ``found``, that lift (``lift - reach``: none) and a status.
     """
-    down = np.array([0.0, 0.0, -1.0])
     raised = pose.copy()
     raised[11] += lift
-    count, status, best = earliest(
-        raised,
-        False,
-        down,
-        down,
-        np.empty((0, 2)),
-        found,
-        0,
-        reach,
-        tie_tolerance,
-        bolt,
-        nut,
-        RIDGES_ONLY,
-        False,
-        work,
-        found,
-    )
+    wanted = Wanted(reach, tie_tolerance, RIDGES_ONLY)
+    count, status, best = earliest(way_down(raised), wanted, False, bolt, nut, work, found)
     first = min(best, found[0, K_TIME]) if count > 0 else best
     return count, lift - min(first, reach), status
 

@@ -35,6 +35,8 @@ from threadstate.contact._stage_kernel import (
     THREAD_SURFACE,
     THREAD_THREAD,
     UNRESOLVED,
+    Stage,
+    Wanted,
     Work,
     earliest,
     edges_overlap,
@@ -339,25 +341,11 @@ def next_contact(
     wide.round_numbers(course.point, point)
     wide.round_numbers(course.axis, axis)
     wide.set_motion(exact, course.point, course.axis, course.motion)
-    bolt, nut, found, search_threads = scene.bolt, scene.nut, course.found, thread_search_of(scene)
+    bolt, nut, found = scene.bolt, scene.nut, course.found
+    stage = Stage(pose, is_turn, point, axis, course.motion, course.known, known_count)
+    wanted = Wanted(limit, tie, thread_search_of(scene))
     for i in range(2):
-        count, status, _ = earliest(
-            pose,
-            is_turn,
-            point,
-            axis,
-            course.motion,
-            course.known,
-            known_count,
-            limit,
-            tie,
-            bolt,
-            nut,
-            search_threads,
-            i == 1,
-            course.work,
-            found,
-        )
+        count, status, _ = earliest(stage, wanted, i == 1, bolt, nut, course.work, found)
         if status != RESOLVED:
             break
         if count == 0:

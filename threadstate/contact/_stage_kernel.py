@@ -86,6 +86,44 @@ class Work(NamedTuple):
     wedge: Array
 
 
+class Stage(NamedTuple):
+    """A motion of the bolt: a turn, or a translation.
+
+    Attributes:
+        pose: where it begins: a rotation by rows, and a translation.
+        is_turn: whether it is a turn.
+        point: on the axis of a turn.
+        axis: of a turn, or the direction of a translation.
+        exact: the motion in sums of two doubles (``_wide_kernel.set_motion``), of which pose, point and axis are the
+            nearest doubles; no rows: these are meant.
+        known: in its first rows the contacts through which the axis of a turn runs: they are not found again.
+        known_count: how many they are.
+    """
+
+    pose: Array
+    is_turn: bool
+    point: Array
+    axis: Array
+    exact: Array
+    known: Array
+    known_count: int
+
+
+class Wanted(NamedTuple):
+    """What is to be found of a motion.
+
+    Attributes:
+        limit: how long it is at most.
+        tie_tolerance: how long after the earliest contact others are listed, too.
+        thread_search: how thread on thread is searched: RIDGES (PROVED where no edge explains the earliest entry),
+            PROVED or RIDGES_ONLY.
+    """
+
+    limit: float
+    tie_tolerance: float
+    thread_search: int
+
+
 # Pairs of features, in the order of ``FeaturePair``.
 EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, THREAD_SURFACE, FLUSH = range(8)
 
@@ -254,6 +292,13 @@ def new_work() -> Work:
     )
 
 
+@kernel(allocates=True)
+def way_down(pose: Array) -> Stage:
+    """The translation down the nut's axis from a pose."""
+    down = np.array([0.0, 0.0, -1.0])
+    return Stage(pose, False, down, down, np.empty((0, 2)), np.empty((0, CONTACT_SIZE)), 0)
+
+
 @kernel()
 def on_bolt_edge(contact: Array, pose: Array, bolt: Array) -> bool:
     """Whether a contact of the bolt's thread or base is on the bolt's edge, too, within ``AZIMUTH_TOLERANCE``."""
@@ -385,20 +430,13 @@ def is_known(x: float, y: float, z: float, known: Array, known_count: int, bolt:
 
 @kernel()
 def list_thread_contacts(
-    tangency_count: int,
-    on_surface_count: int,
-    known: Array,
-    known_count: int,
-    bolt: Array,
-    work: Work,
-    count: int,
-    out: Array,
+    tangency_count: int, on_surface_count: int, stage: Stage, bolt: Array, work: Work, count: int, out: Array
 ) -> int:
     """Adds the contacts of threads to those found, without the known ones; returns how many there are then."""
     tangencies, on_surface = work.tangencies, work.on_surface
     for i in range(tangency_count):
         x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
-        if not is_known(x, y, z, known, known_count, bolt):
+        if not is_known(x, y, z, stage.known, stage.known_count, bolt):
             time, azimuth = tangencies[i, tk.T_TIME], tangencies[i, tk.T_THETA]
             count = insert_contact(Contact(time, THREAD_THREAD, azimuth, math.atan2(y, x), x, y, z), count, out)
     for i in range(on_surface_count):
@@ -457,23 +495,14 @@ def search_threads(
 
 @kernel()
 def contacts_of_edges(
-    bolt_edge: Edge,
-    nut_edge: Edge,
-    is_turn: bool,
-    known: Array,
-    known_count: int,
-    limit: float,
-    span: float,
-    tie_tolerance: float,
-    thread_search: int,
-    work: Work,
-    out: Array,
+    bolt_edge: Edge, nut_edge: Edge, stage: Stage, wanted: Wanted, span: float, work: Work, out: Array
 ) -> tuple[int, int, float]:
-    """The earliest contacts of a motion of two edges and their threads, as :func:`earliest` has them.
+    """The earliest contacts of two edges that move and of their threads, as :func:`earliest` has them.
 
     ``span`` is the length of the first span of time that is searched.
     """
     bolt, nut = bolt_edge.curve, nut_edge.curve
+    is_turn, (limit, tie_tolerance, thread_search) = stage.is_turn, wanted
     work.entries[0, 0], work.entries[0, E_DOUBTFUL] = 0.0, math.inf
     search = EdgeSearch(
         not is_turn,
@@ -499,7 +528,7 @@ def contacts_of_edges(
     if tangency_count == OVERFLOW:
         return 0, UNRESOLVED, best
     count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
-    count = list_thread_contacts(tangency_count, on_surface_count, known, known_count, bolt, work, count, out)
+    count = list_thread_contacts(tangency_count, on_surface_count, stage, bolt, work, count, out)
     # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best
@@ -510,57 +539,35 @@ def contacts_of_edges(
 
 @kernel(allocates=True)
 def earliest(
-    pose: Array,
-    is_turn: bool,
-    point: Array,
-    axis: Array,
-    exact: Array,
-    known: Array,
-    known_count: int,
-    limit: float,
-    tie_tolerance: float,
-    bolt: Array,
-    nut: Array,
-    thread_search: int,
-    refined: bool,
-    work: Work,
-    out: Array,
+    stage: Stage, wanted: Wanted, refined: bool, bolt: Array, nut: Array, work: Work, out: Array
 ) -> tuple[int, int, float]:
     """The earliest contacts of a motion by all pairs of features, sorted by time.
 
-    ``exact`` is the motion in sums of two doubles (``_wide_kernel.set_motion``), of which pose, point and axis are the
-    nearest doubles, or has no rows: then these are meant. ``known`` holds the contacts through which the axis of a turn
-    runs; they are not found again. Returns the number of contacts (all within ``tie_tolerance`` of the earliest, or
-    within one of ``TIE_SHARES`` of a turn, are listed, or the status is UNRESOLVED), a status, and the earliest time at
-    which an edge enters (of a translation) or touches (of a turn). ``thread_search`` selects how thread on thread is
-    searched: RIDGES (PROVED where no edge explains the earliest entry), PROVED or RIDGES_ONLY. ``refined``: with
-    refined edges from the beginning, as what a search in doubles finds is no contact.
+    Returns the number of contacts (all within the tolerance of a tie from the earliest, or within one of ``TIE_SHARES``
+    of a turn, are listed, or the status is UNRESOLVED), a status, and the earliest time at which an edge enters (of a
+    translation) or touches (of a turn). ``refined``: with refined edges from the beginning, as what a search in doubles
+    finds is no contact.
     """
+    pose, is_turn, point, axis, exact, known, known_count = stage
     bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(known_count))
     nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(known_count))
     keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
-    count, status, best = 0, UNRESOLVED, limit
+    count, status, best = 0, UNRESOLVED, wanted.limit
     span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt[pk.P]
     if not refined:
-        count, status, best = contacts_of_edges(
-            bolt_edge, nut_edge, is_turn, known, known_count, limit, span, tie_tolerance, thread_search, work, out
-        )
+        count, status, best = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, span, work, out)
     if status != RESOLVED:
         wide = exact if exact.shape[0] > 0 else wide_motion(bolt_edge.motion)
         bolt_edge, nut_edge = refined_edges(bolt_edge, nut_edge, wide)
         # What doubles take for an onset, if for no certain one, says how long the motion may be.
         span = min(span, best) if best > 0.0 else span
-        count, status, best = contacts_of_edges(
-            bolt_edge, nut_edge, is_turn, known, known_count, limit, span, tie_tolerance, thread_search, work, out
-        )
+        count, status, best = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, span, work, out)
         for share in TIE_SHARES:
-            if status != RESOLVED and is_turn and share * best < tie_tolerance:
-                tie = share * best
-                count, status, best = contacts_of_edges(
-                    bolt_edge, nut_edge, is_turn, known, known_count, limit, span, tie, thread_search, work, out
-                )
+            if status != RESOLVED and is_turn and share * best < wanted.tie_tolerance:
+                nearer = Wanted(wanted.limit, share * best, wanted.thread_search)
+                count, status, best = contacts_of_edges(bolt_edge, nut_edge, stage, nearer, span, work, out)
     return count, status, best
 
 

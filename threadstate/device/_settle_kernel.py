@@ -99,25 +99,8 @@ def first_height(rotation: Array, tie_tolerance: float, bolt: Array, nut: Array,
     high = start_height(pose, bolt)
     pose[11] = high
     found = np.empty((sk.MAX_CONTACTS, sk.CONTACT_SIZE))
-    known = np.empty((2, sk.CONTACT_SIZE))
-    axis = np.array([0.0, 0.0, -1.0])
-    count, status, _ = sk.earliest(
-        pose,
-        False,
-        np.zeros(3),
-        axis,
-        np.empty((0, 2)),
-        known,
-        0,
-        high + bolt[pk.P],
-        tie_tolerance,
-        bolt,
-        nut,
-        sk.RIDGES,
-        False,
-        stage,
-        found,
-    )
+    wanted = sk.Wanted(high + bolt[pk.P], tie_tolerance, sk.RIDGES)
+    count, status, _ = sk.earliest(sk.way_down(pose), wanted, False, bolt, nut, stage, found)
     if status != sk.RESOLVED or count == 0:
         return False, 0.0
     return True, high - found[0, sk.K_TIME]
