@@ -54,13 +54,23 @@ def wanted_of(work: stage.Work) -> edge_search.EdgeSearch:
 
 
 def test_boxes_wait_by_their_starts_and_the_last_of_equals_comes_first() -> None:
-    queue, count = queues.new_queue(), 0
-    starts = [0.5, 0.0, 0.25, 0.0, 0.75, 0.25]
+    queue = queues.new_queue()
+    queues.clear(queue)
+    starts = np.random.default_rng(64).integers(0, 40, 300).tolist()
+    waiting: list[tuple[int, int]] = []
     for i, start in enumerate(starts):
-        count = queues.add(Box(float(i), 1.0, start, 1.0), count, queue)
-    taken = [queues.row(count - 1 - i, queue) for i in range(count)]
-    assert [one.start for one in taken] == sorted(starts)
-    assert [one.theta for one in taken] == [3.0, 1.0, 5.0, 2.0, 0.0, 4.0]
+        queues.add(Box(float(i), 1.0, float(start), 50.0), queue)
+        waiting.append((start, -i))
+        if i % 3 == 2:  # one is taken in between, whose row is used again
+            taken = min(waiting)
+            waiting.remove(taken)
+            assert queues.first(queue) == (-taken[1], 1.0, taken[0], 50.0)
+            queues.remove_first(queue)
+    assert queue[queues.STATE, queues.S_USED] == 201
+    for taken in sorted(waiting):
+        assert queues.first(queue) == (-taken[1], 1.0, taken[0], 50.0)
+        queues.remove_first(queue)
+    assert queue[queues.STATE, queues.S_STACKS] == 0
 
 
 def test_parts_cover_the_box() -> None:
@@ -75,12 +85,14 @@ def test_parts_cover_the_box() -> None:
 
 def test_parts_that_start_late_are_left_out_and_late_ends_are_cut() -> None:
     boxes, queue = np.zeros(box.BOXES_SIZE), queues.new_queue()
+    queues.clear(queue)
     edge_search.set_box_at(Box(1.0, 0.25, 0.0, 1.0), 0, boxes)
     boxes[box.X_BY_TIME] = 1.0
     waiting = edge_search.add_parts(1, 0.5, boxes, 0, queue)
     assert waiting == 8
     count, waiting = edge_search.take_batch(0.3, boxes, waiting, queue)
     assert (count, waiting) == (5, 0)
+    assert queue[queues.STATE, queues.S_STACKS] == 0
     taken = [edge_search.box_at(i, boxes) for i in range(count)]
     assert [one.start for one in taken] == pytest.approx([0.0, 0.0625, 0.125, 0.1875, 0.25])
     assert taken[-1].end == 0.3

@@ -31,6 +31,9 @@ SINE_HIGH, SINE_LOW = (tuple(one[i] for one in _SINE) for i in range(2))
 VERSINE_HIGH, VERSINE_LOW = (tuple(one[i] for one in _VERSINE) for i in range(2))
 """Coefficients of sin(x) / x and (1 - cos(x)) / x^2 in powers of x^2: to 1e-33 up to pi / 32."""
 
+LEAST_TERM = 1e-33
+"""Of a series: smaller powers are left out, in sums of two doubles they would not be seen."""
+
 
 @kernel(forceinline=True)
 def ordered_sum(a: float, b: float) -> Pair:
@@ -113,9 +116,12 @@ def sine_versine(x: Pair) -> tuple[Pair, Pair]:
     """The sine and 1 less the cosine of an angle (rad) of up to pi / 4 in size: series, and three times doubled."""
     y = scale(x, 0.125)
     w = multiply(y, y)
+    terms, size = 1, w[0]
+    while terms < TERMS and size > LEAST_TERM:
+        terms, size = terms + 1, size * w[0]
     s, v = (0.0, 0.0), (0.0, 0.0)
-    for i in range(TERMS):
-        n = TERMS - 1 - i
+    for i in range(terms):
+        n = terms - 1 - i
         s = add(multiply(w, s), (SINE_HIGH[n], SINE_LOW[n]))
         v = add(multiply(w, v), (VERSINE_HIGH[n], VERSINE_LOW[n]))
     s, v = multiply(y, s), multiply(w, v)

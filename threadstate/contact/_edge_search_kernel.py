@@ -54,7 +54,7 @@ from threadstate.contact._onset_kernel import (
     rises,
     set_jet_beside,
 )
-from threadstate.contact._queue_kernel import ROOM, add, row, set_row
+from threadstate.contact._queue_kernel import ROOM, add, clear, first, remove_first, row, set_row
 from threadstate.contact._refined_edge_kernel import classify_refined, is_refined
 from threadstate.contact._wedge_kernel import crossing_of, is_contact, is_doubtful
 from threadstate.thread import _profile_kernel as pk
@@ -460,6 +460,7 @@ def search_edge(
     scale = motion_scale(edge.motion, edge.solid)
     earliest = since - TIME_SLACK * scale
     search.regions[0, 0] = 0.0
+    clear(queue)
     evaluated = 0
     waiting = 0
     narrowest = math.inf
@@ -496,10 +497,10 @@ def search_edge(
                 boxes[X_BY_TIME + m] = 1.0 if by_time else 0.0
                 m += 1
         if waiting + VECTOR_WIDTH * m > ROOM or evaluated > MAX_BOXES or narrowest < NARROWEST:
-            first = row(waiting - 1, queue).start if waiting > 0 else until
+            undecided = first(queue).start if waiting > 0 else until
             for i in range(m):
-                first = min(first, boxes[X_START + i])
-            return count, OVERFLOW, best, first
+                undecided = min(undecided, boxes[X_START + i])
+            return count, OVERFLOW, best, undecided
         waiting = add_parts(m, best + search.tie_tolerance, boxes, waiting, queue)
         n, waiting = take_batch(best + search.tie_tolerance, boxes, waiting, queue)
     return count, evaluated, best, until
@@ -527,7 +528,8 @@ def add_parts(count: int, latest: float, boxes: Array, waiting: int, queue: Arra
         for j in range(parts):
             part = part_of(box, by_time, j, parts)
             if part.start <= latest:
-                waiting = add(part, waiting, queue)
+                add(part, queue)
+                waiting += 1
     return waiting
 
 
@@ -539,11 +541,13 @@ def take_batch(latest: float, boxes: Array, waiting: int, queue: Array) -> tuple
     """
     n = 0
     while n < BATCH and waiting > 0:
-        theta, half, start, end = row(waiting - 1, queue)
+        theta, half, start, end = first(queue)
         if start > latest:
+            clear(queue)
             return n, 0
         set_box_at(Box(theta, half, start, min(end, latest)), n, boxes)
         n += 1
+        remove_first(queue)
         waiting -= 1
     return n, waiting
 

@@ -29,7 +29,13 @@ from threadstate.contact._geometry_kernel import (
     velocity,
 )
 from threadstate.contact._range_kernel import size_numbers
-from threadstate.contact._refined_edge_kernel import REFINED_ERROR, differences, is_refined, refined_points
+from threadstate.contact._refined_edge_kernel import (
+    REFINED_ERROR,
+    differences,
+    is_refined,
+    placement_at,
+    refined_points,
+)
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -116,8 +122,9 @@ def set_jet(
 def set_refined_jet(theta: float, tau: float, edge: Edge, jet: Array) -> None:
     """Sets a jet of a refined edge; beside earlier contacts g and phi are differences from them."""
     sigma = edge.motion[M_SIGMA]
-    of_curve, of_phi, of_g = refined_points(theta, 0.0, tau, edge)
-    phi, g, _ = differences(theta, tau, sigma * of_phi.phi, of_g.value, edge)
+    place = placement_at((tau, 0.0), edge.motion, edge.wide)
+    of_curve, of_phi, of_g = refined_points(theta, 0.0, place, edge)
+    phi, g, _ = differences(theta, place, sigma * of_phi.phi, of_g.value, edge)
     r2 = 0.5 * (of_curve.r2_low + of_curve.r2_high)
     f2_low, f2_high = second_derivative_range(of_phi.u, 0.0, of_phi.rises, profile_numbers(edge.solid))
     f2 = 0.5 * (f2_low + f2_high)

@@ -126,13 +126,12 @@ def components(v: Vector, rx: Pair, ry: Pair, k_r: Pair) -> Vector:
 
 
 @kernel()
-def refined_points(theta: float, a: float, tau: float, edge: Edge) -> tuple[CurvePoint, PhiPoint, GPoint]:
-    """The edge curve, phi and g at azimuth theta and time tau, rounded to doubles, and the range of r'' over +- ``a``.
+def refined_points(theta: float, a: float, place: Placement, edge: Edge) -> tuple[CurvePoint, PhiPoint, GPoint]:
+    """The edge curve, phi and g at azimuth theta, rounded to doubles, and the range of r'' over +- ``a``.
 
     The equations are those of ``_curve_point_kernel``.
     """
     motion, solid, curve = edge.motion, edge.solid, edge.curve
-    place = placement_at((tau, 0.0), motion, edge.wide)
     k = advance(curve)
     sin, cos = sine_cosine((theta, 0.0))
     r, rise = radius_and_slope(multiply((-theta, 0.0), k), curve)
@@ -249,12 +248,12 @@ def refined_g(r: Pair, dr: Pair, cos: Pair, sin: Pair, v: Vector, w: Vector, pla
 
 
 @kernel()
-def differences(theta: float, tau: float, sigma_phi: float, g: float, edge: Edge) -> tuple[float, float, float]:
+def differences(theta: float, place: Placement, sigma_phi: float, g: float, edge: Edge) -> tuple[float, float, float]:
     """Phi, g and the distance (rad) from the nearest earlier contact, where they are differences from it; else NaN."""
     nearest, contact, row = nearest_contact(theta, edge.kept)
     if not abs(nearest) < BESIDE:
         return math.nan, math.nan, math.nan
-    _, phi_there, g_there = refined_points(contact, 0.0, tau, edge)
+    _, phi_there, g_there = refined_points(contact, 0.0, place, edge)
     return (
         sigma_phi - edge.motion[M_SIGMA] * phi_there.phi if edge.kept[row, K_PHI] != 0.0 else math.nan,
         g - g_there.value if edge.kept[row, K_G] != 0.0 else math.nan,
@@ -293,10 +292,11 @@ def refined_ranges(theta: float, a: float, tau: float, b: float, edge: Edge) -> 
     """
     _, _, _, rest = motion_numbers(edge.motion)
     sizes = size_numbers(edge.motion, edge.curve, edge.solid)
-    of_curve, of_phi, of_g = refined_points(theta, a, tau, edge)
+    place = placement_at((tau, 0.0), edge.motion, edge.wide)
+    of_curve, of_phi, of_g = refined_points(theta, a, place, edge)
     solid = branchless.profile_numbers(edge.solid)
     phi, g, depth = ranges_about(a, tau, b, rest, of_curve, of_phi, of_g, solid, sizes, REFINED_ERROR)
-    phi_beside, g_beside, gap = differences(theta, tau, phi.value, g.value, edge)
+    phi_beside, g_beside, gap = differences(theta, place, phi.value, g.value, edge)
     error = REFINED_ERROR * error_beside(tau, sizes) * gap
     return with_rounding(with_value(phi, phi_beside, error)), with_rounding(with_value(g, g_beside, error)), depth
 
