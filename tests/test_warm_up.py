@@ -13,6 +13,7 @@ pytestmark = pytest.mark.slow
 AFTER_THAT_NOTHING_COMPILES = """
 import gc
 import pickle
+from collections import Counter
 import numpy as np
 from numba.core.registry import CPUDispatcher
 from threadstate.history.build import history_of
@@ -21,8 +22,11 @@ from threadstate.thread.catalogue import RootForm, quarter_twenty_unc
 from threadstate.warm_up import main
 
 def compiled():
-    kernels = (one for one in gc.get_objects() if isinstance(one, CPUDispatcher))
-    return {f"{one.py_func.__module__}.{one.py_func.__name__}": len(one.signatures) for one in kernels}
+    signatures = Counter()
+    for one in gc.get_objects():
+        if isinstance(one, CPUDispatcher):
+            signatures[f"{one.py_func.__module__}.{one.py_func.__name__}"] += len(one.signatures)
+    return signatures
 
 main()
 warm = compiled()

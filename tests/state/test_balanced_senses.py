@@ -10,7 +10,7 @@ import pytest
 from tests.contact.samples import Floats
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
-from threadstate.contact._stage_kernel import RESOLVED, UNRESOLVED, earliest, new_work
+from threadstate.contact._stage_kernel import RESOLVED, UNRESOLVED, new_work
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.profile import outline_is_convex
 
@@ -47,7 +47,7 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
     """
     followed: list[Floats] = []
 
-    def third_stage(_scene: sk.Scene, _search: object, course: sk.Course, row: Floats) -> None:
+    def third_stage(_scene: sk.Scene, course: sk.Course, row: Floats) -> None:
         row[rk.O_MU], row[rk.O_STATUS] = senses[len(followed)]
         followed.append(course.axis.copy())
 
@@ -58,7 +58,7 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
     options[[sk.S_TURN_LIMIT, sk.S_TIE]] = math.radians(45.0), 1e-6 * PAIR.thread_pitch
     options[sk.S_CONVEX] = outline_is_convex(PAIR.bolt) and outline_is_convex(PAIR.nut)
     row = np.empty(rk.RECORD_SIZE)
-    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.packed, PAIR.nut.packed, earliest, new_work(), row)
+    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.packed, PAIR.nut.packed, new_work(), row)
     assert int(row[rk.O_FLAGS]) & rk.FLAG_BALANCED
     np.testing.assert_array_equal(followed[0], -followed[1])
     assert row[rk.O_STATUS] == expected[1]
