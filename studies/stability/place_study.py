@@ -29,6 +29,11 @@ MAX_EVENTS_OF_ROUTE = 6
 
 MAX_EVENTS_OF_CENTRE = 6
 """More events than this about one centre are not followed; answers beyond them are checked by the brute force alone."""
+
+MAX_SOLVED_OF_CENTRE = 200
+"""So many poses are solved at most to find the events about one centre: few need a hundred, and beside edges that lie
+all but in one plane each takes a tenth of a second. Answers beyond them are checked by the brute force, too."""
+
 SLOPE_FACTORS = (1.0, 1e2, 1e4, 1e6)
 """By how much a slope may exceed the usual one where no event is found otherwise."""
 
@@ -62,7 +67,7 @@ class Neighbourhood:
             for side, route in self.sides:
                 if is_steady(side, solved, factor):
                     return route
-        if len(self.events) >= MAX_EVENTS_OF_CENTRE:
+        if len(self.events) >= MAX_EVENTS_OF_CENTRE or len(self.solved) >= MAX_SOLVED_OF_CENTRE:
             return None
         for factor in SLOPE_FACTORS:
             found = self._route(solved, factor, divisible=divisible)
