@@ -64,8 +64,8 @@ direction of the tilt, so that they are as steep as the tilt is small."""
 
 LEFT_OUT = """\
 - Feature changes (an edge that comes to meet an edge instead of a thread) are approached to 1e-7 deg. Nearer, the exact
-  method's search can take longer in proportion to one over the distance, and end in a refusal: roll
-  1.5075738445675206, pitch -0.8886286081671697, phase 2.661266877535354 takes tens of seconds to be refused.
+  method's search takes longer: roll 1.5075738445675206, pitch -0.8886286081671697, phase 2.661266877535354 some 0.3 s,
+  two thousand times as long as most.
 - The brute force resolves components deeper than 1e-7 in and turns to 1e-4 deg; it covers tilts of up to 25 deg.
 - Perturbations are of roll, pitch, phase, the six diameters and the thread pitch; the form's angle and fillets stay.
 - A tangent along +z or -z does not occur: both parts' edges are cut across their axes. Those directions are in
