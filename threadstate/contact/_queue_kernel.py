@@ -27,8 +27,8 @@ S_STACKS, S_USED, S_FREE = range(3)
 
 @kernel(allocates=True)
 def new_queue() -> Array:
-    """A queue with room for so many boxes."""
-    return np.empty((ROOM + 1, 7))
+    """A queue with room for so many boxes, each row of the length of a cache line."""
+    return np.empty((ROOM + 1, 8))
 
 
 @kernel(forceinline=True)
