@@ -18,7 +18,7 @@ from threadstate.warm_up import kernels_are_compiled, load_kernels
 COMPILE = (sys.executable, "-m", "threadstate.warm_up", "--serving")
 """Compiles the kernels into the cache of this machine."""
 COMPILE_ALL = (sys.executable, "-m", "threadstate.warm_up")
-"""Compiles those of bolts that are turned as well, which takes twice as long: when they are asked for."""
+"""Compiles those of bolts that are turned as well, which takes longer: when they are asked for."""
 
 _log = logging.getLogger(__name__)
 
