@@ -13,7 +13,13 @@ from threadstate.contact._branchless_kernel import profile_numbers
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._slope_kernel import placement_numbers
 from threadstate.contact._stage_kernel import rotation
-from threadstate.contact._tangency_kernel import PLACEMENT_SIZE
+from threadstate.contact._tangency_kernel import (
+    PLACEMENT_SIZE,
+    TANGENCY_JET_SIZE,
+    TJ_PHI,
+    TJ_RATE,
+    set_jet,
+)
 from threadstate.thread import _profile_kernel as pk
 from threadstate.thread.catalogue import pair_by_designation
 
@@ -98,7 +104,7 @@ def test_helices_cross_where_crossings_are_found(name: str) -> None:
     seen = 0
     for _ in range(10):
         placement = placed(40.0, rng, p)
-        for theta, z in seeds[: crossing.crest_crossings(placement, bolt, nut, crests, seeds)]:
+        for theta, z in seeds[: crossing.crest_crossings(placement, p, 0.0, bolt, nut, crests, seeds)]:
             at_bolt = distances(z - k * theta, bolt, p, of_bolt=True)
             r = pk.radius(z - k * theta, bolt)
             x, y, height = placement[:9].reshape(3, 3) @ (r * math.cos(theta), r * math.sin(theta), z) + placement[9:12]
@@ -108,6 +114,59 @@ def test_helices_cross_where_crossings_are_found(name: str) -> None:
             assert min(at_bolt[:2] + at_nut[:2]) < 5e-3 * p
             seen += 1
     assert seen > 20
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_crossing_is_where_none_is_marked(name: str) -> None:
+    pair = pair_by_designation(name)
+    bolt, nut = pair.bolt.packed, pair.nut.packed
+    p = float(bolt[pk.P])
+    rng = np.random.default_rng(74)
+    crests = np.zeros(crossing.CRESTS_ARRAY_SIZE)
+    crossing.set_crests(bolt, crests)
+    marked = unmarked = 0
+    for _ in range(10):
+        crossing.place_crests(placed(40.0, rng, p), nut, crests)
+        crossing.mark_crossings(bolt, nut, crests)
+        height, z = (crests[start : start + crossing.CRESTS_SIZE] for start in (crossing.W_HEIGHT, crossing.W_Z))
+        inside = (height > -1.1 * p) & (height < 0.1 * p)
+        for i in range(1, crossing.CRESTS_SIZE):
+            if not (inside[i - 1] and inside[i]) or abs(z[i] - z[i - 1]) > 0.5 * p:
+                assert crests[crossing.W_MAY_CROSS + i] == 0.0
+                continue
+            crosses = max(crossing.share_of_way(i, k, bolt, nut, crests) for k in range(crossing.HELICES)) >= 0.0
+            marked += crosses
+            unmarked += crests[crossing.W_MAY_CROSS + i] == 0.0
+            assert not crosses or crests[crossing.W_MAY_CROSS + i] == 1.0
+    assert marked > 20
+    assert unmarked > 20
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_crossings_that_are_left_out_are_far(name: str) -> None:
+    pair = pair_by_designation(name)
+    bolt, nut = pair.bolt.packed, pair.nut.packed
+    p = float(bolt[pk.P])
+    near, soon = 0.05 * p, 0.03
+    rng = np.random.default_rng(75)
+    crests, jet = np.zeros(crossing.CRESTS_ARRAY_SIZE), np.empty(TANGENCY_JET_SIZE)
+    crossing.set_crests(bolt, crests)
+    every, some = np.empty((2, crossing.MAX_SEEDS, 2))
+    left_out = 0
+    for _ in range(40):
+        placement = placed(40.0, rng, p)
+        axis = rng.normal(size=3)
+        placement[12:15] = axis / np.linalg.norm(axis)
+        placement[15:18] = -np.cross(placement[12:15], rng.uniform(-1.0, 1.0, 3) * 3.0 * p)
+        count = crossing.crest_crossings(placement, math.inf, 0.0, bolt, nut, crests, every)
+        kept = some[: crossing.crest_crossings(placement, near, soon, bolt, nut, crests, some)].tolist()
+        assert all(seed in every[:count].tolist() for seed in kept)
+        for seed in every[:count].tolist():
+            if seed not in kept:
+                set_jet(*seed, placement, bolt, nut, jet)
+                assert abs(jet[TJ_PHI]) >= near + soon * abs(jet[TJ_RATE])
+                left_out += 1
+    assert left_out > 20
 
 
 def distances(s: float, profile: np.ndarray, p: float, *, of_bolt: bool) -> list[float]:

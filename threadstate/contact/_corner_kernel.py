@@ -78,7 +78,7 @@ def set_depths(s: float, of_nut: bool, r: float, p: float, k: float, m: Numbers,
         angle = CORNER_STEP * i
         sin, cos = sine_cosine(angle)
         z = s + k * angle
-        z -= p * math.floor(z / p)
+        z -= p * np.floor(z / p)
         x, y, z = r * cos + before_x, r * sin + before_y, z + before_z
         at_x, at_y = xx * x + xy * y + xz * z + after_x, yx * x + yy * y + yz * z + after_y
         at_z = zx * x + zy * y + zz * z + after_z

@@ -131,7 +131,9 @@ def set_initial_boxes(since: float, until: float, boxes: Array) -> int:
 
     Their half-widths are powers of two, and their middles multiples of them: halves are exact, and leave no gap.
     """
-    half = 2.0 ** math.floor(math.log2(math.pi / INITIAL_BOXES))
+    half = 1.0
+    while half * INITIAL_BOXES > math.pi:
+        half *= 0.5
     count = math.ceil(math.pi / half)
     for i in range(count):
         boxes[X_THETA + i] = (2 * i + 1 - count) * half

@@ -462,7 +462,7 @@ def contacts_at_crossings(
     for i in range(instants):
         tau = start + (end - start) * (i + 1) / instants
         set_placement(motion, tau, placement)
-        for j in range(crest_crossings(placement, bolt, nut, crests, seeds)):
+        for j in range(crest_crossings(placement, near, soon, bolt, nut, crests, seeds)):
             theta, z = seeds[j, 0], seeds[j, 1]
             set_jet(theta, z, placement, bolt, nut, jet)
             if abs(jet[TJ_PHI]) < near + soon * abs(jet[TJ_RATE]):
