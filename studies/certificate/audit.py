@@ -126,7 +126,7 @@ def _halves(part: Part, by_theta: float, by_tau: float) -> list[Part]:
 
 def _quantities(values: Values) -> Quantities:
     phi, g = values.phi, values.g
-    single = phi.tu, phi.uu, phi.t, phi.u, g.tu, g.uu, g.t, values.depth.value
+    single = phi.tu, phi.uu, phi.t, phi.u, g.tu, g.uu, g.t, phi.value, values.depth.value
     found = [[one] for one in single]
     return values.phi_tt, *found[:4], values.g_tt, *found[4:]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +24,7 @@ OVER_BOX = (
     "g_theta_tau",
     "g_tau_tau",
     "g_theta",
+    "phi",
     "depth",
 )
 """Quantities whose ranges over a box are claimed."""
@@ -61,6 +63,8 @@ def claims(one: Box, kernels: Kernels = COMPILED) -> Claims:
     phi, g, depth = ranges(one.theta, a, tau, b, *numbers[0], *numbers[1:], sizes)
     p = one.search.solid.thread_pitch
     box_class, *_ = classify_box(a, b, phi, g, depth, p)
+    phi_low, phi_high, _, _ = _box_kernel.phi_over(a, b, phi, _box_kernel.sizes_over(a, b, phi))
+    near_axis = phi.tt_low == phi.tt_high == 0.0  # of phi only a bound from one side is claimed there
     return Claims(
         one.theta,
         a,
@@ -70,17 +74,20 @@ def claims(one: Box, kernels: Kernels = COMPILED) -> Claims:
             (phi.tt_low, phi.tt_high),
             (phi.tv - phi.tv_var, phi.tv + phi.tv_var),
             (-phi.vv, phi.vv),
-            (phi.by_theta - phi.theta_change, phi.by_theta + phi.theta_change),
+            (
+                max(phi.by_theta - phi.theta_change, phi.theta_low),
+                min(phi.by_theta + phi.theta_change, phi.theta_high),
+            ),
             (phi.by_tau - phi.tau_change, phi.by_tau + phi.tau_change),
             (g.tt_low, g.tt_high),
             (g.tv - g.tv_var, g.tv + g.tv_var),
             (-g.vv, g.vv),
             (g.by_theta - g.theta_change, g.by_theta + g.theta_change),
-            (depth, float("inf")),
+            (-math.inf, math.inf) if near_axis else (phi_low, phi_high),
+            (depth, math.inf),
         ),
         tuple(
-            (value - error, value + error)
-            for value, error in (*zip(phi[:3], phi[10:], strict=True), *zip(g[:3], g[10:], strict=True))
+            (value - error, value + error) for one in (phi, g) for value, error in zip(one[:3], one[-3:], strict=True)
         ),
         int(box_class),
         p,

@@ -15,10 +15,12 @@ from threadstate.contact import _onset_kernel as onset
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._branchless_kernel import (
     azimuth,
+    course_over,
     profile_numbers,
     radius_and_slope,
     second_derivative_range,
     sine_cosine,
+    slope_change_limit,
 )
 from threadstate.contact._edge_kernel import Box, new_edge
 from threadstate.contact._edge_search_kernel import evaluate_box
@@ -112,26 +114,34 @@ def test_ranges_hold_every_point_of_the_box(kind: str, pair: Pair) -> None:
         sizes = size_numbers(motion, curve, solid)
         phi, g, depth = ranges(theta, a, start + b, b, x_axis, y_axis, origin, rest, *numbers, sizes)
         seen = jets(np.linspace(theta - a, theta + a, 5), np.linspace(start, start + 2 * b, 5), motion, curve, solid)
-        for (value, by_theta, by_tau, low, high, mixed, mixed_var, by_tau_twice, *rest), columns in (
+        azimuths, times = np.repeat(np.linspace(-a, a, 5), 5), np.tile(np.linspace(-b, b, 5), 5)
+        for one, columns in (
             (phi, (onset.J_PHI, onset.J_PHI_THETA, onset.J_PHI_TAU, onset.J_PHI_THETA_THETA, onset.J_PHI_THETA_TAU)),
             (g, (onset.J_G, onset.J_G_THETA, onset.J_G_TAU, onset.J_G_THETA_THETA, onset.J_G_THETA_TAU)),
         ):
-            size, cross = max(high, -low), abs(mixed) + mixed_var
+            size, cross = max(one.tt_high, -one.tt_low), abs(one.tv) + one.tv_var
             change = (
-                abs(by_theta) * a + abs(by_tau) * b + 0.5 * size * a * a + cross * a * b + 0.5 * by_tau_twice * b * b
+                abs(one.by_theta) * a + abs(one.by_tau) * b + 0.5 * size * a * a + cross * a * b + 0.5 * one.vv * b * b
             )
+            by_theta, by_tau = one.by_theta, one.by_tau
             allowed = [
-                (value - change, value + change),
+                (one.value - change, one.value + change),
                 (by_theta - size * a - cross * b, by_theta + size * a + cross * b),
-                (by_tau - cross * a - by_tau_twice * b, by_tau + cross * a + by_tau_twice * b),
-                (low, high),
-                (mixed - mixed_var, mixed + mixed_var),
+                (by_tau - cross * a - one.vv * b, by_tau + cross * a + one.vv * b),
+                (one.tt_low, one.tt_high),
+                (one.tv - one.tv_var, one.tv + one.tv_var),
             ]
             for column, (least, most) in zip(columns, allowed, strict=True):
                 assert least - ROUND_OFF <= seen[:, column].min()
                 assert seen[:, column].max() <= most + ROUND_OFF
-            for column, middle, changed in zip(columns[1:], (by_theta, by_tau), rest[:-3], strict=False):
+            changes = (by_theta, one.theta_change), (by_tau, one.tau_change)
+            for column, (middle, changed) in zip(columns[1:], changes, strict=False):
                 assert np.abs(seen[:, column] - middle).max() <= changed + ROUND_OFF
+            assert one.theta_low - ROUND_OFF <= seen[:, columns[1]].min()
+            assert seen[:, columns[1]].max() <= one.theta_high + ROUND_OFF
+            beyond = seen[:, columns[0]] - one.value - by_theta * azimuths - by_tau * times
+            assert -one.below - ROUND_OFF <= beyond.min()
+            assert beyond.max() <= one.above + ROUND_OFF
         assert (-motion[19] * seen[:, onset.J_Z]).min() >= depth - ROUND_OFF
 
 
@@ -224,3 +234,35 @@ def test_profile_without_branches(profile: Profile) -> None:
         seen = [profile.derivatives(q)[2] for q in np.linspace(s - reach, s + reach, 15)]
         assert low - 1e-7 * abs(low) <= min(seen)
         assert max(seen) <= high + 1e-7 * abs(high)
+
+
+@pytest.mark.parametrize("profile", [PAIR.bolt, PAIR.nut, SHARP.nut, BUTTRESS.bolt, BUTTRESS.nut, TURNED_BUTTRESS.bolt])
+def test_a_profile_stays_within_its_course(profile: Profile) -> None:
+    """Radii and slopes at many places within reach are in the ranges, which are near to what is seen."""
+    rng = np.random.default_rng(66)
+    numbers = profile_numbers(profile.packed)
+    loosest = []
+    for s in rng.uniform(-0.1, 0.1, 3000):
+        r, slope, u, rises = radius_and_slope(s, numbers)
+        reach = 10.0 ** rng.uniform(-6, 0) * 0.6 * profile.thread_pitch
+        course = course_over(r, slope, u, reach, rises, numbers)
+        places = np.linspace(-reach, reach, 41)
+        seen = np.array([profile.derivatives(s + d)[:2] for d in places])
+        remainders, changes = seen[:, 0] - r - slope * places, seen[:, 1] - slope
+        assert course.slope_low - 1e-9 <= changes.min()
+        assert changes.max() <= course.slope_high + 1e-9
+        assert np.abs(changes).max() <= slope_change_limit(slope, u, reach, rises, numbers) + 1e-9
+        assert course.low - 1e-15 <= remainders.min()
+        assert remainders.max() <= course.high + 1e-15
+        if math.isfinite(course.high) and remainders.max() - remainders.min() > 1e-3 * profile.thread_pitch:
+            loosest.append((course.high - course.low) / (remainders.max() - remainders.min()))
+    assert np.median(loosest) < 1.01
+
+
+def test_a_reach_longer_than_a_half_period_bounds_nothing() -> None:
+    numbers = profile_numbers(NUT)
+    r, slope, u, rises = radius_and_slope(0.001, numbers)
+    course = course_over(r, slope, u, 0.51 * PAIR.thread_pitch, rises, numbers)
+    assert (course.low, course.high) == (-math.inf, math.inf)
+    steepest = numbers[2]
+    assert slope_change_limit(slope, u, 0.51 * PAIR.thread_pitch, rises, numbers) == steepest + abs(slope)

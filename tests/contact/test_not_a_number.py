@@ -62,20 +62,30 @@ def test_no_box_is_excluded_by_nan() -> None:
     """One number of a box becomes NaN: it stays excluded only if it is excluded for every value of that number."""
     rng = np.random.default_rng(71)
     excluded = 0
+    signed = [Ranges._fields.index(name) for name in ("value", "by_theta", "by_tau", "tt_low", "tt_high", "tv")]
+    unbounded = [Ranges._fields.index(name) for name in ("theta_low", "theta_high", "tau_change", "below", "above")]
+    of_phi = len(Ranges._fields)
+    of_g = [of_phi + i for i in range(of_phi) if i not in unbounded]
+    known = [*range(of_phi), *of_g]
     for _ in range(4000):
-        scale = 10.0 ** rng.uniform(-4, 0)
-        numbers = rng.normal(0.0, 1.0, 25) * np.repeat([scale, 1.0], [13, 12])
-        for first, count in ((0, 13), (13, 12)):
+        numbers = rng.normal(0.0, 1.0, 2 * of_phi)
+        numbers[:of_phi] *= 10.0 ** rng.uniform(-4, 0)
+        for first in (0, of_phi):
             numbers[first + 3], numbers[first + 4] = sorted(numbers[first + 3 : first + 5])
-            numbers[first + 6 : first + count] = np.abs(numbers[first + 6 : first + count])
+            for i in range(of_phi):
+                if i not in signed:
+                    numbers[first + i] = abs(numbers[first + i])
+        slopes = [Ranges._fields.index(name) for name in ("theta_low", "theta_high")]
+        numbers[slopes] = numbers[1] + numbers[slopes] * (-1.0, 1.0)
+        numbers[[of_phi + i for i in unbounded]] = math.inf
+        numbers[of_phi + slopes[0]] = -math.inf
         a, b = 10.0 ** rng.uniform(-6, -0.5, 2)
 
         def box_class(values: Floats, a: float = a, b: float = b) -> float:
-            phi = Ranges(*values[:13].tolist())
-            g = Ranges(*np.insert(values[13:], 9, math.inf).tolist())
+            phi, g = (Ranges(*values[first : first + of_phi].tolist()) for first in (0, of_phi))
             return float(box.classify_box(a, b, phi, g, -1.0, P)[0])
 
-        for i in range(25):
+        for i in known:
             unknown = numbers.copy()
             unknown[i] = math.nan
             if box_class(unknown) <= box.EXCLUDED:

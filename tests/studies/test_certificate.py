@@ -54,7 +54,24 @@ FAULTS = {
         "direction_change = a + turning * b",
     ),
     "half the change of f'": ("d_f1 = smaller(f2 * reach", "d_f1 = 0.5 * smaller(f2 * reach"),
-    "half the reach by azimuth": ("reach = s_theta_high * a +", "reach = 0.5 * s_theta_high * a +"),
+    "half the reach by azimuth": (
+        "reach = (abs(ts) + on_average) * a",
+        "reach = 0.5 * (abs(ts) + on_average) * a",
+    ),
+    "no change of s_theta on the way": ("(abs(ts) + on_average) * a", "abs(ts) * a"),
+    "half of what f differs from its tangent by": (
+        "bend - over.course.low, bend + over.course.high",
+        "bend - 0.5 * over.course.low, bend + 0.5 * over.course.high",
+    ),
+    "a third of what phi bends by, but for f": ("0.5 * (abs(middle.flat_tt) + var_tt) * a * a", "0.1 * var_tt * a * a"),
+    "s_theta that keeps still": (
+        "s_low, s_high = ts - over.d_s_theta, ts + over.d_s_theta",
+        "s_low, s_high = ts, ts",
+    ),
+    "a tenth of the bend that changes phi_theta": (
+        "(abs(middle.flat_tt) + var_tt) * a\n",
+        "0.1 * (abs(middle.flat_tt) + var_tt) * a\n",
+    ),
     "half of f''": ("tt_high -= f2_low *", "tt_high -= 0.5 * f2_low *"),
     "no term of R1 in g'": ("(a * (r_bound + 3.0 * r1_bound)", "(a * r_bound"),
     "g's sine at the end of a turn in both planes": (

@@ -34,7 +34,8 @@ BOUNDS_SIZE = 7
 @kernel()
 def second_derivative_bound(profile: Array) -> float:
     """Largest |f''| of a profile; infinite for a sharp corner."""
-    cube = (1.0 + profile[pk.STEEPEST] * profile[pk.STEEPEST]) ** 1.5
+    square = 1.0 + profile[pk.STEEPEST] * profile[pk.STEEPEST]
+    cube = square * math.sqrt(square)
     rho = min(profile[pk.RHO_MINOR], profile[pk.RHO_MAJOR])
     return cube / rho if rho > 0.0 else math.inf
 

@@ -98,8 +98,9 @@ def phi_over(a: float, b: float, phi: Ranges, size: Sizes) -> tuple[float, float
     azimuth_change = (abs(phi.by_theta) + phi.theta_change) * a
     rise = theta_bound * peak_offset + 0.5 * phi.tt_high * peak_offset * peak_offset
     fall = theta_bound * a - 0.5 * smaller(phi.tt_low, 0.0) * a * a
-    high = phi.value + time_change + smaller(rise, azimuth_change) + phi.error
-    low = phi.value - time_change - smaller(fall, azimuth_change) - phi.error
+    linear_change = (abs(phi.by_theta) + phi.theta_error) * a + (abs(phi.by_tau) + phi.tau_error) * b
+    high = phi.value + smaller(time_change + smaller(rise, azimuth_change), linear_change + phi.above) + phi.error
+    low = phi.value - smaller(time_change + smaller(fall, azimuth_change), linear_change + phi.below) - phi.error
     return low, high, theta_bound, time_change
 
 
@@ -140,7 +141,10 @@ def remainders(a: float, b: float, phi: Ranges, g: Ranges, phi_size: Sizes, g_si
     of_phi = (
         smaller(
             (0.5 * phi_size.tt * a + phi_size.tv * b + phi.theta_error) * a + (0.5 * phi.vv * b + phi.tau_error) * b,
-            phi.theta_change * a + phi.tau_change * b,
+            smaller(
+                phi.theta_change * a + phi.tau_change * b,
+                larger(phi.above, phi.below) + phi.theta_error * a + phi.tau_error * b,
+            ),
         )
         + phi.error
     )
@@ -241,7 +245,7 @@ def classify_box(
     phi_size, g_size = sizes_over(a, b, phi), sizes_over(a, b, g)
     phi_low, phi_high, theta_bound, time_change = phi_over(a, b, phi, phi_size)
     g_low, g_high = g_over(a, b, g, g_size)
-    phi_monotonic = abs(phi.by_theta) > phi_size.theta_var
+    phi_monotonic = abs(phi.by_theta) > phi_size.theta_var or phi.theta_low > 0.0 or phi.theta_high < 0.0
     g_monotonic = abs(g.by_theta) > g_size.theta_var
     all_outside = phi_high < 0.0 or g_high < 0.0 or depth > p
     jac, jac_var = jacobian(phi, g, phi_size, g_size)
@@ -302,8 +306,12 @@ def with_value(of_one: Ranges, value: float, error: float) -> Ranges:
         of_one.tv,
         of_one.tv_var,
         of_one.vv,
+        of_one.theta_low,
+        of_one.theta_high,
         of_one.theta_change,
         of_one.tau_change,
+        of_one.below,
+        of_one.above,
         error if is_known else of_one.error,
         of_one.theta_error,
         of_one.tau_error,

@@ -7,6 +7,7 @@ bound must exclude nothing.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +68,7 @@ def sine_cosine(x: float) -> tuple[float, float]:
     c = COSINE[3] + w * c
     c = COSINE[2] + w * c
     c = 1.0 - 0.5 * w + w * w * c
-    quarter = n - 4.0 * math.floor(0.25 * n)
+    quarter = n - 4.0 * np.floor(0.25 * n)
     odd = quarter == 1.0 or quarter == 3.0
     sine = c if odd else s
     cosine = s if odd else c
@@ -117,6 +118,8 @@ def profile_numbers(profile: Array) -> Numbers:
     rising_flat, rising_top = pk.other_fillets(0, profile)
     falling_flat, falling_top = pk.other_fillets(pk.FALLING, profile)
     least, greatest = pk.second_derivative_limits(profile)
+    rising_start, rising_end = pk.half_reach(0, profile)
+    falling_start, falling_end = pk.half_reach(pk.FALLING, profile)
     return (
         profile[pk.U_FLAT],
         profile[pk.U_FLANK],
@@ -148,6 +151,10 @@ def profile_numbers(profile: Array) -> Numbers:
         profile[pk.RHO_MAJOR] * profile[pk.RHO_MAJOR],
         least,
         greatest,
+        rising_start,
+        rising_end,
+        falling_start,
+        falling_end,
     )
 
 
@@ -179,6 +186,70 @@ def radius_and_slope(s: float, numbers: Numbers) -> tuple[float, float, float, b
     radius = r_pitch + u * cot if on_flank else radius
     slope = cot if on_flank else slope
     return radius, (slope if rises else -slope), u, rises
+
+
+@kernel(contract=True, forceinline=True)
+def slope_change_limit(slope: float, u: float, reach: float, rises: bool, numbers: Numbers) -> float:
+    """How far ``f'`` can be from the ``slope`` at ``u`` of a half period within ``reach``, however it bends there.
+
+    Within a half period, and up to the other one's fillets, its size is between 0 and that of the flank's slope.
+    """
+    start = numbers[30] if rises else numbers[32]
+    end = numbers[31] if rises else numbers[33]
+    cot = numbers[2] if rises else numbers[9]
+    size = abs(slope)
+    is_within = u - reach >= start and u + reach <= end
+    return larger(size, cot - size) if is_within else larger(numbers[2], numbers[9]) + size
+
+
+class Course(NamedTuple):
+    """What a profile does within reach of a place, as differences from its tangent there.
+
+    ``slope_low`` to ``slope_high`` is the range of what ``f'`` differs by, ``low`` to ``high`` that of ``f``.
+    """
+
+    slope_low: float
+    slope_high: float
+    low: float
+    high: float
+
+
+@kernel(contract=True, forceinline=True)
+def course_over(radius: float, slope: float, u: float, reach: float, rises: bool, numbers: Numbers) -> Course:
+    """The course of a profile within ``reach`` of ``u`` of a half period, where its ``radius`` and ``slope`` are these.
+
+    Unbounded where the reach is longer than a half period. docs/certificate.md, section 3, says why the ends decide.
+    """
+    p, width = numbers[14], numbers[17]
+    u_flank = numbers[1] if rises else numbers[8]
+    cot = numbers[2] if rises else numbers[9]
+    u_crest = numbers[3] if rises else numbers[10]
+    start = numbers[30] if rises else numbers[32]
+    end = numbers[31] if rises else numbers[33]
+    s = u if rises else 0.5 * p - u
+    forward = reach if rises else -reach
+    f_after, slope_after, _, _ = radius_and_slope(s + forward, numbers)
+    f_before, slope_before, _, _ = radius_and_slope(s - forward, numbers)
+    slope_after = slope_after if rises else -slope_after
+    slope_before = slope_before if rises else -slope_before
+    size = abs(slope)
+    # The slope grows up to the flank and falls from it, down to minus that of the other half's flank.
+    is_within = u - reach >= start and u + reach <= end
+    steepest = slope_before if u - reach >= u_crest else cot
+    steepest = slope_after if u + reach <= u_flank else steepest
+    flattest = smaller(slope_before, slope_after) if is_within else -larger(numbers[2], numbers[9])
+    change_low, change_high = smaller(flattest - size, 0.0), larger(steepest - size, 0.0)
+    after = f_after - radius - size * reach
+    before = f_before - radius + size * reach
+    high = 0.0 if u >= u_crest else (after if slope_after >= size else (cot - size) * reach)
+    low = 0.0 if u <= u_flank else (before if slope_before >= size else (size - cot) * reach)
+    is_bounded = reach <= smaller(width, p - width)
+    return Course(
+        change_low if rises else -change_high,
+        change_high if rises else -change_low,
+        smaller(smaller(low, after), 0.0) if is_bounded else -math.inf,
+        larger(larger(high, before), 0.0) if is_bounded else math.inf,
+    )
 
 
 @kernel(contract=True, forceinline=True)

@@ -15,6 +15,7 @@ from threadstate.contact._branchless_kernel import (
     radius_and_slope,
     second_derivative_range,
     sine_cosine,
+    slope_change_limit,
 )
 from threadstate.contact._frame_kernel import (
     cylindrical_components,
@@ -32,9 +33,9 @@ class CurvePoint(NamedTuple):
     """The edge curve in the middle of a box: its radius, frame and derivatives, in the solid's frame.
 
     ``r`` and ``dr`` are the radius and its derivative by theta, ``r2_low`` to ``r2_high`` the range of the second one
-    over the box. ``m1z``, ``m2z`` and ``height`` are the axial components of the curve's x and y axes and of its
-    origin. ``place`` is X, ``p`` and ``q`` are P and Q, ``t``, ``v``, ``w`` and ``a`` the derivatives of X by theta,
-    tau, both, and tau twice.
+    over the box, ``dr_change`` a bound on how far ``dr`` changes there. ``m1z``, ``m2z`` and ``height`` are the axial
+    components of the curve's x and y axes and of its origin. ``place`` is X, ``p`` and ``q`` are P and Q, ``t``, ``v``,
+    ``w`` and ``a`` the derivatives of X by theta, tau, both, and tau twice.
     """
 
     cos_theta: float
@@ -43,6 +44,7 @@ class CurvePoint(NamedTuple):
     dr: float
     r2_low: float
     r2_high: float
+    dr_change: float
     m1z: float
     m2z: float
     height: float
@@ -123,6 +125,7 @@ def curve_at(
     r2_low, r2_high = second_derivative_range(u, abs(k) * a, rises, curve)
     r2_low *= k * k
     r2_high *= k * k
+    dr_change = abs(k) * slope_change_limit(slope, u, abs(k) * a, rises, curve)
     by_sine, by_versine, d_sine, d_versine = motion_coefficients(tau, turning)
     m1, m2, place_o = (
         moved_vector(x_axis, by_sine, by_versine),
@@ -146,6 +149,7 @@ def curve_at(
         dr,
         r2_low,
         r2_high,
+        dr_change,
         m1[2],
         m2[2],
         place_o[2],

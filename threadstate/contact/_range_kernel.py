@@ -22,7 +22,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import Numbers, larger, second_derivative_range, smaller
+from threadstate.contact._branchless_kernel import (
+    Course,
+    Numbers,
+    course_over,
+    larger,
+    second_derivative_range,
+    smaller,
+)
 from threadstate.contact._curve_point_kernel import CurvePoint, GPoint, PhiPoint, curve_at, g_at, phi_at
 from threadstate.contact._geometry_kernel import M_KIND, M_OFF, M_POINT, M_ROUNDED, TWO_PI
 from threadstate.thread import _profile_kernel as pk
@@ -33,7 +40,7 @@ Array = NDArray[np.float64]
 UNIT = 2.0**-53
 """The unit round-off of double precision."""
 
-LARGEST_MISALIGNMENT = 0.25
+LARGEST_MISALIGNMENT = 0.5
 """Up to which the bounds that vanish with the misalignment are derived."""
 
 GROWTH = 1.72
@@ -45,10 +52,11 @@ class Ranges(NamedTuple):
 
     ``by_theta`` and ``by_tau`` are its derivatives in the middle. ``tt_low`` to ``tt_high`` is the range of the second
     one by theta; ``tv`` is the mixed one in the middle, ``tv_var`` bounds its variation, ``vv`` the size of the second
-    one by tau. ``theta_change`` and ``tau_change`` bound how far the derivatives by theta and tau change, infinite for
-    g's by tau: at a corner, where second derivatives are large, these are what bounds the function. ``error``,
-    ``theta_error`` and ``tau_error`` bound the round-off of the value and of its two derivatives; that of all else is
-    a part of the bounds.
+    one by tau. ``theta_low`` to ``theta_high`` is the range of the derivative by theta, unbounded of g.
+    ``theta_change`` and ``tau_change`` bound how far the derivatives by theta and tau change, infinite for g's by tau:
+    at a corner, where second derivatives are large, these are what bounds the function. ``below`` and ``above`` bound
+    how far the function is below and above its linear expansion, infinite of g. ``error``, ``theta_error`` and
+    ``tau_error`` bound the round-off of the value and of its two derivatives; that of all else is a part of the bounds.
     """
 
     value: float
@@ -59,8 +67,12 @@ class Ranges(NamedTuple):
     tv: float
     tv_var: float
     vv: float
+    theta_low: float
+    theta_high: float
     theta_change: float
     tau_change: float
+    below: float
+    above: float
     error: float
     theta_error: float
     tau_error: float
@@ -107,13 +119,13 @@ class Alignment(NamedTuple):
 class Helix(NamedTuple):
     """The helical coordinate s and the solid's profile f over a box (docs/certificate.md, section 5).
 
-    ``d_s_theta`` and ``d_s_tau`` are how far s_T and s_V change, ``s_theta_low``, ``s_theta_high`` and ``s_tau_high``
-    bounds on their sizes; ``f2_low`` to ``f2_high`` is the range of f'', ``f2`` bounds its size, ``d_f1`` how far f'
-    changes, ``steep`` the size of f' and ``gradient`` that of grad phi.
+    ``d_s_theta`` is how far s_T changes, ``s_theta_low``, ``s_theta_high`` and ``s_tau_high`` bounds on the sizes of
+    s_T and s_V; ``f2_low`` to ``f2_high`` is the range of f'', ``f2`` bounds its size, ``d_f1`` how far f' changes,
+    ``reach`` how far s does, ``steep`` the size of f' and ``gradient`` that of grad phi; ``course`` is what f does
+    within reach.
     """
 
     d_s_theta: float
-    d_s_tau: float
     s_theta_low: float
     s_theta_high: float
     s_tau_high: float
@@ -121,8 +133,10 @@ class Helix(NamedTuple):
     f2_high: float
     f2: float
     d_f1: float
+    reach: float
     steep: float
     gradient: float
+    course: Course
 
 
 @kernel(contract=True, forceinline=True)
@@ -207,7 +221,7 @@ def changes_over(
     speed = math.sqrt(v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2])
     speed_bound = speed + turning * c1 * a
     # Over a corner r' changes by no more than it can as a whole, however large r'' is there.
-    d_r1 = smaller(r2_bound * a, 2.0 * r1_bound)
+    d_r1 = smaller(r2_bound * a, edge.dr_change)
     position_error = base_error + error_by_time * abs(tau)
     move = c1 * a + speed_bound * b + 2.0 * position_error
     r_low = larger(middle.radius - move, 0.5 * r_minor)
@@ -289,21 +303,24 @@ def helix_over(
     s_tv = turning * c1 * helix + k_r_bound * c1 * change.speed * inverse_r
     s_vv = turning * change.speed * helix + k_r_bound * change.speed * change.speed * inverse_r
     s_error = change.position_error * (1.0 + c1 * inverse_r) * helix
-    d_s_theta = s_error + smaller(
-        s_tt * a + s_tv * b,
-        (abs(ps) + helix * change.directions) * change.d_r1 + helix * (r1_bound * a + c1 * change.directions),
+    corner_change = (abs(ps) + helix * change.directions) * change.d_r1 + helix * (
+        r1_bound * a + c1 * change.directions
     )
+    d_s_theta = s_error + smaller(s_tt * a + s_tv * b, corner_change)
     s_theta_high = abs(ts) + d_s_theta
     d_s_tau = s_tv * a + s_vv * b + helix * change.velocity_error
     s_tau_high = abs(vs) + d_s_tau
-    reach = s_theta_high * a + s_tau_high * b
+    # Integrals: what the slopes change by grows from 0 on the way.
+    on_average = s_error + smaller(0.5 * (s_tt * a + s_tv * b), corner_change)
+    reach = (abs(ts) + on_average) * a + (abs(vs) + 0.5 * (s_tv * a + s_vv * b) + helix * change.velocity_error) * b
     f2_low, f2_high = second_derivative_range(middle.u, reach, middle.rises, solid)
     f2 = larger(f2_high, -f2_low)
-    d_f1 = smaller(f2 * reach, 2.0 * cot)
+    farther = reach + helix * change.position_error
+    course = course_over(middle.radius - middle.phi, middle.f1, middle.u, farther, middle.rises, solid)
+    d_f1 = smaller(f2 * reach, larger(course.slope_high, -course.slope_low))
     steep = smaller(abs(middle.f1) + d_f1, cot)
     return Helix(
         d_s_theta,
-        d_s_tau,
         larger(abs(ts) - d_s_theta, 0.0),
         s_theta_high,
         s_tau_high,
@@ -311,8 +328,10 @@ def helix_over(
         f2_high,
         f2,
         d_f1,
+        reach,
         steep,
         1.0 + steep * helix,
+        course,
     )
 
 
@@ -363,6 +382,7 @@ def variations(
 @kernel(contract=True, forceinline=True)
 def phi_ranges(
     a: float,
+    b: float,
     sigma: float,
     edge: CurvePoint,
     middle: PhiPoint,
@@ -370,8 +390,11 @@ def phi_ranges(
     near: Alignment,
     over: Helix,
     varied: tuple[float, float, float],
+    profile_error: float,
 ) -> Ranges:
-    """The ranges of phi, as :func:`ranges` has them; ``varied`` are the :func:`variations`."""
+    """The ranges of phi, as :func:`ranges` has them; ``varied`` are the :func:`variations`, ``profile_error`` bounds
+    the round-off of the remainder of f.
+    """
     var_tt, var_tv, var_vv = varied
     _, _, ts = middle.t
     _, _, vs = middle.v
@@ -400,9 +423,37 @@ def phi_ranges(
     tv_mid = middle.flat_tv - 0.5 * (f2_low + f2_high) * ts * vs
     tv_var = var_tv + 0.5 * (f2_high - f2_low) * abs(ts * vs) + f2 * (s_theta_high * s_tau_high - abs(ts * vs))
     vv = abs(middle.flat_vv) + var_vv + f2 * s_tau_high * s_tau_high
+    # Of phi with the profile's tangent for the profile, and then what that differs from it.
+    bend = (
+        0.5 * (abs(middle.flat_tt) + var_tt) * a * a
+        + (abs(along) * smaller(0.5 * change.r2 * a, change.d_r1) + var_along * 0.5 * change.r2 * a) * a
+        + (abs(middle.flat_tv) + var_tv) * a * b
+        + 0.5 * (abs(middle.flat_vv) + var_vv) * b * b
+        + profile_error
+    )
+    above, below = bend - over.course.low, bend + over.course.high
+    # How far the slopes change but for the profile's, whose change times that of s is added.
+    theta_smooth = (
+        (abs(middle.flat_tt) + var_tt) * a
+        + abs(along) * change.d_r1
+        + var_along * change.r2 * a
+        + (abs(middle.flat_tv) + var_tv) * b
+    )
+    tau_smooth = (abs(middle.flat_tv) + var_tv) * a + (abs(middle.flat_vv) + var_vv) * b
+    slope_high = smaller(over.course.slope_high, f2 * over.reach)
+    slope_low = -smaller(-over.course.slope_low, f2 * over.reach)
+    s_low, s_high = ts - over.d_s_theta, ts + over.d_s_theta
+    profile_high = larger(
+        larger(slope_high * s_high, slope_high * s_low), larger(slope_low * s_high, slope_low * s_low)
+    )
+    profile_low = smaller(
+        smaller(slope_high * s_high, slope_high * s_low), smaller(slope_low * s_high, slope_low * s_low)
+    )
     outward = sigma > 0.0
     theta_error = gradient_bound * (1.0 + 2.0 * change.c1 * change.inverse_r) * change.position_error
     tau_error = gradient_bound * change.velocity_error
+    theta_low = middle.phi_t - profile_high - theta_smooth - theta_error
+    theta_high = middle.phi_t - profile_low + theta_smooth + theta_error
     return Ranges(
         sigma * middle.phi,
         sigma * middle.phi_t,
@@ -412,8 +463,12 @@ def phi_ranges(
         sigma * tv_mid,
         tv_var,
         vv,
-        change.d_t + over.d_f1 * s_theta_high + abs(f1) * over.d_s_theta + theta_error,
-        change.d_v + over.d_f1 * s_tau_high + abs(f1) * over.d_s_tau + tau_error,
+        theta_low if outward else -theta_high,
+        theta_high if outward else -theta_low,
+        theta_smooth + over.d_f1 * s_theta_high + theta_error,
+        tau_smooth + over.d_f1 * s_tau_high + tau_error,
+        below if outward else above,
+        above if outward else below,
         gradient_bound * change.position_error,
         theta_error,
         tau_error,
@@ -438,8 +493,12 @@ def known_by_radius(phi: Ranges, sigma: float, radius: float, move: float, r_min
         0.0 if near_axis else phi.tv,
         0.0 if near_axis else phi.tv_var,
         0.0 if near_axis else phi.vv,
+        -unknown if near_axis else phi.theta_low,
+        unknown if near_axis else phi.theta_high,
         unknown if near_axis else phi.theta_change,
         0.0 if near_axis else phi.tau_change,
+        unknown if near_axis else phi.below,
+        unknown if near_axis else phi.above,
         0.0 if near_axis else phi.error,
         0.0 if near_axis else phi.theta_error,
         0.0 if near_axis else phi.tau_error,
@@ -479,7 +538,11 @@ def g_ranges(
         g.by_both,
         turning_moving * (change.c2_a + c1 * b + 4.0 * position_error),
         turning_moving * (abs(edge.a[2]) + c1 * a + change.speed * b + 4.0 * (position_error + rate_error)),
+        -math.inf,
+        math.inf,
         d_r1 * (abs(g.p) + tilting) + r1_bound * sine_g * a + c1 * tilting + position_error,
+        math.inf,
+        math.inf,
         math.inf,
         position_error,
         position_error,
@@ -530,7 +593,7 @@ def ranges_about(
     rounded = with_errors(change, precision)
     over = helix_over(a, b, turning, middle, rounded, near, sizes, solid)
     varied = variations(a, b, turning, middle, rounded, near, over, sizes)
-    phi = phi_ranges(a, sigma, edge, middle, rounded, near, over, varied)
+    phi = phi_ranges(a, b, sigma, edge, middle, rounded, near, over, varied, 2.0 * change.position_error)
     phi = known_by_radius(phi, sigma, middle.radius, change.move, sizes[4])
     g = g_ranges(a, b, turning, moving, edge, of_g, rounded, sizes, precision)
     sag = change.c2_a * a + turning * (change.c1 * a + change.speed * b) * b + change.position_error * (1.0 + a + b)

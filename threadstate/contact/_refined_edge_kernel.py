@@ -146,7 +146,7 @@ def refined_points(theta: float, a: float, place: Placement, edge: Edge) -> tupl
     else:
         v, w, at = place.axis, NOWHERE, NOWHERE
     numbers = branchless.profile_numbers(curve)
-    _, _, u, rises = branchless.radius_and_slope(-k[0] * theta, numbers)
+    _, slope, u, rises = branchless.radius_and_slope(-k[0] * theta, numbers)
     r2_low, r2_high = branchless.second_derivative_range(u, abs(k[0]) * a, rises, numbers)
     of_curve = CurvePoint(
         cos[0],
@@ -155,6 +155,7 @@ def refined_points(theta: float, a: float, place: Placement, edge: Edge) -> tupl
         dr[0],
         r2_low * k[0] * k[0],
         r2_high * k[0] * k[0],
+        abs(k[0]) * branchless.slope_change_limit(slope, u, abs(k[0]) * a, rises, numbers),
         place.m1[2][0],
         place.m2[2][0],
         place.origin[2][0],
@@ -276,8 +277,12 @@ def with_rounding(of_one: Ranges) -> Ranges:
         of_one.tv,
         of_one.tv_var + unit * abs(of_one.tv),
         of_one.vv * (1.0 + unit),
+        of_one.theta_low - theta,
+        of_one.theta_high + theta,
         of_one.theta_change + theta,
         of_one.tau_change + tau,
+        of_one.below * (1.0 + unit),
+        of_one.above * (1.0 + unit),
         of_one.error + unit * abs(of_one.value),
         of_one.theta_error + theta,
         of_one.tau_error + tau,

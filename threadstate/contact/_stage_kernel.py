@@ -139,7 +139,7 @@ RIDGES, PROVED, RIDGES_ONLY = range(3)
 RIDGE_AZIMUTHS = 32
 
 FIRST_SPAN_TURN = math.radians(2.0)
-FIRST_SPAN_HEIGHT = 0.05
+FIRST_SPAN_HEIGHT = 0.1
 SPAN_GROWTH = 1.25
 """A motion is searched in spans of time: the first (rad, thread pitches), and the factor to each next one."""
 

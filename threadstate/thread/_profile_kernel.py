@@ -106,9 +106,19 @@ def other_fillets(half: int, profile: Array) -> tuple[float, float]:
 
 
 @kernel()
+def half_reach(half: int, profile: Array) -> tuple[float, float]:
+    """From and up to which ``u`` of a half period f' has no other sign than there: to where the other half's fillets
+    begin beyond the flats.
+    """
+    other = FALLING - half
+    return -0.5 * profile[P] - profile[U_FLAT + other], 0.5 * profile[P] - profile[U_TOP + other]
+
+
+@kernel()
 def second_derivative_limits(profile: Array) -> tuple[float, float]:
     """Smallest and largest ``f''``: where the fillets meet the steeper flank."""
-    cube = (1.0 + profile[STEEPEST] * profile[STEEPEST]) ** 1.5
+    square = 1.0 + profile[STEEPEST] * profile[STEEPEST]
+    cube = square * math.sqrt(square)
     high = cube / profile[RHO_MINOR] if profile[RHO_MINOR] > 0.0 else math.inf
     return (-cube / profile[RHO_MAJOR] if profile[RHO_MAJOR] > 0.0 else -math.inf), high
 
