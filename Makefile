@@ -82,7 +82,7 @@ check: $(VENV)/.project $(VENV)/.dependencies node_modules/.installed
 	$(NODE) --test tests/page/*.test.js
 
 bench: setup
-	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks --compilation
 	$(BIN)/python -m benchmarks.statics
 
 load: setup $(VENV)-load/.dependencies

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.exact import first_heights, seconds_to_solve
-from benchmarks.rebuild import floor, profile, rebuilt
+from benchmarks.rebuild import compile_seconds, floor, profile, rebuilt
 from benchmarks.report import Pace, Report, as_json, print_tables
 from benchmarks.request_times import measured
 from benchmarks.rivalry import rivals
@@ -30,17 +30,23 @@ def main() -> None:
     parser.add_argument("--tilt-max", type=float, default=4.0, help="of the library, in degrees [%(default)s]")
     parser.add_argument("--tilt-step", type=float, default=1.0, help="of the library, in degrees [%(default)s]")
     parser.add_argument("--phase-step", type=float, default=1.0, help="of the library, in degrees [%(default)s]")
+    parser.add_argument("--compilation", action="store_true", help="time the compilation of the kernels, too")
     arguments = parser.parse_args()
     grid = Grid(tilt_max_deg=arguments.tilt_max, tilt_step_deg=arguments.tilt_step, phase_step_deg=arguments.phase_step)
-    report = _measured(arguments.poses, arguments.compared, grid)
+    report = _measured(arguments.poses, arguments.compared, grid, compiling=arguments.compilation)
     if arguments.json:
         print(as_json(report))
     else:
         print_tables(report)
 
 
-def _measured(pose_count: int, compared_count: int, grid: Grid) -> Report:
+def _measured(pose_count: int, compared_count: int, grid: Grid, *, compiling: bool) -> Report:
     pair = quarter_twenty_unc()
+    seconds_to_compile = None
+    if compiling:
+        _report_progress("compilation ...")
+        with tempfile.TemporaryDirectory() as name:
+            seconds_to_compile = compile_seconds(Path(name))
     _report_progress("exact method ...")
     sampled = sample_poses(pose_count)
     heights = first_heights(pair, sampled)
@@ -70,6 +76,8 @@ def _measured(pose_count: int, compared_count: int, grid: Grid) -> Report:
         parts=parts,
         floor=limit,
         requests=requests,
+        orientations=grid.orientation_count,
+        compile_seconds=seconds_to_compile,
     )
 
 

@@ -18,21 +18,32 @@ import numpy as np
 
 from benchmarks.sample import SEED
 from threadstate.contact import _solve_kernel
+from threadstate.history.build import histories_of
+from threadstate.history.descents import falls_of
+from threadstate.history.height_curve import height_curve
+from threadstate.history.records import RecordStore
+from threadstate.history.window import windows_of
 from threadstate.library.engine import writer_engine
 from threadstate.library.fingerprint import answers_sha256
 from threadstate.library.grid import Grid
 from threadstate.library.identity import LibraryInputs
 from threadstate.library.rows import chunk_rows
 from threadstate.library.write import open_library, write_chunk
-from threadstate.state.solve import SolveOptions, solve_poses
+from threadstate.state.solve import SolveOptions
+from threadstate.statics.rows import statics_by_ordinal
+from threadstate.stored_histories.compute import computed_rows, exact_answers
+from threadstate.stored_histories.mapping import history_rows
 from threadstate.thread.pair import Pair
 from worker.garbage import collect_rarely
+from worker.messages import LibraryChunk
 from worker.migrate import migrate
 
 PROFILED_ORIENTATIONS = 12
 COMMAND = [sys.executable, "-c", "from worker.cli import main; main()"]
 WRITER_IMPORTS = "import worker.cli, worker.rebuild"
 COMPUTING_IMPORTS = "import threadstate.warm_up, worker.compute"
+WARM_UP = [sys.executable, "-m", "threadstate.warm_up"]
+STATES_KERNELS = "solve: kernels"
 LOADING = f"{COMPUTING_IMPORTS}; threadstate.warm_up.load_kernels()"
 
 
@@ -105,35 +116,62 @@ def profile(folder: Path, pair: Pair, grid: Grid) -> list[Part]:
     scale = grid.orientation_count / count
     engine = writer_engine(f"sqlite:///{folder / 'profiled.sqlite3'}")
     migrate(engine)
-    library_id = open_library(engine, LibraryInputs(pair, grid, SolveOptions()))
-    solve_poses(pair, grid.poses(0)[:1])
+    inputs = LibraryInputs(pair, grid, SolveOptions())
+    library_id = open_library(engine, inputs)
+    computed_rows(inputs, chosen[0])
     kernels = _Stopwatch()
-    solve, rows, hashing, handing, writing = (_Stopwatch() for _ in range(5))
+    of_states, of_histories = 0.0, 0.0
+    solve, histories, statics, rows, hashing, handing, writing = (_Stopwatch() for _ in range(7))
     with mock.patch.object(_solve_kernel, "solve_rows", kernels.around(_solve_kernel.solve_rows)):
         for index in chosen:
+            orientation, first = grid.orientation(index), grid.first_ordinal(index)
+            tilt = (orientation.roll_deg, orientation.pitch_deg)
+            store = RecordStore(pair, inputs.options)
+            before = kernels.seconds
             with solve.running():
-                states = solve_poses(pair, grid.poses(index))
+                answers = exact_answers(pair, inputs.options, grid.poses(index), store)
+            between = kernels.seconds
+            with histories.running():
+                (history,) = histories_of(pair, [tilt], inputs.options, store=store)
+                falls = falls_of(height_curve(pair, *tilt, inputs.options, store), pair.thread_pitch)
+                windows = windows_of(pair, history)
+            of_states += between - before
+            of_histories += kernels.seconds - between
+            with statics.running():
+                loaded = statics_by_ordinal(pair, first, answers)
             with hashing.running():
-                answers_sha256(states)
+                answers_sha256(answers)
             with rows.running():
-                chunk = chunk_rows(grid.orientation(index), grid.first_ordinal(index), states)
+                of_chunk = chunk_rows(orientation, first, answers, loaded)
+                chunk = LibraryChunk(of_chunk, history_rows(history, windows, falls))
             with handing.running():
                 pickle.loads(pickle.dumps(chunk))
             with writing.running():
-                write_chunk(engine, library_id, chunk)
+                write_chunk(engine, library_id, chunk.rows, chunk.history)
     engine.dispose()
     imports = _process_seconds(COMPUTING_IMPORTS)
     return [
         Part("start of Python, imports: writer", "writer", _process_seconds(WRITER_IMPORTS)),
         Part("start of Python, imports: kernels", "forkserver", imports),
         Part("loading the kernels", "forkserver", _process_seconds(LOADING) - imports),
-        Part("solve: kernels", "computing", kernels.seconds * scale),
-        Part("solve: records to values", "computing", (solve.seconds - kernels.seconds) * scale),
+        Part(STATES_KERNELS, "computing", of_states * scale),
+        Part("solve: records to values", "computing", (solve.seconds - of_states) * scale),
+        Part("histories: kernels that solve", "computing", of_histories * scale),
+        Part("histories: search of changes, falls, windows", "computing", (histories.seconds - of_histories) * scale),
+        Part("statics", "computing", statics.seconds * scale),
         Part("hashing", "computing", hashing.seconds * scale),
         Part("rows", "computing", (rows.seconds - hashing.seconds) * scale),
         Part("handing over", "both", handing.seconds * scale),
         Part("writing", "writer", writing.seconds * scale),
     ]
+
+
+def compile_seconds(folder: Path) -> float:
+    """Wall time of compiling all that the service and a rebuild need into an empty cache, by two processes."""
+    environment = os.environ | {"THREADSTATE_NUMBA_CACHE_DIR": str(folder / "cache")}
+    start = time.perf_counter()
+    subprocess.run([*WARM_UP, "--serving"], check=True, capture_output=True, env=environment)
+    return time.perf_counter() - start
 
 
 def floor(folder: Path, parts: list[Part], cores: int, database_bytes: int) -> Floor:
@@ -144,7 +182,7 @@ def floor(folder: Path, parts: list[Part], cores: int, database_bytes: int) -> F
         file.write(content)
         os.fsync(file.fileno())
     disk = time.perf_counter() - start
-    return Floor(sum(part.seconds for part in parts if part.name == "solve: kernels") / cores, disk)
+    return Floor(sum(part.seconds for part in parts if part.name == STATES_KERNELS) / cores, disk)
 
 
 def _database(folder: Path, processes: int) -> Path:

@@ -34,7 +34,8 @@ class Report:
     """One run.
 
     ``declined`` is how many poses of the sample the exact solver would not decide; they are left out everywhere.
-    ``compared_poses_per_second`` is its pace on one core on just the poses that the meshes descend to.
+    ``compared_poses_per_second`` is its pace on one core on just the poses that the meshes descend to. ``orientations``
+    is how many the library has, each with its history; ``compile_seconds`` is None where it was not asked for.
     """
 
     sampled: int
@@ -47,6 +48,13 @@ class Report:
     parts: list[Part]
     floor: Floor
     requests: list[RequestTimes]
+    orientations: int
+    compile_seconds: float | None
+
+    @property
+    def histories_per_second(self) -> float:
+        """Histories of orientations whose states are solved, on one core."""
+        return self.orientations / sum(part.seconds for part in self.parts if part.name.startswith("histories"))
 
 
 def as_json(report: Report) -> str:
@@ -65,6 +73,13 @@ def print_tables(report: Report) -> None:
         table.title = None
         console.print(table)
         console.print()
+    states = sum(part.seconds for part in report.parts if part.name.startswith("solve"))
+    console.print(
+        f"Histories: {report.histories_per_second:.2f}/s on one core, beyond the states of the library, in "
+        f"{report.orientations / report.histories_per_second / states:.1f} times the time of these."
+    )
+    if report.compile_seconds is not None:
+        console.print(f"Compilation of what the service needs, two processes: {report.compile_seconds:.1f} s.")
     console.print(
         f"Floor of a rebuild: the kernels alone on {report.rebuilds[-1].processes} cores {report.floor.kernels:.2f} s; "
         f"{report.rebuilds[-1].database_bytes / 1e6:.0f} MB written plainly to this disk {report.floor.disk:.2f} s."

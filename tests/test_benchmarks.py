@@ -62,16 +62,19 @@ def test_meshes_come_to_the_exact_heights(report: dict[str, Any]) -> None:
 
 def test_whole_libraries_are_made_and_every_part_is_timed(report: dict[str, Any]) -> None:
     assert [(one["processes"], one["states"]) for one in report["rebuilds"]] == [(1, 3), (2, 3)]
-    assert len({part["name"] for part in report["parts"]}) == 9
+    assert len({part["name"] for part in report["parts"]}) == 12
+    assert report["orientations"] == 1
+    assert report["compile_seconds"] is None
 
 
 def test_kernels_of_tilted_poses_are_timed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     # The times of processes are in the report, whose level poses no kernel solves.
     monkeypatch.setattr(benchmarks.rebuild, "_process_seconds", lambda _code: 0.0)
     parts = profile(tmp_path, quarter_twenty_unc(), Grid(3.0, 3.0, 120.0))
-    solving = [part.seconds for part in parts if part.name.startswith("solve")]
-    assert len(solving) == 2
-    assert min(solving) > 0.0
+    for work in ("solve", "histories"):
+        seconds = [part.seconds for part in parts if part.name.startswith(work)]
+        assert len(seconds) == 2
+        assert min(seconds) > 0.0
 
 
 def test_every_kind_of_request_is_answered(report: dict[str, Any]) -> None:
@@ -89,9 +92,15 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
             compared_poses_per_second=110.0,
             rivals=[Rival("march", 55.0, 2.0, 5e-7, -0.012, (1.0, -2.0, 357.5), 3)],
             rebuilds=[Rebuilt(2, 27, 1.5, 4_000_000)],
-            parts=[Part("rows", "computing", 3.0), Part("writing", "writer", 1.0)],
+            parts=[
+                Part("solve: kernels", "computing", 0.5),
+                Part("histories: kernels", "computing", 1.0),
+                Part("rows", "computing", 2.5),
+            ],
             floor=Floor(0.75, 0.5),
             requests=[RequestTimes("intervals", 210.0, 3.25, 12.0)],
+            orientations=9,
+            compile_seconds=61.25,
         )
     )
     lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
@@ -102,7 +111,9 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
         "exact, all three contacts 110",
         "march 55 2.0 x 5.0e-07 -1.2e-02 1.00, -2.00, 357.50 3",
         "2 27 1.50 4.0",
-        "rows computing 3.00 75.0%",
+        "rows computing 2.50 62.5%",
+        "Histories: 9.00/s on one core, beyond the states of the library, in 2.0 times the time of these.",
+        "Compilation of what the service needs, two processes: 61.2 s.",
         "all 4.00",
         "intervals 210.0 3.2 12.0",
     ):
