@@ -49,28 +49,28 @@ FAULTS = {
         "change_by_time = b * (turning + speed_bound * inverse_r)",
         "change_by_time = 0.1 * b * (turning + speed_bound * inverse_r)",
     ),
-    "cylindrical directions that keep still": (
+    "directions that turn by a twentieth of the azimuth": (
         "direction_change = a + turning * b + azimuth_change",
-        "direction_change = a + turning * b",
+        "direction_change = 0.05 * a",
     ),
-    "half the change of f'": ("d_f1 = smaller(f2 * reach", "d_f1 = 0.5 * smaller(f2 * reach"),
+    "half the change of f'": ("d_f1 = larger(slope_high", "d_f1 = 0.5 * larger(slope_high"),
     "half the reach by azimuth": (
         "reach = (abs(ts) + on_average) * a",
         "reach = 0.5 * (abs(ts) + on_average) * a",
     ),
     "no change of s_theta on the way": ("(abs(ts) + on_average) * a", "abs(ts) * a"),
     "half of what f differs from its tangent by": (
-        "bend - over.course.low, bend + over.course.high",
-        "bend - 0.5 * over.course.low, bend + 0.5 * over.course.high",
+        "above, below = bend + profile_error - over.course.low, bend + profile_error + over.course.high",
+        "above, below = bend + profile_error - 0.5 * over.course.low, bend + profile_error + 0.5 * over.course.high",
     ),
-    "a third of what phi bends by, but for f": ("0.5 * (abs(middle.flat_tt) + var_tt) * a * a", "0.1 * var_tt * a * a"),
-    "s_theta that keeps still": (
-        "s_low, s_high = ts - over.d_s_theta, ts + over.d_s_theta",
-        "s_low, s_high = ts, ts",
+    "a third of what phi bends by, but for f": ("0.5 * tt * a * a", "0.1 * varied[0] * a * a"),
+    "half of what f' differs by": (
+        "product_range(over.course.slope_low, over.course.slope_high,",
+        "product_range(0.5 * over.course.slope_low, 0.5 * over.course.slope_high,",
     ),
     "a tenth of the bend that changes phi_theta": (
-        "(abs(middle.flat_tt) + var_tt) * a\n",
-        "0.1 * (abs(middle.flat_tt) + var_tt) * a\n",
+        "return bend, tt * a + abs(along)",
+        "return bend, 0.1 * tt * a + abs(along)",
     ),
     "half of f''": ("tt_high -= f2_low *", "tt_high -= 0.5 * f2_low *"),
     "no term of R1 in g'": ("(a * (r_bound + 3.0 * r1_bound)", "(a * r_bound"),
@@ -79,9 +79,9 @@ FAULTS = {
         "sine_g = math.sqrt(edge.m1z * edge.m1z + edge.m2z * edge.m2z)",
     ),
     "a third of the change of V": ("d_v = speed_bound *", "d_v = 0.3 * speed_bound *"),
-    "T that changes by its direction alone, half": (
-        "d_t = c1 * direction_change + d_r1 + r1_bound * a",
-        "d_t = 0.5 * c1 * direction_change",
+    "a tenth of what phi_thetatheta varies by": (
+        "var_tt = (smaller(near_tt, var_tt) if near.aligned else var_tt)",
+        "var_tt = 0.1 * (smaller(near_tt, var_tt) if near.aligned else var_tt)",
     ),
     "1 / rho^2 that keeps still": ("curvature_factor = inverse_r *", "curvature_factor = 0.0 * inverse_r *"),
     "a radius that is never small": ("near_axis = radius - move < 0.5 * r_minor", "near_axis = False"),

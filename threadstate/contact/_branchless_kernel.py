@@ -202,7 +202,7 @@ def slope_change_limit(slope: float, u: float, reach: float, rises: bool, number
     return larger(size, cot - size) if is_within else larger(numbers[2], numbers[9]) + size
 
 
-class Course(NamedTuple):
+class ProfileCourse(NamedTuple):
     """What a profile does within reach of a place, as differences from its tangent there.
 
     ``slope_low`` to ``slope_high`` is the range of what ``f'`` differs by, ``low`` to ``high`` that of ``f``.
@@ -215,7 +215,7 @@ class Course(NamedTuple):
 
 
 @kernel(contract=True, forceinline=True)
-def course_over(radius: float, slope: float, u: float, reach: float, rises: bool, numbers: Numbers) -> Course:
+def course_over(radius: float, slope: float, u: float, reach: float, rises: bool, numbers: Numbers) -> ProfileCourse:
     """The course of a profile within ``reach`` of ``u`` of a half period, where its ``radius`` and ``slope`` are these.
 
     Unbounded where the reach is longer than a half period. docs/certificate.md, section 3, says why the ends decide.
@@ -244,7 +244,7 @@ def course_over(radius: float, slope: float, u: float, reach: float, rises: bool
     high = 0.0 if u >= u_crest else (after if slope_after >= size else (cot - size) * reach)
     low = 0.0 if u <= u_flank else (before if slope_before >= size else (size - cot) * reach)
     is_bounded = reach <= smaller(width, p - width)
-    return Course(
+    return ProfileCourse(
         change_low if rises else -change_high,
         change_high if rises else -change_low,
         smaller(smaller(low, after), 0.0) if is_bounded else -math.inf,

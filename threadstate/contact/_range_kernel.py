@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._branchless_kernel import (
-    Course,
     Numbers,
+    ProfileCourse,
     course_over,
     larger,
     second_derivative_range,
@@ -121,8 +121,8 @@ class Helix(NamedTuple):
 
     ``d_s_theta`` is how far s_T changes, ``s_theta_low``, ``s_theta_high`` and ``s_tau_high`` bounds on the sizes of
     s_T and s_V; ``f2_low`` to ``f2_high`` is the range of f'', ``f2`` bounds its size, ``d_f1`` how far f' changes,
-    ``reach`` how far s does, ``steep`` the size of f' and ``gradient`` that of grad phi; ``course`` is what f does
-    within reach.
+    ``steep`` the size of f' and ``gradient`` that of grad phi; ``course`` is what f does within reach, f' no more than
+    f'' allows.
     """
 
     d_s_theta: float
@@ -133,10 +133,9 @@ class Helix(NamedTuple):
     f2_high: float
     f2: float
     d_f1: float
-    reach: float
     steep: float
     gradient: float
-    course: Course
+    course: ProfileCourse
 
 
 @kernel(contract=True, forceinline=True)
@@ -317,7 +316,9 @@ def helix_over(
     f2 = larger(f2_high, -f2_low)
     farther = reach + helix * change.position_error
     course = course_over(middle.radius - middle.phi, middle.f1, middle.u, farther, middle.rises, solid)
-    d_f1 = smaller(f2 * reach, larger(course.slope_high, -course.slope_low))
+    slope_high = smaller(course.slope_high, f2 * reach)
+    slope_low = -smaller(-course.slope_low, f2 * reach)
+    d_f1 = larger(slope_high, -slope_low)
     steep = smaller(abs(middle.f1) + d_f1, cot)
     return Helix(
         d_s_theta,
@@ -328,10 +329,9 @@ def helix_over(
         f2_high,
         f2,
         d_f1,
-        reach,
         steep,
         1.0 + steep * helix,
-        course,
+        ProfileCourse(slope_low, slope_high, course.low, course.high),
     )
 
 
@@ -380,6 +380,47 @@ def variations(
 
 
 @kernel(contract=True, forceinline=True)
+def product_range(low: float, high: float, other_low: float, other_high: float) -> tuple[float, float]:
+    """The smallest and the largest product of two factors within these ranges; NaN of NaN."""
+    return (
+        smaller(smaller(high * other_high, high * other_low), smaller(low * other_high, low * other_low)),
+        larger(larger(high * other_high, high * other_low), larger(low * other_high, low * other_low)),
+    )
+
+
+@kernel(contract=True, forceinline=True)
+def factor_of_r2(a: float, middle: PhiPoint, change: Changes, near: Alignment, over: Helix) -> tuple[float, float]:
+    """What r'' is multiplied by in phi_thetatheta, grad phi . P, in the middle; and how far it varies."""
+    pr, _, ps = middle.p
+    near_along = (near.factor_r + over.steep * near.factor_s) * a + over.gradient * change.by_time
+    var_along = over.gradient * change.directions
+    return pr - middle.f1 * ps, (smaller(near_along, var_along) if near.aligned else var_along) + over.d_f1 * abs(ps)
+
+
+@kernel(contract=True, forceinline=True)
+def smooth_part(
+    a: float,
+    b: float,
+    middle: PhiPoint,
+    change: Changes,
+    along: float,
+    var_along: float,
+    varied: tuple[float, float, float],
+) -> tuple[float, float, float]:
+    """Of phi with the profile's tangent for the profile: how far it is from its linear expansion, and how far its
+    derivatives by theta and tau change (B, B_theta and B_tau of docs/certificate.md, section 3).
+    """
+    tt, tv, vv = abs(middle.flat_tt) + varied[0], abs(middle.flat_tv) + varied[1], abs(middle.flat_vv) + varied[2]
+    bend = (
+        0.5 * tt * a * a
+        + (abs(along) * smaller(0.5 * change.r2 * a, change.d_r1) + var_along * 0.5 * change.r2 * a) * a
+        + tv * a * b
+        + 0.5 * vv * b * b
+    )
+    return bend, tt * a + abs(along) * change.d_r1 + var_along * change.r2 * a + tv * b, tv * a + vv * b
+
+
+@kernel(contract=True, forceinline=True)
 def phi_ranges(
     a: float,
     b: float,
@@ -392,29 +433,16 @@ def phi_ranges(
     varied: tuple[float, float, float],
     profile_error: float,
 ) -> Ranges:
-    """The ranges of phi, as :func:`ranges` has them; ``varied`` are the :func:`variations`, ``profile_error`` bounds
-    the round-off of the remainder of f.
-    """
+    """The ranges of phi; ``varied`` are the :func:`variations`, ``profile_error`` is the round-off of the course."""
     var_tt, var_tv, var_vv = varied
     _, _, ts = middle.t
     _, _, vs = middle.v
-    pr, _, ps = middle.p
-    r2_low, r2_high, f1, gradient_bound = edge.r2_low, edge.r2_high, middle.f1, over.gradient
+    r2_low, r2_high, gradient_bound = edge.r2_low, edge.r2_high, over.gradient
     s_theta_low, s_theta_high, s_tau_high = over.s_theta_low, over.s_theta_high, over.s_tau_high
     f2_low, f2_high, f2 = over.f2_low, over.f2_high, over.f2
     # The terms of r'' and f'': r'' times grad phi . P, less f'' s_U s_V.
-    along = pr - f1 * ps
-    near_along = (near.factor_r + over.steep * near.factor_s) * a + gradient_bound * change.by_time
-    var_along = gradient_bound * change.directions
-    var_along = (smaller(near_along, var_along) if near.aligned else var_along) + over.d_f1 * abs(ps)
-    along_high = along + var_along
-    along_low = along - var_along
-    bend_high = larger(
-        larger(r2_high * along_high, r2_high * along_low), larger(r2_low * along_high, r2_low * along_low)
-    )
-    bend_low = smaller(
-        smaller(r2_high * along_high, r2_high * along_low), smaller(r2_low * along_high, r2_low * along_low)
-    )
+    along, var_along = factor_of_r2(a, middle, change, near, over)
+    bend_low, bend_high = product_range(r2_low, r2_high, along - var_along, along + var_along)
     rounded = 32.0 * UNIT * (larger(bend_high, -bend_low) + f2 * s_theta_high * s_theta_high + var_tt)
     tt_high = middle.flat_tt + var_tt + bend_high + rounded
     tt_low = middle.flat_tt - var_tt + bend_low - rounded
@@ -423,32 +451,11 @@ def phi_ranges(
     tv_mid = middle.flat_tv - 0.5 * (f2_low + f2_high) * ts * vs
     tv_var = var_tv + 0.5 * (f2_high - f2_low) * abs(ts * vs) + f2 * (s_theta_high * s_tau_high - abs(ts * vs))
     vv = abs(middle.flat_vv) + var_vv + f2 * s_tau_high * s_tau_high
-    # Of phi with the profile's tangent for the profile, and then what that differs from it.
-    bend = (
-        0.5 * (abs(middle.flat_tt) + var_tt) * a * a
-        + (abs(along) * smaller(0.5 * change.r2 * a, change.d_r1) + var_along * 0.5 * change.r2 * a) * a
-        + (abs(middle.flat_tv) + var_tv) * a * b
-        + 0.5 * (abs(middle.flat_vv) + var_vv) * b * b
-        + profile_error
-    )
-    above, below = bend - over.course.low, bend + over.course.high
-    # How far the slopes change but for the profile's, whose change times that of s is added.
-    theta_smooth = (
-        (abs(middle.flat_tt) + var_tt) * a
-        + abs(along) * change.d_r1
-        + var_along * change.r2 * a
-        + (abs(middle.flat_tv) + var_tv) * b
-    )
-    tau_smooth = (abs(middle.flat_tv) + var_tv) * a + (abs(middle.flat_vv) + var_vv) * b
-    slope_high = smaller(over.course.slope_high, f2 * over.reach)
-    slope_low = -smaller(-over.course.slope_low, f2 * over.reach)
+    bend, theta_smooth, tau_smooth = smooth_part(a, b, middle, change, along, var_along, varied)
+    above, below = bend + profile_error - over.course.low, bend + profile_error + over.course.high
+    # What f' differs by from its value in the middle, times s_theta.
     s_low, s_high = ts - over.d_s_theta, ts + over.d_s_theta
-    profile_high = larger(
-        larger(slope_high * s_high, slope_high * s_low), larger(slope_low * s_high, slope_low * s_low)
-    )
-    profile_low = smaller(
-        smaller(slope_high * s_high, slope_high * s_low), smaller(slope_low * s_high, slope_low * s_low)
-    )
+    profile_low, profile_high = product_range(over.course.slope_low, over.course.slope_high, s_low, s_high)
     outward = sigma > 0.0
     theta_error = gradient_bound * (1.0 + 2.0 * change.c1 * change.inverse_r) * change.position_error
     tau_error = gradient_bound * change.velocity_error
