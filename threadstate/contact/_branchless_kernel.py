@@ -218,7 +218,8 @@ class ProfileCourse(NamedTuple):
 def course_over(radius: float, slope: float, u: float, reach: float, rises: bool, numbers: Numbers) -> ProfileCourse:
     """The course of a profile within ``reach`` of ``u`` of a half period, where its ``radius`` and ``slope`` are these.
 
-    Unbounded where the reach is longer than a half period. docs/certificate.md, section 3, says why the ends decide.
+    ``f`` is unbounded where the reach is longer than a half period. docs/certificate.md, section 3, says why the ends
+    decide.
     """
     p, width = numbers[14], numbers[17]
     u_flank = numbers[1] if rises else numbers[8]
@@ -234,16 +235,16 @@ def course_over(radius: float, slope: float, u: float, reach: float, rises: bool
     slope_before = slope_before if rises else -slope_before
     size = abs(slope)
     # The slope grows up to the flank and falls from it, down to minus that of the other half's flank.
+    is_bounded = reach <= smaller(width, p - width)
     is_within = u - reach >= start and u + reach <= end
-    steepest = slope_before if u - reach >= u_crest else cot
-    steepest = slope_after if u + reach <= u_flank else steepest
+    steepest = slope_before if is_bounded and u - reach >= u_crest else cot
+    steepest = slope_after if is_bounded and u + reach <= u_flank else steepest
     flattest = smaller(slope_before, slope_after) if is_within else -larger(numbers[2], numbers[9])
     change_low, change_high = smaller(flattest - size, 0.0), larger(steepest - size, 0.0)
     after = f_after - radius - size * reach
     before = f_before - radius + size * reach
     high = 0.0 if u >= u_crest else (after if slope_after >= size else (cot - size) * reach)
     low = 0.0 if u <= u_flank else (before if slope_before >= size else (size - cot) * reach)
-    is_bounded = reach <= smaller(width, p - width)
     return ProfileCourse(
         change_low if rises else -change_high,
         change_high if rises else -change_low,
