@@ -268,3 +268,10 @@ def test_features_beside_a_contact_do_not_flicker() -> None:
     states = solve_poses(quarter_twenty_unc(), [(-2.0, 1.0, float(phase)) for phase in phases])
     features = [[contact.features for contact in state.contacts] for state in states]
     assert sum(a != b for a, b in pairwise(features)) == 1
+
+
+def test_a_contact_that_round_off_puts_beside_all_boxes_is_found() -> None:
+    """Second contacts 5e-6 in beside the first one, at phases where a box ends within round-off of their time."""
+    phases = (6.631293009, 6.633276808, 6.639479753)
+    states = solve_poses(quarter_twenty_unc(), [(-4.0, -3.0, phase) for phase in phases])
+    assert [len(state.contacts) for state in states] == [3, 3, 3]

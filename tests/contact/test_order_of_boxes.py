@@ -162,6 +162,22 @@ def test_an_onset_beside_a_box_by_less_than_its_round_off_is_not_certainly_besid
         assert onset.newton_onset(box.ONE_EDGE, Box(theta, 1e-5, best - 1e-6, end), edge, jet)[0] == place
 
 
+def test_an_onset_that_round_off_puts_beside_a_box_is_found_from_it() -> None:
+    """From the neighbour round-off may put it into this one, so that both would leave it to the other."""
+    work = stage.new_work()
+    edge, _ = second_turn((2.0, 4.0, 3.82646534708482), work)
+    wanted, found = wanted_of(work), np.empty((onset.MAX_CANDIDATES, onset.CANDIDATE_SIZE))
+    _, _, best, _ = edge_search.search_edge(0.07, 0.078, 0.078, edge, wanted, 0, found)
+    theta, kind = found[0, onset.C_THETA], found[0, onset.C_KIND]
+    for end, count in ((best - 2e-12, 1), (best - 1e-7, 0)):
+        work.regions[0, 0] = 0.0
+        beside = Box(theta, 1e-7, best - 1e-6, end)
+        assert onset.newton_onset(kind, beside, edge, work.jet)[0] != onset.ROOT_INSIDE
+        closed = edge_search.close_by_onset(kind, beside, 0.07, 0.078, edge, wanted, 0, found)
+        assert closed == (True, count, pytest.approx(best if count else 0.078, abs=1e-10))
+        assert (work.regions[0, 0] > 0.0) == (count == 1)
+
+
 def test_the_nuts_edge_beside_an_edge_contact_takes_few_boxes() -> None:
     """It runs 6e-7 in beside the contact at all times: a peak that is outside by hardly more than its bounds blur.
 

@@ -412,15 +412,16 @@ def close_by_onset(
 ) -> tuple[bool, int, float]:
     """Whether Newton's method closes a box with at most one onset: it finds the one there is, in the box or beside it.
 
-    One in the box is listed in ``found`` if it begins in time. Returns the number there then, and the earliest time.
+    One in the box is listed in ``found`` if it begins in time, and one that only round-off puts beside it: from the
+    neighbour round-off may put it into this one. Returns the number there then, and the earliest time.
     """
     is_narrow = box.half < AZIMUTH_TOLERANCE
     place, t, tau = newton_onset(box_class, box, edge, search.jet)
     is_located = place == ROOT_INSIDE or place == ROOT_BESIDE or (place == ROOT_AT_SIDE and is_narrow)
     if is_located and is_the_one(box_class, box, t, tau, edge, search.scratch):
-        if place == ROOT_INSIDE:
+        if place != ROOT_BESIDE:
             keep_region(box_class, box, t, tau, edge, search)
-        if place == ROOT_INSIDE and since <= tau <= best + search.tie_tolerance:
+        if place != ROOT_BESIDE and since <= tau <= best + search.tie_tolerance:
             count, ends = list_onset(box_class, t, tau, edge, search, search.scratch, count, found)
             best = min(best, tau) if ends else best
         return True, count, best
