@@ -169,13 +169,17 @@ def test_an_onset_that_round_off_puts_beside_a_box_is_found_from_it() -> None:
     wanted, found = wanted_of(work), np.empty((onset.MAX_CANDIDATES, onset.CANDIDATE_SIZE))
     _, _, best, _ = edge_search.search_edge(0.07, 0.078, 0.078, edge, wanted, 0, found)
     theta, kind = found[0, onset.C_THETA], found[0, onset.C_KIND]
-    for end, count in ((best - 2e-12, 1), (best - 1e-7, 0)):
+    boxes = (
+        (onset.ROOT_AT_SIDE, Box(theta, 1e-7, best - 1e-6, best - 2e-12), 1),
+        (onset.ROOT_BESIDE, Box(theta, 1e-7, best - 1e-6, best - 1e-7), 0),
+        (onset.NO_ROOT, Box(theta + 3e-8, 1e-8, best - 1e-8, best + 1e-8), 1),
+    )
+    for place, beside, count in boxes:
+        assert onset.newton_onset(kind, beside, edge, work.jet)[0] == place
         work.regions[0, 0] = 0.0
-        beside = Box(theta, 1e-7, best - 1e-6, end)
-        assert onset.newton_onset(kind, beside, edge, work.jet)[0] != onset.ROOT_INSIDE
         closed = edge_search.close_by_onset(kind, beside, 0.07, 0.078, edge, wanted, 0, found)
         assert closed == (True, count, pytest.approx(best if count else 0.078, abs=1e-10))
-        assert (work.regions[0, 0] > 0.0) == (count == 1)
+        assert (work.regions[0, 0] > 0.0) == (place == onset.ROOT_AT_SIDE)
 
 
 def test_the_nuts_edge_beside_an_edge_contact_takes_few_boxes() -> None:

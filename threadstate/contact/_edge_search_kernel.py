@@ -261,19 +261,6 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
 
 
 @kernel()
-def onset_only_outside(box_class: int, box: Box, edge: Edge, scratch: Array, jet: Array) -> bool:
-    """Whether a larger box has at most one onset, too, and has it outside of this one."""
-    theta, half, start, end = box
-    span = end - start
-    larger_box = Box(theta, half * ENLARGEMENT, start - ENLARGEMENT * span, end + ENLARGEMENT * span)
-    found = evaluate_box(larger_box, edge, scratch)
-    if found != box_class:
-        return found <= EXCLUDED
-    place, t, tau = newton_onset(box_class, larger_box, edge, jet)
-    return place == ROOT_INSIDE and (abs(t - theta) >= half or tau <= start or tau >= end)
-
-
-@kernel()
 def is_the_one(box_class: int, box: Box, t: float, tau: float, edge: Edge, scratch: Array) -> bool:
     """Whether a root in a box, or beside it, is the only one there: the box widened to it has at most one, too."""
     theta, half, start, end = box
@@ -407,25 +394,54 @@ def outside_regions(box: Box, regions: Array) -> Box:
 
 
 @kernel()
+def list_in_time(
+    box_class: int,
+    t: float,
+    tau: float,
+    since: float,
+    best: float,
+    edge: Edge,
+    search: EdgeSearch,
+    count: int,
+    found: Array,
+) -> tuple[int, float]:
+    """Lists the onset at a root that begins in time; returns the number in ``found``, and the earliest time."""
+    if since <= tau <= best + search.tie_tolerance:
+        count, ends = list_onset(box_class, t, tau, edge, search, search.scratch, count, found)
+        best = min(best, tau) if ends else best
+    return count, best
+
+
+@kernel()
 def close_by_onset(
     box_class: int, box: Box, since: float, best: float, edge: Edge, search: EdgeSearch, count: int, found: Array
 ) -> tuple[bool, int, float]:
     """Whether Newton's method closes a box with at most one onset: it finds the one there is, in the box or beside it.
 
-    One in the box is listed in ``found`` if it begins in time, and one that only round-off puts beside it: from the
-    neighbour round-off may put it into this one. Returns the number there then, and the earliest time.
+    It is listed in ``found`` if it begins in time, and is not beside the box by more than round-off: from the neighbour
+    that may put it into this one. Returns the number there then, and the earliest time.
     """
-    is_narrow = box.half < AZIMUTH_TOLERANCE
+    theta, half, start, end = box
+    is_narrow = half < AZIMUTH_TOLERANCE
     place, t, tau = newton_onset(box_class, box, edge, search.jet)
     is_located = place == ROOT_INSIDE or place == ROOT_BESIDE or (place == ROOT_AT_SIDE and is_narrow)
     if is_located and is_the_one(box_class, box, t, tau, edge, search.scratch):
         if place != ROOT_BESIDE:
             keep_region(box_class, box, t, tau, edge, search)
-        if place != ROOT_BESIDE and since <= tau <= best + search.tie_tolerance:
-            count, ends = list_onset(box_class, t, tau, edge, search, search.scratch, count, found)
-            best = min(best, tau) if ends else best
+            count, best = list_in_time(box_class, t, tau, since, best, edge, search, count, found)
         return True, count, best
-    return is_narrow and onset_only_outside(box_class, box, edge, search.scratch, search.jet), count, best
+    if not is_narrow:
+        return False, count, best
+    longer = ENLARGEMENT * (end - start)
+    larger_box = Box(theta, half * ENLARGEMENT, start - longer, end + longer)
+    larger_class = evaluate_box(larger_box, edge, search.scratch)
+    if larger_class != box_class:
+        return larger_class <= EXCLUDED, count, best
+    place, t, tau = newton_onset(box_class, larger_box, edge, search.jet)
+    if place != ROOT_INSIDE:
+        return False, count, best
+    count, best = list_in_time(box_class, t, tau, since, best, edge, search, count, found)
+    return True, count, best
 
 
 @kernel(forceinline=True)
