@@ -41,7 +41,6 @@ def _print_boundaries(pair: Pair, orientations: int, seed: int) -> None:
         f"{check.boundaries} boundaries of {len(histories)} orientations; {check.undecided} beside an undecided stretch"
     )
     print(f"{check.alike} with the same labels on both sides and nothing that happens in between")
-    print(f"{check.flickering} hidden by round-off, over {check.flicker_deg:.4f} deg in all")
     print(f"{len(check.failures)} of {check.sides} sides with other labels than the interval there:")
     for one in check.failures:
         print(f"  roll {one.roll_deg!r}, pitch {one.pitch_deg!r}, phase {one.phase_deg!r}")
@@ -51,11 +50,11 @@ def _print_density(pair: Pair, times: int) -> None:
     check = check_density(pair, [(float(roll), float(pitch)) for roll in GRID_DEG for pitch in GRID_DEG], times)
     print(f"{check.boundaries} boundaries from {check.solves} poses")
     print(f"{check.dense_boundaries} boundaries from {check.dense_solves} poses, the start {times} times as dense")
-    hidden = sum(one.hidden for one in check.unmatched)
-    print(f"{hidden} elsewhere beside undecided stretches or where round-off decides the labels")
-    print(f"{len(check.unmatched) - hidden} others that only one of both has within {SAME_DEG:g} deg:")
+    undecided = sum(one.undecided for one in check.unmatched)
+    print(f"{undecided} elsewhere beside undecided stretches")
+    print(f"{len(check.unmatched) - undecided} others that only one of both has within {SAME_DEG:g} deg:")
     for one in check.unmatched:
-        if not one.hidden:
+        if not one.undecided:
             place = f"roll {one.roll_deg:g}, pitch {one.pitch_deg:g}, phase {one.phase_deg:.7f}"
             print(f"  {place}, {'dense' if one.dense else 'usual'}, {one.nearest_deg:.1e} deg from the other's nearest")
 

@@ -31,15 +31,13 @@ class Failure:
 class BoundaryCheck:
     """What was found at the boundaries of some histories.
 
-    Of ``boundaries`` ``undecided`` have an undecided stretch on one side, ``flickering`` are brackets over which
-    round-off decides the labels, ``flicker_deg`` wide in all; ``alike`` have the same labels on both sides, and nothing
-    in between that moves or differs. On ``sides`` sides a state was solved, and ``failures`` are those of other labels.
+    Of ``boundaries`` ``undecided`` have an undecided stretch on one side; ``alike`` have the same labels on both sides,
+    and nothing in between that moves or differs. On ``sides`` sides a state was solved, and ``failures`` are those of
+    other labels.
     """
 
     boundaries: int
     undecided: int
-    flickering: int
-    flicker_deg: float
     alike: int
     sides: int
     failures: tuple[Failure, ...]
@@ -64,12 +62,9 @@ def check_boundaries(pair: Pair, histories: Sequence[SolvedHistory]) -> Boundary
                 allowed = {interval.labels} if boundary.decided else {interval.labels, UNDECIDED}
                 if _labels_at(pair, history, phase) not in allowed:
                     failures.append(Failure(history.roll_deg, history.pitch_deg, phase % CIRCLE_DEG))
-    flickers = [boundary.width_deg for boundary in boundaries if boundary.flickers]
     return BoundaryCheck(
         boundaries=len(boundaries),
         undecided=sum(not one.decided for one in boundaries),
-        flickering=len(flickers),
-        flicker_deg=sum(flickers),
         alike=sum(before.labels == after.labels and _nothing_happens(one) for _, before, one, after in around),
         sides=sides,
         failures=tuple(failures),
@@ -101,16 +96,15 @@ SAME_DEG = 1e-6
 class Unmatched:
     """A boundary that one history has and the other has not; angles in degrees.
 
-    ``dense`` says whether the one from the denser start has it. ``hidden`` are those whose place no search can
-    determine: beside an undecided stretch, or where round-off decides the labels. ``nearest_deg`` is how far off the
-    other history's nearest bracket is.
+    ``dense`` says whether the one from the denser start has it. ``undecided`` are those beside an undecided stretch,
+    whose place no search can determine. ``nearest_deg`` is how far off the other history's nearest bracket is.
     """
 
     roll_deg: float
     pitch_deg: float
     phase_deg: float
     dense: bool
-    hidden: bool
+    undecided: bool
     nearest_deg: float
 
 
@@ -154,9 +148,5 @@ def _without_partner(history: SolvedHistory, other: SolvedHistory, *, dense: boo
         nearest = float(np.maximum(apart, 0.0).min(initial=CIRCLE_DEG))
         if nearest > SAME_DEG:
             place = (history.roll_deg, history.pitch_deg, boundary.phase_deg)
-            found.append(Unmatched(*place, dense, _hidden(boundary), nearest))
+            found.append(Unmatched(*place, dense, not boundary.decided, nearest))
     return found
-
-
-def _hidden(boundary: Boundary) -> bool:
-    return boundary.flickers or not boundary.decided

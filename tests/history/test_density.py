@@ -20,4 +20,4 @@ def test_ten_times_the_density_finds_nothing_new(orientation_deg: tuple[float, f
     check = check_density(PAIR, [orientation_deg], 10)
     assert check.dense_solves > 3 * check.solves
     assert check.boundaries > 20
-    assert [one for one in check.unmatched if not one.hidden and one.nearest_deg > SPREAD_DEG] == []
+    assert [one for one in check.unmatched if not one.undecided and one.nearest_deg > SPREAD_DEG] == []

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from threadstate.history.brackets import Bracket, brackets_of
-from threadstate.history.changes import Resolution, Sampler, changes_on_circles
+from threadstate.history.changes import Resolution, changes_on_circles
 from threadstate.history.codes import LabelCodes
 from threadstate.history.differences import contact_changes
 from threadstate.history.estimates import ChangeEstimates
-from threadstate.history.flicker import widened
 from threadstate.history.labels import labels_of
 from threadstate.history.model import CIRCLE_DEG, Boundary, Interval, SolvedHistory
 from threadstate.history.records import RecordStore
@@ -73,10 +72,7 @@ def _histories(
         return estimates.places(orientations_deg[line], low, high, within)
 
     changes = changes_on_circles(sample, len(orientations_deg), CIRCLE_DEG, resolution, estimate)
-    brackets = [
-        _steady_brackets(codes, sample, orientation, line, brackets_of(changes, line))
-        for line, orientation in enumerate(orientations_deg)
-    ]
+    brackets = [brackets_of(changes, line) for line in range(len(orientations_deg))]
     wanted = [(*orientations_deg[line], phase) for line, found in enumerate(brackets) for phase in _phases(found)]
     states = iter(_states(pair, options, np.array(wanted), store))
     histories = []
@@ -84,25 +80,6 @@ def _histories(
         boundaries, intervals = _cut(found, [next(states) for _ in _phases(found)])
         histories.append(SolvedHistory(roll, pitch, tuple(intervals), tuple(boundaries), count))
     return histories
-
-
-def _steady_brackets(
-    codes: LabelCodes, sample: Sampler, orientation_deg: Floats, line: int, brackets: list[Bracket]
-) -> list[Bracket]:
-    """The brackets of a line, widened to where labels flicker beside the onset of a contact close to an earlier one.
-
-    Where the height of first contact jumps that is the event, and the bracket stays as it is.
-    """
-    decided = [bracket for bracket in brackets if bracket.decided]
-    if not decided:
-        return brackets
-    ends = np.array([phase % CIRCLE_DEG for bracket in decided for phase in (bracket.low, bracket.high)])
-    poses = np.column_stack([np.tile(orientation_deg, (len(ends), 1)), ends])
-    close = codes.have_close_contacts(poses)
-    height = codes.samples(poses).values[:, 0]
-    uncertain = (close[0::2] | close[1::2]) & (np.abs(height[1::2] - height[0::2]) <= 1.0)
-    doubtful = {bracket for bracket, doubt in zip(decided, uncertain.tolist(), strict=True) if doubt}
-    return widened(sample, brackets, line, doubtful)
 
 
 def _phases(brackets: list[Bracket]) -> list[float]:

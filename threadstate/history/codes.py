@@ -33,10 +33,6 @@ Where edges graze, a contact runs along them so fast that shorter jumps cannot b
 """
 
 
-CLOSE_CONTACT = 1e-3
-"""Distance of two contacts, in thread pitches, within which round-off may decide whether they are distinct."""
-
-
 class LabelCodes:
     """Samples poses; a code numbers the distinct labels in the order in which they were found.
 
@@ -64,18 +60,6 @@ class LabelCodes:
             return Samples(np.empty(0, dtype=np.int64), np.empty((0, _VALUE_COUNT)))
         parts = [self._batch(poses_deg[i : i + BATCH]) for i in range(0, len(poses_deg), BATCH)]
         return Samples(np.concatenate([p.codes for p in parts]), np.concatenate([p.values for p in parts]))
-
-    def have_close_contacts(self, poses_deg: Floats) -> NDArray[np.bool_]:
-        """Whether poses of shape (n, 3) have a contact, not of a patch, nearer than CLOSE_CONTACT to another one."""
-        records = self._store.records(poses_deg)
-        contacts = records[:, rk.O_CONTACT :].reshape(-1, rk.MAX_RECORD_CONTACTS, rk.POINT_SIZE)
-        used = np.arange(rk.MAX_RECORD_CONTACTS) < records[:, rk.O_CONTACTS, np.newaxis]
-        used &= contacts[:, :, rk.P_PAIR] != FLUSH
-        points = np.where(used[..., np.newaxis], contacts[:, :, rk.P_POINT : rk.P_POINT + 3], np.nan)
-        apart = np.linalg.norm(points[:, :, np.newaxis] - points[:, np.newaxis], axis=3)
-        of_two = np.triu(np.ones(apart.shape[1:], dtype=np.bool_), 1)
-        near: NDArray[np.bool_] = (of_two & (apart < CLOSE_CONTACT * self._pair.thread_pitch)).any(axis=(1, 2))
-        return near
 
     def _batch(self, poses_deg: Floats) -> Samples:
         records = self._store.records(poses_deg)

@@ -66,11 +66,6 @@ class Boundary:
         return self.before is not None and self.after is not None
 
     @property
-    def flickers(self) -> bool:
-        """Whether round-off decides the labels in the bracket, which is wider than any other between decided states."""
-        return self.decided and self.width_deg > POINT_DEG
-
-    @property
     def first_height_jump(self) -> float | None:
         """Change of the height of first contact across the bracket, a length; None where a side is undecided."""
         if self.before is None or self.after is None:
