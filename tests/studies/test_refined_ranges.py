@@ -67,7 +67,8 @@ def refined_claims(one: Box) -> Claims:
     edge = refined_edge(one)
 
     def ranges(theta: float, a: float, tau: float, b: float, *_: object) -> object:
-        return refined.refined_ranges(theta, a, tau, b, edge)
+        place = refined.placement_at((tau, 0.0), edge.motion, edge.wide)
+        return refined.refined_ranges(theta, a, tau, b, place, refined.NOT_THERE, edge)
 
     kernels: Kernels = (ranges, COMPILED[1])
     return claims(one, kernels)

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import Any
+
+from numba import types
+from numba.extending import intrinsic
 
 from threadstate._compile import kernel
 
 Pair = tuple[float, float]
-
-SPLITTER = 2.0**27 + 1.0
-"""Times it a double parts into two halves of 26 bits, whose products are exact."""
 
 HALF_PI: Pair = (math.pi / 2.0, 6.123233995736766e-17)
 WIDE_TWO_PI: Pair = (2.0 * math.pi, 2.4492935982947064e-16)
@@ -50,17 +51,23 @@ def exact_sum(a: float, b: float) -> Pair:
     return s, (a - (s - v)) + (b - v)
 
 
+def _fused(_typing: Any, _a: Any, _b: Any, _c: Any) -> tuple[Any, Any]:
+    """``a b + c``, rounded once: an instruction of the processor, or a function of the C library with the same bits."""
+
+    def code(_context: Any, builder: Any, _signature: Any, numbers: tuple[Any, ...]) -> Any:
+        return builder.fma(*numbers)
+
+    return types.float64(types.float64, types.float64, types.float64), code
+
+
+fused: Any = intrinsic(_fused)
+
+
 @kernel(forceinline=True)
 def exact_product(a: float, b: float) -> Pair:
-    """The exact product of two doubles."""
+    """The exact product of two doubles: what rounding leaves of it is a double."""
     p = a * b
-    t = SPLITTER * a
-    a_high = t - (t - a)
-    a_low = a - a_high
-    t = SPLITTER * b
-    b_high = t - (t - b)
-    b_low = b - b_high
-    return p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low
+    return p, fused(a, b, -p)
 
 
 @kernel(forceinline=True)

@@ -196,11 +196,7 @@ def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
                 )
     classify_boxes(count, edge.motion, edge.curve, edge.solid, boxes)
     if is_refined(edge):
-        shallow = SHALLOW * edge.solid[pk.P]
-        for i in range(count):
-            is_narrow = 0.0 < boxes[X_HALF + i] <= FINE
-            if boxes[X_CLASS + i] > EXCLUDED and (is_narrow or 0.0 < boxes[X_DEEPEST + i] < shallow):
-                classify_refined(i, edge, boxes)
+        classify_refined(count, EXCLUDED, FINE, SHALLOW * edge.solid[pk.P], edge, boxes)
 
 
 @kernel()
@@ -238,8 +234,7 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
         scratch[X_G_BESIDE + i], scratch[X_PHI_BESIDE + i], scratch[X_GAP + i] = math.nan, math.nan, math.nan
     classify_boxes(PIECES, edge.motion, edge.curve, edge.solid, scratch)
     if is_refined(edge):
-        for i in range(PIECES):
-            classify_refined(i, edge, scratch)
+        classify_refined(PIECES, -1.0, math.inf, 0.0, edge, scratch)
     touches = kept[number, K_PHI] != 0.0
     tangent = touches and kept[number, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):

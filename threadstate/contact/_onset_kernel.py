@@ -35,6 +35,7 @@ from threadstate.contact._refined_edge_kernel import (
     is_refined,
     placement_at,
     refined_points,
+    there_beside,
 )
 from threadstate.thread import _profile_kernel as pk
 
@@ -124,7 +125,8 @@ def set_refined_jet(theta: float, tau: float, edge: Edge, jet: Array) -> None:
     sigma = edge.motion[M_SIGMA]
     place = placement_at((tau, 0.0), edge.motion, edge.wide)
     of_curve, of_phi, of_g = refined_points(theta, 0.0, place, edge)
-    phi, g, _ = differences(theta, place, sigma * of_phi.phi, of_g.value, edge)
+    there = there_beside(theta, place, edge)
+    phi, g, _ = differences(theta, sigma * of_phi.phi, of_g.value, there, edge)
     r2 = 0.5 * (of_curve.r2_low + of_curve.r2_high)
     f2_low, f2_high = second_derivative_range(of_phi.u, 0.0, of_phi.rises, profile_numbers(edge.solid))
     f2 = 0.5 * (f2_low + f2_high)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact import _branchless_kernel as branchless
 from threadstate.contact._beside_kernel import BESIDE, K_G, K_PHI, nearest_contact
-from threadstate.contact._box_kernel import X_HALF, X_THETA, box_times, set_class, with_value
+from threadstate.contact._box_kernel import X_CLASS, X_DEEPEST, X_HALF, X_THETA, box_times, set_class, with_value
 from threadstate.contact._curve_point_kernel import CurvePoint, GPoint, PhiPoint
 from threadstate.contact._double_double_kernel import (
     Pair,
@@ -248,17 +248,37 @@ def refined_g(r: Pair, dr: Pair, cos: Pair, sin: Pair, v: Vector, w: Vector, pla
     )
 
 
+class There(NamedTuple):
+    """Phi and g at an azimuth of an edge at a time."""
+
+    azimuth: float
+    phi: float
+    g: float
+
+
+NOT_THERE = There(math.nan, math.nan, math.nan)
+
+
 @kernel()
-def differences(theta: float, place: Placement, sigma_phi: float, g: float, edge: Edge) -> tuple[float, float, float]:
+def there_beside(theta: float, place: Placement, edge: Edge) -> There:
+    """Phi and g at the earlier contact that is the nearest to an azimuth; NaN where none is beside it."""
+    gap, contact, _ = nearest_contact(theta, edge.kept)
+    if not abs(gap) < BESIDE:
+        return NOT_THERE
+    _, phi, g = refined_points(contact, 0.0, place, edge)
+    return There(contact, edge.motion[M_SIGMA] * phi.phi, g.value)
+
+
+@kernel()
+def differences(theta: float, phi: float, g: float, there: There, edge: Edge) -> tuple[float, float, float]:
     """Phi, g and the distance (rad) from the nearest earlier contact, where they are differences from it; else NaN."""
-    nearest, contact, row = nearest_contact(theta, edge.kept)
-    if not abs(nearest) < BESIDE:
+    gap, _, row = nearest_contact(theta, edge.kept)
+    if not abs(gap) < BESIDE:
         return math.nan, math.nan, math.nan
-    _, phi_there, g_there = refined_points(contact, 0.0, place, edge)
     return (
-        sigma_phi - edge.motion[M_SIGMA] * phi_there.phi if edge.kept[row, K_PHI] != 0.0 else math.nan,
-        g - g_there.value if edge.kept[row, K_G] != 0.0 else math.nan,
-        abs(nearest),
+        phi - there.phi if edge.kept[row, K_PHI] != 0.0 else math.nan,
+        g - there.g if edge.kept[row, K_G] != 0.0 else math.nan,
+        abs(gap),
     )
 
 
@@ -290,26 +310,45 @@ def with_rounding(of_one: Ranges) -> Ranges:
 
 
 @kernel(contract=True, forceinline=True)
-def refined_ranges(theta: float, a: float, tau: float, b: float, edge: Edge) -> tuple[Ranges, Ranges, float]:
+def refined_ranges(
+    theta: float, a: float, tau: float, b: float, place: Placement, there: There, edge: Edge
+) -> tuple[Ranges, Ranges, float]:
     """The ranges of phi and g over theta +- a, tau +- b, and the least depth, as ``_range_kernel.ranges`` has them.
 
-    Beside an earlier contact phi and g are differences from it.
+    Beside an earlier contact phi and g are differences from it. ``place`` is that at tau, ``there`` what is
+    :func:`there_beside` theta then.
     """
     _, _, _, rest = motion_numbers(edge.motion)
     sizes = size_numbers(edge.motion, edge.curve, edge.solid)
-    place = placement_at((tau, 0.0), edge.motion, edge.wide)
     of_curve, of_phi, of_g = refined_points(theta, a, place, edge)
     solid = branchless.profile_numbers(edge.solid)
     phi, g, depth = ranges_about(a, tau, b, rest, of_curve, of_phi, of_g, solid, sizes, REFINED_ERROR)
-    phi_beside, g_beside, gap = differences(theta, place, phi.value, g.value, edge)
+    phi_beside, g_beside, gap = differences(theta, phi.value, g.value, there, edge)
     error = REFINED_ERROR * error_beside(tau, sizes) * gap
     return with_rounding(with_value(phi, phi_beside, error)), with_rounding(with_value(g, g_beside, error)), depth
 
 
 @kernel(contract=True)
-def classify_refined(i: int, edge: Edge, boxes: Array) -> None:
-    """Sets the class of a box from ranges about its middle that are taken of sums of two doubles."""
-    theta, a = boxes[X_THETA + i], boxes[X_HALF + i]
-    tau, b = box_times(i, boxes)
-    phi, g, depth = refined_ranges(theta, a, tau, b, edge)
-    set_class(i, a, b, phi, g, depth, edge.solid[pk.P], boxes)
+def classify_refined(count: int, least: float, narrow: float, deepest: float, edge: Edge, boxes: Array) -> None:
+    """Sets the classes of boxes from ranges about their middles that are taken of sums of two doubles.
+
+    Of those above the class ``least`` that are no wider than ``narrow`` (half-width, rad), or in which no point is as
+    deep as ``deepest``. What one box and the next have in common is computed once: they are often parts of one.
+    """
+    at = math.nan
+    place = placement_at(ZERO, edge.motion, edge.wide)
+    there = NOT_THERE
+    for i in range(count):
+        theta, a = boxes[X_THETA + i], boxes[X_HALF + i]
+        is_close = 0.0 < a <= narrow or 0.0 < boxes[X_DEEPEST + i] < deepest
+        if not (boxes[X_CLASS + i] > least and is_close):
+            continue
+        tau, b = box_times(i, boxes)
+        _, contact, _ = nearest_contact(theta, edge.kept)
+        if tau != at:
+            place = placement_at((tau, 0.0), edge.motion, edge.wide)
+        if tau != at or contact != there.azimuth:
+            there = there_beside(theta, place, edge)
+        at = tau
+        phi, g, depth = refined_ranges(theta, a, tau, b, place, there, edge)
+        set_class(i, a, b, phi, g, depth, edge.solid[pk.P], boxes)
