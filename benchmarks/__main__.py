@@ -15,6 +15,7 @@ from benchmarks.report import Pace, Report, as_json, print_tables
 from benchmarks.request_times import measured
 from benchmarks.rivalry import rivals
 from benchmarks.sample import sample_poses
+from benchmarks.work import work_of
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -53,6 +54,7 @@ def _measured(pose_count: int, compared_count: int, grid: Grid, *, compiling: bo
     decided = ~np.isnan(heights)
     poses, heights = sampled[decided], heights[decided]
     paces = [Pace(cores, len(poses), seconds_to_solve(pair, poses, cores)) for cores in CORES]
+    work = work_of(pair, poses)
     _report_progress("meshes ...")
     compared = poses[:compared_count]
     seconds = min(seconds_to_solve(pair, compared, 1) for _ in range(3))
@@ -69,6 +71,7 @@ def _measured(pose_count: int, compared_count: int, grid: Grid, *, compiling: bo
         sampled=len(sampled),
         declined=len(sampled) - len(poses),
         paces=paces,
+        work=work,
         compared=len(compared),
         compared_poses_per_second=len(compared) / seconds,
         rivals=found,

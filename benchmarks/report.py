@@ -11,6 +11,7 @@ from rich.table import Table
 from benchmarks.rebuild import Floor, Part, Rebuilt
 from benchmarks.request_times import RequestTimes
 from benchmarks.rivalry import Rival
+from benchmarks.work import Work
 
 WIDTH_OF_A_FILE = 150
 
@@ -41,6 +42,7 @@ class Report:
     sampled: int
     declined: int
     paces: list[Pace]
+    work: Work
     compared: int
     compared_poses_per_second: float
     rivals: list[Rival]
@@ -73,6 +75,7 @@ def print_tables(report: Report) -> None:
         table.title = None
         console.print(table)
         console.print()
+    console.print(_work(report.work))
     states = sum(part.seconds for part in report.parts if part.name.startswith("solve"))
     console.print(
         f"Histories: {report.histories_per_second:.2f}/s on one core, beyond the states of the library, in "
@@ -92,6 +95,14 @@ def _paces(report: Report) -> Table:
     for pace in report.paces:
         table.add_row(str(pace.processes), f"{pace.poses_per_second:,.0f}", f"{pace.seconds:.2f}")
     return table
+
+
+def _work(work: Work) -> str:
+    return (
+        f"Boxes a pose: {work.boxes:.0f} of {work.poses} tilted ones, {work.boxes_without_third:.0f} of the "
+        f"{work.without_third} without a third contact. A pose takes {work.solving_us:.0f} us, to verify its contacts "
+        f"where they are known {work.following_us:.1f} us: {work.times_the_floor:.0f} times this floor."
+    )
 
 
 def _rivals(report: Report) -> Table:

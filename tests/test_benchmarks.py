@@ -15,6 +15,7 @@ from benchmarks.report import Pace, Report, print_tables
 from benchmarks.request_times import RequestTimes
 from benchmarks.rivalry import TUNNELLED_INCH, Rival
 from benchmarks.sample import sample_poses
+from benchmarks.work import Work, work_of
 from threadstate.library.grid import Grid
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -48,6 +49,13 @@ def test_sample_is_half_on_the_grid_and_the_same_whatever_its_size() -> None:
 def test_every_pose_is_counted_once_on_one_core_and_on_two(report: dict[str, Any]) -> None:
     assert [pace["processes"] for pace in report["paces"]] == [1, 2]
     assert all(pace["poses"] + report["declined"] == report["sampled"] == 20 for pace in report["paces"])
+
+
+def test_boxes_are_counted_and_known_contacts_take_less_than_a_search() -> None:
+    work = work_of(quarter_twenty_unc(), sample_poses(80))
+    assert 0 < work.without_third < work.poses <= 80
+    assert 50.0 < work.boxes < work.boxes_without_third
+    assert 0.0 < work.following_us < work.solving_us
 
 
 def test_meshes_come_to_the_exact_heights(report: dict[str, Any]) -> None:
@@ -88,6 +96,7 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
             sampled=61,
             declined=1,
             paces=[Pace(1, 60, 0.5), Pace(2, 60, 0.25)],
+            work=Work(50, 570.4, 4, 2600.0, 240.0, 12.0),
             compared=7,
             compared_poses_per_second=110.0,
             rivals=[Rival("march", 55.0, 2.0, 5e-7, -0.012, (1.0, -2.0, 357.5), 3)],
@@ -118,4 +127,6 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
         "intervals 210.0 3.2 12.0",
     ):
         assert shown in lines
+    work = "Boxes a pose: 570 of 50 tilted ones, 2600 of the 4 without a third contact. A pose takes 240 us, to verify"
+    assert f"{work} its contacts where they are known 12.0 us: 20 times this floor." in " ".join(lines)
     assert "kernels alone on 2 cores 0.75 s; 4 MB written plainly to this disk 0.50 s" in lines[-1]

@@ -305,8 +305,9 @@ class EdgeSearch(NamedTuple):
         boxes: a list of boxes.
         scratch: another one.
         queue: undecided boxes (``_queue_kernel``).
-        regions: in the first row how many were kept; then boxes about onsets that are found, in which there is no other
-            one, the latest ``MAX_REGIONS``: rows as the fields of ``Box``.
+        regions: in the first row how many were kept, and how many boxes were evaluated since that was zero; then boxes
+            about onsets that are found, in which there is no other one, the latest ``MAX_REGIONS``: rows as the fields
+            of ``Box``.
         entries: onsets that are not contacts: there an edge enters an open overlap. Then the time of one of which
             round-off hides if it is.
         jet: scratch of an onset.
@@ -483,6 +484,7 @@ def search_edge(
         n = pad_boxes(n, boxes)
         evaluate_boxes(n, edge, boxes)
         evaluated += n
+        search.regions[0, 1] += n
         m = 0
         for i in range(n):
             box_class = int(boxes[X_CLASS + i])

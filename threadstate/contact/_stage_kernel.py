@@ -57,7 +57,7 @@ class Work(NamedTuple):
         boxes: a list of boxes.
         scratch: another one.
         queue: undecided boxes.
-        regions: boxes about onsets that are found.
+        regions: boxes about onsets that are found, and how many boxes were evaluated (``EdgeSearch``).
         bolt_found: candidates on the bolt's edge.
         nut_found: candidates on the nut's edge.
         bolt_motion: motion of the bolt in the nut's frame.
