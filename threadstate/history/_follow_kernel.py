@@ -21,7 +21,7 @@ from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._edge_search_kernel import AZIMUTH_TOLERANCE, contact_distance
-from threadstate.contact._geometry_kernel import M_KIND, MOTION_SIZE, PATH_SIZE, copy_numbers
+from threadstate.contact._geometry_kernel import M_KIND, MOTION_SIZE, PATH_SIZE, copy_numbers, motion_scale
 from threadstate.contact._onset_kernel import (
     J_G,
     J_G_THETA,
@@ -33,8 +33,10 @@ from threadstate.contact._onset_kernel import (
     J_Y,
     J_Z,
     JET_SIZE,
+    NO_ROOT,
     ROOT_INSIDE,
     newton_onset,
+    onset_step,
     rises,
     set_jet_beside,
 )
@@ -118,6 +120,9 @@ REACH_TURN = 0.2
 REACH_HEIGHT = 0.5
 """How far from where Newton's method starts a contact may lie: azimuth and turn (rad), height (thread pitches)."""
 
+SETTLED = 1e-8
+"""A step of Newton's method (rad, in units of ``motion_scale``) smaller than this does not matter to an estimate."""
+
 SAME_PLACE = 1e-6
 """A contact nearer to an earlier one, as a multiple of its distance from the axis (its x and y added), is that one."""
 
@@ -168,9 +173,15 @@ def follow_edge_point(kind: int, theta: float, tau: float, edge: Edge, work: Wor
     jet = work.jet
     span = REACH_TURN if edge.motion[M_KIND] > 0.0 else REACH_HEIGHT * edge.solid[pk.P]
     place, t, time = newton_onset(kind, Box(theta, REACH_AZIMUTH, tau - span, tau + span), edge, jet)
-    if place != ROOT_INSIDE:
-        return False, t, time
     set_jet_beside(t, time, edge, jet)
+    if place == NO_ROOT:
+        # Beside an earlier contact steps do not become as small as elsewhere.
+        _, dt, dtau, _, _ = onset_step(kind, jet, 0.0, 0.0)
+        is_settled = abs(dt) < SETTLED and abs(dtau) < SETTLED * motion_scale(edge.motion, edge.curve)
+        if not (is_settled and abs(t - theta) < REACH_AZIMUTH and abs(time - tau) < span):
+            return False, t, time
+    elif place != ROOT_INSIDE:
+        return False, t, time
     # A peak of the lesser of g and phi, at which the other one is not negative.
     if kind == ONE_EDGE:
         is_peak = jet[J_G_THETA] * jet[J_PHI_THETA] < 0.0

@@ -33,8 +33,10 @@ from threadstate.history.stretches import (
     unsearched,
 )
 
-MOST_FAILURES = 4
-"""What still changes after so many estimates is bisected: where codes are random each would find more changes."""
+MOST_FAILURES = 16
+FAILURE = 4
+"""What still changes after so many estimates that found a change is bisected: where codes are random each would find
+more changes. One that found none counts for so many of them."""
 
 SURE_WIDTHS = 16.0
 """What still changes after an estimate and is no wider than so many widths of a change is bisected, too: round-off may
@@ -55,10 +57,6 @@ CLUSTER_FACTORS = (1.0 / 64.0, 0.25, 4.0, 64.0, 1024.0)
 
 ASIDE = 0.4
 """How far on either side of an estimate samples are taken, as a share of the width that is wanted."""
-
-NARROWING = 100.0
-"""By how much at most a stretch that is narrow already is narrowed by one estimate: towards the last digits samples
-may be undecided, and an undecided stretch is not narrowed."""
 
 ROUNDING = 8.0
 PRECISION = 1024.0
@@ -179,8 +177,7 @@ def _places_to_cut(wide: Stretches, resolution: Resolution, estimate: Estimator 
     if estimate is None or not len(aimed):
         return first, second
     low, high = wide.low[aimed], wide.high[aimed]
-    least = np.maximum((high - low) / NARROWING, resolution.jump_width)
-    target = np.where(high - low > resolution.width, resolution.width, least)
+    target = np.where(high - low > resolution.width, resolution.width, resolution.jump_width)
     place = estimate(wide.line[aimed], low, high, target / PRECISION)
     wide.explained[aimed] = np.isposinf(place)
     # Rounded to a power of two, which is exact.
@@ -191,7 +188,7 @@ def _places_to_cut(wide: Stretches, resolution: Resolution, estimate: Estimator 
     first[aimed] = np.where(has_before, before, np.where(has_after, after, first[aimed]))
     second[aimed] = np.where(has_before & has_after, after, np.nan)
     # Beside an end one cut may be too far from the estimate: it counts as a failure, so that it is not tried for ever.
-    wide.failures[aimed] += has_before != has_after
+    wide.failures[aimed] += np.where(has_before != has_after, FAILURE, 0)
     return first, second
 
 
@@ -226,7 +223,7 @@ def _parts_of_two_cuts(
     whole, first, second = whole[~undecided], first[decided], second[decided]
     before, after = before[decided], after[decided]
     failed = (before.codes == after.codes) & ~(np.nan_to_num(np.abs(after.values - before.values)) > 1.0).any(axis=1)
-    whole.failures = whole.failures + 1
+    whole.failures = whole.failures + np.where(failed, FAILURE, 1)
     lower, upper = parts_of(whole, second, after)
     lowest, middle = parts_of(lower, first, before)
     # What is left outside changes again, or the estimate failed; what is between may still have to be narrower.
