@@ -222,7 +222,7 @@ def _parts_of_two_cuts(
     decided = np.flatnonzero(~undecided)
     whole, first, second = whole[~undecided], first[decided], second[decided]
     before, after = before[decided], after[decided]
-    failed = (before.codes == after.codes) & ~(np.nan_to_num(np.abs(after.values - before.values)) > 1.0).any(axis=1)
+    failed = (before.codes == after.codes) & ~(np.abs(after.values - before.values) > 1.0).any(axis=1)
     whole.failures = whole.failures + np.where(failed, FAILURE, 1)
     lower, upper = parts_of(whole, second, after)
     lowest, middle = parts_of(lower, first, before)

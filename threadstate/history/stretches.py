@@ -85,7 +85,7 @@ def jumps(stretches: Stretches) -> NDArray[np.bool_]:
     unexplained = np.fmin(low, high)
     unexplained = np.where(np.isnan(unexplained), np.abs(rise), unexplained)
     same = (stretches.low_code == stretches.high_code) & ~stretches.explained
-    return same & (np.nan_to_num(unexplained, nan=0.0) > 1.0).any(axis=1)
+    return same & (unexplained > 1.0).any(axis=1)
 
 
 def parts_of(whole: Stretches, place: Floats, samples: Samples) -> list[Stretches]:

@@ -5,7 +5,8 @@ Their names are those of the columns, of the fields in documents and of the orde
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass, fields
+from operator import attrgetter
 from typing import Annotated
 
 from pydantic import Field
@@ -51,10 +52,13 @@ class LibraryStateDocument(StateDocument):
 NAMES = tuple(field.name for field in fields(StoredStatics))
 """In the order in which they are stored."""
 
+_numbers_of = attrgetter(*NAMES)
+
 
 def cells(statics: StoredStatics | None) -> tuple[float | None, ...]:
     """The cells of the columns; all None where a contact has no certain normal."""
-    return (None,) * len(NAMES) if statics is None else astuple(statics)
+    numbers: tuple[float | None, ...] = (None,) * len(NAMES) if statics is None else _numbers_of(statics)
+    return numbers
 
 
 def from_cells(support_margin: float | None, mu_hold: float | None, mu_wedge: float | None) -> StoredStatics | None:
