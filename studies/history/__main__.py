@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.progress import track
 
 from studies.history.boundaries import SAME_DEG, check_boundaries, check_density
+from studies.history.steadiness import check_steadiness
 from threadstate.history.build import history_of
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
@@ -23,16 +24,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.history", description=__doc__)
     parser.add_argument("--orientations", type=int, default=20, help="how many, off the grid [%(default)s]")
     parser.add_argument("--seed", type=int, default=SEED, help="of their choice [%(default)s]")
+    parser.add_argument("--phases", type=int, default=50, help="on either side of close contacts [%(default)s]")
     parser.add_argument("--times", type=int, help="instead, start the grid's 81 histories this many times as dense")
     arguments = parser.parse_args()
     pair = quarter_twenty_unc()
     if arguments.times:
         _print_density(pair, arguments.times)
     else:
-        _print_boundaries(pair, arguments.orientations, arguments.seed)
+        _print_boundaries(pair, arguments.orientations, arguments.seed, arguments.phases)
 
 
-def _print_boundaries(pair: Pair, orientations: int, seed: int) -> None:
+def _print_boundaries(pair: Pair, orientations: int, seed: int, phases: int) -> None:
     chosen = np.random.default_rng(seed).uniform(-TILT_DEG, TILT_DEG, (orientations, 2)).tolist()
     console = Console(stderr=True)
     histories = [history_of(pair, *one) for one in track(chosen, "histories", console=console)]
@@ -44,6 +46,12 @@ def _print_boundaries(pair: Pair, orientations: int, seed: int) -> None:
     print(f"{len(check.failures)} of {check.sides} sides with other labels than the interval there:")
     for one in check.failures:
         print(f"  roll {one.roll_deg!r}, pitch {one.pitch_deg!r}, phase {one.phase_deg!r}")
+    steady = check_steadiness(pair, histories, phases)
+    print(f"{steady.boundaries} boundaries with contacts close to each other; {steady.phases} phases beside these:")
+    print(f"{len(steady.changes)} changes within intervals")
+    for change in steady.changes:
+        place = f"roll {change.roll_deg!r}, pitch {change.pitch_deg!r}"
+        print(f"  {place}, phase {change.low_deg!r} to {change.high_deg!r}")
 
 
 def _print_density(pair: Pair, times: int) -> None:
