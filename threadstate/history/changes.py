@@ -228,7 +228,9 @@ def _parts_of_two_cuts(
     lowest, middle = parts_of(lower, first, before)
     # What is left outside changes again, or the estimate failed; what is between may still have to be narrower.
     middle.failures = np.zeros_like(middle.failures)
-    upper.from_low = lowest.from_high = np.where(failed, WIDENING * 0.5 * (second - first), 0.0)
+    # Where codes agree nothing but a jump is looked for, of which the middle of a stretch tells as much.
+    aside = failed & (whole.low_code != whole.high_code)
+    upper.from_low = lowest.from_high = np.where(aside, WIDENING * 0.5 * (second - first), 0.0)
     return [left, lowest, middle, upper]
 
 
