@@ -73,7 +73,7 @@ def main(*, serving: bool = False) -> None:
     if kernels_are_compiled() and (serving or turning_is_compiled()):
         print(f"Loading the kernels from {_cache()} ...", flush=True)
     else:
-        duration = "about a minute" if serving else "a minute or two"
+        duration = "one to three minutes" if serving else "two to four minutes"
         print(f"Compiling the kernels into {_cache()}: once, {duration} ...", flush=True)
         # What fails there is compiled here.
         with subprocess.Popen([sys.executable, "-c", COMPILE_LEVEL]):  # nosec B603 - fixed code
