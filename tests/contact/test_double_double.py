@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -59,6 +63,24 @@ def test_arithmetic() -> None:
 def test_a_product_is_exact() -> None:
     for (x, _), (y, _) in zip(pairs(300, 3), pairs(300, 4), strict=True):
         assert ball(dd.exact_product(x, y)).overlaps(arb(x) * arb(y))
+
+
+WITHOUT_THE_INSTRUCTION = """
+from fractions import Fraction
+import numpy as np
+from threadstate.contact._double_double_kernel import exact_product
+
+factors = np.random.default_rng(7).uniform(-1.0, 1.0, (200, 2)).tolist()
+products = [exact_product(x, y) for x, y in factors]
+print(sum(sum(map(Fraction, p)) == Fraction(x) * Fraction(y) for p, (x, y) in zip(products, factors)))
+"""
+
+
+def test_a_product_is_exact_on_a_processor_without_fused_multiply_add(tmp_path: Path) -> None:
+    settings = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "THREADSTATE_NUMBA_CACHE_DIR": str(tmp_path)}
+    command = [sys.executable, "-c", WITHOUT_THE_INSTRUCTION]
+    run = subprocess.run(command, env={**os.environ, **settings}, check=True, capture_output=True, text=True)
+    assert run.stdout.split() == ["200"]
 
 
 def test_angles() -> None:
