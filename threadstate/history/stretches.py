@@ -39,8 +39,9 @@ class Stretches:
     """Stretches between two sampled places, and how the numbers rise beside them (NaN: not known).
 
     ``lasting`` says over how many halvings in a row the rise has stayed in one part, ``failures`` how many estimates
-    have left it changing. After one that failed, ``from_low`` or ``from_high`` is how far from that end the next sample
-    is taken; else 0. ``explained`` is whether the rise is known to be none of a jump.
+    have left it changing, those that found no change counted several times. After one that failed, ``from_low`` or
+    ``from_high`` is how far from that end the next sample is taken; else 0. ``explained`` is whether the rise is known
+    to be none of a jump.
     """
 
     line: Integers
