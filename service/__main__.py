@@ -10,7 +10,7 @@ import uvicorn
 
 from service.app import create_app
 from service.logs import configure_logs
-from service.server import DRAIN_S, Server, bound_socket, inherited_socket
+from service.server import DRAIN_S, FIRST_REQUEST_S, Server, bound_socket, inherited_socket
 from threadstate.errors import SchemaError, ThreadstateError
 from threadstate.library.engine import reading
 from threadstate.library.schema import check_schema
@@ -41,7 +41,7 @@ def main() -> int:
         log_config=None,
         access_log=False,
         server_header=False,
-        timeout_graceful_shutdown=max(1, round(settings.grace_s - DRAIN_S)),
+        timeout_graceful_shutdown=max(1, round(settings.grace_s - DRAIN_S - FIRST_REQUEST_S)),
     )
     sys.setswitchinterval(SWITCH_S)
     gc.freeze()  # all objects so far live as long as the process

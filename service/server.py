@@ -1,8 +1,10 @@
 """The server: uvicorn with a graceful shutdown.
 
 After SIGTERM it serves for ``DRAIN_S`` more, and every response has ``Connection: close``: active clients open their
-next connection elsewhere, and no connection is closed while a request is on its way. Then idle connections are closed
-and requests in progress are completed. SIGINT skips the draining.
+next connection elsewhere, and no connection is closed while a request is on its way. Then no more are accepted, and
+those just accepted have ``FIRST_REQUEST_S`` to send their request: a client may send again what an idle connection was
+closed on, but not what it opened a connection for. At last idle connections are closed and requests in progress are
+completed. SIGINT skips the draining.
 """
 
 from __future__ import annotations
@@ -23,6 +25,9 @@ from threadstate.errors import ThreadstateError
 
 DRAIN_S = 1.0
 """How long connections may send one more request."""
+FIRST_REQUEST_S = 1.0
+"""How long after the last connection was accepted one without a request yet may send it."""
+_POLL_S = 0.02
 _FIRST_INHERITED = 3
 
 _log = logging.getLogger(__name__)
@@ -96,4 +101,20 @@ class Server(uvicorn.Server):
         self._shutdown_flag.start()
         if not self._skip_draining:
             await asyncio.sleep(DRAIN_S)
+            for server in self.servers:
+                server.close()
+            await self._first_requests()
         await super().shutdown(sockets)
+
+    async def _first_requests(self) -> None:
+        """Wait until each connection has sent a request, ``FIRST_REQUEST_S`` at most."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(FIRST_REQUEST_S):
+                await asyncio.sleep(_POLL_S)  # what was accepted last is among the connections after that
+                while any(_awaits_first_request(one) for one in self.server_state.connections):
+                    await asyncio.sleep(_POLL_S)
+
+
+def _awaits_first_request(protocol: object) -> bool:
+    """Whether no request was read on a connection; uvicorn's protocols of HTTP have a cycle from their first on."""
+    return getattr(protocol, "cycle", protocol) is None

@@ -18,6 +18,7 @@ from sqlalchemy import text
 
 from harness.databases import Databases
 from scripts.hand_over import hand_over
+from service.server import DRAIN_S, FIRST_REQUEST_S
 from tests.service.conftest import StoredLibrary
 from threadstate.access.keys import create_key
 from threadstate.access.scope import Scope
@@ -79,6 +80,29 @@ def test_request_in_flight_is_answered_and_the_connection_closed(made_up: Stored
         assert ready.headers["Connection"] == "close"
         answer = client.get("/v1/libraries/latest/histories/0/0")
         assert (answer.status_code, answer.headers["Connection"]) == (200, "close")
+        ended(process)
+
+
+def test_request_on_a_connection_opened_before_the_last_is_accepted_is_answered(made_up: StoredLibrary) -> None:
+    with serving(made_up.database) as (process, address, _):
+        port = int(address.rsplit(":", 1)[1])
+        process.send_signal(signal.SIGTERM)
+        time.sleep(DRAIN_S - 0.2)
+        with socket.create_connection(("127.0.0.1", port), timeout=20.0) as connection:
+            time.sleep(0.2 + FIRST_REQUEST_S / 2)
+            connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n")
+            answer = b"".join(iter(lambda: connection.recv(4096), b""))
+        assert answer.startswith(b"HTTP/1.1 200 ")
+        assert b"\r\nconnection: close\r\n" in answer.lower()
+        ended(process)
+
+
+def test_connection_that_sends_nothing_does_not_keep_the_process(made_up: StoredLibrary) -> None:
+    with serving(made_up.database, **{GRACE_S: "30"}) as (process, address, _):
+        port = int(address.rsplit(":", 1)[1])
+        with socket.create_connection(("127.0.0.1", port), timeout=20.0) as connection:
+            process.send_signal(signal.SIGTERM)
+            assert connection.recv(1) == b""
         ended(process)
 
 
