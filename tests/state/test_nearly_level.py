@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from threadstate.state.model import FeaturePair
+from threadstate.state.model import Contact, FeaturePair
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
@@ -24,6 +24,13 @@ CASES = {
     "the threads touch first, between two azimuths of the search": (5.3185e-6, 2.6792e-6, -1.76140111),
 }
 
+CASES_OF_SINGLE_CONTACTS = {
+    "the overlap of threads that grows from the first contact": (1.0490068e-6, 6.767491838e-7, -1.7614021092),
+    "the same, at another phase": (1.1242593331918938e-06, 7.948523509432825e-07, -1.0363042377285159),
+    "heights of two contacts that differ by less than the tolerance of a tie": (-9.816e-10, -1e-9, 91.84079877),
+    "the same, with a third contact": (-1e-9, -6.0527e-10, 108.247735254),
+}
+
 
 @pytest.mark.parametrize("pose_deg", CASES.values(), ids=CASES.keys())
 def test_a_tilt_ten_times_as_large_has_the_same_first_contact_and_ten_times_the_turn(
@@ -33,8 +40,22 @@ def test_a_tilt_ten_times_as_large_has_the_same_first_contact_and_ten_times_the_
     near, far = (solve_pose(PAIR, factor * roll, factor * pitch, phase) for factor in (1.0, TIMES))
     assert near.lambda_deg is not None
     assert far.lambda_deg == pytest.approx(TIMES * near.lambda_deg, rel=TURN_TOLERANCE)
-    assert near.contacts[0].features is far.contacts[0].features
-    assert math.dist(near.contacts[0].point, far.contacts[0].point) < PLACE_TOLERANCE * PAIR.nominal_diameter
+    assert_same(near.contacts[0], far.contacts[0])
+
+
+@pytest.mark.parametrize("pose_deg", CASES_OF_SINGLE_CONTACTS.values(), ids=CASES_OF_SINGLE_CONTACTS.keys())
+def test_a_tilt_ten_times_as_large_has_the_same_contacts_where_none_tie(pose_deg: tuple[float, float, float]) -> None:
+    roll, pitch, phase = pose_deg
+    near, far = (solve_pose(PAIR, factor * roll, factor * pitch, phase) for factor in (1.0, TIMES))
+    assert near.lambda_deg is not None
+    assert far.lambda_deg == pytest.approx(TIMES * near.lambda_deg, rel=TURN_TOLERANCE)
+    for one, other in zip(near.contacts, far.contacts, strict=True):
+        assert_same(one, other)
+
+
+def assert_same(one: Contact, other: Contact) -> None:
+    assert one.features is other.features
+    assert math.dist(one.point, other.point) < PLACE_TOLERANCE * PAIR.nominal_diameter
 
 
 def test_of_the_threads_first_contact_only_an_overlap_that_an_edge_enters_tells() -> None:

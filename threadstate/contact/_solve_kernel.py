@@ -57,6 +57,12 @@ OPTIONS_SIZE = 4
 UNDECIDED_CONTACT = -1
 """In place of how many contacts begin at once."""
 
+FIRST_TIE_SHARE = 1e-8
+"""Of what the tilt moves the rim by: first contacts of a bolt that is level to within some 1e-8 deg differ in height by
+less than the tolerance of a tie, and yet a pivot axis through both is beside where the two planes meet. Where that
+leads to no certain state a tie is no more than this share.
+"""
+
 FLUSH_MARGIN = 1e-9
 """Where a turn ends flush, contacts are searched for up to this much (rad) before: there all edges meet at once."""
 
@@ -270,9 +276,22 @@ def solve_pose(
     record: Array,
 ) -> None:
     """Solves one tilted pose (angles in rad) into ``record``; see ``_record_kernel`` for its layout."""
+    scene, tie = Scene(options, bolt, nut), options[S_TIE]
+    solve_stages(roll, pitch, phase, tie, scene, work, record)
+    nearer = FIRST_TIE_SHARE * math.hypot(roll, pitch) * bolt[pk.R_MAJOR]
+    if record[rk.O_STATUS] != RESOLVED and record[rk.O_LAMBDA] == 0.0 and nearer < tie:
+        solve_stages(roll, pitch, phase, nearer, scene, work, record)
+
+
+@kernel(allocates=True)
+def solve_stages(
+    roll: float, pitch: float, phase: float, first_tie: float, scene: Scene, work: Work, record: Array
+) -> None:
+    """The stages of a pose into ``record``; first contacts whose heights differ by at most ``first_tie`` are a tie."""
     clear_record(record)
-    scene, course = Scene(options, bolt, nut), new_course(work)
-    simultaneous = first_stage(roll, pitch, phase, scene, course)
+    course = new_course(work)
+    options, bolt, nut = scene
+    simultaneous = first_stage(roll, pitch, phase, first_tie, scene, course)
     if simultaneous == 0:
         record[rk.O_STATUS] = UNRESOLVED
         return
@@ -370,7 +389,7 @@ def next_contact(
 
 
 @kernel(allocates=True)
-def first_stage(roll: float, pitch: float, phase: float, scene: Scene, course: Course) -> int:
+def first_stage(roll: float, pitch: float, phase: float, tie: float, scene: Scene, course: Course) -> int:
     """The way straight down to the first contact: how many begin at once; 0: unresolved."""
     pose = np.empty(12)
     found, bolt, nut = course.found, scene.bolt, scene.nut
@@ -389,9 +408,7 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, course: C
         start = np.empty((12, 2))
         refine.set_first_pose(roll, pitch, phase, high, start)
         course.axis[2, 0] = -1.0
-        simultaneous, _ = next_contact(
-            False, pose, start, 0, limit, scene.options[S_TIE], scene, course, course.pose, course.first
-        )
+        simultaneous, _ = next_contact(False, pose, start, 0, limit, tie, scene, course, course.pose, course.first)
         if simultaneous <= 0:
             return 0
     copy_numbers(found[0], course.known[0])

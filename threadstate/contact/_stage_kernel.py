@@ -420,23 +420,32 @@ def list_edge_contacts(bolt_count: int, nut_count: int, nut: Array, work: Work, 
 
 
 @kernel()
-def is_known(x: float, y: float, z: float, known: Array, known_count: int, bolt: Array) -> bool:
+def is_known(tangency: Array, stage: Stage, motion: Array, bolt: Array, nut: Array) -> bool:
     """Whether a contact of thread with thread is one of those through which the axis runs."""
-    for i in range(known_count):
-        if abs(x - known[i, K_X]) + abs(y - known[i, K_Y]) + abs(z - known[i, K_Z]) < SAME_TANGENCY * bolt[pk.P]:
+    for i in range(stage.known_count):
+        x, y, z = stage.known[i, K_X], stage.known[i, K_Y], stage.known[i, K_Z]
+        off = abs(tangency[tk.T_X] - x) + abs(tangency[tk.T_Y] - y) + abs(tangency[tk.T_POINT_Z] - z)
+        if off < SAME_TANGENCY * bolt[pk.P] or tk.is_one_with(tangency, x, y, z, motion, bolt, nut):
             return True
     return False
 
 
 @kernel()
 def list_thread_contacts(
-    tangency_count: int, on_surface_count: int, stage: Stage, bolt: Array, work: Work, count: int, out: Array
+    tangency_count: int,
+    on_surface_count: int,
+    stage: Stage,
+    bolt: Array,
+    nut: Array,
+    work: Work,
+    count: int,
+    out: Array,
 ) -> int:
     """Adds the contacts of threads to those found, without the known ones; returns how many there are then."""
     tangencies, on_surface = work.tangencies, work.on_surface
     for i in range(tangency_count):
-        x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
-        if not is_known(x, y, z, stage.known, stage.known_count, bolt):
+        if not is_known(tangencies[i], stage, work.bolt_motion, bolt, nut):
+            x, y, z = tangencies[i, tk.T_X], tangencies[i, tk.T_Y], tangencies[i, tk.T_POINT_Z]
             time, azimuth = tangencies[i, tk.T_TIME], tangencies[i, tk.T_THETA]
             count = insert_contact(Contact(time, THREAD_THREAD, azimuth, math.atan2(y, x), x, y, z), count, out)
     for i in range(on_surface_count):
@@ -528,7 +537,7 @@ def contacts_of_edges(
     if tangency_count == OVERFLOW:
         return 0, UNRESOLVED, best
     count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
-    count = list_thread_contacts(tangency_count, on_surface_count, stage, bolt, work, count, out)
+    count = list_thread_contacts(tangency_count, on_surface_count, stage, bolt, nut, work, count, out)
     # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
         return count, UNRESOLVED, best

@@ -46,6 +46,11 @@ REACH_Z = 0.2
 PHI_ROUND_OFF = 4e-15
 """Round-off of phi, in thread pitches: where phi changes slowly with time it bounds the last steps from below."""
 
+ONE_REACH = 1e-3
+"""How far (rad) from a tangency an earlier contact may be that round-off makes two of; within it second derivatives say
+how phi falls.
+"""
+
 # The placement of the bolt after a motion: rotation by rows, offset, and its velocity there; that of a point x is
 # ``axis x x + drift``.
 PLACEMENT_ROT = 0
@@ -265,6 +270,33 @@ def is_contact_of_threads(z: float, jet: Array, bolt: Array) -> bool:
     # At a maximum the Hessian in (u, z) is negative definite.
     is_maximum = jet[TJ_UU] < 0.0 and jet[TJ_UU] * jet[TJ_ZZ] - jet[TJ_UZ] * jet[TJ_UZ] > 0.0
     return on_both and jet[TJ_RATE] > 0.0 and is_maximum
+
+
+@kernel(allocates=True)
+def is_one_with(tangency: Array, x: float, y: float, z: float, motion: Array, bolt: Array, nut: Array) -> bool:
+    """Whether round-off alone parts a tangency from an earlier contact, a point of the axis of a turn.
+
+    Phi is zero at the earlier contact all the time, and at a tangency it has a maximum of zero: it falls from there by
+    its second derivatives, so that both are one unless it falls by more than its round-off. A bolt that is all but
+    level has such maxima, from 1e-5 in on beside its first contact, from which the overlap of the threads grows.
+    """
+    placement, jet = np.empty(PLACEMENT_SIZE), np.empty(TANGENCY_JET_SIZE)
+    theta = tangency[T_THETA]
+    set_placement(motion, tangency[T_TIME], placement)
+    set_jet(theta, tangency[T_Z], placement, bolt, nut, jet)
+    x -= placement[PLACEMENT_OFF]
+    y -= placement[PLACEMENT_OFF + 1]
+    z -= placement[PLACEMENT_OFF + 2]
+    on_bolt_x = placement[0] * x + placement[3] * y + placement[6] * z
+    on_bolt_y = placement[1] * x + placement[4] * y + placement[7] * z
+    on_bolt_z = placement[2] * x + placement[5] * y + placement[8] * z
+    cos, sin = math.cos(theta), math.sin(theta)
+    u = math.atan2(on_bolt_y * cos - on_bolt_x * sin, on_bolt_x * cos + on_bolt_y * sin)
+    if abs(u) > ONE_REACH:
+        return False
+    v = on_bolt_z - tangency[T_Z] - bolt[pk.LEAD] / TWO_PI * u
+    fall = -0.5 * (jet[TJ_UU] * u * u + 2.0 * jet[TJ_UZ] * u * v + jet[TJ_ZZ] * v * v)
+    return fall <= PHI_ROUND_OFF * bolt[pk.P]
 
 
 @kernel()
