@@ -29,6 +29,7 @@ CASES_OF_SINGLE_CONTACTS = {
     "the same, at another phase": (1.1242593331918938e-06, 7.948523509432825e-07, -1.0363042377285159),
     "heights of two contacts that differ by less than the tolerance of a tie": (-9.816e-10, -1e-9, 91.84079877),
     "the same, with a third contact": (-1e-9, -6.0527e-10, 108.247735254),
+    "a strip that ties within the tolerance": (-4.5983697998338915e-10, 2.1016230167199715e-09, 2.1959579326056136),
 }
 
 

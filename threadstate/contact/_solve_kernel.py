@@ -57,10 +57,10 @@ OPTIONS_SIZE = 4
 UNDECIDED_CONTACT = -1
 """In place of how many contacts begin at once."""
 
-FIRST_TIE_SHARE = 1e-8
-"""Of what the tilt moves the rim by: first contacts of a bolt that is level to within some 1e-8 deg differ in height by
-less than the tolerance of a tie, and yet a pivot axis through both is beside where the two planes meet. Where that
-leads to no certain state a tie is no more than this share.
+NEAR_TIE_SHARE = 1e-8
+"""Of what the tilt moves the rim by: all turns of a bolt that is all but level can be as short as the tolerance of a
+tie. Contacts that are a tie by it alone are then beside where planes meet, or a whole strip; where that leads to no
+certain state they are one within this share alone.
 """
 
 FLUSH_MARGIN = 1e-9
@@ -181,11 +181,15 @@ def azimuth(contact: Array) -> float:
 
 
 class Scene(NamedTuple):
-    """The options of a solve and the packed profiles of both parts."""
+    """The options of a solve and the packed profiles of both parts.
+
+    ``tie`` is the tolerance of a tie (length): that of the options, or less.
+    """
 
     options: Array
     bolt: Array
     nut: Array
+    tie: float
 
 
 class Course(NamedTuple):
@@ -276,22 +280,19 @@ def solve_pose(
     record: Array,
 ) -> None:
     """Solves one tilted pose (angles in rad) into ``record``; see ``_record_kernel`` for its layout."""
-    scene, tie = Scene(options, bolt, nut), options[S_TIE]
-    solve_stages(roll, pitch, phase, tie, scene, work, record)
-    nearer = FIRST_TIE_SHARE * math.hypot(roll, pitch) * bolt[pk.R_MAJOR]
-    if record[rk.O_STATUS] != RESOLVED and record[rk.O_LAMBDA] == 0.0 and nearer < tie:
-        solve_stages(roll, pitch, phase, nearer, scene, work, record)
+    tie = options[S_TIE]
+    solve_stages(roll, pitch, phase, Scene(options, bolt, nut, tie), work, record)
+    nearer = NEAR_TIE_SHARE * math.hypot(roll, pitch) * bolt[pk.R_MAJOR]
+    if record[rk.O_STATUS] != RESOLVED and nearer < tie:
+        solve_stages(roll, pitch, phase, Scene(options, bolt, nut, nearer), work, record)
 
 
 @kernel(allocates=True)
-def solve_stages(
-    roll: float, pitch: float, phase: float, first_tie: float, scene: Scene, work: Work, record: Array
-) -> None:
-    """The stages of a pose into ``record``; first contacts whose heights differ by at most ``first_tie`` are a tie."""
+def solve_stages(roll: float, pitch: float, phase: float, scene: Scene, work: Work, record: Array) -> None:
+    """The stages of a pose into ``record``."""
     clear_record(record)
-    course = new_course(work)
-    options, bolt, nut = scene
-    simultaneous = first_stage(roll, pitch, phase, first_tie, scene, course)
+    course, bolt, nut = new_course(work), scene.bolt, scene.nut
+    simultaneous = first_stage(roll, pitch, phase, scene, course)
     if simultaneous == 0:
         record[rk.O_STATUS] = UNRESOLVED
         return
@@ -325,7 +326,7 @@ def solve_stages(
         return
     if rise > 0.0:
         refine.reverse(course.axis)
-    if abs(rise) > options[S_TIE]:
+    if abs(rise) > scene.options[S_TIE]:
         third_stage(scene, course, record)
         return
     # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is chosen.
@@ -389,7 +390,7 @@ def next_contact(
 
 
 @kernel(allocates=True)
-def first_stage(roll: float, pitch: float, phase: float, tie: float, scene: Scene, course: Course) -> int:
+def first_stage(roll: float, pitch: float, phase: float, scene: Scene, course: Course) -> int:
     """The way straight down to the first contact: how many begin at once; 0: unresolved."""
     pose = np.empty(12)
     found, bolt, nut = course.found, scene.bolt, scene.nut
@@ -408,7 +409,9 @@ def first_stage(roll: float, pitch: float, phase: float, tie: float, scene: Scen
         start = np.empty((12, 2))
         refine.set_first_pose(roll, pitch, phase, high, start)
         course.axis[2, 0] = -1.0
-        simultaneous, _ = next_contact(False, pose, start, 0, limit, tie, scene, course, course.pose, course.first)
+        simultaneous, _ = next_contact(
+            False, pose, start, 0, limit, scene.tie, scene, course, course.pose, course.first
+        )
         if simultaneous <= 0:
             return 0
     copy_numbers(found[0], course.known[0])
@@ -440,7 +443,7 @@ def second_stage(pose: Array, scene: Scene, course: Course, record: Array) -> in
             course.pose,
             1,
             limit,
-            scene.options[S_TIE] / bolt[pk.R_MAJOR],
+            scene.tie / bolt[pk.R_MAJOR],
             scene,
             course,
             course.second,
@@ -507,7 +510,7 @@ def third_stage(scene: Scene, course: Course, record: Array) -> None:
         if 0.0 < flush <= limit:
             limit = flush - FLUSH_MARGIN
     third, fine_third, latest = np.empty(12), np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
-    tie = scene.options[S_TIE] / bolt[pk.R_MAJOR]
+    tie = scene.tie / bolt[pk.R_MAJOR]
     simultaneous, turn = next_contact(True, second, course.second, 2, limit, tie, scene, course, fine_third, latest)
     if simultaneous == UNDECIDED_CONTACT:
         record[rk.O_STATUS] = UNRESOLVED
