@@ -111,7 +111,7 @@ class Server(uvicorn.Server):
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(FIRST_REQUEST_S):
                 await asyncio.sleep(_POLL_S)  # what was accepted last is among the connections after that
-                while any(_awaits_first_request(one) for one in self.server_state.connections):
+                while not self.force_exit and any(map(_awaits_first_request, self.server_state.connections)):
                     await asyncio.sleep(_POLL_S)
 
 
