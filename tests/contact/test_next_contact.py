@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _solve_kernel as solve
 from threadstate.contact import _stage_kernel as stage
@@ -48,7 +49,8 @@ def test_what_does_not_settle_is_searched_for_again_with_refined_edges(
     monkeypatch.setattr(refine, "refine_contact", refined)
     course = solve.new_course(stage.new_work())
     course.axis[2, 0] = 1.0
-    scene = solve.Scene(packed_options(PAIR, SolveOptions()), PAIR.bolt.packed, PAIR.nut.packed)
+    options = packed_options(PAIR, SolveOptions())
+    scene = solve.Scene(options, PAIR.bolt.packed, PAIR.nut.packed, options[solve.S_TIE])
     pose, exact = np.zeros(12), np.zeros((12, 2))
     stage.rotation(0.05, 0.02, 1.0, pose)
     exact[:, 0] = pose
@@ -56,3 +58,40 @@ def test_what_does_not_settle_is_searched_for_again_with_refined_edges(
     count, time = solve.next_contact.py_func(True, pose, exact, 1, math.pi / 4, 1e-12, scene, course, moved, latest)
     assert (count, asked) == (expected, searches)
     assert time == (0.01 if expected > 0 else math.pi / 4)
+
+
+@pytest.mark.parametrize(
+    ("pose_deg", "turns"),
+    [((1.0, -2.0, 10.0), 1), ((1.05e-6, 6.77e-7, -1.7614), 2)],
+    ids=["tilted", "nearly level: again, with the tie of its tilt"],
+)
+def test_a_pose_whose_second_turn_is_undecided_has_its_first_pose_alone(
+    monkeypatch: pytest.MonkeyPatch, pose_deg: tuple[float, float, float], turns: int
+) -> None:
+    """The stages interpreted, with turns about one contact that no search decides."""
+    next_contact = solve.next_contact
+    ties: list[float] = []
+
+    def contact(*arguments: Any) -> tuple[int, float]:
+        is_turn, limit, tie = arguments[0], arguments[4], arguments[5]
+        if not is_turn:
+            result: tuple[int, float] = next_contact(*arguments)
+            return result
+        ties.append(tie)
+        return solve.UNDECIDED_CONTACT, limit
+
+    monkeypatch.setattr(solve, "next_contact", contact)
+    for name in ("solve_stages", "first_stage", "second_stage"):
+        monkeypatch.setattr(solve, name, getattr(solve, name).py_func)
+    row = np.empty(rk.RECORD_SIZE)
+    solve.solve_pose.py_func(
+        *map(math.radians, pose_deg),
+        packed_options(PAIR, SolveOptions()),
+        PAIR.bolt.packed,
+        PAIR.nut.packed,
+        stage.new_work(),
+        row,
+    )
+    assert (row[rk.O_STATUS], row[rk.O_POSES]) == (stage.UNRESOLVED, 1)
+    assert len(ties) == turns
+    assert ties == sorted(ties, reverse=True)

@@ -13,8 +13,6 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _stage_kernel as stage
 from threadstate.contact import _wide_kernel as wide
-from threadstate.errors import UnresolvedPoseError
-from threadstate.state.model import FeaturePair
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.state.solve import solve_pose
@@ -88,14 +86,15 @@ def test_a_contact_that_leads_elsewhere_does_not_settle(column: int) -> None:
     assert not refined_first(contact, record).settles
 
 
-def test_a_tangency_that_round_off_makes_of_flanks_that_nearly_touch_as_a_whole_is_refused() -> None:
-    """Thread on thread beside the first contact, at phases beside which the second one is ten times as far."""
+def test_a_tangency_that_round_off_makes_of_flanks_that_nearly_touch_as_a_whole_is_the_first_contact() -> None:
+    """Thread on thread beside the first contact, at a phase beside which the second one is where it is here."""
     m6 = pair_by_designation("M6")
     tilt = 7.251056780298752e-07, 4.5571130323874975e-07
-    with pytest.raises(UnresolvedPoseError):
-        solve_pose(m6, *tilt, -2.3833869396069804)
-    beside = solve_pose(m6, *tilt, -2.3843869396069804)
-    assert beside.contacts[1].features is FeaturePair.THREAD_EDGE
+    here, beside = (solve_pose(m6, *tilt, phase) for phase in (-2.3833869396069804, -2.3843869396069804))
+    for one, other in zip(here.contacts, beside.contacts, strict=True):
+        assert one.features is other.features
+        assert math.dist(one.point, other.point) < 1e-4 * m6.nominal_diameter
+    assert here.lambda_deg == pytest.approx(beside.lambda_deg, rel=1e-4)
 
 
 def test_simultaneous_contacts_and_those_of_thread_on_surface_stay_as_they_were_found() -> None:
