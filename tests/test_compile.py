@@ -80,10 +80,8 @@ from threadstate import warm_up
 from threadstate.device import compile as device
 
 warm_up.compile_level()
-warm_up.compile_solver()
-device.compile_device()
-device.compile_turning()
-device.compile_friction()
+for one in warm_up.kernels_ahead(serving=False):
+    one.kernel.compile(one.types)
 warm_up.load_kernels()
 device.load_turning()
 kernels = {

@@ -3,11 +3,16 @@
 numba optimises each function together with all that it calls, and makes machine code of both, before another calls it:
 what is called deep down is compiled again within every function above it. Here a callee's code is left as it is
 lowered, and linked with all that it calls into that of the kernel that Python calls, which is compiled once.
+
+It looks up again, at each place of a call, which of an operator's implementations takes arguments of these types. Here
+that is remembered, and passes for what no kernel has are left out (docs/decisions/0069-compilation-in-less-time.md).
 """
 
 from __future__ import annotations
 
 import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from llvmlite.binding import Linkage
@@ -15,7 +20,73 @@ from numba import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import PassManager, register_pass
-from numba.core.typed_passes import NativeLowering
+from numba.core.typed_passes import InlineOverloads, NativeLowering
+from numba.core.types.functions import BaseFunction
+from numba.core.untyped_passes import (
+    DeadBranchPrune,
+    FindLiterallyCalls,
+    InlineClosureLikes,
+    InlineInlinables,
+    LiteralPropagationSubPipelinePass,
+    LiteralUnroll,
+    MakeFunctionToJitFunction,
+    RewriteDynamicRaises,
+    RewriteSemanticConstants,
+    WithLifting,
+)
+
+_WITHOUT = {
+    DeadBranchPrune,
+    FindLiterallyCalls,
+    InlineClosureLikes,
+    InlineInlinables,
+    InlineOverloads,
+    LiteralPropagationSubPipelinePass,
+    LiteralUnroll,
+    MakeFunctionToJitFunction,
+    RewriteDynamicRaises,
+    RewriteSemanticConstants,
+    WithLifting,
+}
+"""Passes for functions within functions, blocks of ``with``, calls that are pasted in, branches on constants."""
+
+_signatures: dict[tuple[Any, ...], Any] = {}
+_own_function: Any = BaseFunction
+"""The type of numba's own functions; its type takes no other method."""
+_look_up = _own_function.get_call_type
+
+
+def _remembered(function: Any, context: Any, args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
+    """The signature of a call of one of numba's own functions: it follows from the types."""
+    if kws:
+        return _look_up(function, context, args, kws)
+    call = function, *args
+    if call not in _signatures:
+        _signatures[call] = _look_up(function, context, args, kws)
+    return _signatures[call]
+
+
+@contextmanager
+def _signatures_remembered() -> Iterator[None]:
+    """Numba's lock of its compiler is held meanwhile: no other thread compiles."""
+    outer = _own_function.get_call_type
+    _own_function.get_call_type = _remembered
+    try:
+        yield
+    finally:
+        _own_function.get_call_type = outer
+
+
+@contextmanager
+def _without_garbage_collection() -> Iterator[None]:
+    """It takes a quarter of the time and finds little."""
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collects:
+            gc.enable()
 
 
 class _EntryLibrary(JITCodeLibrary):
@@ -95,20 +166,16 @@ def _pipeline(lowering: type[NativeLowering]) -> type[CompilerBase]:
 
     class Pipeline(CompilerBase):
         def compile_extra(self, func: Any) -> Any:
-            """Compile with no garbage collection, which takes a quarter of the time and finds little."""
-            collects = gc.isenabled()
-            gc.disable()
-            try:
+            """Compile at less cost."""
+            with _without_garbage_collection(), _signatures_remembered():
                 return super().compile_extra(func)
-            finally:
-                if collects:
-                    gc.enable()
 
         def define_pipelines(self) -> list[PassManager]:
-            """The usual passes, one replaced."""
+            """The usual passes without some, and one replaced."""
             passes = PassManager(lowering.name())
             for one, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
-                passes.add_pass(lowering if one is NativeLowering else one, description)
+                if one not in _WITHOUT:
+                    passes.add_pass(lowering if one is NativeLowering else one, description)
             passes.finalize()
             return [passes]
 

@@ -14,22 +14,24 @@ from pathlib import Path
 
 import numpy as np
 
+from threadstate._compile import Ahead, ahead, compile_halves, is_cached
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.contact._solve_kernel import solve_rows
 from threadstate.device.compile import (
-    compile_device,
-    compile_friction,
-    compile_turning,
-    device_is_compiled,
+    beside_ahead,
+    device_ahead,
+    friction_ahead,
     load_device,
     load_turning,
+    turning_ahead,
     turning_is_compiled,
 )
-from threadstate.history.estimates import estimates_are_compiled, load_estimates
+from threadstate.history.estimates import estimates_ahead, load_estimates
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import packed_options
 from threadstate.state.solve import solve_poses
-from threadstate.statics.compile import compile_forces, load_statics, statics_are_compiled
+from threadstate.statics._effort_kernel import turn_effort
+from threadstate.statics.compile import compile_forces, load_statics
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 LEVEL_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0))
@@ -44,8 +46,8 @@ COMPILE_LEVEL = "from threadstate.warm_up import compile_level; compile_level()"
 
 def kernels_are_compiled() -> bool:
     """Whether the cache contains the kernels that :func:`load_kernels` loads, so that this is fast."""
-    solver_is_compiled = any(_cache().glob("_solve_kernel.solve_rows-*.nbc"))
-    return solver_is_compiled and estimates_are_compiled() and statics_are_compiled() and device_is_compiled()
+    served = (*kernels_ahead(serving=True), *beside_ahead())
+    return is_cached(turn_effort) and all(is_cached(one.kernel) for one in served)
 
 
 def load_kernels() -> None:
@@ -68,40 +70,41 @@ def load_kernels_exclusively() -> None:
 
 
 def main(*, serving: bool = False) -> None:
-    """Load the kernels and report the progress; where the cache has none, compile them in two processes."""
+    """Load the kernels and report the progress; where the cache has none, compile them by all cores."""
     start = time.perf_counter()
     if kernels_are_compiled() and (serving or turning_is_compiled()):
         print(f"Loading the kernels from {_cache()} ...", flush=True)
     else:
-        duration = "one to three minutes" if serving else "two to four minutes"
+        duration = "one to three minutes" if serving else "two to three minutes"
         print(f"Compiling the kernels into {_cache()}: once, {duration} ...", flush=True)
         # What fails there is compiled here.
         with subprocess.Popen([sys.executable, "-c", COMPILE_LEVEL]):  # nosec B603 - fixed code
-            compile_solver()
-            compile_device()
-            if not serving:
-                compile_turning()
-                compile_friction()
+            compiling = [compile_halves(one) for one in kernels_ahead(serving=serving) if not is_cached(one.kernel)]
+            for process in compiling:
+                process.join()
     load_kernels()
     if not serving:
         load_turning()
     print(f"Kernels ready after {time.perf_counter() - start:.1f} s.", flush=True)
 
 
-def compile_solver() -> None:
-    """Compile what solves poses, and what follows contacts between two states."""
+def kernels_ahead(*, serving: bool) -> list[Ahead]:
+    """What solves tilted poses, settles and turns bolts: first what has the most machine code."""
     pair = quarter_twenty_unc()
-    none = np.empty((0, 3))
-    options = packed_options(pair, SolveOptions())
-    solve_rows(none, options, pair.bolt.packed, pair.nut.packed, np.empty((0, RECORD_SIZE)))
-    load_estimates(pair)
+    both = pair.bolt.packed, pair.nut.packed
+    poses, records = np.empty((0, 3)), np.empty((0, RECORD_SIZE))
+    solver = ahead(solve_rows, poses, packed_options(pair, SolveOptions()), *both, records)
+    turned = [] if serving else [friction_ahead(), turning_ahead()]
+    return [*turned, device_ahead(), solver, estimates_ahead(pair)]
 
 
 def compile_level() -> None:
-    """Compile what solves level poses, and the statics: they share nothing with what solves tilted ones."""
+    """Compile what solves level poses, the statics and small kernels: what solves tilted ones calls little of it."""
     pair = quarter_twenty_unc()
     load_statics(pair, solve_poses(pair, LEVEL_DEG))
     compile_forces()
+    for one in beside_ahead():
+        one.kernel.compile(one.types)
 
 
 def _cache() -> Path:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
-from numba import typeof
 from numpy.typing import NDArray
 
+from threadstate._compile import Ahead, ahead, is_cached
+from threadstate.device import _chart_kernel as ck
+from threadstate.device import _flush_kernel as flush
 from threadstate.device import _friction_kernel as fk
+from threadstate.device import _patch_kernel as pk
 from threadstate.device import _settle_kernel as sk
 from threadstate.device import _turn_kernel as tk
 from threadstate.device.assemble import assemble_pose
@@ -40,26 +40,41 @@ def load_turning() -> None:
     settle_poses(pair, POSES_DEG[:1], mu=LITTLE_FRICTION)
 
 
-def compile_device() -> None:
-    """Compile what settles poses."""
+def device_ahead() -> Ahead:
+    """What settles poses."""
     pair = quarter_twenty_unc()
     numbers = device_numbers(pair, default_device().in_unit(pair.unit))
     none = np.empty((0, 9)), np.empty(0), np.empty((0, 3))
-    sk.settle_rows(*none, 1.0, numbers, pair.bolt.packed, pair.nut.packed, new_rows(0))
+    return ahead(sk.settle_rows, *none, 1.0, numbers, pair.bolt.packed, pair.nut.packed, new_rows(0))
 
 
-def compile_turning() -> None:
-    """Compile what turns a bolt without friction."""
-    ends = (0, 0.0, 0.0, False)
-    tk.turn_with.compile(tuple(typeof(one) for one in (np.empty(0), *ends, *_setting(), new_leg())))
+def beside_ahead() -> list[Ahead]:
+    """What is called beside that, for single results: little of it calls what settles."""
+    row, rows = np.empty(0), np.empty((0, 0))
+    pair = quarter_twenty_unc()
+    both = pair.bolt.packed, pair.nut.packed
+    return [
+        ahead(sk.set_command, row, 0.0, row, row),
+        ahead(ck.set_place, row, row, row),
+        ahead(ck.elastic_energy, row, row, row),
+        ahead(flush.set_flush, row, row),
+        ahead(flush.centre_of_pressure, row, 0.0, row, row, row),
+        ahead(pk.patch_points, row, *both, rows),
+        ahead(pk.convex_hull, rows, 0, rows),
+        ahead(pk.hull_margin, rows, 0, 0.0, 0.0, row, *both, rows),
+    ]
 
 
-def compile_friction() -> None:
-    """Compile what follows a bolt with friction."""
+def turning_ahead() -> Ahead:
+    """What turns a bolt without friction."""
+    return ahead(tk.turn_with, np.empty(0), 0, 0.0, 0.0, False, *_setting(), new_leg())
+
+
+def friction_ahead() -> Ahead:
+    """What follows a bolt with friction."""
     row, rows, path = np.empty(0), np.empty((0, 0)), (np.empty((0, 0)), np.empty((0, 0, 0)))
     branches = (*path, np.empty(0, dtype=np.int64))
-    arguments = (row, row, row, 0.0, False, 0, rows, *_setting(), 0, path, branches)
-    fk.follow_friction.compile(tuple(typeof(one) for one in arguments))
+    return ahead(fk.follow_friction, row, row, row, 0.0, False, 0, rows, *_setting(), 0, path, branches)
 
 
 def _setting() -> tuple[Floats, ...]:
@@ -68,17 +83,6 @@ def _setting() -> tuple[Floats, ...]:
     return np.empty(0), np.empty(0), np.empty(0), pair.bolt.packed, pair.nut.packed
 
 
-def device_is_compiled() -> bool:
-    """Whether the cache contains the kernels of settled states without friction."""
-    return _is_compiled(sk.settle_rows, "_settle_kernel.settle_rows")
-
-
 def turning_is_compiled() -> bool:
     """Whether the cache contains the kernels of turning and friction."""
-    return _is_compiled(tk.turn_with, "_turn_kernel.turn_with") and _is_compiled(
-        fk.follow_friction, "_friction_kernel.follow_friction"
-    )
-
-
-def _is_compiled(kernel: Any, name: str) -> bool:
-    return any(Path(str(kernel.stats.cache_path)).glob(f"{name}-*.nbc"))
+    return is_cached(tk.turn_with) and is_cached(fk.follow_friction)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from threadstate._compile import Ahead, ahead
 from threadstate.history import _change_kernel as ck
 from threadstate.history.codes import HEIGHT_JUMP, PLACE_JUMP
 from threadstate.history.model import CIRCLE_DEG
@@ -75,6 +75,8 @@ def load_estimates(pair: Pair) -> None:
     ChangeEstimates(pair, options, RecordStore(pair, options)).places(np.empty((0, 2)), none, none, none)
 
 
-def estimates_are_compiled() -> bool:
-    """Whether the cache contains the kernels."""
-    return any(Path(str(ck.places_of_changes.stats.cache_path)).glob("_change_kernel.places_of_changes-*.nbc"))
+def estimates_ahead(pair: Pair) -> Ahead:
+    """The kernel that is to be compiled."""
+    row, rows = np.empty(0), np.empty((0, 0))
+    both = pair.bolt.packed, pair.nut.packed
+    return ahead(ck.places_of_changes, rows, row, row, row, rows, rows, False, row, *both, row)

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 
+from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.state.model import ContactState
 from threadstate.statics._effort_kernel import turn_effort
 from threadstate.statics._friction_kernel import least_forces
+from threadstate.statics._last_pose_kernel import set_contacts
 from threadstate.statics.extras import Extra, extras_of
 from threadstate.statics.load import Load
 from threadstate.statics.rows import stored_statics
 from threadstate.statics.solve import statics_of
 from threadstate.statics.wrench_cone import contact_maps, opening
+from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
 
@@ -26,13 +28,10 @@ def load_statics(pair: Pair, states: Sequence[ContactState]) -> None:
 
 
 def compile_forces() -> None:
-    """Compile what no level state calls: the forces on three contacts."""
+    """Compile what no level state calls: the contacts and the forces of three."""
     points, normals = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
+    pair = quarter_twenty_unc()
+    set_contacts(np.zeros(RECORD_SIZE), pair.bolt.packed, pair.nut.packed, points.copy(), normals.copy())
     least_forces(np.array([0.0, 0.0, 0.1, 0.0, 0.0, -1.0]), 1.0, points, normals, np.zeros(9))
     turn_effort(1.0, 0.0, points, normals, 0.1, 1.0)
     opening(contact_maps(points, normals, 1.0))
-
-
-def statics_are_compiled() -> bool:
-    """Whether the cache contains the kernels."""
-    return any(Path(str(turn_effort.stats.cache_path)).glob("_effort_kernel.turn_effort-*.nbc"))
