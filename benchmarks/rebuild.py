@@ -167,7 +167,7 @@ def profile(folder: Path, pair: Pair, grid: Grid) -> list[Part]:
 
 
 def compile_seconds(folder: Path) -> float:
-    """Wall time of compiling all that the service and a rebuild need into an empty cache, by two processes."""
+    """Wall time of compiling all that the service and a rebuild need into an empty cache."""
     environment = os.environ | {"THREADSTATE_NUMBA_CACHE_DIR": str(folder / "cache")}
     start = time.perf_counter()
     subprocess.run([*WARM_UP, "--serving"], check=True, capture_output=True, env=environment)

@@ -82,7 +82,7 @@ def print_tables(report: Report) -> None:
         f"{report.orientations / report.histories_per_second / states:.1f} times the time of these."
     )
     if report.compile_seconds is not None:
-        console.print(f"Compilation of what the service needs, two processes: {report.compile_seconds:.1f} s.")
+        console.print(f"Compilation of what the service needs: {report.compile_seconds:.1f} s.")
     console.print(
         f"Floor of a rebuild: the kernels alone on {report.rebuilds[-1].processes} cores {report.floor.kernels:.2f} s; "
         f"{report.rebuilds[-1].database_bytes / 1e6:.0f} MB written plainly to this disk {report.floor.disk:.2f} s."

@@ -122,7 +122,7 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
         "2 27 1.50 4.0",
         "rows computing 2.50 62.5%",
         "Histories: 9.00/s on one core, beyond the states of the library, in 2.0 times the time of these.",
-        "Compilation of what the service needs, two processes: 61.2 s.",
+        "Compilation of what the service needs: 61.2 s.",
         "all 4.00",
         "intervals 210.0 3.2 12.0",
     ):

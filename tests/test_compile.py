@@ -74,6 +74,39 @@ print(*(line.split()[1] for line in code.splitlines() if line.startswith("define
 BRANCHES = "\n".join(f"    if total < -{i}.0:\n        total = deepest(total) / (total - {i}.5)" for i in range(1, 40))
 """Too many to be inlined."""
 
+HALVES = """
+from numba.core.types.functions import BaseFunction
+
+usual = BaseFunction.get_call_type
+
+from threadstate._compile import ahead, compile_halves, kernel
+
+@kernel()
+def callee(x):
+    return 3.0 * x
+
+@kernel()
+def entry(x):
+    return callee(x) + 1.0
+
+@kernel()
+def other(x):
+    return callee(x) + 2.0
+
+def fails(types):
+    raise OSError("no space")
+
+copy = compile_halves(ahead(entry, 1.0))
+copy.join()
+print(copy.exitcode, len(entry.signatures), entry(1.0), sum(entry.stats.cache_hits.values()))
+compiles, other.compile = other.compile, fails
+copy = compile_halves(ahead(other, 1.0))
+copy.join()
+other.compile = compiles
+print(copy.exitcode, len(other.signatures), other(1.0), sum(other.stats.cache_hits.values()))
+print(BaseFunction.get_call_type is usual)
+"""
+
 AHEAD = """
 import sys
 from threadstate import warm_up
@@ -162,6 +195,14 @@ def test_callees_are_linked_and_not_compiled_by_themselves(tmp_path: Path) -> No
     )
     assert (entry, plain, collects) == ("12.0", "16.0", "True")
     assert rest == ["[]", "[]", "kernels.entry", "internal"]
+
+
+def test_a_copy_of_the_process_makes_the_machine_code(tmp_path: Path) -> None:
+    """The process finds it in the cache; where the copy fails it is made at the first call. numba is as it was then."""
+    *made, failed, compiled, value, hits, is_usual = printed(HALVES, tmp_path)
+    assert made == ["0", "0", "4.0", "1"]
+    assert (failed, compiled, value, hits) == ("1", "0", "5.0", "0")
+    assert is_usual == "True"
 
 
 def test_what_is_compiled_ahead_is_what_is_called() -> None:
