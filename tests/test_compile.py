@@ -75,11 +75,13 @@ BRANCHES = "\n".join(f"    if total < -{i}.0:\n        total = deepest(total) / 
 """Too many to be inlined."""
 
 HALVES = """
+import os
 from numba.core.types.functions import BaseFunction
 
 usual = BaseFunction.get_call_type
 
-from threadstate._compile import ahead, compile_halves, kernel
+from threadstate._compile import ahead, kernel
+from threadstate.warm_up import compile_halves
 
 @kernel()
 def callee(x):
@@ -96,14 +98,15 @@ def other(x):
 def fails(types):
     raise OSError("no space")
 
-copy = compile_halves(ahead(entry, 1.0))
-copy.join()
-print(copy.exitcode, len(entry.signatures), entry(1.0), sum(entry.stats.cache_hits.values()))
+def code_of(process):
+    return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+
+code = code_of(compile_halves(ahead(entry, 1.0)))
+print(code, len(entry.signatures), entry(1.0), sum(entry.stats.cache_hits.values()))
 compiles, other.compile = other.compile, fails
-copy = compile_halves(ahead(other, 1.0))
-copy.join()
+code = code_of(compile_halves(ahead(other, 1.0)))
 other.compile = compiles
-print(copy.exitcode, len(other.signatures), other(1.0), sum(other.stats.cache_hits.values()))
+print(code, len(other.signatures), other(1.0), sum(other.stats.cache_hits.values()))
 print(BaseFunction.get_call_type is usual)
 """
 

@@ -7,8 +7,6 @@ that is compiled first, so that the same sources would give other bits in a proc
 from __future__ import annotations
 
 from collections.abc import Callable
-from multiprocessing import get_context
-from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -64,14 +62,3 @@ def is_cached(function: Any) -> bool:
     """Whether the cache contains a kernel that Python calls."""
     module = function.py_func.__module__.rpartition(".")[2]
     return any(Path(str(function.stats.cache_path)).glob(f"{module}.{function.__name__}-*.nbc"))
-
-
-def compile_halves(one: Ahead) -> BaseProcess:
-    """Type and lower a kernel with all that it calls in this process, and have a copy of it make the machine code.
-
-    The next kernel finds what both call as it was lowered here, and need not wait for the other half.
-    """
-    one.kernel.as_callee.compile(one.types)
-    copy = get_context("fork").Process(target=one.kernel.compile, args=(one.types,))
-    copy.start()
-    return copy

@@ -6,15 +6,17 @@ With ``--serving`` only those that a service and its workers call: not those of 
 from __future__ import annotations
 
 import fcntl
+import os
 import subprocess  # nosec B404
 import sys
 import time
+import traceback
 from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
 
-from threadstate._compile import Ahead, ahead, compile_halves, is_cached
+from threadstate._compile import Ahead, ahead, is_cached
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.contact._solve_kernel import solve_rows
 from threadstate.device.compile import (
@@ -81,11 +83,31 @@ def main(*, serving: bool = False) -> None:
         with subprocess.Popen([sys.executable, "-c", COMPILE_LEVEL]):  # nosec B603 - fixed code
             compiling = [compile_halves(one) for one in kernels_ahead(serving=serving) if not is_cached(one.kernel)]
             for process in compiling:
-                process.join()
+                os.waitpid(process, 0)
     load_kernels()
     if not serving:
         load_turning()
     print(f"Kernels ready after {time.perf_counter() - start:.1f} s.", flush=True)
+
+
+def compile_halves(one: Ahead) -> int:
+    """Type and lower a kernel with all that it calls in this process, and have a copy of it make the machine code.
+
+    The next kernel finds what both call as it was lowered here, and need not wait for the other half. Returns the
+    copy's number.
+    """
+    one.kernel.as_callee.compile(one.types)
+    process = os.fork()
+    if process == 0:
+        failed = 1
+        try:
+            one.kernel.compile(one.types)
+            failed = 0
+        except Exception:
+            traceback.print_exc()
+        finally:
+            os._exit(failed)
+    return process
 
 
 def kernels_ahead(*, serving: bool) -> list[Ahead]:
