@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +18,8 @@ from threadstate.contact import _solve_kernel as solve
 from threadstate.contact import _stage_kernel as stage
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._edge_kernel import Box, Edge, new_edge
+from threadstate.contact._refined_edge_kernel import is_refined, refined_edges
+from threadstate.contact._wide_kernel import wide_motion
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -219,26 +222,42 @@ def test_what_is_undecided_from_the_earliest_contact_on_is_searched_again(
 
     monkeypatch.setattr(stage, "search_edge", search)
     work = stage.new_work()
-    edges = second_turn((2.0, -4.0, 3.0), work)
-    *_, best, status = stage.search_both_edges.py_func(0.08, stage.FIRST_SPAN_TURN, True, *edges, wanted_of(work), work)
+    bolt_edge, nut_edge = second_turn((2.0, -4.0, 3.0), work)
+    edges = refined_edges(bolt_edge, nut_edge, wide_motion(bolt_edge.motion))
+    *_, best, _, status = stage.search_both_edges.py_func(
+        0.0, 0.08, stage.FIRST_SPAN_TURN, True, *edges, wanted_of(work), work
+    )
     assert (best, status) == (5e-3, stage.RESOLVED)
     assert starts[0:4:2] == since
 
 
-@pytest.mark.parametrize(("moves", "status"), [(0.0, stage.UNRESOLVED), (1e-4, stage.RESOLVED)])
-def test_a_search_in_doubles_that_ends_at_the_same_time_in_shorter_spans_is_given_up(
-    monkeypatch: pytest.MonkeyPatch, moves: float, status: int
+def test_a_search_in_doubles_that_gives_up_goes_on_with_refined_edges_from_there(
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Interpreted, with a search that gives up six times, each time so much later; refined edges are searched then."""
-    ends: list[float] = []
+    """Interpreted, with a search that gives up at 2e-3 in doubles; entries before that are kept."""
+    searched: list[tuple[float, bool]] = []
 
-    def search(_start: float, until: float, *_: object) -> tuple[int, int, float, float]:
-        ends.append(until)
-        tries = len(ends) // 2
-        return (0, edge_search.OVERFLOW, 0.08, 2e-3 + moves * tries) if tries < 6 else (0, 8, 0.08, until)
+    def search(start: float, until: float, _: float, edge: Edge, search: edge_search.EdgeSearch, *_rest: object) -> Any:
+        searched.append((start, bool(is_refined(edge))))
+        if is_refined(edge):
+            return 0, 8, 0.08, until
+        search.entries[0, 0], search.entries[1, edge_search.E_TIME] = 2, 3e-3
+        search.entries[2, edge_search.E_TIME] = 1e-3
+        return 0, edge_search.OVERFLOW, 0.08, 2e-3
 
     monkeypatch.setattr(stage, "search_edge", search)
+    monkeypatch.setattr(stage, "search_threads", lambda *_: (0, 0))
+    for name in ("search_both_edges", "contacts_of_edges"):
+        monkeypatch.setattr(stage, name, getattr(stage, name).py_func)
     work = stage.new_work()
-    edges = second_turn((2.0, -4.0, 3.0), work)
-    assert stage.search_both_edges.py_func(0.08, 0.05, True, *edges, wanted_of(work), work)[3] == status
-    assert ends[:6:2] == pytest.approx([0.05, 2e-3 + 0.0125, 2e-3 + moves + 0.003125], abs=moves)
+    second_turn((2.0, -4.0, 3.0), work)
+    motion = work.bolt_motion
+    known = np.empty((0, stage.CONTACT_SIZE))
+    turn = stage.Stage(motion[:12].copy(), True, motion[13:16].copy(), motion[16:19].copy(), np.empty((0, 2)), known, 0)
+    wanted = stage.Wanted(0.08, TIE, stage.RIDGES_ONLY)
+    out = np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE))
+    assert stage.earliest.py_func(turn, wanted, False, BOLT, NUT, work, out) == (0, stage.RESOLVED, 0.08)
+    assert searched[:2] == [(0.0, False), (0.0, False)]
+    assert searched[2:4] == [(2e-3, True), (2e-3, True)]
+    assert all(refined for _, refined in searched[4:])
+    assert (work.entries[0, 0], work.entries[1, edge_search.E_TIME]) == (1, 1e-3)

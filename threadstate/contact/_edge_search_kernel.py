@@ -110,6 +110,9 @@ SHORTEST = 1e-12
 NARROWEST = 2.0**-51
 """Half-width (rad) of the narrowest box that is split by azimuth: of a narrower one the sides are the same number."""
 
+NARROWEST_IN_DOUBLES = 2.0**-36
+"""Half-width (rad) of a box that ends a search in doubles: round-off hides what is in it. Refined edges tell it."""
+
 NEWTON_COST = 24
 """Cost of a failure of Newton's method in a narrow box, in evaluations of a box."""
 
@@ -479,6 +482,7 @@ def search_edge(
     evaluated = 0
     waiting = 0
     narrowest = math.inf
+    ending = NARROWEST if is_refined(edge) else NARROWEST_IN_DOUBLES
     n = set_initial_boxes(since, min(until, best + search.tie_tolerance), boxes)
     while n > 0:
         n = pad_boxes(n, boxes)
@@ -512,7 +516,7 @@ def search_edge(
                 set_box_at(box, m, boxes)
                 boxes[X_BY_TIME + m] = 1.0 if by_time else 0.0
                 m += 1
-        if waiting + VECTOR_WIDTH * m > ROOM or evaluated > MAX_BOXES or narrowest < NARROWEST:
+        if waiting + VECTOR_WIDTH * m > ROOM or evaluated > MAX_BOXES or narrowest < ending:
             undecided = first(queue).start if waiting > 0 else until
             for i in range(m):
                 undecided = min(undecided, boxes[X_START + i])

@@ -19,6 +19,7 @@ from threadstate.contact._edge_kernel import Edge, new_edge
 from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
     E_DOUBTFUL,
+    E_TIME,
     ENTRY_SIZE,
     MAX_ENTRIES,
     MAX_REGIONS,
@@ -28,7 +29,14 @@ from threadstate.contact._edge_search_kernel import (
     find_inside,
     search_edge,
 )
-from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, edge_point, motion_scale, place_by_time
+from threadstate.contact._geometry_kernel import (
+    MOTION_SIZE,
+    TWO_PI,
+    copy_numbers,
+    edge_point,
+    motion_scale,
+    place_by_time,
+)
 from threadstate.contact._onset_kernel import (
     C_KIND,
     C_OTHER_THETA,
@@ -147,10 +155,6 @@ TIE_SHARES = (1e-3, 1e-6)
 """Of a turn whose contacts within the tolerance of a tie are too many to be listed, or to be searched for: contacts
 within this share of it are a tie where refined edges tell them apart, else within the next one. Of bolts that are all
 but level all turns are as short as the tolerance."""
-
-MOST_STUCK = 2
-"""So often a search in doubles is tried again in a shorter span that ends at the same time: then round-off hides what
-is there, and refined edges are searched."""
 
 SPAN_REDUCTION = 0.25
 SHORTEST_SPAN = 1e-14
@@ -364,14 +368,22 @@ def may_share(best: float, tie_tolerance: float) -> bool:
 
 @kernel()
 def search_both_edges(
-    limit: float, span: float, is_turn: bool, bolt_edge: Edge, nut_edge: Edge, search: EdgeSearch, work: Work
-) -> tuple[int, int, float, int]:
-    """The onsets of both edges, in spans of time that grow, the first one of that length.
+    since: float,
+    limit: float,
+    span: float,
+    is_turn: bool,
+    bolt_edge: Edge,
+    nut_edge: Edge,
+    search: EdgeSearch,
+    work: Work,
+) -> tuple[int, int, float, float, int]:
+    """The onsets of both edges from ``since`` on, in spans of time that grow, the first one of that length.
 
-    Returns the number of candidates of the bolt's and of the nut's edge, the earliest time and a status.
+    Returns the number of candidates of the bolt's and of the nut's edge, the earliest time, the time before which
+    nothing is undecided, and a status. A search in doubles ends where boxes become too many: round-off hides what is
+    there.
     """
-    bolt_count, nut_count, best, since = 0, 0, limit, 0.0
-    stuck, stuck_at = 0, -math.inf
+    bolt_count, nut_count, best = 0, 0, limit
     while since < best:
         until = min(since + span, limit)
         bolt_count, bolt_evaluated, best, bolt_closed = search_edge(
@@ -384,19 +396,16 @@ def search_both_edges(
         if bolt_evaluated == OVERFLOW or nut_evaluated == OVERFLOW:
             # What is undecided from the earliest contact on may still begin with it.
             if closed >= best and is_turn and is_refined(bolt_edge) and may_share(best, search.tie_tolerance):
-                return bolt_count, nut_count, best, UNRESOLVED
-            stuck = stuck + 1 if closed == stuck_at else 0
-            stuck_at = closed
-            if stuck == MOST_STUCK and not is_refined(bolt_edge):
-                return bolt_count, nut_count, best, UNRESOLVED
+                return bolt_count, nut_count, best, since, UNRESOLVED
             since = closed if closed < best else since
             span *= SPAN_REDUCTION
-            if span < SHORTEST_SPAN * motion_scale(bolt_edge.motion, bolt_edge.curve):
-                return bolt_count, nut_count, best, UNRESOLVED
+            shortest = SHORTEST_SPAN * motion_scale(bolt_edge.motion, bolt_edge.curve)
+            if not is_refined(bolt_edge) or span < shortest:
+                return bolt_count, nut_count, best, since, UNRESOLVED
             continue
         since = closed
         span *= SPAN_GROWTH
-    return bolt_count, nut_count, best, RESOLVED
+    return bolt_count, nut_count, best, since, RESOLVED
 
 
 @kernel()
@@ -503,16 +512,28 @@ def search_threads(
 
 
 @kernel()
+def keep_entries(since: float, entries: Array) -> None:
+    """Keeps the entries before ``since`` alone, and forgets that one was doubtful."""
+    count = 0
+    for i in range(1, 1 + int(entries[0, 0])):
+        if 0.0 <= entries[i, E_TIME] < since:
+            count += 1
+            copy_numbers(entries[i], entries[count])
+    entries[0, 0], entries[0, E_DOUBTFUL] = count, math.inf
+
+
+@kernel()
 def contacts_of_edges(
-    bolt_edge: Edge, nut_edge: Edge, stage: Stage, wanted: Wanted, span: float, work: Work, out: Array
-) -> tuple[int, int, float]:
+    bolt_edge: Edge, nut_edge: Edge, stage: Stage, wanted: Wanted, since: float, span: float, work: Work, out: Array
+) -> tuple[int, int, float, float]:
     """The earliest contacts of two edges that move and of their threads, as :func:`earliest` has them.
 
-    ``span`` is the length of the first span of time that is searched.
+    Edges are searched from ``since`` on, before which no contact of theirs is; ``span`` is the length of the first span
+    of time that is. Also returns from when on another search is to begin where this one did not end.
     """
     bolt, nut = bolt_edge.curve, nut_edge.curve
     is_turn, (limit, tie_tolerance, thread_search) = stage.is_turn, wanted
-    work.entries[0, 0], work.entries[0, E_DOUBTFUL] = 0.0, math.inf
+    keep_entries(since, work.entries)
     search = EdgeSearch(
         not is_turn,
         tie_tolerance,
@@ -524,9 +545,11 @@ def contacts_of_edges(
         work.jet,
         work.wedge,
     )
-    bolt_count, nut_count, best, status = search_both_edges(limit, span, is_turn, bolt_edge, nut_edge, search, work)
+    bolt_count, nut_count, best, since, status = search_both_edges(
+        since, limit, span, is_turn, bolt_edge, nut_edge, search, work
+    )
     if status != RESOLVED or work.entries[0, E_DOUBTFUL] <= best + tie_tolerance:
-        return 0, UNRESOLVED, best
+        return 0, UNRESOLVED, best, 0.0 if work.entries[0, E_DOUBTFUL] < math.inf else since
     reach = min(limit, best + tie_tolerance)
     unexplained = not is_turn and best < limit
     if (bolt_count > 0 and work.bolt_found[0, C_TIME] <= best + tie_tolerance) or (
@@ -535,15 +558,15 @@ def contacts_of_edges(
         unexplained = False
     tangency_count, on_surface_count = search_threads(is_turn, reach, unexplained, thread_search, bolt, nut, work)
     if tangency_count == OVERFLOW:
-        return 0, UNRESOLVED, best
+        return 0, UNRESOLVED, best, 0.0
     count = list_edge_contacts(bolt_count, nut_count, nut, work, out)
     count = list_thread_contacts(tangency_count, on_surface_count, stage, bolt, nut, work, count, out)
     # Neither edges nor threads explain the entry: no pose is known at which that happens.
     if thread_search != RIDGES_ONLY and unexplained and (count == 0 or out[0, K_TIME] > best + 1e-8 * bolt[pk.P]):
-        return count, UNRESOLVED, best
+        return count, UNRESOLVED, best, 0.0
     if may_lack_ties(count, bolt_count, nut_count, tie_tolerance, work, out):
-        return count, UNRESOLVED, best
-    return count, RESOLVED, best
+        return count, UNRESOLVED, best, 0.0
+    return count, RESOLVED, best, 0.0
 
 
 @kernel(allocates=True)
@@ -563,20 +586,20 @@ def earliest(
     keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
-    count, status, best = 0, UNRESOLVED, wanted.limit
+    count, status, best, since = 0, UNRESOLVED, wanted.limit, 0.0
     span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt[pk.P]
     if not refined:
-        count, status, best = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, span, work, out)
+        count, status, best, since = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, since, span, work, out)
     if status != RESOLVED:
         wide = exact if exact.shape[0] > 0 else wide_motion(bolt_edge.motion)
         bolt_edge, nut_edge = refined_edges(bolt_edge, nut_edge, wide)
         # What doubles take for an onset, if for no certain one, says how long the motion may be.
-        span = min(span, best) if best > 0.0 else span
-        count, status, best = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, span, work, out)
+        span = min(span, best - since) if best > since else span
+        count, status, best, _ = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, since, span, work, out)
         for share in TIE_SHARES:
             if status != RESOLVED and is_turn and share * best < wanted.tie_tolerance:
                 nearer = Wanted(wanted.limit, share * best, wanted.thread_search)
-                count, status, best = contacts_of_edges(bolt_edge, nut_edge, stage, nearer, span, work, out)
+                count, status, best, _ = contacts_of_edges(bolt_edge, nut_edge, stage, nearer, 0.0, span, work, out)
     return count, status, best
 
 
