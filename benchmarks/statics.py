@@ -23,6 +23,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._last_pose_kernel import set_contacts
+from threadstate.statics.numbers import contact_numbers
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 
@@ -96,10 +97,7 @@ def scenes(pair: Pair, count: int) -> list[Scene]:
 
 def closed_forms(some: list[Scene]) -> Floats:
     """Rows of numbers of scenes."""
-    rows = np.zeros((len(some), nk.NUMBERS_SIZE))
-    for row, scene in zip(rows, some, strict=True):
-        nk.contact_numbers(scene.load, scene.points, scene.normals, row)
-    return rows
+    return np.array([contact_numbers(nk.EVERY_NUMBER, scene.load, scene.points, scene.normals).row for scene in some])
 
 
 def pyramid_rays(scene: Scene, mu: float) -> Floats:

@@ -76,10 +76,25 @@ BRANCHES = "\n".join(f"    if total < -{i}.0:\n        total = deepest(total) / 
 
 HALVES = """
 import os
+from numba.core import errors, event, ir, lowering, typeinfer
+from numba.core.cpu import CPUContext
+from numba.core.postproc import PostProcessor
 from numba.core.types.functions import BaseFunction
 
-usual = BaseFunction.get_call_type
+PARTS = (
+    (BaseFunction, "get_call_type"),
+    (CPUContext, "load_additional_registries"),
+    (PostProcessor, "run"),
+    (errors, "new_error_context"),
+    (event, "end_event"),
+    (event, "start_event"),
+    (ir.Inst, "_rec_list_vars"),
+    (lowering, "new_error_context"),
+    (typeinfer, "new_error_context"),
+)
+usual = [getattr(*part) for part in PARTS]
 
+from threadstate._callee import _INSTEAD
 from threadstate._compile import ahead, kernel
 from threadstate.warm_up import compile_halves
 
@@ -107,7 +122,26 @@ compiles, other.compile = other.compile, fails
 code = code_of(compile_halves(ahead(other, 1.0)))
 other.compile = compiles
 print(code, len(other.signatures), other(1.0), sum(other.stats.cache_hits.values()))
-print(BaseFunction.get_call_type is usual)
+print(all(getattr(*part) is one for part, one in zip(PARTS, usual)) and len(PARTS) == len(_INSTEAD))
+"""
+
+FAILING = """
+from numba.core.errors import TypingError
+
+from threadstate._compile import kernel
+
+@kernel()
+def callee(x):
+    return x.nothing
+
+@kernel()
+def entry(x):
+    return callee(x)
+
+try:
+    entry(1.0)
+except TypingError as error:
+    print(*(line.split(" at ")[0] for line in str(error).splitlines() if line.startswith("During: typing")))
 """
 
 AHEAD = """
@@ -206,6 +240,10 @@ def test_a_copy_of_the_process_makes_the_machine_code(tmp_path: Path) -> None:
     assert made == ["0", "0", "4.0", "1"]
     assert (failed, compiled, value, hits) == ("1", "0", "5.0", "0")
     assert is_usual == "True"
+
+
+def test_an_error_says_what_was_compiled(tmp_path: Path) -> None:
+    assert " ".join(printed(FAILING, tmp_path)) == "During: typing of get attribute During: typing of call"
 
 
 def test_what_is_compiled_ahead_is_what_is_called() -> None:

@@ -6,26 +6,33 @@ lowered, and linked with all that it calls into that of the kernel that Python c
 
 It looks up again, at each place of a call, which of an operator's implementations takes arguments of these types. Here
 that is remembered, and passes for what no kernel has are left out (docs/decisions/0069-compilation-in-less-time.md).
+So is what it finds out about kernels and no pass asks for (docs/decisions/0071-nothing-compiled-twice.md).
 """
 
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from typing import Any
+from weakref import WeakSet
 
 from llvmlite.binding import Linkage
 from numba import types
-from numba.core import untyped_passes
+from numba.core import errors, event, ir, lowering, typeinfer, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import PassManager, register_pass
-from numba.core.typed_passes import InlineOverloads, NativeLowering
+from numba.core.cpu import CPUContext
+from numba.core.errors import NumbaError
+from numba.core.postproc import PostProcessor, VariableLifetime
+from numba.core.transforms import canonicalize_cfg
+from numba.core.typed_passes import InlineOverloads, NativeLowering, NopythonRewrites
 from numba.core.types.functions import BaseFunction
 
 _WITHOUT = {
     InlineOverloads,
+    NopythonRewrites,
     untyped_passes.DeadBranchPrune,
     untyped_passes.FindLiterallyCalls,
     untyped_passes.InlineClosureLikes,
@@ -37,7 +44,8 @@ _WITHOUT = {
     untyped_passes.RewriteSemanticConstants,
     untyped_passes.WithLifting,
 }
-"""Passes for functions within functions, blocks of ``with``, calls that are pasted in, branches on constants."""
+"""Passes for functions within functions, blocks of ``with``, calls that are pasted in, branches on constants, and sums
+of arrays in one loop."""
 
 _signatures: dict[tuple[Any, ...], Any] = {}
 _own_function: Any = BaseFunction
@@ -55,15 +63,98 @@ def _remembered(function: Any, context: Any, args: tuple[Any, ...], kws: dict[st
     return _signatures[call]
 
 
+_post_process = PostProcessor.run
+
+
+def _without_live_variables(processor: Any, emit_dels: bool = False, extend_lifetimes: bool = False) -> None:
+    """Look at which variables live where only if that is to be written into the code; a kernel is no generator."""
+    if emit_dels:
+        _post_process(processor, emit_dels, extend_lifetimes)
+        return
+    of_kernel = processor.func_ir
+    of_kernel.blocks = canonicalize_cfg(of_kernel.blocks)
+    of_kernel.variable_lifetime = VariableLifetime(of_kernel.blocks)
+    of_kernel.generator_info = None
+
+
+_variables_by_type: dict[type, Callable[[Any], list[Any]]] = {}
+
+
+def _variables(value: Any) -> list[Any]:
+    """The variables of a part of an instruction, told by its type alone."""
+    kind = type(value)
+    if kind not in _variables_by_type:
+        _variables_by_type[kind] = _variables_of(kind)
+    return _variables_by_type[kind](value)
+
+
+def _variables_of(kind: type) -> Callable[[Any], list[Any]]:
+    if issubclass(kind, ir.Var):
+        return lambda value: [value]
+    if issubclass(kind, ir.Inst):
+        return lambda value: value.list_vars()
+    if issubclass(kind, (list, tuple)):
+        return lambda value: [one for part in value for one in _variables(part)]
+    if issubclass(kind, dict):
+        return lambda value: [one for part in value.values() for one in _variables(part)]
+    return lambda _: []
+
+
+class _ErrorContext:
+    """What is said of an error that is raised within, without a generator for each instruction."""
+
+    def __init__(self, message: str, *args: object, **kwargs: object) -> None:
+        self._message, self._args, self._kwargs = message, args, kwargs
+
+    def __enter__(self) -> None: ...
+
+    def __exit__(self, _kind: object, error: object, _trace: object) -> None:
+        if isinstance(error, NumbaError):
+            error.add_context(self._message.format(*self._args, **self._kwargs))
+
+
+_load_registries = CPUContext.load_additional_registries
+_loaded: WeakSet[Any] = WeakSet()
+
+
+def _load_registries_once(context: Any) -> None:
+    """Load numba's own implementations, which do not change."""
+    if context not in _loaded:
+        _load_registries(context)
+        _loaded.add(context)
+
+
+_INSTEAD = (
+    (_own_function, "get_call_type", _remembered),
+    (event, "start_event", lambda *_, **__: None),
+    (event, "end_event", lambda *_, **__: None),
+    (errors, "new_error_context", _ErrorContext),
+    (lowering, "new_error_context", _ErrorContext),
+    (typeinfer, "new_error_context", _ErrorContext),
+    (CPUContext, "load_additional_registries", _load_registries_once),
+    (PostProcessor, "run", _without_live_variables),
+    (ir.Inst, "_rec_list_vars", lambda _, value: _variables(value)),
+)
+"""What does the same in less time as far as kernels need it: nothing is told of how long a lock of LLVM was held."""
+
+
 @contextmanager
-def _signatures_remembered() -> Iterator[None]:
-    """Numba's lock of its compiler is held meanwhile: no other thread compiles."""
-    outer = _own_function.get_call_type
-    _own_function.get_call_type = _remembered
+def _replaced(owner: Any, name: str, instead: Any) -> Iterator[None]:
+    outer = getattr(owner, name)
+    setattr(owner, name, instead)
     try:
         yield
     finally:
-        _own_function.get_call_type = outer
+        setattr(owner, name, outer)
+
+
+@contextmanager
+def _less_bookkeeping() -> Iterator[None]:
+    """Numba's lock of its compiler is held meanwhile: no other thread compiles."""
+    with ExitStack() as stack:
+        for one in _INSTEAD:
+            stack.enter_context(_replaced(*one))
+        yield
 
 
 @contextmanager
@@ -150,21 +241,21 @@ class _CalleeLowering(NativeLowering):
         return True
 
 
-def _pipeline(lowering: type[NativeLowering]) -> type[CompilerBase]:
+def _pipeline(lowers: type[NativeLowering]) -> type[CompilerBase]:
     """Numba's compiler with another way of lowering."""
 
     class Pipeline(CompilerBase):
         def compile_extra(self, func: Any) -> Any:
             """Compile at less cost."""
-            with _without_garbage_collection(), _signatures_remembered():
+            with _without_garbage_collection(), _less_bookkeeping():
                 return super().compile_extra(func)
 
         def define_pipelines(self) -> list[PassManager]:
             """The usual passes without some, and one replaced."""
-            passes = PassManager(lowering.name())
+            passes = PassManager(lowers.name())
             for one, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
                 if one not in _WITHOUT:
-                    passes.add_pass(lowering if one is NativeLowering else one, description)
+                    passes.add_pass(lowers if one is NativeLowering else one, description)
             passes.finalize()
             return [passes]
 

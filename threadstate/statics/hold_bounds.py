@@ -11,7 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.statics import _friction_kernel as fk
+from threadstate.statics import _numbers_kernel as nk
+from threadstate.statics.numbers import contact_numbers
 from threadstate.statics.verdict import FrictionBounds
 from threadstate.statics.wrench_cone import (
     carried,
@@ -135,11 +136,8 @@ def outline_hold(
     )
     lower = 0.0
     for _ in range(MOST_ADDITIONS):
-        forces, twist, none = np.zeros(3 * len(chosen)), np.zeros(6), np.zeros(3 * len(chosen))
-        status, low, upper = fk.hold_friction(
-            wrench, hull[chosen], normals[chosen], math.inf, none, np.zeros(6), forces, twist
-        )
-        bounds = FrictionBounds(0.0, math.inf) if status == fk.OPEN else FrictionBounds(float(low), float(upper))
+        row, _, twist = contact_numbers(nk.HOLD_ALONE, wrench, hull[chosen], normals[chosen])
+        bounds = FrictionBounds(*row[nk.N_HOLD : nk.N_HOLD + 2].tolist())
         proved = bounds.lower
         if 0.0 < bounds.upper < math.inf:
             near, _ = driven(contact_maps(hull[chosen], normals[chosen], bounds.upper * (1.0 - NEAR)), unit)

@@ -12,9 +12,9 @@ from threadstate.state.model import ContactState, Vector
 from threadstate.statics import _friction_kernel as fk
 from threadstate.statics import _numbers_kernel as nk
 from threadstate.statics._effort_kernel import turn_effort
-from threadstate.statics._support_kernel import support_margin
 from threadstate.statics.hold_bounds import BALANCED, LOOSE, STEPS, deep_forces, outline_hold, sharpened
 from threadstate.statics.load import Load, checked_friction
+from threadstate.statics.numbers import contact_numbers
 from threadstate.statics.scene import scene_of
 from threadstate.statics.touching import Touching
 from threadstate.statics.verdict import FrictionBounds, Verdict, verdict_at
@@ -119,25 +119,24 @@ def numbers_of(wrench: Floats, scaled: Touching) -> tuple[float, FrictionBounds,
 
 def _numbers(wrench: Floats, scaled: Touching) -> Floats:
     """A row of numbers; ``scaled`` has points over r about the bolt's origin."""
-    numbers = np.zeros(nk.NUMBERS_SIZE)
     points, normals = scaled.points[scaled.carriers], scaled.normals[scaled.carriers]
-    if scaled.patch:
-        nk.patch_numbers(wrench, points[:, :2].copy(), numbers)
-    elif scaled.strip:
-        strip_numbers(wrench, points, normals, scaled.own, numbers)
-    else:
-        nk.contact_numbers(wrench, points, normals, numbers)
+    if scaled.strip:
+        return strip_numbers(wrench, points, normals, scaled.own)
+    if not scaled.patch:
+        return contact_numbers(nk.EVERY_NUMBER, wrench, points, normals).row
+    numbers = np.zeros(nk.NUMBERS_SIZE)
+    nk.patch_numbers(wrench, points[:, :2].copy(), numbers)
     return numbers
 
 
-def strip_numbers(wrench: Floats, points: Floats, normals: Floats, corners: int, numbers: Floats) -> None:
-    """Sets the numbers of a strip's outline; its holding friction is left open unless it is supported.
+def strip_numbers(wrench: Floats, points: Floats, normals: Floats, corners: int) -> Floats:
+    """The numbers of a strip's outline; its holding friction is left open unless it is supported.
 
     A strip wedges where its corners do, which a motion that opens every point of the outline proves.
     """
     ends = len(points) // 2
     at = [0, ends - 1, ends, len(points) - 1][:corners]
-    nk.contact_numbers(wrench, points[at], normals[at], numbers)
+    numbers = contact_numbers(nk.EVERY_NUMBER, wrench, points[at], normals[at]).row
     lower = numbers[nk.N_WEDGE]
     numbers[nk.N_WEDGE] = 0.0
     for step in STEPS:
@@ -145,10 +144,11 @@ def strip_numbers(wrench: Floats, points: Floats, normals: Floats, corners: int,
         if rate > 0.0:
             numbers[nk.N_WEDGE] = lower * (1.0 - step)
             break
-    numbers[nk.N_MARGIN] = support_margin(wrench, points, normals)
+    numbers[nk.N_MARGIN] = contact_numbers(nk.MARGIN_ALONE, wrench, points, normals).row[nk.N_MARGIN]
     supported = numbers[nk.N_MARGIN] >= 0.0
     numbers[nk.N_STATUS] = nk.DONE if supported else nk.OPEN_PATCH
     numbers[nk.N_HOLD : nk.N_HOLD + 2] = 0.0 if supported else (0.0, math.inf)
+    return numbers
 
 
 def _bounds(bounds: Floats) -> FrictionBounds:
