@@ -40,6 +40,7 @@ STATES = (
     "statics/_triangle_kernel.py",
     "statics/hold_bounds.py",
     "statics/load.py",
+    "statics/numbers.py",
     "statics/rows.py",
     "statics/scene.py",
     "statics/solve.py",
