@@ -159,16 +159,16 @@ SOLVED, UNSOLVED = range(2)
 
 @kernel(allocates=True)
 def new_modes_work() -> ModesWork:
-    """The arrays of a step of a bolt that does not fall, of zeros: what memory held before decides nothing."""
+    """The arrays of a step of a bolt that does not fall."""
     return ModesWork(
-        np.zeros((FROZEN_PLACES + MOST_CANDIDATES, GAP_SIZE)),
-        np.zeros(PLACES_WORK),
-        np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
-        np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
-        np.zeros(MOST_UNKNOWNS),
-        np.zeros(MOST_UNKNOWNS),
-        np.zeros((MOST_CANDIDATES, 3, COORDINATES)),
-        np.zeros(MOST_CANDIDATES),
+        np.empty((FROZEN_PLACES + MOST_CANDIDATES, GAP_SIZE)),
+        np.empty(PLACES_WORK),
+        np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
+        np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS + 1)),
+        np.empty(MOST_UNKNOWNS),
+        np.empty(MOST_UNKNOWNS),
+        np.empty((MOST_CANDIDATES, 3, COORDINATES)),
+        np.empty(MOST_CANDIDATES),
         np.zeros((COORDINATES, COORDINATES)),
         np.zeros(COORDINATES),
         np.zeros(COORDINATES),

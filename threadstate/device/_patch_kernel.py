@@ -137,6 +137,10 @@ def patch_points(place: Array, bolt: Array, nut: Array, points: Array) -> int:
 @kernel(allocates=True)
 def convex_hull(points: Array, count: int, hull: Array) -> int:
     """Sets the corners of the convex hull of points of the plane, counter-clockwise (monotone chains); their number."""
+    if count < 2:
+        for i in range(count):
+            copy_numbers(points[i], hull[i])
+        return count
     # Sorted by x, then y: by y first, and stably by x after that.
     order = np.argsort(points[:count, H_Y])
     order = order[np.argsort(points[:count, H_X][order], kind="mergesort")]

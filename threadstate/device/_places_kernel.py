@@ -147,20 +147,20 @@ SAMPLES_SIZE = S_POINTS + 4 * SAMPLES * FINEST
 
 @kernel(allocates=True)
 def new_threads(bolt: Array) -> Threads:
-    """The work of the search of places for a pair, of which this is the bolt: zeros but for the columns of the grid."""
-    grid = np.zeros(GRID_SIZE)
-    samples = np.zeros(SAMPLES_SIZE)
+    """The work of the search of places for a pair, of which this is the bolt."""
+    grid = np.empty(GRID_SIZE)
+    samples = np.empty(SAMPLES_SIZE)
     set_columns(RIDGE_AZIMUTHS, bolt, grid)
     samples[S_AZIMUTHS] = RIDGE_AZIMUTHS
     samples[S_PARTS] = 0.0
     return Threads(
         grid,
-        np.zeros(CROSSINGS_SIZE),
-        np.zeros((MAX_CROSSINGS, 2)),
+        np.empty(CROSSINGS_SIZE),
+        np.empty((MAX_CROSSINGS, 2)),
         np.zeros(PLACEMENT_SIZE),
-        np.zeros(TANGENCY_JET_SIZE),
+        np.empty(TANGENCY_JET_SIZE),
         samples,
-        np.zeros((MAX_KNOWN, KNOWN_SIZE)),
+        np.empty((MAX_KNOWN, KNOWN_SIZE)),
         np.zeros(1, dtype=np.int64),
     )
 

@@ -117,28 +117,28 @@ class Scene(NamedTuple):
 
 @kernel(allocates=True)
 def new_work() -> Work:
-    """New scratch arrays, of zeros: what memory held before decides nothing."""
+    """New scratch arrays."""
     return Work(
-        np.zeros((MAX_PLACES + 1, GAP_SIZE)),
-        np.zeros((2 * MAX_PLACES, COORDINATES)),
-        np.zeros(2 * MAX_PLACES),
-        np.zeros(2 * MAX_PLACES),
-        np.zeros(12 * MAX_PLACES + 90),
-        np.zeros(COORDINATES + 2, dtype=np.int64),
-        np.zeros((COORDINATES, COORDINATES)),
-        np.zeros((COORDINATES, COORDINATES)),
-        np.zeros((COORDINATES, COORDINATES)),
-        np.zeros((COORDINATES, COORDINATES)),
-        np.zeros(COORDINATES),
-        np.zeros(COORDINATES),
-        np.zeros(COORDINATES),
-        np.zeros(COORDINATES),
-        np.zeros(COORDINATES),
-        np.zeros(PLACE_SIZE),
-        np.zeros(PLACES_WORK),
-        np.zeros(MAX_PLACES),
-        np.zeros((MAX_PLACES, GAP_SIZE)),
-        np.zeros(MAX_PLACES),
+        np.empty((MAX_PLACES + 1, GAP_SIZE)),
+        np.empty((2 * MAX_PLACES, COORDINATES)),
+        np.empty(2 * MAX_PLACES),
+        np.empty(2 * MAX_PLACES),
+        np.empty(12 * MAX_PLACES + 90),
+        np.empty(COORDINATES + 2, dtype=np.int64),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty((COORDINATES, COORDINATES)),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
+        np.empty(COORDINATES),
+        np.empty(PLACE_SIZE),
+        np.empty(PLACES_WORK),
+        np.empty(MAX_PLACES),
+        np.empty((MAX_PLACES, GAP_SIZE)),
+        np.empty(MAX_PLACES),
     )
 
 

@@ -324,6 +324,9 @@ def lie_flush(
     size = convex_hull(points, patch_points(place, bolt, nut, points), hull)
     margin, side, size = hull_margin(hull, size, x, y, place, bolt, nut, points)
     if not margin > 0.0 or not is_balanced:
+        if size < 3:
+            # Nothing of the patch is left to tip over: it tips towards where it is pressed.
+            return False, math.atan2(y - place[N_OFFSET + 1], x - place[N_OFFSET])
         other = side + 1 if side + 1 < size else 0
         return False, math.atan2(hull[side, H_X] - hull[other, H_X], hull[other, H_Y] - hull[side, H_Y])
     lying[L_X], lying[L_Y], lying[L_FORCE] = x, y, force
