@@ -29,7 +29,7 @@ class Readiness(BaseModel):
     schema_revision: str = Field(examples=[SCHEMA_REVISION])
     library: int = Field(description="number of the latest library", examples=[1])
     kernels: KernelState = Field(
-        description="`compiling`: stored states are served, requests that solve are rejected for one to three minutes"
+        description="`compiling`: stored states are served, requests that solve are rejected for one to two minutes"
     )
 
 

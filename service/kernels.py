@@ -105,7 +105,7 @@ async def require_kernels(request: Request) -> None:
     """
     if kernels_of(request).state is KernelState.COMPILING:
         raise KernelsCompilingError(
-            "the kernels are being compiled, once on this machine, for one to three minutes; what is stored is answered"
+            "the kernels are being compiled, once on this machine, for one to two minutes; what is stored is answered"
         )
 
 
@@ -119,7 +119,7 @@ async def require_turning(request: Request) -> None:
     if kernels.turning is KernelState.COMPILING:
         kernels.want_turning()
         raise KernelsCompilingError(
-            "the kernels of bolts that are turned are being compiled, once on this machine, for one to three minutes"
+            "the kernels of bolts that are turned are being compiled, once on this machine, for one to two minutes"
         )
 
 

@@ -77,7 +77,7 @@ def main(*, serving: bool = False) -> None:
     if kernels_are_compiled() and (serving or turning_is_compiled()):
         print(f"Loading the kernels from {_cache()} ...", flush=True)
     else:
-        duration = "one to three minutes" if serving else "two to three minutes"
+        duration = "one to two minutes" if serving else "one to three minutes"
         print(f"Compiling the kernels into {_cache()}: once, {duration} ...", flush=True)
         # What fails there is compiled here.
         with subprocess.Popen([sys.executable, "-c", COMPILE_LEVEL]):  # nosec B603 - fixed code
@@ -117,7 +117,7 @@ def kernels_ahead(*, serving: bool) -> list[Ahead]:
     poses, records = np.empty((0, 3)), np.empty((0, RECORD_SIZE))
     solver = ahead(solve_rows, poses, packed_options(pair, SolveOptions()), *both, records)
     turned = [] if serving else [friction_ahead(), turning_ahead()]
-    return [*turned, device_ahead(), solver, estimates_ahead(pair)]
+    return [*turned, solver, device_ahead(), estimates_ahead(pair)]
 
 
 def compile_level() -> None:

@@ -43,6 +43,7 @@ from threadstate.contact._stage_kernel import (
     new_work,
     rotation,
     turned,
+    way_down,
 )
 from threadstate.contact._surface_kernel import meets_surface_first, start_height
 from threadstate.thread import _profile_kernel as pk
@@ -53,6 +54,9 @@ Array = NDArray[np.float64]
 # whether thread on thread is searched by branch and bound over rectangles (1) or along ridges (0).
 S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE = range(4)
 OPTIONS_SIZE = 4
+
+ROTATION_SIZE = 9
+"""Numbers of a row of :func:`solve_rows` that is a rotation and not a pose."""
 
 UNDECIDED_CONTACT = -1
 """In place of how many contacts begin at once."""
@@ -568,13 +572,35 @@ def threads_touch(contacts: Array) -> bool:
     return False
 
 
+@kernel(allocates=True)
+def first_height(rotation: Array, tie_tolerance: float, bolt: Array, nut: Array, work: Work) -> float:
+    """The height of the bolt's origin at its first contact from above, on the nut's axis; NaN where it is not certain.
+
+    ``rotation`` (9) is the bolt's, by rows.
+    """
+    pose = np.zeros(12)
+    copy_numbers(rotation, pose[0:9])
+    high = start_height(pose, bolt)
+    pose[11] = high
+    found = np.empty((MAX_CONTACTS, CONTACT_SIZE))
+    wanted = Wanted(high + bolt[pk.P], tie_tolerance, RIDGES)
+    count, status, _ = earliest(way_down(pose), wanted, False, bolt, nut, work, found)
+    return high - found[0, K_TIME] if status == RESOLVED and count > 0 else math.nan
+
+
 @kernel(nogil=True, allocates=True)
 def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> int:
     """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE).
 
-    The global interpreter lock is released meanwhile. Returns how many boxes of edges were evaluated.
+    Of rotations of shape (n, 9) it sets heights of shape (n, 1) as :func:`first_height` has them, alone: the machine
+    code of the search is made once for both. The global interpreter lock is released meanwhile. Returns how many boxes
+    of edges were evaluated.
     """
     work = new_work()
+    are_rotations = poses.shape[1] == ROTATION_SIZE
     for i in range(poses.shape[0]):
-        solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, work, rows[i])
+        if are_rotations:
+            rows[i, 0] = first_height(poses[i], options[S_TIE], bolt, nut, work)
+        else:
+            solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, work, rows[i])
     return int(work.regions[0, 1])

@@ -33,10 +33,8 @@ from threadstate.device._patch_kernel import (
     H_Y,
     POINT_SIZE,
     POINTS,
-    convex_hull,
-    hull_margin,
-    patch_points,
     refine_side,
+    set_patch_hull,
 )
 from threadstate.thread import _profile_kernel as pk
 
@@ -168,8 +166,7 @@ def flush_until(push: float, device: Array, bolt: Array, nut: Array, level: Arra
     x, y, force, rest = centre_of_pressure(level, push, place, device, np.zeros(3))
     if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
         return 0.0, 0.0
-    size = convex_hull(points, patch_points(place, bolt, nut, points), hull)
-    margin, _, size = hull_margin(hull, size, x, y, place, bolt, nut, points)
+    _, margin, _, size = set_patch_hull(x, y, place, bolt, nut, points, hull)
     if not margin > 0.0:
         return 0.0, 0.0
     while True:

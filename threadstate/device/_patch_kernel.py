@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate.contact._flush_kernel import distance_outside, outline_root
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
+from threadstate.contact._hull_kernel import convex_hull
 from threadstate.device._chart_kernel import N_OFFSET, N_ROTATION
 from threadstate.thread import _profile_kernel as pk
 
@@ -134,34 +135,6 @@ def patch_points(place: Array, bolt: Array, nut: Array, points: Array) -> int:
     return count
 
 
-@kernel(allocates=True)
-def convex_hull(points: Array, count: int, hull: Array) -> int:
-    """Sets the corners of the convex hull of points of the plane, counter-clockwise (monotone chains); their number."""
-    if count < 2:
-        for i in range(count):
-            copy_numbers(points[i], hull[i])
-        return count
-    # Sorted by x, then y: by y first, and stably by x after that.
-    order = np.argsort(points[:count, H_Y])
-    order = order[np.argsort(points[:count, H_X][order], kind="mergesort")]
-    size = 0
-    for chain in range(2):
-        first = size
-        for m in range(count):
-            i = order[m] if chain == 0 else order[count - 1 - m]
-            x, y = points[i, H_X], points[i, H_Y]
-            while size - first > 1:
-                ax, ay = hull[size - 1, H_X] - hull[size - 2, H_X], hull[size - 1, H_Y] - hull[size - 2, H_Y]
-                if ax * (y - hull[size - 2, H_Y]) - ay * (x - hull[size - 2, H_X]) > 0.0:
-                    break
-                size -= 1
-            copy_numbers(points[i], hull[size])
-            size += 1
-        # Its last point is the first of the other chain.
-        size -= 1
-    return size
-
-
 @kernel()
 def farthest_azimuth(
     on_nut: bool, theta: float, nx: float, ny: float, place: Array, bolt: Array, nut: Array
@@ -259,3 +232,16 @@ def hull_margin(
         if refined <= size:
             return margin, side, size
         size = refined
+
+
+@kernel(allocates=True)
+def set_patch_hull(
+    x: float, y: float, place: Array, bolt: Array, nut: Array, points: Array, hull: Array
+) -> tuple[int, float, int, int]:
+    """Sets the points of the patch and the corners of its hull; how many points there are, how far inside the hull
+    (x, y) is, negative: outside, the side of which that is said, and how many corners there are.
+    """
+    count = patch_points(place, bolt, nut, points)
+    size = convex_hull(points, count, hull)
+    margin, side, size = hull_margin(hull, size, x, y, place, bolt, nut, np.empty((POINTS, POINT_SIZE)))
+    return count, margin, side, size

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact import _stage_kernel as sk
 from threadstate.contact._geometry_kernel import copy_numbers
-from threadstate.contact._surface_kernel import start_height
+from threadstate.contact._stage_kernel import new_work as new_stage_work
 from threadstate.device._certificate_kernel import FREE, overlap
 from threadstate.device._chart_kernel import (
     COORDINATES,
@@ -81,29 +80,11 @@ RESULT_SIZE = 7
 Rows = tuple[Array, Array, Array, Array, Array, Array, Array]
 """Of each command: result, coordinates, pose, places, multipliers, falls, path."""
 
-TIE = 2e-11
-"""The tie tolerance of first contacts, in thread pitches."""
-
 OVERLAP_LIMIT = 8e-9
 """The overlap that is excluded at the end, in nominal radii: 1e-9 in on 1/4-20."""
 
 LEAST_GAP = 1e-9
 """Gap (nominal radii) up to which a place of the end counts as touching for the certificate."""
-
-
-@kernel(allocates=True)
-def first_height(rotation: Array, tie_tolerance: float, bolt: Array, nut: Array, stage: sk.Work) -> tuple[bool, float]:
-    """The height of the bolt's origin at its first contact from above, on the nut's axis; whether it is certain."""
-    pose = np.zeros(12)
-    copy_numbers(rotation[0:9], pose[0:9])
-    high = start_height(pose, bolt)
-    pose[11] = high
-    found = np.empty((sk.MAX_CONTACTS, sk.CONTACT_SIZE))
-    wanted = sk.Wanted(high + bolt[pk.P], tie_tolerance, sk.RIDGES)
-    count, status, _ = sk.earliest(sk.way_down(pose), wanted, False, bolt, nut, stage, found)
-    if status != sk.RESOLVED or count == 0:
-        return False, 0.0
-    return True, high - found[0, sk.K_TIME]
 
 
 @kernel()
@@ -260,11 +241,11 @@ def settle_rows(
 ) -> None:
     """Settles commands into rows: rotations of shape (n, 9), heights of shape (n,), tips of shape (n, 3).
 
-    A height is that of the first contact, NaN: to be found. A tip is a rotation vector in the commanded bolt's axes,
-    zero but of a level bolt (``follow_push``).
+    A height is that of the first contact, NaN where it is not certain. A tip is a rotation vector in the commanded
+    bolt's axes, zero but of a level bolt (``follow_push``).
     """
     results, ends, placements, places, multipliers, falls, paths = rows
-    stage = sk.new_work()
+    stage = new_stage_work()
     work = new_work()
     threads = new_threads(bolt)
     scene = Scene(device, bolt, nut, threads, work)
@@ -273,13 +254,10 @@ def settle_rows(
     for i in range(rotations.shape[0]):
         results[i, :] = 0.0
         height = heights[i]
-        is_certain = True
         if math.isnan(height):
-            is_certain, height = first_height(rotations[i], TIE * bolt[pk.P], bolt, nut, stage)
-        results[i, R_HEIGHT] = height
-        if not is_certain:
             results[i, R_STATUS] = NO_FIRST_CONTACT
             continue
+        results[i, R_HEIGHT] = height
         for attempt in range(2):
             device[D_FINE] = FINE if attempt == 0 else FINEST
             set_command(rotations[i], height, device, q)

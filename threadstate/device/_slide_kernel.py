@@ -33,9 +33,8 @@ from threadstate.device._patch_kernel import (
     H_Y,
     POINT_SIZE,
     POINTS,
-    convex_hull,
-    hull_margin,
     patch_points,
+    set_patch_hull,
 )
 from threadstate.thread import _profile_kernel as pk
 
@@ -321,8 +320,7 @@ def lie_flush(
             is_balanced = True
             break
     set_place(level, device, place)
-    size = convex_hull(points, patch_points(place, bolt, nut, points), hull)
-    margin, side, size = hull_margin(hull, size, x, y, place, bolt, nut, points)
+    _, margin, side, size = set_patch_hull(x, y, place, bolt, nut, points, hull)
     if not margin > 0.0 or not is_balanced:
         if size < 3:
             # Nothing of the patch is left to tip over: it tips towards where it is pressed.

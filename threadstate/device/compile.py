@@ -59,9 +59,7 @@ def beside_ahead() -> list[Ahead]:
         ahead(ck.elastic_energy, row, row, row),
         ahead(flush.set_flush, row, row),
         ahead(flush.centre_of_pressure, row, 0.0, row, row, row),
-        ahead(pk.patch_points, row, *both, rows),
-        ahead(pk.convex_hull, rows, 0, rows),
-        ahead(pk.hull_margin, rows, 0, 0.0, 0.0, row, *both, rows),
+        ahead(pk.set_patch_hull, 0.0, 0.0, row, *both, rows, rows),
     ]
 
 

@@ -98,11 +98,8 @@ def patch_hull(pair: Pair, place: Floats, x: float, y: float) -> tuple[Floats, F
     bolt, nut = pair.bolt.packed, pair.nut.packed
     points = np.empty((pk.POINTS, pk.POINT_SIZE))
     hull = np.empty((pk.POINTS + 2, pk.POINT_SIZE))
-    count = pk.patch_points(place, bolt, nut, points)
-    chosen = points[:count, :2].copy()
-    size = pk.convex_hull(points, count, hull) if count > 2 else 0
-    margin, side, size = pk.hull_margin(hull, size, x, y, place, bolt, nut, points)
-    return chosen, hull[:size, :2].copy(), margin, side
+    count, margin, side, size = pk.set_patch_hull(x, y, place, bolt, nut, points, hull)
+    return points[:count, :2].copy(), hull[:size, :2].copy(), margin, side
 
 
 def triangle_about(hull: Floats, x: float, y: float) -> tuple[Floats, Floats]:

@@ -40,7 +40,7 @@ from threadstate.errors import InvalidValueError
 from threadstate.numbers import number_text
 from threadstate.state.flat_base import require_flat_base
 from threadstate.state.model import FeaturePair, StagePose, Vector
-from threadstate.state.records import LEVEL_TILT_DEG
+from threadstate.state.records import LEVEL_TILT_DEG, first_heights
 from threadstate.state.solve import checked_poses
 from threadstate.thread.pair import Pair
 
@@ -126,6 +126,8 @@ def settled_rows(pair: Pair, device: Device, numbers: Floats, poses_deg: Floats)
         if abs(roll_deg) < LEVEL_TILT_DEG and abs(pitch_deg) < LEVEL_TILT_DEG:
             heights[i], tips[i] = level_start(pair, phase_deg, rotations[i])
             is_flush[i] = not tips[i].any()
+    tilted = np.isnan(heights)
+    heights[tilted] = first_heights(pair, rotations[tilted])
     rows = new_rows(len(poses_deg))
     chosen = np.flatnonzero(~is_flush)
     part = new_rows(len(chosen))

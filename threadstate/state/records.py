@@ -46,6 +46,20 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats) -> Float
     return records
 
 
+def first_heights(pair: Pair, rotations: Floats) -> Floats:
+    """The heights of the bolt's origin at the first contacts of bolts that are not level, shape (n,); NaN where one is
+    not certain.
+
+    Args:
+        pair: the pair.
+        rotations: the bolts' rotations by rows, shape (n, 9); they come down the nut's axis.
+    """
+    heights = np.empty((len(rotations), 1))
+    packed = packed_options(pair, SolveOptions())
+    sk.solve_rows(rotations, packed, pair.bolt.packed, pair.nut.packed, heights)
+    return heights[:, 0]
+
+
 LEAST_FLANK_HALF_ANGLE_DEG = 7.0
 """Of flatter flanks overlaps of thread with thread are too narrow for the search: embedments of 3 deg were too small by
 up to 2e-4 thread pitches."""

@@ -98,7 +98,7 @@ def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -
         for j in range(1, d):
             rest[j - 1, i] = basis[j, i] - 2.0 * sums[j] * dot / norm
     solution = np.zeros((2, 3 * k))
-    solution[0] = start
+    assign(solution[0], start)
     if d == 1:
         mu = friction_of(start, grasp)
         for i in range(3 * k):
@@ -163,7 +163,7 @@ def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -
             twist_of(solution[1], grasp, twist)
         return FOUND, low, high
     none = np.zeros(6)
-    solution[0] = forces
+    assign(solution[0], forces)
     low, mu = narrowed(mu, none, start, rest, grasp, solution, twist)
     for i in range(3 * k):
         forces[i] = solution[0, i]

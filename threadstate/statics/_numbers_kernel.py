@@ -142,5 +142,7 @@ def patch_rows(
         if set_contacts(record, bolt, nut, points[listed:end], normals[listed:end]) < end - listed:
             row[N_STATUS] = NO_NORMAL
             continue
-        points[listed:end] /= radius
+        for m in range(listed, end):
+            for j in range(3):
+                points[m, j] /= radius
         ends[i] = listed = end

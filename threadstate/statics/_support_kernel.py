@@ -78,7 +78,10 @@ def distance_by_faces(load: Array, rays: Array) -> float:
         if not factor(gram):
             continue
         solve_factored(gram, shares)
-        if shares.min() < 0.0:
+        lowest = shares[0]
+        for a in range(1, count):
+            lowest = min(lowest, shares[a])
+        if lowest < 0.0:
             continue
         squared = 0.0
         for m in range(6):

@@ -35,7 +35,7 @@ class Health(Answer):
 class Readiness(Answer):
     """The service is ready; ``library`` is the number of the latest one.
 
-    ``kernels`` is ``ready``, or ``compiling`` for one to three minutes, when nothing is solved.
+    ``kernels`` is ``ready``, or ``compiling`` for one to two minutes, when nothing is solved.
     """
 
     status: str
