@@ -38,6 +38,7 @@ STATES = (
     "statics/_patch_kernel.py",
     "statics/_support_kernel.py",
     "statics/_triangle_kernel.py",
+    "statics/cone_program.py",
     "statics/hold_bounds.py",
     "statics/load.py",
     "statics/numbers.py",

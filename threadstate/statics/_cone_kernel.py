@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate.contact._geometry_kernel import copy_numbers
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
@@ -27,13 +28,6 @@ ACCURACY = 1e-14
 """Residuals and gap, relative to the data's size, at which the iteration ends."""
 MOST_STALLED = 5
 """The iteration ends after so many steps that take a tenth neither off the residuals nor off residuals and gap."""
-
-
-@kernel(allocates=True)
-def assign(target: Array, values: Array) -> None:
-    """Sets each element: an assignment to a slice compiles the text of its error too, for seconds."""
-    for i in range(target.shape[0]):
-        target[i] = values[i]
 
 
 @kernel(allocates=True)
@@ -237,8 +231,8 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
         least = min(least, residual)
         if error < best:
             best = error
-            assign(best_x, x)
-            assign(best_z, z)
+            copy_numbers(x, best_x)
+            copy_numbers(z, best_z)
         if error <= ACCURACY or stalled == MOST_STALLED:
             break
         if not set_scaling(s, z, sizes, scaling, eta):
@@ -275,8 +269,8 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
         for k in range(m):
             s[k] += step * ds[k]
             z[k] += step * dz[k]
-    assign(x, best_x)
-    assign(z, best_z)
+    copy_numbers(best_x, x)
+    copy_numbers(best_z, z)
     return best
 
 

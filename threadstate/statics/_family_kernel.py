@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.statics._cone_kernel import assign, solve_program
+from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.statics._cone_kernel import solve_program
 from threadstate.statics._grasp_kernel import (
     RANK_TOLERANCE,
     Grasp,
@@ -97,8 +98,8 @@ def deepest_forces(mu: float, weights: Array, start: Array, basis: Array, grasp:
 @kernel(allocates=True)
 def set_solution(target: Array, solution: Array) -> None:
     """Sets both rows."""
-    assign(target[0], solution[0])
-    assign(target[1], solution[1])
+    copy_numbers(solution[0], target[0])
+    copy_numbers(solution[1], target[1])
 
 
 @kernel(allocates=True)

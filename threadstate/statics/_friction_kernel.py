@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.statics._cone_kernel import assign, solve_program
+from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.statics._cone_kernel import solve_program
 from threadstate.statics._family_kernel import (
     ROUND_OFF,
     deepest_forces,
@@ -98,7 +99,7 @@ def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -
         for j in range(1, d):
             rest[j - 1, i] = basis[j, i] - 2.0 * sums[j] * dot / norm
     solution = np.zeros((2, 3 * k))
-    assign(solution[0], start)
+    copy_numbers(start, solution[0])
     if d == 1:
         mu = friction_of(start, grasp)
         for i in range(3 * k):
@@ -163,7 +164,7 @@ def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -
             twist_of(solution[1], grasp, twist)
         return FOUND, low, high
     none = np.zeros(6)
-    assign(solution[0], forces)
+    copy_numbers(forces, solution[0])
     low, mu = narrowed(mu, none, start, rest, grasp, solution, twist)
     for i in range(3 * k):
         forces[i] = solution[0, i]
@@ -281,7 +282,7 @@ def hold_friction(
         if low >= limit * (1.0 - ROUND_OFF):
             return FOUND, min(low, limit), limit
         # No program below the limit found forces, and no motion proves that there are none.
-        assign(solution[0], wedge_forces)
+        copy_numbers(wedge_forces, solution[0])
         low, mu = narrowed(limit, load / size, start, basis, grasp, solution, twist)
         for i in range(3 * k):
             forces[i] = solution[0, i] * size

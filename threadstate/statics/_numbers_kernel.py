@@ -36,7 +36,7 @@ def set_bounds(status: int, lower: float, upper: float, bounds: Array) -> None:
 
 
 @kernel(allocates=True)
-def contact_numbers(
+def set_numbers(
     wanted: int, load: Array, points: Array, normals: Array, forces: Array, twist: Array, numbers: Array
 ) -> None:
     """Sets what is ``wanted`` of the margin and the bounds of both least frictions of contacts at points (k, 3) with
@@ -67,14 +67,14 @@ def contact_rows(
     """Sets what is ``wanted`` of the rows (n, NUMBERS_SIZE) of states under loads (n, 6).
 
     The points (m, 3) and normals (m, 3) of all their contacts follow each other; where those of each end is in ``ends``
-    (n). A state without one is left as it is. ``forces`` (3 m) and ``twists`` (n, 6) are as :func:`contact_numbers` has
+    (n). A state without one is left as it is. ``forces`` (3 m) and ``twists`` (n, 6) are as :func:`set_numbers` has
     them.
     """
     first = 0
     for i in range(ends.shape[0]):
         end = ends[i]
         if end > first:
-            contact_numbers(
+            set_numbers(
                 wanted,
                 loads[i],
                 points[first:end],
@@ -103,7 +103,7 @@ def patch_numbers(load: Array, hull: Array, numbers: Array) -> None:
 
 
 @kernel(nogil=True, allocates=True)
-def patch_rows(
+def start_rows(
     records: Array,
     loads: Array,
     radius: float,
@@ -117,7 +117,8 @@ def patch_rows(
     """Sets the rows (n, NUMBERS_SIZE) of decided records of a level patch, under loads (n, 6) about each bolt's origin.
 
     Those of others are set to no number, and their contacts listed one after the other in ``points`` and ``normals``,
-    with where those of each record end. Points and the moments of the loads are over ``radius``.
+    with where those of each record end, for :func:`contact_rows`. Points and the moments of the loads are over
+    ``radius``.
     """
     hull = np.empty((2 * OUTLINE_SAMPLES + 1, 2))
     listed = 0

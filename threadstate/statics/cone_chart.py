@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from threadstate.statics.cone_program import solved_program
 from threadstate.statics.cone_reduction import (
     ACTIVE,
     CONSTANT,
@@ -15,7 +16,6 @@ from threadstate.statics.cone_reduction import (
     null_space,
     opening_motion,
     row_space,
-    solve_cone_program,
 )
 
 FLAT = 1e-10
@@ -107,7 +107,7 @@ class Chart:
             rows = np.concatenate([np.arange(self._heads[i], self._heads[i] + len(self._blocks[i])) for i in chosen])
             matrix = self._matrix[rows]
             sizes = [len(self._blocks[i]) for i in chosen]
-            x, found = solve_cone_program(-self._free.T @ self._load, -matrix @ self._free, matrix @ given, sizes)
+            x, found = solved_program(-self._free.T @ self._load, -matrix @ self._free, matrix @ given, sizes)
             motion = (given + self._free @ x) / size
             outside = self._outside(self._matrix @ motion)
             worst = int(outside.argmax())

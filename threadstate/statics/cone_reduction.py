@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.statics._cone_kernel import solve_program
+from threadstate.statics.cone_program import solved_program
 
 Floats = NDArray[np.float64]
 
@@ -146,7 +146,7 @@ def opening_motion(blocks: Sequence[Floats]) -> tuple[float, Floats, Floats]:
     h[m] = 1.0
     c = np.zeros(n + 1)
     c[n] = -1.0
-    x, z = solve_cone_program(c, g, h, [*(len(rows) for rows in blocks), n + 1])
+    x, z = solved_program(c, g, h, [*(len(rows) for rows in blocks), n + 1])
     return float(x[n]), x[:n], z[:m]
 
 
@@ -168,7 +168,7 @@ def inner_forces(blocks: Sequence[Block], loads: Floats) -> tuple[float, Floats]
         return 0.0, heads
     weights = heads @ still
     g = np.outer(heads, weights) / count - still
-    x, z = solve_cone_program(-weights / count, g, heads / count, [len(block.rows) for block in blocks])
+    x, z = solved_program(-weights / count, g, heads / count, [len(block.rows) for block in blocks])
     depth = (1.0 - float(weights @ x)) / count
     if depth <= NEGLIGIBLE:
         return depth, still @ x
@@ -191,15 +191,6 @@ def _restricted(blocks: Sequence[Block], velocities: Floats) -> tuple[Block, ...
             axis = np.array([velocity[0], *-velocity[1:]]) / velocity[0]
             kept.append(Block(block.owner, (axis @ block.rows)[np.newaxis]))
     return tuple(kept)
-
-
-def solve_cone_program(
-    c: Floats, g: Floats, h: Floats, sizes: Sequence[int] | NDArray[np.intp]
-) -> tuple[Floats, Floats]:
-    """What ``solve_program`` of ``_cone_kernel`` finds: x and z."""
-    x, z = np.zeros(g.shape[1]), np.zeros(g.shape[0])
-    solve_program(c, np.ascontiguousarray(g), h, np.array(sizes, np.intp), x, z)
-    return x, z
 
 
 def row_space(matrix: Floats) -> tuple[Floats, Floats]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from threadstate.statics.cone_program import solved_program
 from threadstate.statics.scene import Scene
 from threadstate.statics.wrench_cone import (
     Divided,
@@ -19,7 +20,6 @@ from threadstate.statics.wrench_cone import (
     moved,
     null_space,
     slacks,
-    solved_program,
 )
 
 Floats = NDArray[np.float64]

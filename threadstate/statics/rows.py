@@ -38,7 +38,7 @@ def statics_rows(pair: Pair, records: Floats, load: Load | None = None) -> Float
     loads[:, :3] /= radius
     count = int(records[:, rk.O_CONTACTS].sum())
     points, normals, ends = np.empty((count, 3)), np.empty((count, 3)), np.empty(len(records), np.intp)
-    nk.patch_rows(records, loads, radius, pair.bolt.packed, pair.nut.packed, points, normals, ends, rows)
+    nk.start_rows(records, loads, radius, pair.bolt.packed, pair.nut.packed, points, normals, ends, rows)
     forces, twists = np.zeros(3 * count), np.zeros((len(records), 6))
     nk.contact_rows(nk.EVERY_NUMBER, loads, points, normals, ends, forces, twists, rows)
     rows[on_strips(records), nk.N_STATUS] = nk.OPEN_PATCH

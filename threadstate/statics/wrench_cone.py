@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate.statics._cone_kernel import solve_program
+from threadstate.statics.cone_program import solved_program
 
 Floats = NDArray[np.float64]
 
@@ -50,14 +50,6 @@ def force_maps(points: Floats, normals: Floats) -> Floats:
     """The wrenches of unit forces along the normal and two tangents of each contact: shape (k, 6, 3)."""
     axes = np.concatenate([normals[:, np.newaxis, :], tangents(normals)], axis=1)
     return np.swapaxes(np.concatenate([np.cross(points[:, np.newaxis, :], axes), axes], axis=2), 1, 2)
-
-
-def solved_program(c: Floats, g: Floats, h: Floats, sizes: list[int]) -> tuple[Floats, Floats]:
-    """Both solutions of a cone program, as ``_cone_kernel.solve_program`` has it; approximations."""
-    x, z = np.zeros(len(c)), np.zeros(len(h))
-    g, h = np.ascontiguousarray(g, dtype=np.float64), np.ascontiguousarray(h, dtype=np.float64)
-    solve_program(np.ascontiguousarray(c), g, h, np.array(sizes, np.intp), x, z)
-    return x, z
 
 
 def slacks(forces: Floats) -> Floats:
