@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 
@@ -37,18 +38,23 @@ print(len(settled), settled.pop().outcome.value)
 
 LAID = """
 from threadstate.device import _friction_held_kernel as held_kernel
+from threadstate.device import _slide_kernel as slide_kernel
 from threadstate.device.settle import settle_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 class Laid(Exception):
     pass
 
-lie_flush = held_kernel.lie_flush
+lie_flush, centre_of_pressure = held_kernel.lie_flush, slide_kernel.centre_of_pressure
+
+def pressed_aside(*arguments):
+    x, y, force, rest = centre_of_pressure(*arguments)
+    return x + ASIDE[0], y + ASIDE[1], force, rest
 
 def lay_once(*arguments):
     raise Laid(*lie_flush(*arguments))
 
-held_kernel.lie_flush = lay_once
+held_kernel.lie_flush, slide_kernel.centre_of_pressure = lay_once, pressed_aside
 for held in (0.5, np.inf, np.nan):
     try:
         settle_pose(quarter_twenty_unc(), 0.0, 0.0, 0.0, mu=0.3)
@@ -69,9 +75,10 @@ def test_a_path_does_not_hang_on_what_memory_held(roll_deg: float) -> None:
     assert printed(PATHS.replace("ROLL", str(roll_deg))) == ["1 settled"]
 
 
-def test_a_bolt_of_whose_patch_nothing_is_left_tips_towards_where_it_is_pressed() -> None:
-    first, *others = printed(LAID)
+@pytest.mark.parametrize("aside", [(0.01, 0.02), (-0.03, 0.01), (0.0, -0.02)])
+def test_a_bolt_of_whose_patch_nothing_is_left_tips_towards_where_it_is_pressed(aside: tuple[float, float]) -> None:
+    first, *others = printed(LAID.replace("ASIDE", str(aside)))
     assert others == [first, first]
     is_laid, direction = first.strip("()").split(", ")
     assert is_laid == "False"
-    assert -3.15 < float(direction) < 3.15
+    assert float(direction) == pytest.approx(math.atan2(aside[1], aside[0]), abs=1e-9)

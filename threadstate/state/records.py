@@ -48,7 +48,7 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats) -> Float
 
 def first_heights(pair: Pair, rotations: Floats) -> Floats:
     """The heights of the bolt's origin at the first contacts of bolts that are not level, shape (n,); NaN where one is
-    not certain.
+    not certain. The tie tolerance is that of the default options.
 
     Args:
         pair: the pair.
