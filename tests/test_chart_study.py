@@ -41,7 +41,7 @@ from studies.chart.findings import agreement, better_in_something, document, fro
 from studies.chart.measure import Run, run
 from studies.chart.page import page
 from studies.chart.study import Study, limit_of_none, measured_study, true_states, work
-from threadstate.contact import _edge_search_kernel as edge_search
+from threadstate.contact import _initial_box_kernel as initial_box
 from threadstate.mesh.collision import Collider
 from threadstate.mesh.frames import fixed_from_bolt
 from threadstate.mesh.options import MeshOptions, Scene
@@ -216,9 +216,9 @@ def test_coal_finds_the_pairs_that_fcl_finds() -> None:
 
 
 def test_another_number_of_boxes_is_for_kernels_not_compiled_yet(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(edge_search, "INITIAL_BOXES", edge_search.INITIAL_BOXES)
+    monkeypatch.setattr(initial_box, "INITIAL_BOXES", initial_box.INITIAL_BOXES)
     exact.use_boxes(48)
-    assert edge_search.INITIAL_BOXES == 48
+    assert initial_box.INITIAL_BOXES == 48
 
 
 def test_the_proved_state_is_the_state(true: ContactState) -> None:

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from studies.certificate.motions import EdgeMotion, edge_motion
 from threadstate.contact import _box_kernel as box
-from threadstate.contact._edge_search_kernel import BATCH, box_at, pad_boxes, part_of, set_box_at, set_initial_boxes
+from threadstate.contact._edge_search_kernel import BATCH, box_at, pad_boxes, part_of, set_box_at
 from threadstate.contact._geometry_kernel import MOTION_SIZE, TWO_PI, motion_scale
+from threadstate.contact._initial_box_kernel import set_initial_boxes
 from threadstate.contact._stage_kernel import rotation, set_motions
 from threadstate.contact._surface_kernel import start_height
 from threadstate.errors import UnresolvedPoseError
@@ -198,7 +199,7 @@ def visited_boxes(search: Search, until: float) -> list[tuple[Box, int]]:
             undecided = kind == box.UNDECIDED_BOX
             if undecided or (kind >= box.PEAK_EDGE and half > 1e-6):
                 by_time = bool(boxes[box.X_BY_TIME + i]) or (undecided and end - start > slender * half)
-                waiting.extend(part_of(taken[i], by_time, part, 2) for part in range(2))
+                waiting.extend(part_of(taken[i], by_time, part, 0.5) for part in range(2))
     return found
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from threadstate.contact import _edge_search_kernel as edge_search
+from threadstate.contact import _initial_box_kernel as initial_box
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as sk
 from threadstate.state.decode import decoded_states
@@ -53,4 +53,4 @@ def run_with_boxes(boxes: int, job: bytes) -> bytes:
 
 def use_boxes(boxes: int) -> None:
     """Make kernels that are not compiled yet begin with that many boxes."""
-    edge_search.INITIAL_BOXES = boxes
+    initial_box.INITIAL_BOXES = boxes

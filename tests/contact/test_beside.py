@@ -20,6 +20,7 @@ from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _flank_kernel as flank
 from threadstate.contact._edge_kernel import Box, new_edge
 from threadstate.contact._geometry_kernel import PATH_SIZE, TWO_PI
+from threadstate.contact._initial_box_kernel import set_initial_boxes
 from threadstate.contact._range_kernel import error_beside, size_numbers
 from threadstate.contact._stage_kernel import rotation
 from threadstate.errors import UnresolvedPoseError
@@ -199,7 +200,7 @@ def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]
     """Boxes of a search beside a contact that the bend of phi excludes: middle, half-width, start, end."""
     boxes, scratch = np.zeros(box.BOXES_SIZE), np.zeros(box.BOXES_SIZE)
     edge = new_edge(one.search.motion, one.search.curve.packed, one.search.solid.packed, one.kept)
-    level = [edge_search.box_at(i, boxes) for i in range(edge_search.set_initial_boxes(0.0, one.until, boxes))]
+    level = [edge_search.box_at(i, boxes) for i in range(set_initial_boxes(0.0, one.until, boxes))]
     for _ in range(40):
         parts: list[Box] = []
         for first in range(0, len(level), edge_search.BATCH):
@@ -221,7 +222,7 @@ def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]
                     yield theta, half, start, end
                 elif len(parts) < 200:
                     by_time = bool(boxes[box.X_BY_TIME + i])
-                    parts += [edge_search.part_of(taken[i], by_time, part, 2) for part in range(2)]
+                    parts += [edge_search.part_of(taken[i], by_time, part, 0.5) for part in range(2)]
         level = parts
 
 

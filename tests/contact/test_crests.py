@@ -137,7 +137,7 @@ def test_no_crossing_is_where_none_is_marked(name: str) -> None:
             crosses = max(crossing.share_of_way(i, k, bolt, nut, crests) for k in range(crossing.HELICES)) >= 0.0
             marked += crosses
             unmarked += crests[crossing.W_MAY_CROSS + i] == 0.0
-            assert not crosses or crests[crossing.W_MAY_CROSS + i] == 1.0
+            assert not crosses or crests[crossing.W_MAY_CROSS + i] != 0.0
     assert marked > 20
     assert unmarked > 20
 

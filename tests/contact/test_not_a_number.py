@@ -19,7 +19,7 @@ from threadstate.contact._edge_search_kernel import no_onset_from_contact
 from threadstate.contact._entry_kernel import half_space
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
 from threadstate.contact._lift_kernel import inside_until
-from threadstate.contact._range_kernel import Ranges
+from threadstate.contact._range_kernel import Ranges, product_range
 from threadstate.contact._stage_kernel import CONTACT_SIZE, rotation, set_motions
 from threadstate.contact._surface_kernel import meets_surface_first
 from threadstate.thread import _profile_kernel as pk
@@ -41,13 +41,30 @@ def descent(pose_deg: tuple[float, float, float], height: float) -> tuple[Floats
     return bolt_motion, nut_motion
 
 
-@pytest.mark.parametrize("choose", [branchless.larger, branchless.smaller])
 @pytest.mark.parametrize("known", [-1.0, 0.0, 2.0, math.inf])
-def test_the_larger_or_smaller_of_a_number_and_nan_is_nan(
-    choose: Callable[[float, float], float], known: float
-) -> None:
-    assert math.isnan(choose(math.nan, known))
-    assert math.isnan(choose(known, math.nan))
+def test_the_larger_or_smaller_of_a_number_and_nan(known: float) -> None:
+    choose: Callable[[float, float], float]
+    for choose in (branchless.larger_or_nan, branchless.smaller_or_nan):
+        assert math.isnan(choose(math.nan, known))
+        assert math.isnan(choose(known, math.nan))
+    for choose in (branchless.larger, branchless.smaller):
+        assert choose(math.nan, known) == known
+        assert math.isnan(choose(known, math.nan))
+
+
+@pytest.mark.parametrize("unknown", range(4))
+def test_a_product_of_an_unknown_factor_is_unknown(unknown: int) -> None:
+    factors = [-1.0, 2.0, -3.0, 4.0]
+    assert product_range(*factors) == (-6.0, 8.0)
+    factors[unknown] = math.nan
+    assert all(map(math.isnan, product_range(*factors)))
+
+
+def test_within_an_unknown_reach_a_profile_has_any_slope_and_no_bound() -> None:
+    numbers = branchless.profile_numbers(PAIR.bolt.packed)
+    radius, slope, u, rises = branchless.radius_and_slope(0.0, numbers)
+    course = branchless.course_over(radius, slope, u, math.nan, rises, numbers)
+    assert course == (-PAIR.bolt.packed[pk.STEEPEST] - slope, 0.0, -math.inf, math.inf)
 
 
 def test_nan_has_no_known_second_derivative() -> None:

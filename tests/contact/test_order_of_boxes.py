@@ -78,10 +78,10 @@ def test_boxes_wait_by_their_starts_and_the_last_of_equals_comes_first() -> None
 
 def test_parts_cover_the_box() -> None:
     whole = Box(1.0, 0.25, 2.0, 3.0)
-    by_time = [edge_search.part_of(whole, True, j, 4) for j in range(4)]
+    by_time = [edge_search.part_of(whole, True, j, 0.25) for j in range(4)]
     assert [(one.start, one.end) for one in by_time] == [(2.0, 2.25), (2.25, 2.5), (2.5, 2.75), (2.75, 3.0)]
     assert {(one.theta, one.half) for one in by_time} == {(1.0, 0.25)}
-    by_azimuth = [edge_search.part_of(whole, False, j, 2) for j in range(2)]
+    by_azimuth = [edge_search.part_of(whole, False, j, 0.5) for j in range(2)]
     assert [(one.theta, one.half) for one in by_azimuth] == [(0.875, 0.125), (1.125, 0.125)]
     assert {(one.start, one.end) for one in by_azimuth} == {(2.0, 3.0)}
 

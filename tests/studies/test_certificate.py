@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from itertools import chain
@@ -28,12 +29,14 @@ from studies.certificate.cases import FORMS, STAGES, Box, pair_of, random_boxes,
 from studies.certificate.page import HEADING, section
 from studies.certificate.profiles import ball_profile
 from studies.certificate.study import Found, audit_boxes, failures
+from threadstate.contact import _box_kernel as box
 from threadstate.contact import _branchless_kernel, _curve_point_kernel, _range_kernel
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._edge_kernel import Box as SearchBox
 from threadstate.contact._edge_kernel import new_edge
-from threadstate.contact._geometry_kernel import M_COPLANAR, PATH_SIZE
+from threadstate.contact._geometry_kernel import M_COPLANAR, PATH_SIZE, motion_scale
+from threadstate.contact._initial_box_kernel import drop_above, set_initial_boxes
 
 FAULTS = {
     "a growth of less than e - 1, and of nothing": (
@@ -238,6 +241,26 @@ def test_a_dropped_box_with_an_onset_is_not_proved() -> None:
     assert len(boxes) >= 5
     for one in boxes:
         assert dropped(one, kind=1) is Outcome.UNDECIDED
+
+
+@pytest.mark.slow
+def test_arcs_that_stay_above_the_plane_are_outside() -> None:
+    """Initial boxes that are dropped before their ranges are evaluated, in balls."""
+    rng = np.random.default_rng(74)
+    boxes = np.zeros(box.BOXES_SIZE)
+    said: Counter[Outcome | None] = Counter()
+    for i in range(60):
+        search = random_search(FORMS[i % len(FORMS)], STAGES[rng.integers(len(STAGES))], rng)
+        since, until = sorted(rng.uniform(0.0, 0.4, 2) * motion_scale(search.motion, search.solid.packed))
+        edge = new_edge(search.motion, search.curve.packed, search.solid.packed, new_kept(0))
+        count = set_initial_boxes(since, until, boxes)
+        every, half = boxes[box.X_THETA : box.X_THETA + count].tolist(), boxes[box.X_HALF]
+        left = boxes[box.X_THETA : box.X_THETA + drop_above(count, edge, boxes)].tolist()
+        for theta in set(every) - set(left):
+            said[dropped(Box(search, theta, half, since, until, visited=False), kind=int(box.ALL_OUTSIDE))] += 1
+    assert said[Outcome.FAILS] == 0
+    assert said[Outcome.UNDECIDED] < 0.01 * said[None]
+    assert said[None] > 200
 
 
 def test_the_page_has_what_was_found(repository_root: Path) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import larger, profile_numbers, smaller
+from threadstate.contact._branchless_kernel import larger, larger_or_nan, profile_numbers, smaller
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._range_kernel import Ranges, error_beside, ranges, size_numbers
 from threadstate.thread import _profile_kernel as pk
@@ -79,7 +79,7 @@ class Sizes(NamedTuple):
 @kernel(contract=True, forceinline=True)
 def sizes_over(a: float, b: float, of_one: Ranges) -> Sizes:
     """The sizes of g's or phi's derivatives over a box."""
-    tt = larger(of_one.tt_high, -of_one.tt_low)
+    tt = larger_or_nan(of_one.tt_high, -of_one.tt_low)
     tv = abs(of_one.tv) + of_one.tv_var
     return Sizes(
         tt,
@@ -97,7 +97,7 @@ def phi_over(a: float, b: float, phi: Ranges, size: Sizes) -> tuple[float, float
     time_change = abs(phi.by_tau) * b + smaller(phi.tau_error + 0.5 * phi.vv * b, phi.tau_change) * b
     azimuth_change = (abs(phi.by_theta) + phi.theta_change) * a
     rise = theta_bound * peak_offset + 0.5 * phi.tt_high * peak_offset * peak_offset
-    fall = theta_bound * a - 0.5 * smaller(phi.tt_low, 0.0) * a * a
+    fall = theta_bound * a - 0.5 * smaller(0.0, phi.tt_low) * a * a
     linear_change = (abs(phi.by_theta) + phi.theta_error) * a + (abs(phi.by_tau) + phi.tau_error) * b
     high = phi.value + smaller(time_change + smaller(rise, azimuth_change), linear_change + phi.above) + phi.error
     low = phi.value - smaller(time_change + smaller(fall, azimuth_change), linear_change + phi.below) - phi.error
@@ -110,8 +110,8 @@ def g_over(a: float, b: float, g: Ranges, size: Sizes) -> tuple[float, float]:
     time_change = (abs(g.by_tau) + g.tau_error) * b + 0.5 * g.vv * b * b
     azimuth_change = (abs(g.by_theta) + g.theta_change) * a
     linear_change = (abs(g.by_theta) + g.theta_error) * a + size.tv * a * b
-    rise = linear_change + 0.5 * larger(g.tt_high, 0.0) * a * a
-    fall = linear_change - 0.5 * smaller(g.tt_low, 0.0) * a * a
+    rise = linear_change + 0.5 * larger(0.0, g.tt_high) * a * a
+    fall = linear_change - 0.5 * smaller(0.0, g.tt_low) * a * a
     high = g.value + time_change + smaller(rise, azimuth_change) + g.error
     low = g.value - time_change - smaller(fall, azimuth_change) - g.error
     return low, high
@@ -331,7 +331,7 @@ def set_class(i: int, a: float, b: float, phi: Ranges, g: Ranges, depth: float, 
     box_class, g_low, by_time, deepest = classify_box(a, b, phi, g, depth, p)
     boxes[X_CLASS + i], boxes[X_G_LOW + i], boxes[X_BY_TIME + i] = box_class, g_low, by_time
     boxes[X_DEEPEST + i] = deepest
-    boxes[X_DEPTH + i] = smaller(phi.value, g.value)
+    boxes[X_DEPTH + i] = smaller(g.value, phi.value)
     boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i] = phi.tt_low, phi.tt_high
 
 

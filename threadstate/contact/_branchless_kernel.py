@@ -97,12 +97,28 @@ def azimuth(x: float, y: float, r: float) -> float:
 
 @kernel(contract=True, forceinline=True)
 def larger(x: float, y: float) -> float:
+    """The larger of two numbers, a single instruction: NaN where ``y`` is, and ``y`` where ``x`` alone is.
+
+    Of two bounds on a number either may be ``x``: where it is not known the other one holds. Else ``y`` is what may be
+    NaN, or both are.
+    """
+    return x if x > y else y
+
+
+@kernel(contract=True, forceinline=True)
+def smaller(x: float, y: float) -> float:
+    """The smaller of two numbers, as :func:`larger`."""
+    return x if x < y else y
+
+
+@kernel(contract=True, forceinline=True)
+def larger_or_nan(x: float, y: float) -> float:
     """The larger of two numbers; NaN where either is."""
     return x if x > y or math.isnan(x) else y
 
 
 @kernel(contract=True, forceinline=True)
-def smaller(x: float, y: float) -> float:
+def smaller_or_nan(x: float, y: float) -> float:
     """The smaller of two numbers; NaN where either is."""
     return x if x < y or math.isnan(x) else y
 
@@ -115,26 +131,21 @@ def profile_numbers(profile: Array) -> Numbers:
     """
     p = profile[pk.P]
     root, width = profile[pk.S_ROOT], profile[pk.S_CREST] - profile[pk.S_ROOT]
-    rising_flat, rising_top = pk.other_fillets(0, profile)
-    falling_flat, falling_top = pk.other_fillets(pk.FALLING, profile)
-    least, greatest = pk.second_derivative_limits(profile)
-    rising_start, rising_end = pk.half_reach(0, profile)
-    falling_start, falling_end = pk.half_reach(pk.FALLING, profile)
     return (
         profile[pk.U_FLAT],
         profile[pk.U_FLANK],
         profile[pk.COT],
         profile[pk.U_CREST],
         profile[pk.U_TOP],
-        rising_flat,
-        rising_top,
+        profile[pk.U_FAR_FLAT],
+        profile[pk.U_FAR_TOP],
         profile[pk.U_FLAT + pk.FALLING],
         profile[pk.U_FLANK + pk.FALLING],
         profile[pk.COT + pk.FALLING],
         profile[pk.U_CREST + pk.FALLING],
         profile[pk.U_TOP + pk.FALLING],
-        falling_flat,
-        falling_top,
+        profile[pk.U_FAR_FLAT + pk.FALLING],
+        profile[pk.U_FAR_TOP + pk.FALLING],
         p,
         1.0 / p,
         -root / p,
@@ -149,12 +160,12 @@ def profile_numbers(profile: Array) -> Numbers:
         profile[pk.R_MAJOR] - profile[pk.RHO_MAJOR],
         profile[pk.RHO_MINOR] * profile[pk.RHO_MINOR],
         profile[pk.RHO_MAJOR] * profile[pk.RHO_MAJOR],
-        least,
-        greatest,
-        rising_start,
-        rising_end,
-        falling_start,
-        falling_end,
+        profile[pk.F2_LEAST],
+        profile[pk.F2_GREATEST],
+        profile[pk.U_REACH_FLAT],
+        profile[pk.U_REACH_TOP],
+        profile[pk.U_REACH_FLAT + pk.FALLING],
+        profile[pk.U_REACH_TOP + pk.FALLING],
     )
 
 
@@ -240,7 +251,7 @@ def course_over(radius: float, slope: float, u: float, reach: float, rises: bool
     steepest = slope_before if is_bounded and u - reach >= u_crest else cot
     steepest = slope_after if is_bounded and u + reach <= u_flank else steepest
     flattest = smaller(slope_before, slope_after) if is_within else -larger(numbers[2], numbers[9])
-    change_low, change_high = smaller(flattest - size, 0.0), larger(steepest - size, 0.0)
+    change_low, change_high = smaller(0.0, flattest - size), larger(0.0, steepest - size)
     after = f_after - radius - size * reach
     before = f_before - radius + size * reach
     high = 0.0 if u >= u_crest else (after if slope_after >= size else (cot - size) * reach)
@@ -248,8 +259,8 @@ def course_over(radius: float, slope: float, u: float, reach: float, rises: bool
     return ProfileCourse(
         change_low if rises else -change_high,
         change_high if rises else -change_low,
-        smaller(smaller(low, after), 0.0) if is_bounded else -math.inf,
-        larger(larger(high, before), 0.0) if is_bounded else math.inf,
+        smaller(0.0, smaller(low, after)) if is_bounded else -math.inf,
+        larger(0.0, larger(high, before)) if is_bounded else math.inf,
     )
 
 

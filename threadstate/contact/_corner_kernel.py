@@ -84,7 +84,7 @@ def set_depths(s: float, of_nut: bool, r: float, p: float, k: float, m: Numbers,
         at_z = zx * x + zy * y + zz * z + after_z
         radius = math.sqrt(at_x * at_x + at_y * at_y)
         surface, _, _, _ = radius_and_slope(at_z - k * azimuth(at_x, at_y, radius), other)
-        depths[i] = smaller(sign * (surface - radius), smaller(sign * at_z, p - sign * at_z))
+        depths[i] = smaller(smaller(sign * at_z, p - sign * at_z), sign * (surface - radius))
 
 
 @kernel(allocates=True)

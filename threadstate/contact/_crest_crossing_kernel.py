@@ -35,7 +35,7 @@ HELICES = 3
 """Helices: in the middle of the fillets at the crest, and in the middle of the root."""
 
 # Blocks of points of the bolt's helices, one helix after the other: place in its frame, then in the nut's; axial
-# position on the nut's profile; then whether a helix of the nut's may cross on the way from the point before it.
+# position on the nut's profile; then 0 where no helix of the nut's crosses on the way from the point before it.
 HELIX_SIZE = 104
 CRESTS_SIZE = HELICES * HELIX_SIZE
 W_X = 0
@@ -101,14 +101,19 @@ def mark_crossings(bolt: Array, nut: Array, crests: Array) -> None:
     rising, falling, root = helix(RISING_CORNER, False, nut), helix(FALLING_CORNER, False, nut), helix(ROOT, False, nut)
     for i in range(1, CRESTS_SIZE):
         height_before, height = crests[W_HEIGHT + i - 1], crests[W_HEIGHT + i]
-        joined = low < height_before and height_before < high and low < height and height < high
-        joined = joined and abs(crests[W_Z + i] - crests[W_Z + i - 1]) < 0.5 * p
         before, here = crests[W_POSITION + i - 1], crests[W_POSITION + i]
-        differs = abs(here - before) >= 0.5 * p
-        differs = differs or np.floor((before - rising) * inverse_p) != np.floor((here - rising) * inverse_p)
-        differs = differs or np.floor((before - falling) * inverse_p) != np.floor((here - falling) * inverse_p)
-        differs = differs or np.floor((before - root) * inverse_p) != np.floor((here - root) * inverse_p)
-        crests[W_MAY_CROSS + i] = 1.0 if joined and differs else 0.0
+        way = abs(crests[W_Z + i] - crests[W_Z + i - 1])
+        # All loads come first, and numbers stand for what is true: the loop becomes vector instructions.
+        off = 0.0 if low < height_before else 1.0
+        off = off if height_before < high else 1.0
+        off = off if low < height else 1.0
+        off = off if height < high else 1.0
+        off = off if way < 0.5 * p else 1.0
+        turns = abs(np.floor((before - rising) * inverse_p) - np.floor((here - rising) * inverse_p))
+        turns += abs(np.floor((before - falling) * inverse_p) - np.floor((here - falling) * inverse_p))
+        turns += abs(np.floor((before - root) * inverse_p) - np.floor((here - root) * inverse_p))
+        turns = 1.0 if abs(here - before) >= 0.5 * p else turns
+        crests[W_MAY_CROSS + i] = turns if off == 0.0 else 0.0
 
 
 @kernel()

@@ -33,10 +33,11 @@ from threadstate.contact._box_kernel import (
     X_THETA,
     classify_boxes,
 )
-from threadstate.contact._branchless_kernel import VECTOR_WIDTH, larger, smaller
+from threadstate.contact._branchless_kernel import VECTOR_WIDTH, larger, larger_or_nan, smaller, smaller_or_nan
 from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._flank_kernel import no_tangency_on_flanks
 from threadstate.contact._geometry_kernel import M_SIGMA, motion_scale
+from threadstate.contact._initial_box_kernel import drop_above, set_initial_boxes
 from threadstate.contact._onset_kernel import (
     C_KIND,
     C_THETA,
@@ -60,9 +61,6 @@ from threadstate.contact._wedge_kernel import crossing_of, is_contact, is_doubtf
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
-
-INITIAL_BOXES = 25
-"""Number of boxes over all azimuths with which the search of a span of time begins."""
 
 AZIMUTH_TOLERANCE = 1e-6
 """Half-width (rad) around an earlier contact within which nothing is distinguished from it."""
@@ -129,24 +127,6 @@ MAX_ENTRIES = 16
 
 
 @kernel()
-def set_initial_boxes(since: float, until: float, boxes: Array) -> int:
-    """Sets the boxes over all azimuths with which the search of a span of time begins; returns their number.
-
-    Their half-widths are powers of two, and their middles multiples of them: halves are exact, and leave no gap.
-    """
-    half = 1.0
-    while half * INITIAL_BOXES > math.pi:
-        half *= 0.5
-    count = math.ceil(math.pi / half)
-    for i in range(count):
-        boxes[X_THETA + i] = (2 * i + 1 - count) * half
-        boxes[X_HALF + i] = half
-        boxes[X_START + i] = since
-        boxes[X_END + i] = until
-    return count
-
-
-@kernel()
 def pad_boxes(count: int, boxes: Array) -> int:
     """Pads the list to whole vectors with empty boxes; returns the number of boxes then."""
     while count % VECTOR_WIDTH != 0:
@@ -171,12 +151,12 @@ def box_at(i: int, boxes: Array) -> Box:
 
 
 @kernel(forceinline=True)
-def part_of(box: Box, by_time: bool, j: int, parts: int) -> Box:
-    """One of so many equal parts of a box, by time or by azimuth."""
+def part_of(box: Box, by_time: bool, j: int, share: float) -> Box:
+    """One of equal parts of a box, by time or by azimuth, each that ``share`` of it: a negative power of two."""
     theta, half, start, end = box
     if by_time:
-        return Box(theta, half, start + (end - start) * j / parts, start + (end - start) * (j + 1) / parts)
-    return Box(theta + half * ((2 * j + 1) / parts - 1.0), half / parts, start, end)
+        return Box(theta, half, start + (end - start) * j * share, start + (end - start) * (j + 1) * share)
+    return Box(theta + half * ((2 * j + 1) * share - 1.0), half * share, start, end)
 
 
 @kernel()
@@ -242,14 +222,14 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
     tangent = touches and kept[number, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):
         last = 2.0 * half * (gap - j * width)
-        low, high = smaller(bend_low, 0.0) * last, larger(bend_high, 0.0) * last
+        low, high = smaller(0.0, bend_low) * last, larger(0.0, bend_high) * last
         size = high - low
         for i in range(PIECES):
             weight = (i + 0.5 - j) * width * width
             one, other = weight * scratch[X_BEND_LOW + i], weight * scratch[X_BEND_HIGH + i]
-            low += smaller(one, other)
-            high += larger(one, other)
-            size += larger(abs(one), abs(other))
+            low += smaller_or_nan(one, other)
+            high += larger_or_nan(one, other)
+            size += larger_or_nan(abs(one), abs(other))
         if high < -SLACK * size or (touches and low > SLACK * size):
             return True, False
     if not tangent:
@@ -483,7 +463,7 @@ def search_edge(
     waiting = 0
     narrowest = math.inf
     ending = NARROWEST if is_refined(edge) else NARROWEST_IN_DOUBLES
-    n = set_initial_boxes(since, min(until, best + search.tie_tolerance), boxes)
+    n = drop_above(set_initial_boxes(since, min(until, best + search.tie_tolerance), boxes), edge, boxes)
     while n > 0:
         n = pad_boxes(n, boxes)
         evaluate_boxes(n, edge, boxes)
@@ -542,11 +522,12 @@ def add_parts(count: int, latest: float, boxes: Array, waiting: int, queue: Arra
     They are halves, or finer if none are waiting. Returns how many wait then.
     """
     parts = parts_for(count) if waiting == 0 else 2
+    share = 1.0 / parts
     for i in range(count):
         theta, half, start, end = box_at(i, boxes)
         box, by_time = Box(theta, half, start, min(end, latest)), boxes[X_BY_TIME + i] > 0.0
         for j in range(parts):
-            part = part_of(box, by_time, j, parts)
+            part = part_of(box, by_time, j, share)
             if part.start <= latest:
                 add(part, queue)
                 waiting += 1
@@ -580,7 +561,7 @@ def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, queue: 
     more than ``narrow`` (rad); UNDECIDED: too many boxes.
     """
     undecided = ROOM // 2
-    n = set_initial_boxes(0.0, 0.0, boxes)
+    n = drop_above(set_initial_boxes(0.0, 0.0, boxes), edge, boxes)
     for i in range(n):
         set_row(Box(boxes[X_THETA + i], boxes[X_HALF + i], 0.0, 0.0), i, queue)
     while n > 0:
@@ -608,9 +589,10 @@ def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, queue: 
         parts = parts_for(m)
         if m * parts > undecided:
             return UNDECIDED, 0.0
+        share = 1.0 / parts
         for i in range(m):
             box = row(undecided + i, queue)
             for j in range(parts):
-                set_row(part_of(box, False, j, parts), parts * i + j, queue)
+                set_row(part_of(box, False, j, share), parts * i + j, queue)
         n = m * parts
     return OUTSIDE, 0.0

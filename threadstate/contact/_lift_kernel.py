@@ -17,7 +17,7 @@ from threadstate._compile import kernel
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE, set_bounds
-from threadstate.contact._branchless_kernel import larger, smaller
+from threadstate.contact._branchless_kernel import larger, larger_or_nan, smaller_or_nan
 from threadstate.contact._corner_kernel import deepest_corner_point
 from threadstate.contact._edge_kernel import Edge, new_edge
 from threadstate.contact._edge_search_kernel import INSIDE, OUTSIDE, UNDECIDED, find_inside
@@ -98,15 +98,17 @@ def inside_until(
         phi, gx, gy, gz = phi_and_gradient(x, y, z, profile, sigma)
         rate = sign * (gx * vx + gy * vy + gz * vz)
         g, g_rate = -sigma * z, -sigma * sign * vz
-        known_depth = larger(phi, 0.0)
+        known_depth = larger(0.0, phi)
         step = known_depth / bounds[B_LIPSCHITZ]
         if second_derivative < math.inf:
             root = math.sqrt(rate * rate + 2.0 * second_derivative * known_depth)
-            step = larger(step, (rate + root) / second_derivative if rate >= 0.0 else 2.0 * known_depth / (root - rate))
+            step = larger_or_nan(
+                step, (rate + root) / second_derivative if rate >= 0.0 else 2.0 * known_depth / (root - rate)
+            )
         if g_rate < 0.0:
-            step = smaller(step, larger(g, 0.0) / -g_rate)
+            step = smaller_or_nan(step, larger(0.0, g) / -g_rate)
         elif g_rate > 0.0:
-            step = smaller(step, larger(profile[pk.P] - g, 0.0) / g_rate)
+            step = smaller_or_nan(step, larger(0.0, profile[pk.P] - g) / g_rate)
         if not step >= least_step:
             return reached
         reached += sign * min(step, left)

@@ -27,8 +27,10 @@ from threadstate.contact._branchless_kernel import (
     ProfileCourse,
     course_over,
     larger,
+    larger_or_nan,
     second_derivative_range,
     smaller,
+    smaller_or_nan,
 )
 from threadstate.contact._curve_point_kernel import CurvePoint, GPoint, PhiPoint, curve_at, g_at, phi_at
 from threadstate.contact._geometry_kernel import M_KIND, M_OFF, M_POINT, M_ROUNDED, TWO_PI
@@ -223,7 +225,7 @@ def changes_over(
     d_r1 = smaller(r2_bound * a, edge.dr_change)
     position_error = base_error + error_by_time * abs(tau)
     move = c1 * a + speed_bound * b + 2.0 * position_error
-    r_low = larger(middle.radius - move, 0.5 * r_minor)
+    r_low = larger(0.5 * r_minor, middle.radius - move)
     inverse_r = 1.0 / r_low
     k_r_bound = abs(k) * inverse_r
     azimuth_change = move * inverse_r
@@ -383,8 +385,12 @@ def variations(
 def product_range(low: float, high: float, other_low: float, other_high: float) -> tuple[float, float]:
     """The smallest and the largest product of two factors within these ranges; NaN of NaN."""
     return (
-        smaller(smaller(high * other_high, high * other_low), smaller(low * other_high, low * other_low)),
-        larger(larger(high * other_high, high * other_low), larger(low * other_high, low * other_low)),
+        smaller_or_nan(
+            smaller_or_nan(high * other_high, high * other_low), smaller_or_nan(low * other_high, low * other_low)
+        ),
+        larger_or_nan(
+            larger_or_nan(high * other_high, high * other_low), larger_or_nan(low * other_high, low * other_low)
+        ),
     )
 
 

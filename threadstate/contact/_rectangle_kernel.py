@@ -25,7 +25,7 @@ from threadstate.contact._bound_kernel import (
     set_bounds,
     sine_of_tilt,
 )
-from threadstate.contact._branchless_kernel import larger
+from threadstate.contact._branchless_kernel import larger, larger_or_nan
 from threadstate.contact._edge_search_kernel import OVERFLOW
 from threadstate.contact._entry_kernel import NEVER, THREAD, entry_time, half_space
 from threadstate.contact._geometry_kernel import (
@@ -110,7 +110,7 @@ def classify_rectangle(
         rate = gx * vx + gy * vy + gz * vz
         r2 = x * x + y * y
         r = math.sqrt(r2)
-        r_low = larger(r - extent, bounds[B_LEAST_RADIUS])
+        r_low = larger(bounds[B_LEAST_RADIUS], r - extent)
         s_mid = zz - k * math.atan2(y, x)
         s_h0 = abs(hzz - k * (x * hy - y * hx) / r2)
         s_z0 = abs(az - k * (x * ay - y * ax) / r2)
@@ -142,8 +142,8 @@ def classify_rectangle(
             minus_phi_zz_high = high * s_z * s_z - bolt_f2_low + side
             if attempt == 0:
                 spread = abs(a) * h + abs(b) * hs + 0.5 * phi_hh * h * h + phi_hz * h * hs
-                above = spread + 0.5 * larger(phi_zz_high, 0.0) * hs * hs
-                below = spread + 0.5 * larger(minus_phi_zz_high, 0.0) * hs * hs
+                above = spread + 0.5 * larger(0.0, phi_zz_high) * hs * hs
+                below = spread + 0.5 * larger(0.0, minus_phi_zz_high) * hs * hs
                 clearance = -value - above
                 if clearance <= 0.0:
                     clearance = value - below
@@ -159,7 +159,7 @@ def classify_rectangle(
                 if (rate + phi_ht * h + phi_zt * hs + 0.5 * phi_tt * span) * span <= clearance:
                     break
             elif abs(a) > phi_hh * h + phi_hz * hs + phi_ht * span or abs(b) > (
-                phi_hz * h + larger(phi_zz_high, minus_phi_zz_high) * hs + phi_zt * span
+                phi_hz * h + larger_or_nan(phi_zz_high, minus_phi_zz_high) * hs + phi_zt * span
             ):
                 break
             if attempt == 3:

@@ -2,9 +2,10 @@
 
 The parameters are ``Profile.packed``. Those of a half period, in its coordinate ``u``, are the boundaries
 flat | fillet | flank | fillet | flat and the cot of its flank: of the rising half from ``U_FLAT`` on, where ``u`` is
-``s``, and of the falling half ``FALLING`` numbers later, where ``u`` is ``p / 2 - s``. The halves part in the middle
-of the flats, at ``S_ROOT`` and ``S_CREST``. The ``LEAD`` is negative of a left-hand thread. The public interface is
-``threadstate.thread.profile``.
+``s``, and of the falling half ``FALLING`` numbers later, where ``u`` is ``p / 2 - s``. Between ``U_FAR_FLAT`` and
+``U_FAR_TOP`` nothing but the half's own f'' is met, between ``U_REACH_FLAT`` and ``U_REACH_TOP`` f' has no other sign.
+The halves part in the middle of the flats, at ``S_ROOT`` and ``S_CREST``. The ``LEAD`` is negative of a left-hand
+thread. The public interface is ``threadstate.thread.profile``.
 """
 
 from __future__ import annotations
@@ -20,9 +21,11 @@ Array = NDArray[np.float64]
 
 P, R_MINOR, R_PITCH, R_MAJOR, RHO_MINOR, RHO_MAJOR, LEAD, STEEPEST, S_ROOT, S_CREST = range(10)
 """``STEEPEST`` is the larger cot of the two flanks, the largest |f'|."""
-U_FLAT, U_FLANK, COT, U_CREST, U_TOP = range(10, 15)
-FALLING = 5
-PROFILE_SIZE = 20
+U_FLAT, U_FLANK, COT, U_CREST, U_TOP, U_FAR_FLAT, U_FAR_TOP, U_REACH_FLAT, U_REACH_TOP = range(10, 19)
+FALLING = 9
+F2_LEAST, F2_GREATEST = 28, 29
+"""The range of f'' over the whole profile: its ends are where the fillets meet the steeper flank."""
+PROFILE_SIZE = 30
 
 
 @kernel(inline="always")
@@ -91,39 +94,6 @@ def inverse(r: float, half: int, profile: Array) -> float:
 
 
 @kernel()
-def other_fillets(half: int, profile: Array) -> tuple[float, float]:
-    """From and up to which ``u`` of a half period nothing but its own f'' is met; infinite where both halves agree.
-
-    Past the middle of a flat the other half's fillet has the f'' of this one, as far from the flat, while both last.
-    """
-    other = FALLING - half
-    if profile[COT] == profile[COT + FALLING]:
-        return -math.inf, math.inf
-    depth = min(profile[U_FLANK] - profile[U_FLAT], profile[U_FLANK + FALLING] - profile[U_FLAT + FALLING])
-    height = min(profile[U_TOP] - profile[U_CREST], profile[U_TOP + FALLING] - profile[U_CREST + FALLING])
-    p = profile[P]
-    return -0.5 * p - profile[U_FLAT + other] - depth, 0.5 * p - profile[U_TOP + other] + height
-
-
-@kernel()
-def half_reach(half: int, profile: Array) -> tuple[float, float]:
-    """From and up to which ``u`` of a half period f' has no other sign than there: to where the other half's fillets
-    begin beyond the flats.
-    """
-    other = FALLING - half
-    return -0.5 * profile[P] - profile[U_FLAT + other], 0.5 * profile[P] - profile[U_TOP + other]
-
-
-@kernel()
-def second_derivative_limits(profile: Array) -> tuple[float, float]:
-    """Smallest and largest ``f''``: where the fillets meet the steeper flank."""
-    square = 1.0 + profile[STEEPEST] * profile[STEEPEST]
-    cube = square * math.sqrt(square)
-    high = cube / profile[RHO_MINOR] if profile[RHO_MINOR] > 0.0 else math.inf
-    return (-cube / profile[RHO_MAJOR] if profile[RHO_MAJOR] > 0.0 else -math.inf), high
-
-
-@kernel()
 def second_derivative_range(s: float, reach: float, profile: Array) -> tuple[float, float]:
     """Smallest and largest ``f''`` on [s - reach, s + reach]; on a fillet it grows in size towards the flank.
 
@@ -132,9 +102,8 @@ def second_derivative_range(s: float, reach: float, profile: Array) -> tuple[flo
     u, half = fold(s, profile)
     if not u - reach <= u + reach:
         return -math.inf, math.inf
-    far_flat, far_top = other_fillets(half, profile)
-    if u - reach < far_flat or u + reach > far_top:
-        return second_derivative_limits(profile)
+    if u - reach < profile[U_FAR_FLAT + half] or u + reach > profile[U_FAR_TOP + half]:
+        return profile[F2_LEAST], profile[F2_GREATEST]
     low = 0.0
     high = 0.0
     top = min(u + reach, profile[U_FLANK + half])

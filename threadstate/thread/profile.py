@@ -139,7 +139,7 @@ class Profile:
 
     @cached_property
     def packed(self) -> NDArray[np.float64]:
-        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (20,).
+        """The packed parameters that the kernels take, lengths in the pair's unit; read-only, shape (30,).
 
         A corner that is sharper than ``SHARPEST`` has that fillet.
         """
@@ -160,15 +160,29 @@ class Profile:
                 self.lead,
                 max(cots),
                 *self._ends(*halves),
-            ]
-            + [
-                number
-                for (flat, flank, crest, top), cot in zip(halves, cots, strict=True)
-                for number in (flat, flank, cot, crest, top)
+                *self._half_numbers(halves[0], halves[1], cots[0], cots[1]),
+                *self._half_numbers(halves[1], halves[0], cots[1], cots[0]),
+                *_second_derivative_limits(max(cots), minor_fillet, major_fillet),
             ]
         )
         packed.setflags(write=False)
         return packed
+
+    def _half_numbers(
+        self, half: tuple[float, ...], other: tuple[float, ...], cot: float, other_cot: float
+    ) -> tuple[float, ...]:
+        """Those of a half period: its boundaries and cot; then, by u, how far its own f'' and the sign of f' reach.
+
+        Past the middle of a flat the other half's fillet has the f'' of this one, as far from the flat, while both
+        last: without end where both flanks have one angle. f' changes its sign where the other half's fillets begin.
+        """
+        (flat, flank, crest, top), half_pitch = half, 0.5 * self.thread_pitch
+        reach_flat, reach_top = -half_pitch - other[0], half_pitch - other[3]
+        far_flat, far_top = -math.inf, math.inf
+        if cot != other_cot:
+            far_flat = reach_flat - min(flank - flat, other[1] - other[0])
+            far_top = reach_top + min(top - crest, other[3] - other[2])
+        return flat, flank, cot, crest, top, far_flat, far_top, reach_flat, reach_top
 
     def radius(self, s: float) -> float:
         """``f(s)``: the radius at axial position ``s`` (any finite number), in the pair's unit."""
@@ -214,6 +228,13 @@ def _corners(profile: Profile, half_angle: float) -> tuple[float, float]:
     low = (profile.minor_diameter - profile.pitch_diameter) / 2.0 * tangent
     high = (profile.major_diameter - profile.pitch_diameter) / 2.0 * tangent
     return low, high
+
+
+def _second_derivative_limits(steepest: float, minor_fillet: float, major_fillet: float) -> tuple[float, float]:
+    """Smallest and largest f'': where the fillets meet the steeper flank."""
+    square = 1.0 + steepest * steepest
+    cube = square * math.sqrt(square)
+    return -cube / major_fillet, cube / minor_fillet
 
 
 def _kernel() -> ModuleType:
