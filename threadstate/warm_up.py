@@ -6,12 +6,14 @@ With ``--serving`` only those that a service and its workers call: not those of 
 from __future__ import annotations
 
 import fcntl
+import gc
 import os
-import subprocess  # nosec B404
 import sys
 import time
 import traceback
+from collections.abc import Callable
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -42,8 +44,6 @@ LEVEL_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0))
 POSES_DEG = (*LEVEL_DEG, (-4.0, 0.0, 131.0))
 """Poses whose solution calls every kernel that is called from Python, in each way it is: with a tilted one, which calls
 all that the three stages may need."""
-
-COMPILE_LEVEL = "from threadstate.warm_up import compile_level; compile_level()"
 
 
 def kernels_are_compiled() -> bool:
@@ -79,15 +79,41 @@ def main(*, serving: bool = False) -> None:
     else:
         duration = "one to two minutes" if serving else "one to three minutes"
         print(f"Compiling the kernels into {_cache()}: once, {duration} ...", flush=True)
-        # What fails there is compiled here.
-        with subprocess.Popen([sys.executable, "-c", COMPILE_LEVEL]):  # nosec B603 - fixed code
-            compiling = [compile_halves(one) for one in kernels_ahead(serving=serving) if not is_cached(one.kernel)]
-            for process in compiling:
-                os.waitpid(process, 0)
+        wait_for([in_a_copy(compile_level), in_a_copy(partial(compile_tilted, serving=serving))])
     load_kernels()
     if not serving:
         load_turning()
     print(f"Kernels ready after {time.perf_counter() - start:.1f} s.", flush=True)
+
+
+def in_a_copy(compile_kernels: Callable[[], None]) -> int:
+    """Compile in a copy of this process, and return its number; what fails there is compiled where it is called first.
+
+    The copy looks for no garbage: there is little, and each look at all that numba has made takes a second.
+    """
+    process = os.fork()
+    if process == 0:
+        failed = 1
+        try:
+            gc.disable()
+            compile_kernels()
+            failed = 0
+        except Exception:
+            traceback.print_exc()
+        finally:
+            os._exit(failed)
+    return process
+
+
+def wait_for(copies: list[int]) -> None:
+    """Wait until these copies of the process have ended."""
+    for one in copies:
+        os.waitpid(one, 0)
+
+
+def compile_tilted(*, serving: bool) -> None:
+    """Compile what solves tilted poses, settles and, not for ``serving`` alone, turns bolts."""
+    wait_for([compile_halves(one) for one in kernels_ahead(serving=serving) if not is_cached(one.kernel)])
 
 
 def compile_halves(one: Ahead) -> int:
@@ -97,17 +123,7 @@ def compile_halves(one: Ahead) -> int:
     copy's number.
     """
     one.kernel.as_callee.compile(one.types)
-    process = os.fork()
-    if process == 0:
-        failed = 1
-        try:
-            one.kernel.compile(one.types)
-            failed = 0
-        except Exception:
-            traceback.print_exc()
-        finally:
-            os._exit(failed)
-    return process
+    return in_a_copy(partial(one.kernel.compile, one.types))
 
 
 def kernels_ahead(*, serving: bool) -> list[Ahead]:
