@@ -28,7 +28,7 @@ def proved_state(pair: Pair, pose: Pose, options: SolveOptions) -> ContactState:
     Raises:
         UnresolvedPoseError: boxes stay undecided.
     """
-    packed = np.zeros(4)
+    packed = np.zeros(sk.OPTIONS_SIZE)
     packed[sk.S_TURN_LIMIT] = math.radians(options.turn_limit_deg)
     packed[sk.S_TIE] = options.tie_tolerance * pair.thread_pitch
     packed[sk.S_CONVEX] = float(outline_is_convex(pair.bolt) and outline_is_convex(pair.nut))

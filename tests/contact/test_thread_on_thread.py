@@ -10,7 +10,7 @@ import pytest
 from oracle.state_turns import begins_at, turns_of
 from tests.contact.samples import Floats, random_poses
 from threadstate.contact import _record_kernel as record
-from threadstate.contact._solve_kernel import S_CONVEX, S_PROVE, S_TIE, S_TURN_LIMIT, solve_rows
+from threadstate.contact._solve_kernel import OPTIONS_SIZE, S_CONVEX, S_PROVE, S_TIE, S_TURN_LIMIT, solve_rows
 from threadstate.contact._stage_kernel import THREAD_EDGE, THREAD_THREAD
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
@@ -25,7 +25,7 @@ THIRD_PAIR = FIRST_PAIR + 2 * record.POINT_SIZE
 
 
 def rows(poses: Floats, *, rectangles: bool, turn_limit_deg: float = 4.0) -> Floats:
-    options = np.zeros(4)
+    options = np.zeros(OPTIONS_SIZE)
     options[S_TURN_LIMIT] = math.radians(turn_limit_deg)
     options[S_TIE] = 2e-11 * PAIR.thread_pitch
     options[S_CONVEX] = 1.0

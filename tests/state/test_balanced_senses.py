@@ -55,7 +55,7 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
     monkeypatch.setattr(sk, "third_stage", third_stage)
     for stage in ("solve_stages", "first_stage", "second_stage", "next_contact"):
         monkeypatch.setattr(sk, stage, getattr(sk, stage).py_func)
-    options = np.zeros(4)
+    options = np.zeros(sk.OPTIONS_SIZE)
     options[[sk.S_TURN_LIMIT, sk.S_TIE]] = math.radians(45.0), 1e-6 * PAIR.thread_pitch
     options[sk.S_CONVEX] = outline_is_convex(PAIR.bolt) and outline_is_convex(PAIR.nut)
     row = np.empty(rk.RECORD_SIZE)

@@ -51,9 +51,10 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 # Options of a solve: limit of a turn (rad), tolerance of a tie (length), whether both outlines are convex (1 or 0),
-# whether thread on thread is searched by branch and bound over rectangles (1) or along ridges (0).
-S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE = range(4)
-OPTIONS_SIZE = 4
+# whether thread on thread is searched by branch and bound over rectangles (1) or along ridges (0), and whether no more
+# than the first stage is wanted (1).
+S_TURN_LIMIT, S_TIE, S_CONVEX, S_PROVE, S_FIRST_ONLY = range(5)
+OPTIONS_SIZE = 5
 
 ROTATION_SIZE = 9
 """Numbers of a row of :func:`solve_rows` that is a rotation and not a pose."""
@@ -283,17 +284,24 @@ def solve_pose(
     work: Work,
     record: Array,
 ) -> None:
-    """Solves one tilted pose (angles in rad) into ``record``; see ``_record_kernel`` for its layout."""
+    """Solves one tilted pose (angles in rad) into ``record``; see ``_record_kernel`` for its layout.
+
+    Of the first stage alone the record has the bits that the whole one has: that of a bolt that is all but level is
+    whole, as later stages may want a smaller tolerance of ties.
+    """
     tie = options[S_TIE]
-    solve_stages(roll, pitch, phase, Scene(options, bolt, nut, tie), work, record)
     nearer = NEAR_TIE_SHARE * math.hypot(roll, pitch) * bolt[pk.R_MAJOR]
+    first_only = options[S_FIRST_ONLY] > 0.0 and nearer >= tie
+    solve_stages(roll, pitch, phase, first_only, Scene(options, bolt, nut, tie), work, record)
     if record[rk.O_STATUS] != RESOLVED and nearer < tie:
-        solve_stages(roll, pitch, phase, Scene(options, bolt, nut, nearer), work, record)
+        solve_stages(roll, pitch, phase, False, Scene(options, bolt, nut, nearer), work, record)
 
 
 @kernel(allocates=True)
-def solve_stages(roll: float, pitch: float, phase: float, scene: Scene, work: Work, record: Array) -> None:
-    """The stages of a pose into ``record``."""
+def solve_stages(
+    roll: float, pitch: float, phase: float, first_only: bool, scene: Scene, work: Work, record: Array
+) -> None:
+    """The stages of a pose, or the ``first_only``, into ``record``."""
     clear_record(record)
     course, bolt, nut = new_course(work), scene.bolt, scene.nut
     simultaneous = first_stage(roll, pitch, phase, scene, course)
@@ -303,6 +311,8 @@ def solve_stages(roll: float, pitch: float, phase: float, scene: Scene, work: Wo
     pose = np.empty(12)
     wide.round_numbers(course.pose, pose)
     append_stage(1, course.known[0], pose, bolt, nut, record)
+    if first_only:
+        return
     for i in range(3):
         wide.set_entry(course.point, i, wide.entry(course.first, refine.F_POINT + i))
     if simultaneous > 1:

@@ -29,7 +29,7 @@ from threadstate.history.codes import HEIGHT_JUMP, LabelCodes
 from threadstate.history.estimates import ChangeEstimates
 from threadstate.history.limits import fold_in
 from threadstate.history.model import CIRCLE_DEG
-from threadstate.history.records import Floats, Integers, RecordStore
+from threadstate.history.records import FirstContactStore, Floats, Integers, RecordStore
 from threadstate.history.roots import narrowed_root
 from threadstate.history.stretches import UNDECIDED_CODE, Samples
 from threadstate.state.options import SolveOptions
@@ -175,7 +175,7 @@ class _FirstContacts:
     def __init__(self, pair: Pair, roll: float, pitch: float, options: SolveOptions, store: RecordStore) -> None:
         self._pair = pair
         self._tilt = (roll, pitch)
-        self._store = store
+        self._first = FirstContactStore(pair, options, store)
         self._codes = LabelCodes(pair, options, store, first_contact_only=True)
         self._estimates = ChangeEstimates(pair, options, store, first_contact_only=True)
 
@@ -190,8 +190,11 @@ class _FirstContacts:
 
         brackets = brackets_of(changes_on_circles(sample, 1, CIRCLE_DEG, RESOLUTION, estimate), 0)
         if not brackets:
-            start = float(self.height(np.array([0.0]))[0])
-            return [] if np.isnan(start) else [(Gap(0.0, 0.0, start, start), 0.0, CIRCLE_DEG)]
+            at_zero = np.array([0.0])
+            if self._codes.samples(self._poses(at_zero)).codes[0] == UNDECIDED_CODE:
+                return []
+            start = float(self.height(at_zero)[0])
+            return [(Gap(0.0, 0.0, start, start), 0.0, CIRCLE_DEG)]
         events = _between_decided(brackets)
         ends = [*(event.low for event, _ in events[1:]), events[0][0].low + CIRCLE_DEG]
         turns = CIRCLE_DEG * (events[0][0].high // CIRCLE_DEG)
@@ -211,7 +214,7 @@ class _FirstContacts:
     def height(self, phases: Floats) -> Floats:
         """Heights; NaN where undecided."""
         records = self._records(phases)
-        return np.where(records[:, rk.O_STATUS] == 0.0, records[:, rk.O_POSE + 11], np.nan)
+        return np.where(records[:, rk.O_POSES] > 0.0, records[:, rk.O_POSE + 11], np.nan)
 
     def slope(self, phases: Floats) -> Floats:
         """Slopes of the height, per degree; NaN where undecided."""
@@ -220,7 +223,7 @@ class _FirstContacts:
         n_x, n_y, n_z = (records[:, rk.O_CONTACT + rk.P_NORMAL + i] for i in range(3))
         with np.errstate(divide="ignore", invalid="ignore"):
             found = np.radians((n_x * y - n_y * x) / n_z)
-        return np.where(records[:, rk.O_STATUS] == 0.0, found, np.nan)
+        return np.where(records[:, rk.O_POSES] > 0.0, found, np.nan)
 
     def _gap(self, event: Bracket, *, undecided: bool) -> Gap:
         sides = np.array([event.low, event.high])
@@ -245,4 +248,4 @@ class _FirstContacts:
         return np.column_stack([np.full((len(phases), 2), self._tilt), phases % CIRCLE_DEG])
 
     def _records(self, phases: Floats) -> Floats:
-        return self._store.records(self._poses(phases))
+        return self._first.records(self._poses(phases))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
+from collections.abc import MutableMapping
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,14 +23,14 @@ class RecordStore:
     def __init__(self, pair: Pair, options: SolveOptions) -> None:
         self._pair = pair
         self._options = options
-        self._rows: dict[bytes, Floats] = {}
+        self._rows: MutableMapping[bytes, Floats] = {}
 
     def records(self, poses_deg: Floats) -> Floats:
         """Records of shape (n, RECORD_SIZE) of valid poses of shape (n, 3)."""
         keys = _keys(poses_deg)
         new = {key: i for i, key in enumerate(keys) if key not in self._rows}
         if new:
-            found = solve_records(self._pair, self._options, poses_deg[list(new.values())])
+            found = self._solved(poses_deg[list(new.values())])
             if len(new) == len(keys):
                 self._rows.update(zip(keys, found, strict=True))
                 return found
@@ -36,6 +39,23 @@ class RecordStore:
         for i, key in enumerate(keys):
             records[i] = self._rows[key]
         return records
+
+    def _solved(self, poses_deg: Floats) -> Floats:
+        return solve_records(self._pair, self._options, poses_deg)
+
+
+class FirstContactStore(RecordStore):
+    """Records of which the first contact alone counts: whole ones where ``whole`` has them, else what is solved here.
+
+    A record has a first contact if it has a pose: whether later ones are undecided is no matter.
+    """
+
+    def __init__(self, pair: Pair, options: SolveOptions, whole: RecordStore) -> None:
+        super().__init__(pair, options)
+        self._rows = ChainMap({}, whole._rows)
+
+    def _solved(self, poses_deg: Floats) -> Floats:
+        return solve_records(self._pair, self._options, poses_deg, first_contact_only=True)
 
 
 def _keys(poses_deg: Floats) -> list[bytes]:
