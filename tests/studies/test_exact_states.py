@@ -14,8 +14,9 @@ from studies.certificate.exact import PRECISION, ExactState, UncoveredError, exa
 from studies.certificate.states import KINDS, QUANTITIES, Comparison, compared, errors, random_poses, row
 from tests.contact.samples import Floats
 from threadstate.contact import _record_kernel as rk
+from threadstate.contact._solve_kernel import solve_rows
 from threadstate.state.options import SolveOptions
-from threadstate.state.records import solve_records
+from threadstate.state.records import packed_options, solve_records
 from threadstate.thread.catalogue import pair_by_designation
 from threadstate.thread.pair import Pair
 
@@ -54,6 +55,20 @@ def test_check_values_of_the_method() -> None:
         (-0.003085933, -0.124432977, -0.003361432),
     ]
     np.testing.assert_allclose(points, expected, atol=1e-8)
+
+
+def test_edges_are_refined_from_a_doubtful_onset_on() -> None:
+    """Two edges cross at the end of the second turn, of 4 deg: sums of doubles tell that they touch, and when."""
+    pose_deg = np.array([4.0, -4.0, 22.5])
+    record = np.empty((1, rk.RECORD_SIZE))
+    both = UNC.bolt.packed, UNC.nut.packed
+    boxes = solve_rows(np.radians([pose_deg]), packed_options(UNC, SolveOptions()), *both, record)
+    exact = exact_state(UNC, pose_deg, record[0])
+    for turn, column in zip(exact.turns, (rk.O_LAMBDA, rk.O_MU), strict=True):
+        assert turn is not None
+        assert abs(float(turn - record[0, column])) < ROUND_OFF
+    # Refined from its beginning on the turn alone has 1,400.
+    assert boxes < 3000
 
 
 def test_a_bolt_that_comes_to_lie_flush_turns_by_its_tilt() -> None:

@@ -51,7 +51,9 @@ from threadstate.contact._onset_kernel import (
     TIME_SLACK,
     Candidate,
     insert_candidate,
+    jet_errors,
     newton_onset,
+    onset_step,
     rises,
     set_jet_beside,
 )
@@ -111,6 +113,9 @@ NARROWEST = 2.0**-51
 NARROWEST_IN_DOUBLES = 2.0**-36
 """Half-width (rad) of a box that ends a search in doubles: round-off hides what is in it. Refined edges tell it."""
 
+ROUND_OFF_BEFORE = 1024.0
+"""An onset is not earlier than its time by so many times what the error of that can be."""
+
 NEWTON_COST = 24
 """Cost of a failure of Newton's method in a narrow box, in evaluations of a box."""
 
@@ -118,9 +123,10 @@ OVERFLOW = -1
 
 OUTSIDE, INSIDE, UNDECIDED = range(3)
 
-# A list of entries of edges into open overlaps: in the first row their number, and the earliest time of an onset of
-# which it is doubtful if it is one; then time, azimuth and axial position on the bolt's thread.
-E_DOUBTFUL = 1
+# A list of entries of edges into open overlaps: in the first row their number, the earliest time of an onset of which
+# it is doubtful if it is one, and one before which no contact and no such onset is; then time, azimuth and axial
+# position on the bolt's thread.
+E_DOUBTFUL, E_NONE_BEFORE = 1, 2
 E_TIME, E_THETA, E_Z = range(3)
 ENTRY_SIZE = 3
 MAX_ENTRIES = 16
@@ -291,8 +297,8 @@ class EdgeSearch(NamedTuple):
         regions: in the first row how many were kept, and how many boxes were evaluated since that was zero; then boxes
             about onsets that are found, in which there is no other one, the latest ``MAX_REGIONS``: rows as the fields
             of ``Box``.
-        entries: onsets that are not contacts: there an edge enters an open overlap. Then the time of one of which
-            round-off hides if it is.
+        entries: onsets that are not contacts: there an edge enters an open overlap. In the first row the time of one
+            of which round-off hides if it is, and one before which there is neither such a one nor a contact.
         jet: scratch of an onset.
         wedge: scratch of a crossing.
     """
@@ -316,16 +322,21 @@ def list_onset(
 
     Returns the number found, and whether it ends the search.
     """
-    jet, wedge = search.jet, search.wedge
+    jet, wedge, entries = search.jet, search.wedge, search.entries
     set_jet_beside(t, tau, edge, jet)
     if not rises(box_class, jet) or contact_distance(t, edge.kept) < AZIMUTH_TOLERANCE:
         return count, False
+    errors = jet_errors(tau, edge)
+    _, _, _, _, tau_error = onset_step(box_class, jet, errors[0], errors[1])
+    not_before = tau - ROUND_OFF_BEFORE * tau_error
     crossing = crossing_of(box_class, t, tau, edge, jet, wedge)
     if box_class == ONE_EDGE and is_doubtful(t, tau, crossing, search.tie_tolerance, edge, jet, wedge):
-        search.entries[0, E_DOUBTFUL] = min(search.entries[0, E_DOUBTFUL], tau)
+        entries[0, E_DOUBTFUL] = min(entries[0, E_DOUBTFUL], tau)
+        entries[0, E_NONE_BEFORE] = min(entries[0, E_NONE_BEFORE], not_before)
     if not is_contact(box_class, t, tau, crossing, edge, jet, wedge):
-        insert_entry(tau, t, edge.motion, jet, search.entries)
+        insert_entry(tau, t, edge.motion, jet, entries)
         return count, search.any_onset
+    entries[0, E_NONE_BEFORE] = min(entries[0, E_NONE_BEFORE], not_before)
     if not is_listed(box_class, t, tau, edge, scratch, count, found):
         x, y, z = jet[J_X], jet[J_Y], jet[J_Z]
         count = insert_candidate(Candidate(tau, box_class, t, math.atan2(y, x), x, y, z), count, found)

@@ -19,6 +19,7 @@ from threadstate.contact._edge_kernel import Edge, new_edge
 from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
     E_DOUBTFUL,
+    E_NONE_BEFORE,
     E_TIME,
     ENTRY_SIZE,
     MAX_ENTRIES,
@@ -513,13 +514,13 @@ def search_threads(
 
 @kernel()
 def keep_entries(since: float, entries: Array) -> None:
-    """Keeps the entries before ``since`` alone, and forgets that one was doubtful."""
+    """Keeps the entries before ``since`` alone, and forgets that an onset was found or doubtful."""
     count = 0
     for i in range(1, 1 + int(entries[0, 0])):
         if 0.0 <= entries[i, E_TIME] < since:
             count += 1
             copy_numbers(entries[i], entries[count])
-    entries[0, 0], entries[0, E_DOUBTFUL] = count, math.inf
+    entries[0, 0], entries[0, E_DOUBTFUL], entries[0, E_NONE_BEFORE] = count, math.inf, math.inf
 
 
 @kernel()
@@ -549,7 +550,7 @@ def contacts_of_edges(
         since, limit, span, is_turn, bolt_edge, nut_edge, search, work
     )
     if status != RESOLVED or work.entries[0, E_DOUBTFUL] <= best + tie_tolerance:
-        return 0, UNRESOLVED, best, 0.0 if work.entries[0, E_DOUBTFUL] < math.inf else since
+        return 0, UNRESOLVED, best, max(min(since, work.entries[0, E_NONE_BEFORE]), 0.0)
     reach = min(limit, best + tie_tolerance)
     unexplained = not is_turn and best < limit
     if (bolt_count > 0 and work.bolt_found[0, C_TIME] <= best + tie_tolerance) or (
