@@ -78,3 +78,32 @@ def test_one_process_compiles_at_a_time(tmp_path: Path) -> None:
     turns = sorted(tuple(map(float, process.communicate()[0].split())) for process in running)
     assert [process.returncode for process in running] == [0, 0, 0]
     assert all(end <= begin for (_, end), (begin, _) in pairwise(turns))
+
+
+COMPILES_FOR_AN_HOUR = """
+import time
+from threadstate.warm_up import in_a_copy, wait_for
+
+def compile_for_an_hour():
+    inner = in_a_copy(lambda: time.sleep(3600.0))
+    print("compiling", flush=True)
+    wait_for([inner])
+
+wait_for([in_a_copy(compile_for_an_hour)])
+"""
+
+
+def test_copies_that_compile_end_with_the_process_that_wants_them() -> None:
+    """Killed, it can tell them nothing: the pipe that they have inherited ends with the last of them."""
+    with subprocess.Popen([sys.executable, "-c", COMPILES_FOR_AN_HOUR], stdout=subprocess.PIPE, text=True) as running:
+        assert running.stdout is not None
+        assert running.stdout.readline() == "compiling\n"
+        running.kill()
+        assert running.communicate(timeout=60.0)[0] == ""
+
+
+def test_a_copy_says_that_it_failed() -> None:
+    program = "from threadstate.warm_up import in_a_copy; import os; print(os.waitpid(in_a_copy(lambda: 1 / 0), 0)[1])"
+    run = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)
+    assert os.waitstatus_to_exitcode(int(run.stdout)) == 1
+    assert "ZeroDivisionError" in run.stderr

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
+from threading import Thread
 
 import numpy as np
 
@@ -44,6 +45,9 @@ LEVEL_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0))
 POSES_DEG = (*LEVEL_DEG, (-4.0, 0.0, 131.0))
 """Poses whose solution calls every kernel that is called from Python, in each way it is: with a tilted one, which calls
 all that the three stages may need."""
+
+LOOKS_S = 0.5
+"""How often a copy of the process looks whether it is wanted still."""
 
 
 def kernels_are_compiled() -> bool:
@@ -89,12 +93,15 @@ def main(*, serving: bool = False) -> None:
 def in_a_copy(compile_kernels: Callable[[], None]) -> int:
     """Compile in a copy of this process, and return its number; what fails there is compiled where it is called first.
 
-    The copy looks for no garbage: there is little, and each look at all that numba has made takes a second.
+    The copy looks for no garbage: there is little, and each look at all that numba has made takes a second. It ends
+    with this process, if that is killed meanwhile.
     """
+    original = os.getpid()
     process = os.fork()
     if process == 0:
         failed = 1
         try:
+            Thread(target=_end_with, args=(original,), daemon=True).start()
             gc.disable()
             compile_kernels()
             failed = 0
@@ -103,6 +110,13 @@ def in_a_copy(compile_kernels: Callable[[], None]) -> int:
         finally:
             os._exit(failed)
     return process
+
+
+def _end_with(process: int) -> None:
+    """End this process when the one that made it has ended."""
+    while os.getppid() == process:
+        time.sleep(LOOKS_S)
+    os._exit(1)
 
 
 def wait_for(copies: list[int]) -> None:
