@@ -29,7 +29,7 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats, *, first
 
     Their layout is that of ``threadstate.contact._record_kernel``. The same pose gives the same bits whatever the
     others are. With ``first_contact_only`` no more than the first contact counts and what follows it may be left out:
-    it takes a tenth of the time.
+    it takes an eighth of the time.
 
     Raises:
         InvalidValueError: the flanks of the pair are too flat, or its bolt has a chamfer.
