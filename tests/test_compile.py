@@ -144,6 +144,51 @@ except TypingError as error:
     print(*(line.split(" at ")[0] for line in str(error).splitlines() if line.startswith("During: typing")))
 """
 
+SCRATCH = """
+import numpy as np
+from numba.core.errors import TypingError
+from threadstate._compile import kernel
+from threadstate._scratch import scratch
+
+ROWS, COLUMNS = 3, 2
+
+@kernel()
+def fill(numbers, first):
+    for i in range(numbers.shape[0]):
+        for j in range(numbers.shape[1]):
+            numbers[i, j] = first + 10.0 * i + j
+
+@kernel()
+def below(first):
+    table = scratch(ROWS, COLUMNS)
+    fill(table, first)
+    return table[ROWS - 1, COLUMNS - 1]
+
+@kernel()
+def entry(first, out):
+    table, row, none = scratch(ROWS, COLUMNS), scratch(4), scratch(0, 5)
+    fill(table, first)
+    deeper = below(100.0)
+    for i in range(row.shape[0]):
+        row[i] = i
+    out[0], out[1], out[2] = table[2, 1], deeper, row[3]
+    return table.shape[0] + table.shape[1] + row.shape[0] + none.shape[0] + none.shape[1]
+
+@kernel()
+def of_any_size(rows):
+    return scratch(rows).shape[0]
+
+for one in (entry, entry.py_func):
+    out = np.zeros(3)
+    print(one(1.0, out), *out)
+try:
+    of_any_size(3)
+except TypingError as error:
+    print("scratch(int64)" in str(error))
+(code,) = entry.inspect_llvm().values()
+print("NRT" in code)
+"""
+
 AHEAD = """
 import sys
 from threadstate import warm_up
@@ -240,6 +285,28 @@ def test_a_copy_of_the_process_makes_the_machine_code(tmp_path: Path) -> None:
     assert made == ["0", "0", "4.0", "1"]
     assert (failed, compiled, value, hits) == ("1", "0", "5.0", "0")
     assert is_usual == "True"
+
+
+def test_scratch_is_on_the_stack_and_of_constant_size(tmp_path: Path) -> None:
+    """Of every call its own, the same as in plain Python, and no reference is counted."""
+    *numbers, says_so, counts = printed(SCRATCH, tmp_path)
+    assert numbers == 2 * ["14", "22.0", "121.0", "3.0"]
+    assert (says_so, counts) == ("True", "False")
+
+
+def test_no_kernel_returns_an_array_that_ends_with_its_call() -> None:
+    """One that makes scratch returns no array at all, and none is made anew of that of another."""
+    making, faults = 0, []
+    for path in sorted(Path("threadstate").rglob("_*_kernel.py")):
+        module = importlib.import_module(".".join(path.with_suffix("").parts))
+        for function in ast.parse(path.read_text()).body:
+            if isinstance(function, ast.FunctionDef) and decorators(function):
+                calls = [ast.unparse(node.func) for node in ast.walk(function) if isinstance(node, ast.Call)]
+                making += "scratch" in calls
+                if "scratch" in calls and returns_an_array(getattr(module, function.name)):
+                    faults.append(f"{path.name}: {function.name}")
+    assert making > 0
+    assert faults == []
 
 
 def test_an_error_says_what_was_compiled(tmp_path: Path) -> None:

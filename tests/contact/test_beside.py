@@ -14,11 +14,12 @@ from flint import arb
 
 from studies.certificate.cases import FORMS, Search, pair_of, random_search, state_searches
 from studies.certificate.motions import edge_motion
+from tests.contact.edges import new_edge, new_kept
 from threadstate.contact import _beside_kernel as beside
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _flank_kernel as flank
-from threadstate.contact._edge_kernel import Box, new_edge
+from threadstate.contact._edge_kernel import Box
 from threadstate.contact._geometry_kernel import PATH_SIZE, TWO_PI
 from threadstate.contact._initial_box_kernel import set_initial_boxes
 from threadstate.contact._range_kernel import error_beside, size_numbers
@@ -47,7 +48,7 @@ class Beside:
 
 
 def kept_contact(azimuth: float, *, on_plane: bool, on_thread: bool, tangent: bool) -> np.ndarray:
-    kept = beside.new_kept(1)
+    kept = new_kept(1)
     beside.keep(azimuth, on_plane, on_thread, kept)
     kept[0, beside.K_TANGENT] = 1.0 if tangent else 0.0
     return kept

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.contact.edges import new_edge, new_kept
 from tests.contact.samples import Floats, random_poses
 from tests.thread.shapes import BUTTRESS, TURNED_BUTTRESS
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _onset_kernel as onset
-from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._branchless_kernel import (
     azimuth,
     course_over,
@@ -22,7 +22,7 @@ from threadstate.contact._branchless_kernel import (
     sine_cosine,
     slope_change_limit,
 )
-from threadstate.contact._edge_kernel import Box, new_edge
+from threadstate.contact._edge_kernel import Box
 from threadstate.contact._edge_search_kernel import evaluate_box
 from threadstate.contact._frame_kernel import motion_numbers
 from threadstate.contact._geometry_kernel import M_COPLANAR, MOTION_SIZE, PATH_SIZE, TWO_PI

@@ -67,9 +67,9 @@ def test_more_contacts_at_once_than_there_is_room_for_are_unresolved(
     stage.rotation(0.05, 0.02, 1.0, pose)
     pose[11] = 0.01
     wanted = stage.Wanted(0.02, 1e-12, stage.RIDGES_ONLY)
-    count, found_status, _ = stage.earliest.py_func(
-        stage.way_down.py_func(pose), wanted, False, BOLT, NUT, stage.new_work(), out
-    )
+    down = np.array([0.0, 0.0, -1.0])
+    way_down = stage.Stage(pose, False, down, down, np.empty((0, 2)), np.empty((0, stage.CONTACT_SIZE)), 0)
+    count, found_status, _ = stage.earliest.py_func(way_down, wanted, False, BOLT, NUT, stage.new_work(), out)
     assert (count, found_status) == (stage.MAX_CONTACTS, status)
 
 

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
+from tests.contact.edges import new_edge, new_kept
 from tests.contact.samples import Floats
-from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._box_kernel import BOXES_SIZE, X_END, X_HALF, X_START, X_THETA
-from threadstate.contact._edge_kernel import Edge, new_edge
+from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._geometry_kernel import (
     M_SIGMA,
     MOTION_SIZE,

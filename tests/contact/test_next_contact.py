@@ -12,6 +12,7 @@ from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _solve_kernel as solve
 from threadstate.contact import _stage_kernel as stage
+from threadstate.contact._wide_kernel import WIDE_MOTION_SIZE
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import packed_options
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -47,7 +48,19 @@ def test_what_does_not_settle_is_searched_for_again_with_refined_edges(
 
     monkeypatch.setattr(solve, "earliest", search)
     monkeypatch.setattr(refine, "refine_contact", refined)
-    course = solve.new_course(stage.new_work())
+    poses, vectors, contacts = np.zeros((2, 12, 2)), np.zeros((2, 3, 2)), np.empty((2, refine.REFINED_SIZE, 2))
+    course = solve.Course(
+        pose=poses[0],
+        second=poses[1],
+        point=vectors[0],
+        axis=vectors[1],
+        motion=np.empty((WIDE_MOTION_SIZE, 2)),
+        first=contacts[0],
+        latest=contacts[1],
+        known=np.empty((2, stage.CONTACT_SIZE)),
+        found=np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE)),
+        work=stage.new_work(),
+    )
     course.axis[2, 0] = 1.0
     options = packed_options(PAIR, SolveOptions())
     scene = solve.Scene(options, PAIR.bolt.packed, PAIR.nut.packed, options[solve.S_TIE])

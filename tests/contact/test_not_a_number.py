@@ -8,13 +8,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from tests.contact.edges import new_edge, new_kept
 from tests.contact.samples import Floats
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _branchless_kernel as branchless
 from threadstate.contact import _rectangle_kernel as rectangle
-from threadstate.contact._beside_kernel import K_TANGENT, keep, new_kept
+from threadstate.contact._beside_kernel import K_TANGENT, keep
 from threadstate.contact._bound_kernel import BOUNDS_SIZE, set_bounds
-from threadstate.contact._edge_kernel import Box, new_edge
+from threadstate.contact._edge_kernel import Box
 from threadstate.contact._edge_search_kernel import no_onset_from_contact
 from threadstate.contact._entry_kernel import half_space
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE

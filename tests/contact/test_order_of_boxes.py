@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tests.contact.edges import new_edge, new_kept, refined_edges, wide_motion
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _onset_kernel as onset
@@ -16,10 +17,8 @@ from threadstate.contact import _queue_kernel as queues
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _solve_kernel as solve
 from threadstate.contact import _stage_kernel as stage
-from threadstate.contact._beside_kernel import new_kept
-from threadstate.contact._edge_kernel import Box, Edge, new_edge
-from threadstate.contact._refined_edge_kernel import is_refined, refined_edges
-from threadstate.contact._wide_kernel import wide_motion
+from threadstate.contact._edge_kernel import Box, Edge
+from threadstate.contact._refined_edge_kernel import is_refined
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.thread.catalogue import quarter_twenty_unc

@@ -11,6 +11,7 @@ from oracle import lift as oracle_lift
 from oracle.contact_rules import Touch, frame_gap, normal_faults, region_faults, surface_gaps
 from oracle.first_height import first_height
 from oracle.profile import bolt_profile, nut_profile, radius
+from tests.contact.edges import new_edge, new_kept
 from tests.contact.samples import Floats, PoseDeg
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _entry_kernel as entry
@@ -23,10 +24,9 @@ from threadstate.contact import _solve_kernel as solve
 from threadstate.contact import _stage_kernel as stage
 from threadstate.contact import _tangency_kernel as tangency
 from threadstate.contact import _wedge_kernel as wedges
-from threadstate.contact._beside_kernel import new_kept
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
-from threadstate.contact._edge_kernel import Box, new_edge
+from threadstate.contact._edge_kernel import Box
 from threadstate.contact._geometry_kernel import MOTION_SIZE, PATH_SIZE
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.decode import decoded_states

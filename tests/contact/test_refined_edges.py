@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from oracle.first_height import first_height
+from tests.contact.edges import new_edge, new_kept, refined_edges, wide_motion
 from tests.contact.samples import Floats, PoseDeg
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact import _refined_edge_kernel as refined
 from threadstate.contact import _stage_kernel as stage
 from threadstate.contact import _wedge_kernel as wedges
-from threadstate.contact import _wide_kernel as wide
-from threadstate.contact._beside_kernel import keep, new_kept
-from threadstate.contact._edge_kernel import Edge, new_edge
+from threadstate.contact._beside_kernel import keep
+from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._geometry_kernel import M_POINT, M_ROUNDED, MOTION_SIZE
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import quarter_twenty_unc
@@ -43,7 +43,7 @@ def edges(is_turn: bool = True) -> tuple[Edge, Edge]:
 def refined_pair(is_turn: bool = True) -> tuple[Edge, Edge]:
     """The same edges, refined."""
     bolt_edge, nut_edge = edges(is_turn)
-    return refined.refined_edges(bolt_edge, nut_edge, wide.wide_motion(bolt_edge.motion))
+    return refined_edges(bolt_edge, nut_edge, wide_motion(bolt_edge.motion))
 
 
 def exact(rows: Floats) -> list[Fraction]:

@@ -16,9 +16,9 @@ from studies.certificate.bounds import COMPILED, Claims, Kernels, claims
 from studies.certificate.cases import FORMS, STAGES, Box, Search, random_box, random_search
 from studies.certificate.placements import cross
 from studies.certificate.profiles import BallProfile, profile_half
+from tests.contact.edges import new_edge, new_kept
 from threadstate.contact import _refined_edge_kernel as refined
-from threadstate.contact._beside_kernel import new_kept
-from threadstate.contact._edge_kernel import Edge, new_edge
+from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._geometry_kernel import M_ROUNDED
 from threadstate.contact._wide_kernel import WIDE_MOTION_SIZE
 from threadstate.thread import _profile_kernel as pk
@@ -59,7 +59,7 @@ def refined_edge(one: Box) -> Edge:
     motion = search.motion.copy()
     motion[M_ROUNDED] = 1.0
     edge = new_edge(motion, search.curve.packed, search.solid.packed, new_kept(0))
-    return refined.with_motion(edge, wide)
+    return edge._replace(wide=wide)
 
 
 def refined_claims(one: Box) -> Claims:

@@ -32,15 +32,18 @@ Array = NDArray[np.float64]
 K_TANGENT = 1
 K_THETA, K_G, K_PHI = range(3)
 KEPT_SIZE = 3
+MOST_KEPT = 18
+KEPT_ROWS = 1 + MOST_KEPT
+"""Most contacts that are kept, and rows of a list with room for them."""
 
 BESIDE = 0.1
 """Distance (rad) from a contact up to which g and phi are taken as differences: farther they are no more exact."""
 
 
-@kernel(allocates=True)
-def new_kept(room: int) -> Array:
-    """An empty list with room for so many contacts."""
-    return np.zeros((1 + room, KEPT_SIZE))
+@kernel()
+def clear(kept: Array) -> None:
+    """Makes a list an empty one."""
+    kept[0, 0], kept[0, K_TANGENT] = 0.0, 0.0
 
 
 @kernel()

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._branchless_kernel import (
     Numbers,
     azimuth,
@@ -87,7 +88,7 @@ def set_depths(s: float, of_nut: bool, r: float, p: float, k: float, m: Numbers,
         depths[i] = smaller(smaller(sign * at_z, p - sign * at_z), sign * (surface - radius))
 
 
-@kernel(allocates=True)
+@kernel()
 def deepest_corner_point(placement: Array, bolt: Array, nut: Array) -> tuple[float, float, float]:
     """The greatest depth found along the corners of both crests, and its place (theta, z) on the bolt's thread.
 
@@ -96,7 +97,7 @@ def deepest_corner_point(placement: Array, bolt: Array, nut: Array) -> tuple[flo
     """
     p, k = bolt[pk.P], bolt[pk.LEAD] / TWO_PI
     m = placement_numbers(placement)
-    depths = np.empty(CORNER_SAMPLES)
+    depths = scratch(CORNER_SAMPLES)
     deepest, at_theta, at_z = -math.inf, 0.0, 0.0
     for part in range(2):
         of_nut = part == 1

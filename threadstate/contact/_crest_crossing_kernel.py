@@ -62,7 +62,12 @@ def helix(which: int, of_bolt: bool, profile: Array) -> float:
 
 @kernel()
 def set_crests(bolt: Array, crests: Array) -> None:
-    """Sets the points of the bolt's helices, all round and in its frame, in ``crests`` of ``CRESTS_ARRAY_SIZE``."""
+    """Sets the points of the bolt's helices, all round and in its frame, in ``crests`` of ``CRESTS_ARRAY_SIZE``.
+
+    All else in it is zero: what pads a helix is no point.
+    """
+    for i in range(crests.shape[0]):
+        crests[i] = 0.0
     p, k = bolt[pk.P], bolt[pk.LEAD] / TWO_PI
     for which in range(HELICES):
         s = helix(which, True, bolt)

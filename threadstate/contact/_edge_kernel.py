@@ -7,9 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import PATH_SIZE
-
 Array = NDArray[np.float64]
 
 
@@ -40,9 +37,3 @@ class Box(NamedTuple):
     half: float
     start: float
     end: float
-
-
-@kernel(allocates=True)
-def new_edge(motion: Array, curve: Array, solid: Array, kept: Array) -> Edge:
-    """An edge with scratch of its own."""
-    return Edge(motion, curve, solid, kept, np.empty(PATH_SIZE), kept[:0])

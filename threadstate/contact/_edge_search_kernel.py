@@ -97,8 +97,9 @@ MAX_BOXES = 16_000
 
 MAX_REGIONS = 8
 
+AT_ONCE = 8
 BATCH = 16
-"""So many boxes are evaluated at once: two vectors hide each other's latency."""
+"""So many boxes are evaluated at once: few, as those take about as long, and at the most."""
 
 SLENDER = 50.0
 """A box whose duration, over its half-width, is more than this is split by time: at a corner one of azimuth may leave
@@ -353,13 +354,13 @@ def keep_region(box_class: int, box: Box, t: float, tau: float, edge: Edge, sear
     scratch, regions = search.scratch, search.regions
     room = contact_distance(t, edge.kept)
     half, duration = box.half, box.end - box.start
-    for i in range(VECTOR_WIDTH):
+    for i in range(AT_ONCE):
         set_box_at(Box(t, half, tau - duration, tau + duration), i, scratch)
         half, duration = 2.0 * half, 2.0 * duration
-    evaluate_boxes(VECTOR_WIDTH, edge, scratch)
+    evaluate_boxes(AT_ONCE, edge, scratch)
     number = int(regions[0, 0])
     place = 1 + number % MAX_REGIONS
-    for i in range(VECTOR_WIDTH):
+    for i in range(AT_ONCE):
         if scratch[X_CLASS + i] != box_class or scratch[X_HALF + i] >= room:
             return
         regions[place, 0], regions[place, 1], regions[place, 2], regions[place, 3] = box_at(i, scratch)
@@ -476,8 +477,7 @@ def search_edge(
     ending = NARROWEST if is_refined(edge) else NARROWEST_IN_DOUBLES
     n = drop_above(set_initial_boxes(since, min(until, best + search.tie_tolerance), boxes), edge, boxes)
     while n > 0:
-        n = pad_boxes(n, boxes)
-        evaluate_boxes(n, edge, boxes)
+        evaluate_boxes(pad_boxes(n, boxes), edge, boxes)
         evaluated += n
         search.regions[0, 1] += n
         m = 0
@@ -507,7 +507,7 @@ def search_edge(
                 set_box_at(box, m, boxes)
                 boxes[X_BY_TIME + m] = 1.0 if by_time else 0.0
                 m += 1
-        if waiting + VECTOR_WIDTH * m > ROOM or evaluated > MAX_BOXES or narrowest < ending:
+        if waiting + AT_ONCE * m > ROOM or evaluated > MAX_BOXES or narrowest < ending:
             undecided = first(queue).start if waiting > 0 else until
             for i in range(m):
                 undecided = min(undecided, boxes[X_START + i])
@@ -519,9 +519,9 @@ def search_edge(
 
 @kernel()
 def parts_for(count: int) -> int:
-    """Into how many parts so many boxes are split: in halves, or finer while all fit into one vector."""
+    """Into how many parts so many boxes are split: in halves, or finer while all are ``AT_ONCE``."""
     parts = 2
-    while 0 < 2 * parts * count <= VECTOR_WIDTH:
+    while 0 < 2 * parts * count <= AT_ONCE:
         parts *= 2
     return parts
 

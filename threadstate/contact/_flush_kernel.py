@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
 OUTLINE_SAMPLES = 64
+OUTLINE_POINTS = OUTLINE_SAMPLES + 1
 
 # An extreme point: azimuth on the bolt, whether it lies on the nut's outline too (1.0 or 0.0), x, y.
 XP_THETA, XP_CORNER, XP_X, XP_Y = range(4)
@@ -78,7 +80,7 @@ def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array,
 @kernel()
 def set_outline_samples(pose: Array, bolt: Array, nut: Array, theta: Array, place: Array, over: Array) -> None:
     """Samples of the bolt's outline all around: azimuths, points with tangents, and how far they are over the nut."""
-    for i in range(OUTLINE_SAMPLES + 1):
+    for i in range(OUTLINE_POINTS):
         theta[i] = TWO_PI * i / OUTLINE_SAMPLES
         x, y, dx, dy = base_outline(theta[i], pose, bolt)
         place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
@@ -98,17 +100,15 @@ def set_corners(pose: Array, bolt: Array, nut: Array, theta: Array, over: Array,
     return count
 
 
-@kernel(allocates=True)
+@kernel()
 def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, out: Array) -> int:
     """The patch's farthest points across the axis (ax, ay) (left, then right) and along it (forth, then back).
 
     They are points of the bolt's outline: where it runs across the direction, or at a corner of the patch (where it
     crosses the nut's outline). Returns how many differ; 0 where the outlines do not overlap.
     """
-    theta = np.empty(OUTLINE_SAMPLES + 1)
-    over = np.empty(OUTLINE_SAMPLES + 1)
-    place = np.empty((OUTLINE_SAMPLES + 1, 4))
-    corners = np.empty((OUTLINE_SAMPLES, 3))
+    theta, over = scratch(OUTLINE_POINTS), scratch(OUTLINE_POINTS)
+    place, corners = scratch(OUTLINE_POINTS, 4), scratch(OUTLINE_SAMPLES, 3)
     set_outline_samples(pose, bolt, nut, theta, place, over)
     corner_count = set_corners(pose, bolt, nut, theta, over, corners)
     count = 0

@@ -14,16 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact import _ridge_kernel as ridge
-from threadstate.contact._beside_kernel import new_kept
+from threadstate.contact._beside_kernel import KEPT_ROWS, KEPT_SIZE, clear
 from threadstate.contact._bound_kernel import B_LIPSCHITZ, B_SECOND_DERIVATIVE, BOUNDS_SIZE, set_bounds
 from threadstate.contact._branchless_kernel import larger, larger_or_nan, smaller_or_nan
 from threadstate.contact._corner_kernel import deepest_corner_point
-from threadstate.contact._edge_kernel import Edge, new_edge
+from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._edge_search_kernel import INSIDE, OUTSIDE, UNDECIDED, find_inside
 from threadstate.contact._geometry_kernel import (
     M_SIGMA,
+    PATH_SIZE,
     TWO_PI,
+    copy_numbers,
     phi_and_gradient,
     position,
     set_path,
@@ -48,9 +51,8 @@ from threadstate.contact._stage_kernel import (
     UNRESOLVED,
     Wanted,
     Work,
-    earliest,
-    set_motions,
-    way_down,
+    earliest_below,
+    set_vertical_motions,
 )
 from threadstate.contact._surface_kernel import start_height
 from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, set_placement
@@ -159,23 +161,18 @@ def edge_point_inside_until(theta: float, high: float, edge: Edge, bounds: Array
     return inside_until(edge.path, 0.0, high, 1.0, edge.solid, edge.motion[M_SIGMA], bounds)
 
 
-@kernel(allocates=True)
-def edges_without_contacts(bolt: Array, nut: Array, work: Work) -> tuple[Edge, Edge]:
-    """The bolt's and the nut's edge by the motions of ``work``, without earlier contacts."""
-    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(0))
-    return bolt_edge, new_edge(work.nut_motion, nut, bolt, new_kept(0))
-
-
-@kernel(allocates=True)
+@kernel()
 def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array, work: Work) -> tuple[int, float]:
     """Whether a point overlaps at ``lift`` (INSIDE, OUTSIDE or UNDECIDED), and the lift up to which it does."""
-    bounds = np.empty(BOUNDS_SIZE)
-    bolt_edge, nut_edge = edges_without_contacts(bolt, nut, work)
-    raised = pose.copy()
-    raised[11] += lift
+    bounds = scratch(BOUNDS_SIZE)
+    kept, bolt_path, nut_path = scratch(KEPT_ROWS, KEPT_SIZE), scratch(PATH_SIZE), scratch(PATH_SIZE)
+    clear(kept)
+    bolt_edge = Edge(work.bolt_motion, bolt, nut, kept, bolt_path, scratch(0, 2))
+    nut_edge = Edge(work.nut_motion, nut, bolt, kept, nut_path, scratch(0, 2))
+    raised = scratch(12)
+    set_raised(pose, lift, raised)
     left = high - lift
-    up = np.array([0.0, 0.0, 1.0])
-    set_motions(raised, False, False, up, up, work.bolt_motion, work.nut_motion)
+    set_vertical_motions(raised, 1.0, work.bolt_motion, work.nut_motion)
     outcome, theta = find_inside(bolt_edge, WITNESS_DEPTH, WITNESS_HALF_WIDTH, work.boxes, work.queue)
     if outcome == INSIDE:
         return INSIDE, lift + edge_point_inside_until(theta, left, bolt_edge, bounds)
@@ -193,20 +190,26 @@ def find_witness(pose: Array, lift: float, high: float, bolt: Array, nut: Array,
     return INSIDE, lift + inside_until(path, 0.0, left, 1.0, nut, 1.0, bounds)
 
 
-@kernel(allocates=True)
+@kernel()
+def set_raised(pose: Array, lift: float, raised: Array) -> None:
+    """Sets a pose to another one that is higher."""
+    copy_numbers(pose, raised)
+    raised[11] += lift
+
+
+@kernel()
 def crests_overlap(pose: Array, lift: float, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether a crest is found inside the other part at ``lift``: its corner, or the bolt's lowest in the nut."""
     bolt_motion = work.bolt_motion
-    placement = np.empty(PLACEMENT_SIZE)
-    up = np.array([0.0, 0.0, 1.0])
-    set_motions(pose, False, False, up, up, bolt_motion, work.nut_motion)
+    placement = scratch(PLACEMENT_SIZE)
+    set_vertical_motions(pose, 1.0, bolt_motion, work.nut_motion)
     set_placement(bolt_motion, lift, placement)
     depth, _, _ = deepest_corner_point(placement, bolt, nut)
     lowest_depth, _, _ = deepest_lowest_point(placement, bolt, nut)
     return max(depth, lowest_depth) > WITNESS_DEPTH * bolt[pk.P]
 
 
-@kernel(allocates=True)
+@kernel()
 def contact_below(
     pose: Array,
     lift: float,
@@ -221,10 +224,10 @@ def contact_below(
 
     Returns how many contacts are ``found``, that lift (``lift - reach``: none) and a status.
     """
-    raised = pose.copy()
-    raised[11] += lift
+    raised = scratch(12)
+    set_raised(pose, lift, raised)
     wanted = Wanted(reach, tie_tolerance, RIDGES_ONLY)
-    count, status, best = earliest(way_down(raised), wanted, False, bolt, nut, work, found)
+    count, status, best = earliest_below(raised, wanted, bolt, nut, work, found)
     first = min(best, found[0, K_TIME]) if count > 0 else best
     return count, lift - min(first, reach), status
 
@@ -248,7 +251,7 @@ def least_lift(
     return climb_witnesses(pose, above, height, height, height, tie_tolerance, bolt, nut, work, found)
 
 
-@kernel(allocates=True)
+@kernel()
 def lift_to_last_touch(
     pose: Array,
     height: float,
@@ -264,10 +267,12 @@ def lift_to_last_touch(
         return 0.0, status
     proved_from = last
     if count > 0 and height - found[0, K_TIME] >= last:
-        up = np.array([0.0, 0.0, 1.0])
-        set_motions(pose, False, False, up, up, work.bolt_motion, work.nut_motion)
-        bolt_edge, nut_edge = edges_without_contacts(bolt, nut, work)
-        proved_from = contact_overlaps_from(found[0], last, bolt_edge, nut_edge, np.empty(BOUNDS_SIZE))
+        set_vertical_motions(pose, 1.0, work.bolt_motion, work.nut_motion)
+        kept, path, bounds = scratch(KEPT_ROWS, KEPT_SIZE), scratch(PATH_SIZE), scratch(BOUNDS_SIZE)
+        clear(kept)
+        bolt_edge = Edge(work.bolt_motion, bolt, nut, kept, path, scratch(0, 2))
+        nut_edge = Edge(work.nut_motion, nut, bolt, kept, path, scratch(0, 2))
+        proved_from = contact_overlaps_from(found[0], last, bolt_edge, nut_edge, bounds)
     if proved_from <= 0.0 or status != RESOLVED:
         return last, status
     return climb_witnesses(pose, 0.0, proved_from, last, height, tie_tolerance, bolt, nut, work, found)

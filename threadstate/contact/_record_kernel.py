@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import TWO_PI, edge_point, phi_and_gradient
+from threadstate._scratch import scratch
+from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point, phi_and_gradient
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
+    CONTACT_SIZE,
     EDGE_EDGE,
     EDGE_SURFACE,
     EDGE_THREAD,
@@ -207,14 +209,15 @@ def append_flush_point(
     record[O_CONTACTS] = n + 1
 
 
-@kernel(allocates=True)
+@kernel()
 def append_strip_corner(contact: Array, pose: Array, bolt: Array, nut: Array, record: Array) -> None:
     """Appends a corner of the strip of flank on which a level bolt rests, as a contact of the first stage.
 
     The flank of one part ends there, so that round-off would decide its region: both regions are set to the flank.
     """
     n = int(record[O_CONTACTS])
-    strip = contact.copy()
+    strip = scratch(CONTACT_SIZE)
+    copy_numbers(contact, strip)
     strip[K_PAIR] = THREAD_THREAD
     append_contact(1, strip, pose, bolt, nut, record)
     c = record[O_CONTACT + POINT_SIZE * n : O_CONTACT + POINT_SIZE * (n + 1)]

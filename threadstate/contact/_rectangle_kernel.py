@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._bound_kernel import (
     B_CURVE_DERIVATIVE,
     B_LEAST_RADIUS,
@@ -221,22 +222,22 @@ def set_first_rectangles(
     return count, evaluated
 
 
-@kernel(allocates=True)
+@kernel()
 def tangencies(motion: Array, bolt: Array, nut: Array, limit: float, rects: Array, found: Array) -> tuple[int, int]:
     """All contacts of thread with thread before ``limit``, earliest first, and the number of rectangles evaluated.
 
     ``motion`` is the bolt's, seen from the nut.
     """
-    bounds = np.empty(BOUNDS_SIZE)
-    path = np.empty(PATH_SIZE)
-    placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(TANGENCY_JET_SIZE)
+    bounds = scratch(BOUNDS_SIZE)
+    path = scratch(PATH_SIZE)
+    placement = scratch(PLACEMENT_SIZE)
+    jet = scratch(TANGENCY_JET_SIZE)
     set_bounds(motion, bolt, nut, bounds)
     p = bolt[pk.P]
     count = 0
     best = limit
     depth, evaluated = set_first_rectangles(limit, motion, bolt, nut, bounds, path, rects)
-    parent = np.empty(RECTANGLE_SIZE)
+    parent = scratch(RECTANGLE_SIZE)
     while depth > 0:
         depth -= 1
         for j in range(RECTANGLE_SIZE):

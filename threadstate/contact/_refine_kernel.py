@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact import _tangency_kernel as tk
-from threadstate.contact._beside_kernel import new_kept
+from threadstate.contact._beside_kernel import KEPT_ROWS, KEPT_SIZE, clear
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._double_double_kernel import (
     Pair,
@@ -31,9 +32,10 @@ from threadstate.contact._double_double_kernel import (
     square_root,
     subtract,
 )
-from threadstate.contact._edge_kernel import Edge, new_edge
-from threadstate.contact._geometry_kernel import M_SIGMA, MOTION_SIZE, motion_scale
-from threadstate.contact._refined_edge_kernel import refined_edges
+from threadstate.contact._edge_kernel import Edge
+from threadstate.contact._geometry_kernel import M_SIGMA, MOTION_SIZE, PATH_SIZE, motion_scale
+from threadstate.contact._onset_kernel import JET_SIZE
+from threadstate.contact._refined_edge_kernel import set_refined_motions
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     EDGE_EDGE,
@@ -51,6 +53,7 @@ from threadstate.contact._stage_kernel import (
     THREAD_THREAD,
     set_motions,
 )
+from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, TANGENCY_JET_SIZE
 from threadstate.contact._wide_kernel import (
     POSE_SIZE,
     WIDE_MOTION_SIZE,
@@ -176,7 +179,7 @@ def set_unrefined(contact: Array, pose: Array, refined: Array) -> None:
         set_entry(refined, F_AXIAL, rotated_back(pose, x)[2])
 
 
-@kernel(allocates=True)
+@kernel()
 def refine_edge(
     pair: int,
     is_turn: bool,
@@ -194,7 +197,7 @@ def refine_edge(
     sigma = edge.motion[M_SIGMA]
     bolt, nut = (edge.curve, edge.solid) if sigma > 0.0 else (edge.solid, edge.curve)
     kind = ONE_EDGE if pair == EDGE_EDGE else (ONE_THREAD if pair == EDGE_THREAD or pair == THREAD_EDGE else ONE_PLANE)
-    jet = np.empty(onset.JET_SIZE)
+    jet = scratch(JET_SIZE)
     unit = motion_scale(edge.motion, bolt)
     theta, time = entry(refined, F_THETA), entry(refined, F_TIME)
     start, since = theta[0], time[0]
@@ -215,7 +218,7 @@ def refine_edge(
     return False
 
 
-@kernel(allocates=True)
+@kernel()
 def refine_thread(
     is_turn: bool,
     pose: Array,
@@ -228,7 +231,7 @@ def refine_thread(
     refined: Array,
 ) -> bool:
     """The same where thread meets thread."""
-    placement, jet = np.empty(tk.PLACEMENT_SIZE), np.empty(tk.TANGENCY_JET_SIZE)
+    placement, jet = scratch(PLACEMENT_SIZE), scratch(TANGENCY_JET_SIZE)
     unit = motion_scale(motion, bolt)
     theta, z, time = entry(refined, F_THETA), entry(refined, F_AXIAL), entry(refined, F_TIME)
     start, from_z, since = theta[0], z[0], time[0]
@@ -257,7 +260,7 @@ def refine_thread(
     return False
 
 
-@kernel(allocates=True)
+@kernel()
 def refine_found(
     is_turn: bool,
     pose: Array,
@@ -275,23 +278,26 @@ def refine_found(
     no two digits.
     """
     pair = int(contact[K_PAIR])
-    start, centre, direction = np.empty(POSE_SIZE), np.empty(3), np.empty(3)
+    start, centre, direction = scratch(POSE_SIZE), scratch(3), scratch(3)
     round_numbers(pose, start)
     round_numbers(point, centre)
     round_numbers(axis, direction)
-    bolt_motion, nut_motion = np.empty(MOTION_SIZE), np.empty(MOTION_SIZE)
+    bolt_motion, nut_motion = scratch(MOTION_SIZE), scratch(MOTION_SIZE)
     set_motions(start, is_turn, False, centre, direction, bolt_motion, nut_motion)
     if pair == THREAD_THREAD:
         return refine_thread(is_turn, pose, point, axis, bolt_motion, bolt, nut, moved, refined)
-    bolt_edge = new_edge(bolt_motion, bolt, nut, new_kept(0))
-    nut_edge = new_edge(nut_motion, nut, bolt, new_kept(0))
+    kept, path, exact = scratch(KEPT_ROWS, KEPT_SIZE), scratch(PATH_SIZE), scratch(WIDE_MOTION_SIZE, 2)
+    clear(kept)
     on_nut = pair == BASE_EDGE or pair == THREAD_EDGE
-    if refine_edge(pair, is_turn, pose, point, axis, nut_edge if on_nut else bolt_edge, moved, refined):
+    motion, curve, solid = (nut_motion, nut, bolt) if on_nut else (bolt_motion, bolt, nut)
+    edge = Edge(motion, curve, solid, kept, path, scratch(0, 2))
+    if refine_edge(pair, is_turn, pose, point, axis, edge, moved, refined):
         return True
-    exact = np.empty((WIDE_MOTION_SIZE, 2))
+    bolt_wide, nut_wide = scratch(WIDE_MOTION_SIZE, 2), scratch(WIDE_MOTION_SIZE, 2)
     set_motion(pose, point, axis, exact)
-    bolt_edge, nut_edge = refined_edges(bolt_edge, nut_edge, exact)
-    return refine_edge(pair, is_turn, pose, point, axis, nut_edge if on_nut else bolt_edge, moved, refined)
+    set_refined_motions(exact, bolt_motion, nut_motion, bolt_wide, nut_wide)
+    edge = Edge(motion, curve, solid, kept, path, nut_wide if on_nut else bolt_wide)
+    return refine_edge(pair, is_turn, pose, point, axis, edge, moved, refined)
 
 
 @kernel()

@@ -38,11 +38,11 @@ from threadstate.contact._wide_kernel import (
     advance,
     arm_turned,
     cross,
-    inverse_motion,
-    nearest_motion,
     plus,
     product_sum,
     radius_and_slope,
+    set_inverse_motion,
+    set_nearest_motion,
     times,
     vector_at,
 )
@@ -57,18 +57,12 @@ residuals, and far more than what the sums round off."""
 NOWHERE: Vector = (ZERO, ZERO, ZERO)
 
 
-@kernel(allocates=True)
-def refined_edges(bolt_edge: Edge, nut_edge: Edge, wide: Array) -> tuple[Edge, Edge]:
-    """Both edges with the bolt's motion in sums of two doubles: that is meant, and their numbers are rounded."""
-    bolt_edge.motion[M_ROUNDED] = nut_edge.motion[M_ROUNDED] = 1.0
-    nearest = nearest_motion(wide)
-    return with_motion(bolt_edge, nearest), with_motion(nut_edge, inverse_motion(nearest))
-
-
-@kernel(allocates=True)
-def with_motion(edge: Edge, wide: Array) -> Edge:
-    """An edge with its motion in sums of two doubles."""
-    return Edge(edge.motion, edge.curve, edge.solid, edge.kept, edge.path, wide)
+@kernel()
+def set_refined_motions(wide: Array, bolt_motion: Array, nut_motion: Array, bolt_wide: Array, nut_wide: Array) -> None:
+    """Sets both edges' motions in sums of two doubles from the bolt's: that is meant, and their numbers are rounded."""
+    bolt_motion[M_ROUNDED] = nut_motion[M_ROUNDED] = 1.0
+    set_nearest_motion(wide, bolt_wide)
+    set_inverse_motion(bolt_wide, nut_wide)
 
 
 @kernel(forceinline=True)

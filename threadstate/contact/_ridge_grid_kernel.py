@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import VECTOR_WIDTH, profile_numbers, radius_and_slope
+from threadstate.contact._branchless_kernel import profile_numbers, radius_and_slope
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._slope_kernel import placement_numbers, slopes
 from threadstate.contact._tangency_kernel import PLACEMENT_OFF, PLACEMENT_ROT
@@ -22,9 +22,11 @@ from threadstate.thread import _profile_kernel as pk
 Array = NDArray[np.float64]
 
 MAX_AZIMUTHS = 64
+AROUND = 8
 MAX_PIECES = 16
-BLOCK_SIZE = 2 * MAX_AZIMUTHS + VECTOR_WIDTH
-"""Distance between blocks: the columns go round more than twice, so that every arc of columns is contiguous."""
+BLOCK_SIZE = 2 * MAX_AZIMUTHS + AROUND
+"""Distance between blocks: the columns go round more than twice, so that every arc of columns is contiguous. From so
+many columns around those after them are computed, one from the other."""
 
 # Blocks of the grid: the columns' cosines and sines, the base's radius there, the z at which the nut's surface is
 # reached; then B, row after row.
@@ -37,7 +39,7 @@ GRID_SIZE = G_B + (MAX_PIECES + 1) * BLOCK_SIZE
 
 MAX_RIDGES = 4
 """Most ridges searched for on one azimuth."""
-BATCH = 2 * VECTOR_WIDTH
+BATCH = 16
 """Crossings are located in batches of this size: two vectors hide each other's latency."""
 MAX_CROSSINGS = MAX_RIDGES * (MAX_AZIMUTHS + 1) + BATCH
 
@@ -69,15 +71,15 @@ LEAST_TILT_COSINE = 0.1
 def set_columns(azimuths: int, bolt: Array, grid: Array) -> None:
     """Cosines, sines and radii of the base of all columns, ``TWO_PI / azimuths`` apart."""
     step = TWO_PI / azimuths
-    for j in range(VECTOR_WIDTH):
+    for j in range(AROUND):
         grid[G_COS + j] = math.cos(step * j)
         grid[G_SIN + j] = math.sin(step * j)
-    c = math.cos(step * VECTOR_WIDTH)
-    s = math.sin(step * VECTOR_WIDTH)
-    columns = 2 * azimuths + VECTOR_WIDTH
-    for j in range(VECTOR_WIDTH, columns):
-        x = grid[G_COS + j - VECTOR_WIDTH]
-        y = grid[G_SIN + j - VECTOR_WIDTH]
+    c = math.cos(step * AROUND)
+    s = math.sin(step * AROUND)
+    columns = 2 * azimuths + AROUND
+    for j in range(AROUND, columns):
+        x = grid[G_COS + j - AROUND]
+        y = grid[G_SIN + j - AROUND]
         grid[G_COS + j] = x * c - y * s
         grid[G_SIN + j] = x * s + y * c
     advance = bolt[pk.LEAD] / azimuths

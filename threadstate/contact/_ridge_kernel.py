@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._branchless_kernel import VECTOR_WIDTH
 from threadstate.contact._corner_kernel import deepest_corner_point
 from threadstate.contact._crest_crossing_kernel import CRESTS_ARRAY_SIZE, MAX_SEEDS, crest_crossings, set_crests
@@ -359,7 +360,7 @@ def ridge_maxima(
     return places
 
 
-@kernel(allocates=True)
+@kernel()
 def deepest_thread_point(
     motion: Array, shallow: float, azimuths: int, bolt: Array, nut: Array
 ) -> tuple[bool, float, float, float]:
@@ -369,11 +370,11 @@ def deepest_thread_point(
     points of the whole thread; and last the corners of both crests, at which overlaps are narrow, and the lowest points
     of a thread that is tilted by more than its flanks.
     """
-    grid = np.empty(GRID_SIZE)
-    placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(TANGENCY_JET_SIZE)
-    crossings = np.empty(CROSSINGS_SIZE)
-    maxima = np.empty((MAX_CROSSINGS, 2))
+    grid = scratch(GRID_SIZE)
+    placement = scratch(PLACEMENT_SIZE)
+    jet = scratch(TANGENCY_JET_SIZE)
+    crossings = scratch(CROSSINGS_SIZE)
+    maxima = scratch(MAX_CROSSINGS, 2)
     set_columns(azimuths, bolt, grid)
     set_placement(motion, 0.0, placement)
     p = bolt[pk.P]
@@ -439,7 +440,7 @@ def ridge_contacts(motion: Array, bolt: Array, nut: Array, limit: float, azimuth
     return count
 
 
-@kernel(allocates=True)
+@kernel()
 def contacts_at_crossings(
     start: float,
     end: float,
@@ -452,11 +453,11 @@ def contacts_at_crossings(
     count: int,
 ) -> int:
     """Adds the contacts that crossings of crests lead to at so many equally spaced instants, the last at ``end``."""
-    placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(TANGENCY_JET_SIZE)
-    later_placement = np.empty(PLACEMENT_SIZE)
-    seeds = np.empty((MAX_SEEDS, 2))
-    crests = np.zeros(CRESTS_ARRAY_SIZE)
+    placement = scratch(PLACEMENT_SIZE)
+    jet = scratch(TANGENCY_JET_SIZE)
+    later_placement = scratch(PLACEMENT_SIZE)
+    seeds = scratch(MAX_SEEDS, 2)
+    crests = scratch(CRESTS_ARRAY_SIZE)
     set_crests(bolt, crests)
     near, soon = CROSSING_NEAR * bolt[pk.P], CROSSING_RANGE * motion_scale(motion, bolt)
     for i in range(instants):
@@ -472,7 +473,7 @@ def contacts_at_crossings(
     return count
 
 
-@kernel(allocates=True)
+@kernel()
 def contacts_at_instants(
     end: float,
     instants: int,
@@ -485,12 +486,12 @@ def contacts_at_instants(
     count: int,
 ) -> int:
     """Adds the contacts that maxima lead to at so many equally spaced instants, the last at ``end``."""
-    grid = np.empty(GRID_SIZE)
-    placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(TANGENCY_JET_SIZE)
-    later_placement = np.empty(PLACEMENT_SIZE)
-    crossings = np.empty(CROSSINGS_SIZE)
-    maxima = np.empty((MAX_CROSSINGS, 2))
+    grid = scratch(GRID_SIZE)
+    placement = scratch(PLACEMENT_SIZE)
+    jet = scratch(TANGENCY_JET_SIZE)
+    later_placement = scratch(PLACEMENT_SIZE)
+    crossings = scratch(CROSSINGS_SIZE)
+    maxima = scratch(MAX_CROSSINGS, 2)
     set_columns(azimuths, bolt, grid)
     for i in range(instants):
         tau = end * (i + 1) / instants
@@ -503,7 +504,7 @@ def contacts_at_instants(
     return count
 
 
-@kernel(allocates=True)
+@kernel()
 def contacts_behind_entries(
     entries: Array, limit: float, motion: Array, bolt: Array, nut: Array, found: Array, count: int
 ) -> int:
@@ -512,9 +513,9 @@ def contacts_behind_entries(
     Where the onset of an edge is not a contact, an overlap of the threads is open beside it: its deepest point is
     followed to the time at which it began. One that has grown from an earlier contact leads to no new one.
     """
-    placement = np.empty(PLACEMENT_SIZE)
-    later_placement = np.empty(PLACEMENT_SIZE)
-    jet = np.empty(TANGENCY_JET_SIZE)
+    placement = scratch(PLACEMENT_SIZE)
+    later_placement = scratch(PLACEMENT_SIZE)
+    jet = scratch(TANGENCY_JET_SIZE)
     for i in range(1, int(entries[0, 0]) + 1):
         tau = entries[i, E_TIME]
         if tau > limit:

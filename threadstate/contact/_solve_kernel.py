@@ -9,12 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact import _flush_kernel as fk
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _wide_kernel as wide
+from threadstate.contact._beside_kernel import MOST_KEPT
+from threadstate.contact._flush_kernel import EXTREME_SIZE
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
 from threadstate.contact._lift_kernel import RETRY_OFFSET, crests_overlap, least_lift
+from threadstate.contact._record_kernel import RECORD_SIZE
+from threadstate.contact._refine_kernel import REFINED_SIZE
 from threadstate.contact._stage_kernel import (
     BASE_EDGE,
     CONTACT_SIZE,
@@ -39,13 +44,14 @@ from threadstate.contact._stage_kernel import (
     Wanted,
     Work,
     earliest,
+    earliest_below,
     edges_overlap,
     new_work,
     rotation,
     turned,
-    way_down,
 )
 from threadstate.contact._surface_kernel import meets_surface_first, start_height
+from threadstate.contact._wide_kernel import WIDE_MOTION_SIZE
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -113,7 +119,7 @@ def turn_to_flush(pose: Array, axis: Array) -> float:
     return math.atan2(axis[0] * ny - axis[1] * nx, nz)
 
 
-@kernel(allocates=True)
+@kernel()
 def append_flush_pose(
     stage: int,
     pose: Array,
@@ -126,7 +132,7 @@ def append_flush_pose(
     record: Array,
 ) -> bool:
     """Appends the flush pose and the extreme points of its patch; False if the outlines do not overlap."""
-    level = np.empty(12)
+    level = scratch(12)
     turned(pose, point, axis, tau, level)
     # The base is level now: what differs from that is round-off.
     for i in (2, 5, 6, 7):
@@ -225,23 +231,6 @@ class Course(NamedTuple):
     work: Work
 
 
-@kernel(allocates=True)
-def new_course(work: Work) -> Course:
-    """A course with arrays of its own."""
-    return Course(
-        np.empty((12, 2)),
-        np.empty((12, 2)),
-        np.zeros((3, 2)),
-        np.zeros((3, 2)),
-        np.empty((wide.WIDE_MOTION_SIZE, 2)),
-        np.empty((refine.REFINED_SIZE, 2)),
-        np.empty((refine.REFINED_SIZE, 2)),
-        np.empty((2, CONTACT_SIZE)),
-        np.empty((MAX_CONTACTS, CONTACT_SIZE)),
-        work,
-    )
-
-
 @kernel()
 def thread_search_of(scene: Scene) -> int:
     """How thread on thread is searched."""
@@ -273,7 +262,7 @@ def drop_found(dropped: int, simultaneous: int, found: Array) -> int:
     return simultaneous - dropped
 
 
-@kernel(allocates=True)
+@kernel()
 def solve_pose(
     roll: float,
     pitch: float,
@@ -297,18 +286,30 @@ def solve_pose(
         solve_stages(roll, pitch, phase, False, Scene(options, bolt, nut, nearer), work, record)
 
 
-@kernel(allocates=True)
+@kernel()
 def solve_stages(
     roll: float, pitch: float, phase: float, first_only: bool, scene: Scene, work: Work, record: Array
 ) -> None:
     """The stages of a pose, or the ``first_only``, into ``record``."""
     clear_record(record)
-    course, bolt, nut = new_course(work), scene.bolt, scene.nut
+    bolt, nut = scene.bolt, scene.nut
+    course = Course(
+        scratch(12, 2),
+        scratch(12, 2),
+        scratch(3, 2),
+        scratch(3, 2),
+        scratch(WIDE_MOTION_SIZE, 2),
+        scratch(REFINED_SIZE, 2),
+        scratch(REFINED_SIZE, 2),
+        scratch(2, CONTACT_SIZE),
+        scratch(MAX_CONTACTS, CONTACT_SIZE),
+        work,
+    )
     simultaneous = first_stage(roll, pitch, phase, scene, course)
     if simultaneous == 0:
         record[rk.O_STATUS] = UNRESOLVED
         return
-    pose = np.empty(12)
+    pose = scratch(12)
     wide.round_numbers(course.pose, pose)
     append_stage(1, course.known[0], pose, bolt, nut, record)
     if first_only:
@@ -327,7 +328,7 @@ def solve_stages(
         left = second_stage(pose, scene, course, record)
         if left < 0:
             return
-    second = np.empty(12)
+    second = scratch(12)
     wide.round_numbers(course.second, second)
     append_stage(2, course.known[1], second, bolt, nut, record)
 
@@ -345,14 +346,15 @@ def solve_stages(
         return
     # Balanced: the origin lies on the axis (or over it), both senses are followed and the shorter turn is chosen.
     add_flag(record, rk.FLAG_BALANCED)
-    other_record = record.copy()
+    other_record = scratch(RECORD_SIZE)
+    copy_numbers(record, other_record)
     third_stage(scene, course, record)
     refine.reverse(course.axis)
     third_stage(scene, course, other_record)
     choose_shorter_turn(record, other_record)
 
 
-@kernel(allocates=True)
+@kernel()
 def next_contact(
     is_turn: bool,
     pose: Array,
@@ -371,7 +373,7 @@ def next_contact(
     Sets the pose ``moved`` to where it ends and what is ``refined`` of the first contact. None: 0; UNDECIDED_CONTACT:
     the search did not end, or what it ends with is no contact, with refined edges neither.
     """
-    point, axis = np.empty(3), np.empty(3)
+    point, axis = scratch(3), scratch(3)
     wide.round_numbers(course.point, point)
     wide.round_numbers(course.axis, axis)
     wide.set_motion(exact, course.point, course.axis, course.motion)
@@ -403,10 +405,10 @@ def next_contact(
     return UNDECIDED_CONTACT, limit
 
 
-@kernel(allocates=True)
+@kernel()
 def first_stage(roll: float, pitch: float, phase: float, scene: Scene, course: Course) -> int:
     """The way straight down to the first contact: how many begin at once; 0: unresolved."""
-    pose = np.empty(12)
+    pose = scratch(12)
     found, bolt, nut = course.found, scene.bolt, scene.nut
     rotation(roll, pitch, phase, pose)
     pose[9] = 0.0
@@ -420,9 +422,10 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, course: C
         refine.set_unrefined(found[0], course.pose, course.first)
     else:
         limit = high + bolt[pk.P]
-        start = np.empty((12, 2))
+        start = scratch(12, 2)
         refine.set_first_pose(roll, pitch, phase, high, start)
-        course.axis[2, 0] = -1.0
+        wide.set_vector(course.point, 0, (wide.ZERO, wide.ZERO, wide.ZERO))
+        wide.set_vector(course.axis, 0, (wide.ZERO, wide.ZERO, wide.MINUS_ONE))
         simultaneous, _ = next_contact(
             False, pose, start, 0, limit, scene.tie, scene, course, course.pose, course.first
         )
@@ -432,13 +435,13 @@ def first_stage(roll: float, pitch: float, phase: float, scene: Scene, course: C
     return simultaneous
 
 
-@kernel(allocates=True)
+@kernel()
 def second_stage(pose: Array, scene: Scene, course: Course, record: Array) -> int:
     """The turn about the tangent at the first contact up to the second one.
 
     Returns how many third contacts begin with it; -1: there is no second one, or it is unresolved.
     """
-    point, axis, extremes = np.empty(3), np.empty(3), np.empty((4, fk.EXTREME_SIZE))
+    point, axis, extremes = scratch(3), scratch(3), scratch(4, EXTREME_SIZE)
     found, known, bolt, nut = course.found, course.known, scene.bolt, scene.nut
     pair = int(known[0, K_PAIR])
     refine.set_second_axis(pair, course.first, course.pose, bolt, nut, course.axis)
@@ -479,12 +482,12 @@ def second_stage(pose: Array, scene: Scene, course: Course, record: Array) -> in
     return drop_found(1, simultaneous, found)
 
 
-@kernel(allocates=True)
+@kernel()
 def set_pivot_offset(second: Array, course: Course, record: Array) -> float:
     """Sets the distance of the bolt's origin from the pivot axis; returns by how much a turn about it lifts the origin
     (a length a rad).
     """
-    point, axis = np.empty(3), np.empty(3)
+    point, axis = scratch(3), scratch(3)
     wide.round_numbers(course.point, point)
     wide.round_numbers(course.axis, axis)
     ox, oy, oz = second[9] - point[0], second[10] - point[1], second[11] - point[2]
@@ -510,10 +513,10 @@ def choose_shorter_turn(record: Array, other_record: Array) -> None:
         copy_numbers(other_record, record)
 
 
-@kernel(allocates=True)
+@kernel()
 def third_stage(scene: Scene, course: Course, record: Array) -> None:
     """The turn about the pivot axis up to the third contact, the drop and the embedment."""
-    second, point, axis = np.empty(12), np.empty(3), np.empty(3)
+    second, point, axis = scratch(12), scratch(3), scratch(3)
     known, bolt, nut = course.known, scene.bolt, scene.nut
     wide.round_numbers(course.second, second)
     wide.round_numbers(course.point, point)
@@ -523,14 +526,14 @@ def third_stage(scene: Scene, course: Course, record: Array) -> None:
         flush = turn_to_flush(second, axis)
         if 0.0 < flush <= limit:
             limit = flush - FLUSH_MARGIN
-    third, fine_third, latest = np.empty(12), np.empty((12, 2)), np.empty((refine.REFINED_SIZE, 2))
+    third, fine_third, latest = scratch(12), scratch(12, 2), scratch(REFINED_SIZE, 2)
     tie = scene.tie / bolt[pk.R_MAJOR]
     simultaneous, turn = next_contact(True, second, course.second, 2, limit, tie, scene, course, fine_third, latest)
     if simultaneous == UNDECIDED_CONTACT:
         record[rk.O_STATUS] = UNRESOLVED
         return
     if simultaneous == 0:
-        extremes = np.empty((4, fk.EXTREME_SIZE))
+        extremes = scratch(4, EXTREME_SIZE)
         if flush > 0.0 and append_flush_pose(3, second, point, axis, flush, bolt, nut, extremes, record):
             record[rk.O_MU] = flush
             record[rk.O_DROP] = second[11] - record[rk.O_POSE + 35]
@@ -545,14 +548,14 @@ def third_stage(scene: Scene, course: Course, record: Array) -> None:
     append_third_pose(third, second[11] - third[11], simultaneous, scene, course, record)
 
 
-@kernel(allocates=True)
+@kernel()
 def append_third_pose(
     third: Array, drop: float, simultaneous: int, scene: Scene, course: Course, record: Array
 ) -> None:
     """Appends the third pose and its contacts, the first ``simultaneous`` found; sets the drop and the embedment."""
     bolt, nut, work = scene.bolt, scene.nut, course.work
     rk.append_pose(third, record)
-    contacts = np.empty((2 + simultaneous, CONTACT_SIZE))
+    contacts = scratch(MOST_KEPT, CONTACT_SIZE)
     for i in range(2):
         copy_numbers(course.known[i], contacts[i])
     for i in range(simultaneous):
@@ -563,7 +566,7 @@ def append_third_pose(
     record[rk.O_DROP] = drop
     record[rk.O_EMBEDMENT] = 0.0
     if (
-        threads_touch(contacts)
+        threads_touch(contacts, 2 + simultaneous)
         or edges_overlap(third, contacts, 2 + simultaneous, bolt, nut, work)
         or crests_overlap(third, RETRY_OFFSET * bolt[pk.P], bolt, nut, work)
     ):
@@ -574,27 +577,29 @@ def append_third_pose(
 
 
 @kernel()
-def threads_touch(contacts: Array) -> bool:
+def threads_touch(contacts: Array, count: int) -> bool:
     """Whether thread meets thread at one of the contacts: beside it they may overlap with no edge inside."""
-    for i in range(contacts.shape[0]):
+    for i in range(count):
         if int(contacts[i, K_PAIR]) == THREAD_THREAD:
             return True
     return False
 
 
-@kernel(allocates=True)
+@kernel()
 def first_height(rotation: Array, tie_tolerance: float, bolt: Array, nut: Array, work: Work) -> float:
     """The height of the bolt's origin at its first contact from above, on the nut's axis; NaN where it is not certain.
 
     ``rotation`` (9) is the bolt's, by rows.
     """
-    pose = np.zeros(12)
-    copy_numbers(rotation, pose[0:9])
+    pose = scratch(12)
+    for i in range(9):
+        pose[i] = rotation[i]
+    pose[9], pose[10], pose[11] = 0.0, 0.0, 0.0
     high = start_height(pose, bolt)
     pose[11] = high
-    found = np.empty((MAX_CONTACTS, CONTACT_SIZE))
+    found = scratch(MAX_CONTACTS, CONTACT_SIZE)
     wanted = Wanted(high + bolt[pk.P], tie_tolerance, RIDGES)
-    count, status, _ = earliest(way_down(pose), wanted, False, bolt, nut, work, found)
+    count, status, _ = earliest_below(pose, wanted, bolt, nut, work, found)
     return high - found[0, K_TIME] if status == RESOLVED and count > 0 else math.nan
 
 

@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact import _rectangle_kernel as rect
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact import _thread_surface_kernel as ts
-from threadstate.contact._beside_kernel import K_TANGENT, keep, new_kept
+from threadstate.contact._beside_kernel import K_TANGENT, KEPT_ROWS, KEPT_SIZE, MOST_KEPT, keep
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
-from threadstate.contact._edge_kernel import Edge, new_edge
+from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._edge_search_kernel import (
     AZIMUTH_TOLERANCE,
     E_DOUBTFUL,
@@ -32,6 +33,7 @@ from threadstate.contact._edge_search_kernel import (
 )
 from threadstate.contact._geometry_kernel import (
     MOTION_SIZE,
+    PATH_SIZE,
     TWO_PI,
     copy_numbers,
     edge_point,
@@ -51,9 +53,9 @@ from threadstate.contact._onset_kernel import (
     MAX_CANDIDATES,
 )
 from threadstate.contact._queue_kernel import new_queue
-from threadstate.contact._refined_edge_kernel import is_refined, refined_edges
+from threadstate.contact._refined_edge_kernel import is_refined, set_refined_motions
 from threadstate.contact._wedge_kernel import WEDGE_SIZE
-from threadstate.contact._wide_kernel import wide_motion
+from threadstate.contact._wide_kernel import WIDE_MOTION_SIZE, widen_motion
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
@@ -139,7 +141,8 @@ EDGE_EDGE, EDGE_SURFACE, BASE_EDGE, EDGE_THREAD, THREAD_EDGE, THREAD_THREAD, THR
 # A contact of a stage: time, pair, azimuth on the bolt, azimuth on the nut, point in the nut's frame.
 K_TIME, K_PAIR, K_BOLT_AZIMUTH, K_NUT_AZIMUTH, K_X, K_Y, K_Z = range(7)
 CONTACT_SIZE = 7
-MAX_CONTACTS = 16
+MAX_CONTACTS = MOST_KEPT - 2
+"""Most contacts of a stage: with two from before they are those of the third pose, which all are kept."""
 
 RESOLVED, UNRESOLVED = range(2)
 
@@ -295,13 +298,6 @@ def new_work() -> Work:
         np.empty(JET_SIZE),
         np.empty(WEDGE_SIZE),
     )
-
-
-@kernel(allocates=True)
-def way_down(pose: Array) -> Stage:
-    """The translation down the nut's axis from a pose."""
-    down = np.array([0.0, 0.0, -1.0])
-    return Stage(pose, False, down, down, np.empty((0, 2)), np.empty((0, CONTACT_SIZE)), 0)
 
 
 @kernel()
@@ -570,7 +566,26 @@ def contacts_of_edges(
     return count, RESOLVED, best, 0.0
 
 
-@kernel(allocates=True)
+@kernel()
+def set_vertical_motions(pose: Array, up: float, bolt_motion: Array, nut_motion: Array) -> None:
+    """Sets both edges' motions in a translation of the bolt along the nut's axis: up (1) or down (-1)."""
+    axis = scratch(3)
+    axis[0], axis[1], axis[2] = 0.0, 0.0, up
+    set_motions(pose, False, False, axis, axis, bolt_motion, nut_motion)
+
+
+@kernel()
+def earliest_below(
+    pose: Array, wanted: Wanted, bolt: Array, nut: Array, work: Work, out: Array
+) -> tuple[int, int, float]:
+    """As :func:`earliest`, on the way down the nut's axis from a pose."""
+    down = scratch(3)
+    down[0], down[1], down[2] = 0.0, 0.0, -1.0
+    stage = Stage(pose, False, down, down, scratch(0, 2), scratch(0, CONTACT_SIZE), 0)
+    return earliest(stage, wanted, False, bolt, nut, work, out)
+
+
+@kernel()
 def earliest(
     stage: Stage, wanted: Wanted, refined: bool, bolt: Array, nut: Array, work: Work, out: Array
 ) -> tuple[int, int, float]:
@@ -582,9 +597,11 @@ def earliest(
     finds is no contact.
     """
     pose, is_turn, point, axis, exact, known, known_count = stage
-    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(known_count))
-    nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(known_count))
-    keep_contacts(known, known_count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
+    bolt_kept, nut_kept = scratch(KEPT_ROWS, KEPT_SIZE), scratch(KEPT_ROWS, KEPT_SIZE)
+    bolt_path, nut_path = scratch(PATH_SIZE), scratch(PATH_SIZE)
+    bolt_edge = Edge(work.bolt_motion, bolt, nut, bolt_kept, bolt_path, scratch(0, 2))
+    nut_edge = Edge(work.nut_motion, nut, bolt, nut_kept, nut_path, scratch(0, 2))
+    keep_contacts(known, known_count, pose, bolt, nut, bolt_kept, nut_kept)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
     count, status, best, since = 0, UNRESOLVED, wanted.limit, 0.0
@@ -592,8 +609,13 @@ def earliest(
     if not refined:
         count, status, best, since = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, since, span, work, out)
     if status != RESOLVED:
-        wide = exact if exact.shape[0] > 0 else wide_motion(bolt_edge.motion)
-        bolt_edge, nut_edge = refined_edges(bolt_edge, nut_edge, wide)
+        bolt_wide, nut_wide = scratch(WIDE_MOTION_SIZE, 2), scratch(WIDE_MOTION_SIZE, 2)
+        widened = scratch(WIDE_MOTION_SIZE, 2)
+        widen_motion(work.bolt_motion, widened)
+        meant = exact if exact.shape[0] > 0 else widened
+        set_refined_motions(meant, work.bolt_motion, work.nut_motion, bolt_wide, nut_wide)
+        bolt_edge = Edge(work.bolt_motion, bolt, nut, bolt_kept, bolt_path, bolt_wide)
+        nut_edge = Edge(work.nut_motion, nut, bolt, nut_kept, nut_path, nut_wide)
         # What doubles take for an onset, if for no certain one, says how long the motion may be.
         span = min(span, best - since) if best > since else span
         count, status, best, _ = contacts_of_edges(bolt_edge, nut_edge, stage, wanted, since, span, work, out)
@@ -604,14 +626,14 @@ def earliest(
     return count, status, best
 
 
-@kernel(allocates=True)
+@kernel()
 def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Array, work: Work) -> bool:
     """Whether an edge curve of one part may be inside the other at a pose, beyond the ``contacts`` on it."""
-    bolt_edge = new_edge(work.bolt_motion, bolt, nut, new_kept(count))
-    nut_edge = new_edge(work.nut_motion, nut, bolt, new_kept(count))
-    keep_contacts(contacts, count, pose, bolt, nut, bolt_edge.kept, nut_edge.kept)
-    down = np.array([0.0, 0.0, -1.0])
-    set_motions(pose, False, False, down, down, work.bolt_motion, work.nut_motion)
+    bolt_kept, nut_kept, path = scratch(KEPT_ROWS, KEPT_SIZE), scratch(KEPT_ROWS, KEPT_SIZE), scratch(PATH_SIZE)
+    bolt_edge = Edge(work.bolt_motion, bolt, nut, bolt_kept, path, scratch(0, 2))
+    nut_edge = Edge(work.nut_motion, nut, bolt, nut_kept, path, scratch(0, 2))
+    keep_contacts(contacts, count, pose, bolt, nut, bolt_kept, nut_kept)
+    set_vertical_motions(pose, -1.0, work.bolt_motion, work.nut_motion)
     outcome, _ = find_inside(bolt_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.queue)
     if outcome == OUTSIDE:
         outcome, _ = find_inside(nut_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.queue)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._geometry_kernel import (
     M_AXIS,
     M_KIND,
@@ -272,7 +273,7 @@ def is_contact_of_threads(z: float, jet: Array, bolt: Array) -> bool:
     return on_both and jet[TJ_RATE] > 0.0 and is_maximum
 
 
-@kernel(allocates=True)
+@kernel()
 def is_one_with(tangency: Array, x: float, y: float, z: float, motion: Array, bolt: Array, nut: Array) -> bool:
     """Whether round-off alone parts a tangency from an earlier contact, a point of the axis of a turn.
 
@@ -280,7 +281,7 @@ def is_one_with(tangency: Array, x: float, y: float, z: float, motion: Array, bo
     its second derivatives, so that both are one unless it falls by more than its round-off. A bolt that is all but
     level has such maxima, from 1e-5 in on beside its first contact, from which the overlap of the threads grows.
     """
-    placement, jet = np.empty(PLACEMENT_SIZE), np.empty(TANGENCY_JET_SIZE)
+    placement, jet = scratch(PLACEMENT_SIZE), scratch(TANGENCY_JET_SIZE)
     theta = tangency[T_THETA]
     set_placement(motion, tangency[T_TIME], placement)
     set_jet(theta, tangency[T_Z], placement, bolt, nut, jet)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._geometry_kernel import M_KIND, M_POINT, TWO_PI, motion_scale
 from threadstate.contact._tangency_kernel import (
     PLACEMENT_OFF,
@@ -113,13 +114,13 @@ def point_in_nut(lowest: Array, placement: Array, bolt: Array) -> tuple[float, f
     return m[0] * bx + m[1] * by + m[2] * z + off[0], m[3] * bx + m[4] * by + m[5] * z + off[1]
 
 
-@kernel(allocates=True)
+@kernel()
 def deepest_lowest_point(placement: Array, bolt: Array, nut: Array) -> tuple[float, float, float]:
     """The greatest depth in the nut of a lowest point of the bolt's thread, and its place (theta, z) on it.
 
     The depth is -inf where there is none.
     """
-    lowest = np.empty(LOWEST_SIZE)
+    lowest = scratch(LOWEST_SIZE)
     deepest, at_theta, at_z = -math.inf, 0.0, 0.0
     turns = most_turns(bolt)
     for turn in range(-turns, turns + 1):
@@ -135,7 +136,7 @@ def deepest_lowest_point(placement: Array, bolt: Array, nut: Array) -> tuple[flo
     return deepest, at_theta, at_z
 
 
-@kernel(allocates=True)
+@kernel()
 def thread_surface_contacts(motion: Array, bolt: Array, nut: Array, reach: float, found: Array, count: int) -> int:
     """Adds the contacts of the bolt's thread with the nut's surface up to ``reach``; returns their number then.
 
@@ -143,7 +144,7 @@ def thread_surface_contacts(motion: Array, bolt: Array, nut: Array, reach: float
     faster than a point of the bolt moves, as what a lowest point moves along the thread changes nothing in first
     order. An onset is where it comes down to the surface, over the nut and within the bolt's length.
     """
-    placement = np.empty(PLACEMENT_SIZE)
+    placement = scratch(PLACEMENT_SIZE)
     is_turn = motion[M_KIND] > 0.0
     bound = least_tilt(bolt)
     tilt = math.atan2(math.hypot(motion[6], motion[7]), motion[8])
@@ -205,7 +206,7 @@ def add_touch(time: float, lowest: Array, placement: Array, bolt: Array, nut: Ar
     return count + 1
 
 
-@kernel(allocates=True)
+@kernel()
 def follow_turn(
     turn: float,
     near: float,
@@ -219,7 +220,7 @@ def follow_turn(
     count: int,
 ) -> int:
     """Adds the first contact of one turn's lowest point up to ``reach``; returns the number of contacts then."""
-    lowest = np.empty(LOWEST_SIZE)
+    lowest = scratch(LOWEST_SIZE)
     is_turn = motion[M_KIND] > 0.0
     least_step = LEAST_STEP * motion_scale(motion, bolt)
     speed = greatest_speed(motion, bolt)

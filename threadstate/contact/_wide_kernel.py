@@ -249,24 +249,23 @@ def set_motion(pose: Array, point: Array, axis: Array, motion: Array) -> None:
         set_entry(motion, W_AXIS + i, entry(axis, i))
 
 
-@kernel(allocates=True)
-def wide_motion(motion: Array) -> Array:
-    """A motion of ``_geometry_kernel`` in sums of two doubles, (18, 2)."""
-    wide = np.zeros((WIDE_MOTION_SIZE, 2))
+@kernel()
+def widen_motion(motion: Array, wide: Array) -> None:
+    """Sets a motion of ``_geometry_kernel`` in sums of two doubles."""
     for i in range(POSE_SIZE):
-        wide[i, 0] = motion[i]
+        set_entry(wide, i, (motion[i], 0.0))
     for i in range(6):
-        wide[W_POINT + i, 0] = motion[M_POINT + i]
-    return wide
+        set_entry(wide, W_POINT + i, (motion[M_POINT + i], 0.0))
 
 
-@kernel(allocates=True)
-def nearest_motion(motion: Array) -> Array:
-    """The motion whose rotation is the nearest one and whose axis is a unit vector.
+@kernel()
+def set_nearest_motion(motion: Array, nearest: Array) -> None:
+    """Sets the motion whose rotation is the nearest one and whose axis is a unit vector.
 
     One step of Newton's method makes rows that are orthogonal to 1e-16 so to 1e-32.
     """
-    nearest = motion.copy()
+    for i in range(WIDE_MOTION_SIZE):
+        set_entry(nearest, i, entry(motion, i))
     rows = vector_at(motion, 0), vector_at(motion, 3), vector_at(motion, 6)
     for i in range(3):
         row = times(rows[i], (1.5, 0.0))
@@ -275,13 +274,11 @@ def nearest_motion(motion: Array) -> Array:
         set_vector(nearest, 3 * i, row)
     axis = vector_at(motion, W_AXIS)
     set_vector(nearest, W_AXIS, times(axis, divide(ONE, square_root(dot(axis, axis)))))
-    return nearest
 
 
-@kernel(allocates=True)
-def inverse_motion(motion: Array) -> Array:
-    """The motion of the nut in the bolt's frame, of that of the bolt in the nut's."""
-    inverse = np.empty((WIDE_MOTION_SIZE, 2))
+@kernel()
+def set_inverse_motion(motion: Array, inverse: Array) -> None:
+    """Sets the motion of the nut in the bolt's frame, of that of the bolt in the nut's."""
     for i in range(3):
         for j in range(3):
             set_entry(inverse, 3 * i + j, entry(motion, 3 * j + i))
@@ -289,4 +286,3 @@ def inverse_motion(motion: Array) -> Array:
     set_vector(inverse, 9, rotated_back(motion, times(origin, MINUS_ONE)))
     set_vector(inverse, W_POINT, rotated_back(motion, plus(vector_at(motion, W_POINT), times(origin, MINUS_ONE))))
     set_vector(inverse, W_AXIS, rotated_back(motion, times(vector_at(motion, W_AXIS), MINUS_ONE)))
-    return inverse

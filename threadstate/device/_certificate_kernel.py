@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._beside_kernel import keep, new_kept
-from threadstate.contact._edge_kernel import new_edge
+from threadstate._scratch import scratch
+from threadstate.contact._beside_kernel import KEPT_SIZE, clear, keep
+from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._edge_search_kernel import OUTSIDE, find_inside
-from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._geometry_kernel import PATH_SIZE, copy_numbers
 from threadstate.contact._ridge_grid_kernel import (
     CROSSINGS_SIZE,
     GRID_SIZE,
@@ -29,9 +30,10 @@ from threadstate.contact._stage_kernel import (
     THREAD_EDGE,
     THREAD_THREAD,
     Work,
-    set_motions,
+    set_vertical_motions,
 )
 from threadstate.contact._tangency_kernel import PLACEMENT_SIZE, TANGENCY_JET_SIZE, TJ_PHI, TJ_Z
+from threadstate.contact._wide_kernel import POSE_SIZE
 from threadstate.device._gap_kernel import G_PAIR, G_POINT, G_THETA
 from threadstate.device._places_kernel import MAX_PITCHES, MAX_PLACES
 from threadstate.device._thread_maximum_kernel import thread_maximum
@@ -46,24 +48,29 @@ the nominal radius times the lesser slope of g and phi, some 1e-10 in on 1/4-20.
 FINE_AZIMUTHS = MAX_AZIMUTHS
 """Azimuths of the bolt's thread on which its ridges are searched."""
 
+PLACES_ROWS = 1 + MAX_PLACES
+"""Rows of a list of earlier contacts with room for every place."""
+
 FREE, EDGE_INSIDE, THREAD_INSIDE = range(3)
 
 
-@kernel(allocates=True)
+@kernel()
 def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, nut: Array, stage: Work) -> int:
     """Whether the parts overlap at a pose by more than ``limit`` (a length), beside the places at which they touch."""
-    on_bolt = new_edge(stage.bolt_motion, bolt, nut, new_kept(MAX_PLACES))
-    on_nut = new_edge(stage.nut_motion, nut, bolt, new_kept(MAX_PLACES))
+    by_bolt, by_nut, path = scratch(PLACES_ROWS, KEPT_SIZE), scratch(PLACES_ROWS, KEPT_SIZE), scratch(PATH_SIZE)
+    clear(by_bolt)
+    clear(by_nut)
+    on_bolt = Edge(stage.bolt_motion, bolt, nut, by_bolt, path, scratch(0, 2))
+    on_nut = Edge(stage.nut_motion, nut, bolt, by_nut, path, scratch(0, 2))
     for i in range(count):
         pair = int(places[i, G_PAIR])
         if pair != BASE_EDGE and pair != THREAD_EDGE and pair != THREAD_THREAD:
-            keep(places[i, G_THETA], False, False, on_bolt.kept)
+            keep(places[i, G_THETA], False, False, by_bolt)
         if pair == BASE_EDGE or pair == THREAD_EDGE:
-            keep(places[i, G_THETA], False, False, on_nut.kept)
+            keep(places[i, G_THETA], False, False, by_nut)
         elif pair == EDGE_EDGE:
-            keep(math.atan2(places[i, G_POINT + 1], places[i, G_POINT]), False, False, on_nut.kept)
-    down = np.array([0.0, 0.0, -1.0])
-    set_motions(pose, False, False, down, down, stage.bolt_motion, stage.nut_motion)
+            keep(math.atan2(places[i, G_POINT + 1], places[i, G_POINT]), False, False, by_nut)
+    set_vertical_motions(pose, -1.0, stage.bolt_motion, stage.nut_motion)
     shallow = limit / bolt[pk.P]
     outcome, _ = find_inside(on_bolt, shallow, NARROW, stage.boxes, stage.queue)
     if outcome != OUTSIDE:
@@ -74,7 +81,7 @@ def overlap(pose: Array, limit: float, count: int, places: Array, bolt: Array, n
     return THREAD_INSIDE if threads_overlap(pose, limit, stage.bolt_motion, stage.nut_motion, bolt, nut) else FREE
 
 
-@kernel(allocates=True)
+@kernel()
 def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: Array, bolt: Array, nut: Array) -> bool:
     """Whether a search finds the threads to overlap by more than ``limit``; the motions are scratch.
 
@@ -83,8 +90,8 @@ def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: A
     """
     p = bolt[pk.P]
     reach = bolt[pk.R_MAJOR] * math.hypot(pose[6], pose[7])
-    moved = pose.copy()
-    down = np.array([0.0, 0.0, -1.0])
+    moved = scratch(12)
+    copy_numbers(pose, moved)
     turn = 0
     while pose[11] + turn * p * pose[8] < reach and turn < MAX_PITCHES:
         low = pose[11] + turn * p * pose[8] - reach
@@ -94,7 +101,7 @@ def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: A
                 continue
             for i in range(3):
                 moved[9 + i] = pose[9 + i] + turn * p * pose[3 * i + 2] + (nut_turn * p if i == 2 else 0.0)
-            set_motions(moved, False, False, down, down, bolt_motion, nut_motion)
+            set_vertical_motions(moved, -1.0, bolt_motion, nut_motion)
             inside, _, _, _ = deepest_thread_point(bolt_motion, limit, RIDGE_AZIMUTHS, bolt, nut)
             if inside or ridge_is_inside(moved, limit, bolt, nut):
                 return True
@@ -102,15 +109,13 @@ def threads_overlap(pose: Array, limit: float, bolt_motion: Array, nut_motion: A
     return False
 
 
-@kernel(allocates=True)
+@kernel()
 def ridge_is_inside(pose: Array, limit: float, bolt: Array, nut: Array) -> bool:
     """Whether a maximum of phi along its ridges, sampled more finely than on the way, is above ``limit``."""
-    grid = np.empty(GRID_SIZE)
-    crossings = np.empty(CROSSINGS_SIZE)
-    maxima = np.empty((MAX_CROSSINGS, 2))
-    placement = np.zeros(PLACEMENT_SIZE)
-    jet = np.empty(TANGENCY_JET_SIZE)
-    copy_numbers(pose, placement[0:12])
+    grid, crossings, maxima = scratch(GRID_SIZE), scratch(CROSSINGS_SIZE), scratch(MAX_CROSSINGS, 2)
+    placement, jet = scratch(PLACEMENT_SIZE), scratch(TANGENCY_JET_SIZE)
+    for i in range(PLACEMENT_SIZE):
+        placement[i] = pose[i] if i < POSE_SIZE else 0.0
     set_columns(FINE_AZIMUTHS, bolt, grid)
     for j in range(ridge_maxima(FINE_AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
         _, z, _ = thread_maximum(maxima[j, 0], maxima[j, 1], 0.0, -math.inf, placement, bolt, nut, jet)

@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.device._chart_kernel import (
+    COORDINATES,
     D_FINE,
     N_OFFSET,
     N_ROTATION,
@@ -125,13 +127,14 @@ def minimise_model(n: int, count: int, damping: float, work: Work) -> float:
     return length_of(n, work.step, work.metric) if status == SOLVED else math.inf
 
 
-@kernel(allocates=True)
+@kernel()
 def descend_followed(q: Array, known: int, descent: Descent, scene: Scene) -> tuple[int, int]:
     """As :func:`descend`, with few searches: the first ``known`` of the places are followed from where they are.
 
     Where it does not settle so it begins anew, and all places are searched for after each step.
     """
-    start = q.copy()
+    start = scratch(COORDINATES)
+    copy_numbers(q, start)
     status, count, _ = descend_with(q, known, False, descent, scene)
     if status != UNSETTLED:
         return status, count
@@ -268,7 +271,7 @@ def end_beside_contacts(scene: Scene) -> int:
     return UNSETTLED
 
 
-@kernel(allocates=True)
+@kernel()
 def descend_with(q: Array, known: int, searches: bool, descent: Descent, scene: Scene) -> tuple[int, int, bool]:
     """Descends from ``q``, in place, to a minimum of the potential; how it ended, the number of places there, and
     whether it ended because no step led on.
@@ -281,11 +284,13 @@ def descend_with(q: Array, known: int, searches: bool, descent: Descent, scene: 
     push, left = descent.push, descent.overlap_left
     n, r = free_coordinates(device), scene.bolt[pk.R_MAJOR]
     reach = REACH * descent.longest_step
-    start = q.copy()
+    start = scratch(COORDINATES)
+    copy_numbers(q, start)
     count, is_out, is_searched = back_to_contact(q, known, searches, push, reach, left, scene)
     if not is_out:
         return UNSETTLED, count, True
-    earlier = q.copy()
+    earlier = scratch(COORDINATES)
+    copy_numbers(q, earlier)
     way, damping, has_risen, is_circling, size_before = 0.0, 0.0, False, False, math.inf
     for taken in range(descent.most_steps):
         if taken > 0 and taken % STALL_STEPS == 0:

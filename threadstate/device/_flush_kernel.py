@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
@@ -31,6 +32,7 @@ from threadstate.device._chart_kernel import (
 from threadstate.device._patch_kernel import (
     H_X,
     H_Y,
+    HULL_ROWS,
     POINT_SIZE,
     POINTS,
     refine_side,
@@ -74,36 +76,36 @@ def set_flush(device: Array, q: Array) -> bool:
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def centre_of_pressure(
     q: Array, push: float, place: Array, device: Array, friction: Array
 ) -> tuple[float, float, float, float]:
     """Where the surface's force along z acts in the level pose (x, y), its size, and the moment about z that nothing
     balances. ``friction`` is the surface's force along x and y, and its moment about z at the compliance centre.
     """
-    by_q = np.empty(COORDINATES)
+    by_q = scratch(COORDINATES)
     elastic_energy(q, device, by_q)
     jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
     m = place[N_ROTATION : N_ROTATION + 9]
     # J^-T of the gradient by e is the gradient by a turn in the bolt's axes; the third may have a reaction.
-    a = np.empty((3, 3))
+    a = scratch(3, 3)
     for i in range(3):
         for j in range(3):
             a[i, j] = jacobian[3 * j + i]
-    moments = np.empty((2, 3))
+    moments = scratch(2, 3)
     determinant = (
         a[0, 0] * (a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1])
         - a[0, 1] * (a[1, 0] * a[2, 2] - a[1, 2] * a[2, 0])
         + a[0, 2] * (a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0])
     )
     for case in range(2):
-        b = np.zeros(3)
+        b = zeros(3)
         if case == 0:
             for i in range(3):
                 b[i] = -by_q[i]
         else:
             b[2] = 1.0
-        w = np.empty(3)
+        w = scratch(3)
         w[0] = (
             b[0] * (a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1])
             - a[0, 1] * (b[1] * a[2, 2] - a[1, 2] * b[2])
@@ -159,11 +161,11 @@ def flush_until(push: float, device: Array, bolt: Array, nut: Array, level: Arra
     """
     if not set_flush(device, level):
         return 0.0, 0.0
-    place = np.empty(PLACE_SIZE)
-    points = np.empty((POINTS, POINT_SIZE))
-    hull = np.empty((POINTS + 2, POINT_SIZE))
+    place = scratch(PLACE_SIZE)
+    points = scratch(POINTS, POINT_SIZE)
+    hull = scratch(HULL_ROWS, POINT_SIZE)
     set_place(level, device, place)
-    x, y, force, rest = centre_of_pressure(level, push, place, device, np.zeros(3))
+    x, y, force, rest = centre_of_pressure(level, push, place, device, zeros(3))
     if not force > 0.0 or abs(rest) > 1e-9 * push * bolt[pk.R_MAJOR]:
         return 0.0, 0.0
     _, margin, _, size = set_patch_hull(x, y, place, bolt, nut, points, hull)
@@ -190,17 +192,17 @@ def tip_over(direction: float, angle: float, place: Array, q: Array) -> None:
         q[i] += m[i] * x + m[3 + i] * y
 
 
-@kernel(allocates=True)
+@kernel()
 def flush_is_reached(q: Array, push: float, place: Array, device: Array, bolt: Array, nut: Array) -> bool:
     """Whether the bolt, nearly level on the nut's surface, goes on to lie flush: stable, and at a lower potential."""
     if math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) > NEARLY_LEVEL:
         return False
     if abs(place[N_OFFSET + 2]) > NEAR_SURFACE * bolt[pk.R_MAJOR]:
         return False
-    level = np.empty(COORDINATES)
+    level = scratch(COORDINATES)
     if not set_flush(device, level):
         return False
-    by_q = np.empty(COORDINATES)
+    by_q = scratch(COORDINATES)
     before = elastic_energy(q, device, by_q) + push * q[5]
     after = elastic_energy(level, device, by_q) + push * level[5]
     if after > before:

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
-from threadstate.device._chart_kernel import D_RIGID, D_SCALE, N_OFFSET, N_ROTATION, PLACE_SIZE, set_place
+from threadstate.device._chart_kernel import COORDINATES, D_RIGID, D_SCALE, N_OFFSET, N_ROTATION, PLACE_SIZE, set_place
 from threadstate.device._descent_kernel import AT_REST, DEEPEST, FLUSH, SLIPPED
 from threadstate.device._flush_kernel import centre_of_pressure, set_flush
 from threadstate.device._friction_held_kernel import lay_flush
@@ -113,7 +114,7 @@ def has_left(place: Array, bolt: Array) -> int:
     return GOES_ON
 
 
-@kernel(allocates=True)
+@kernel()
 def flow_step(
     drag: float,
     on_ridges: bool,
@@ -128,7 +129,7 @@ def flow_step(
 ) -> tuple[int, float]:
     """The solution that an implicit step with a drag goes to, and how far (nominal radii); infinitely where none is."""
     device, modes_work = setting[1], setting[7]
-    candidates = np.empty((MOST_CANDIDATES, K_SIZE))
+    candidates = scratch(MOST_CANDIDATES, K_SIZE)
     for c in range(count):
         copy_numbers(contacts[c], candidates[c])
     set_drag(drag, q, before, device, modes_work)
@@ -165,7 +166,7 @@ def longer_step(
     return 0, math.inf, drag
 
 
-@kernel(allocates=True)
+@kernel()
 def flow(
     q: Array,
     push: float,
@@ -192,7 +193,8 @@ def flow(
     for h in range(4):
         losses[h] = 0.0
     drag, solved_drag, friction = FIRST_DRAG, FIRST_DRAG, 0.0
-    earlier = q.copy()
+    earlier = scratch(COORDINATES)
+    copy_numbers(q, earlier)
     modes_work.guessed[0] = 0
     for tried in range(1, MOST_STEPS + 1):
         best, way = flow_step(drag, on_ridges, q, push, mu, before, count, contacts, setting, solutions)
@@ -238,12 +240,12 @@ def flow(
     return ON_CONTACTS, touching, GOES_ON if touching > 0 else NO_MINIMUM
 
 
-@kernel(allocates=True)
+@kernel()
 def contacts_at_rest(q: Array, push: float, mu: float, setting: Setting, contacts: Array) -> int:
     """The number of contacts that hold the bolt where it is, which are set; 0 where they do not."""
     _, device, _, bolt, nut, threads, _, modes_work = setting
-    place = np.empty(PLACE_SIZE)
-    held = np.empty((MOST_CANDIDATES, K_SIZE))
+    place = scratch(PLACE_SIZE)
+    held = scratch(MOST_CANDIDATES, K_SIZE)
     set_place(q, device, place)
     found = find_places(
         COARSE_OVERLAP * device[D_SCALE], place, device, bolt, nut, threads, modes_work.search, modes_work.places
@@ -309,15 +311,15 @@ def fall_without_friction(q: Array, push: float, setting: Setting, contacts: Arr
     return ON_CONTACTS, count, TOO_MANY if count > MOST_CONTACTS else GOES_ON
 
 
-@kernel(allocates=True)
+@kernel()
 def lay_without_friction(q: Array, push: float, device: Array, contacts: Array) -> tuple[int, int, int]:
     """Lays a bolt flush on the surface, in place, in equilibrium without friction; returns as :func:`flow`."""
     if not device[D_RIGID] > 0.0:
         return ON_CONTACTS, 0, ON_PATCH
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_flush(device, q)
     set_place(q, device, place)
-    x, y, force, _ = centre_of_pressure(q, push, place, device, np.zeros(3))
+    x, y, force, _ = centre_of_pressure(q, push, place, device, zeros(3))
     for h in range(K_SIZE):
         contacts[0, h] = 0.0
     contacts[0, K_POINT], contacts[0, K_POINT + 1], contacts[0, K_NORMAL + 2] = x, y, 1.0

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.device._chart_kernel import (
@@ -81,7 +82,7 @@ ENERGY_STEP = 2e-5
 """Potential, over push times nominal radius, that a step may leave unexplained: more is a fall."""
 
 
-@kernel(allocates=True)
+@kernel()
 def strip_contacts(
     q: Array, push: float, mu: float, sense: float, setting: Setting, trial: Array, contacts: Array
 ) -> int:
@@ -90,9 +91,9 @@ def strip_contacts(
     Their slips are set to zero: those of the path are the helices' lengths.
     """
     _, device, strip, bolt, nut, _, _, _ = setting
-    place = np.empty(PLACE_SIZE)
-    rows = np.empty((STRIP_CONTACTS, STRIP_CONTACT_SIZE))
-    leave = np.empty(COORDINATES)
+    place = scratch(PLACE_SIZE)
+    rows = scratch(STRIP_CONTACTS, STRIP_CONTACT_SIZE)
+    leave = scratch(COORDINATES)
     set_place(q, device, place)
     if not is_near_strip(place, bolt) or not set_strip(place[N_OFFSET + 2], device, strip, bolt, trial):
         return 0
@@ -111,7 +112,7 @@ def strip_contacts(
     return count
 
 
-@kernel(allocates=True)
+@kernel()
 def slide_on_strip(
     q: Array, push: float, mu: float, turn: float, setting: Setting, contacts: Array, losses: Array
 ) -> int:
@@ -120,7 +121,7 @@ def slide_on_strip(
     The loss is that of forces along the helices of their radii.
     """
     bolt = setting[3]
-    level = np.empty(COORDINATES)
+    level = scratch(COORDINATES)
     sense = math.copysign(1.0, turn)
     count = strip_contacts(q, push, mu, sense, setting, level, contacts)
     if count == 0:
@@ -132,7 +133,7 @@ def slide_on_strip(
     return count
 
 
-@kernel(allocates=True)
+@kernel()
 def lay_flush(
     falls: bool,
     q: Array,
@@ -150,12 +151,12 @@ def lay_flush(
     is tipped a little in the direction in which it leaves.
     """
     command, device, _, bolt, nut, _, _, _ = setting
-    level, lying, by_q = np.empty(COORDINATES), np.zeros(LYING_SIZE), np.empty(COORDINATES)
+    level, lying, by_q = scratch(COORDINATES), zeros(LYING_SIZE), scratch(COORDINATES)
     was_level = is_level(q, device) and not falls
     stays, direction = lie_flush(push, mu, turns, before, device, bolt, nut, level, lying)
     if not stays:
         if was_level:
-            place = np.empty(PLACE_SIZE)
+            place = scratch(PLACE_SIZE)
             set_place(level, device, place)
             tip_over(direction, TIP, place, level)
             copy_numbers(level, q)
@@ -174,14 +175,14 @@ def lay_flush(
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def lies_throughout(phase: float, turn: float, push: float, mu: float, before: Array, setting: Setting) -> bool:
     """Whether a bolt on the surface lies there in between as well, as it is turned by ``turn`` from ``phase`` (rad).
 
     The phase is set to that of the end.
     """
     command, device, _, bolt, nut, _, _, _ = setting
-    level, lying = np.empty(COORDINATES), np.zeros(LYING_SIZE)
+    level, lying = scratch(COORDINATES), zeros(LYING_SIZE)
     lies = True
     for part in range(1, LYING_PARTS):
         set_phase(phase + turn * part / LYING_PARTS, command, device)
@@ -190,7 +191,7 @@ def lies_throughout(phase: float, turn: float, push: float, mu: float, before: A
     return lies
 
 
-@kernel(allocates=True)
+@kernel()
 def contacts_of_tip(q: Array, push: float, setting: Setting, contacts: Array) -> int:
     """Sets the contacts of a bolt that has been tipped off the surface, each with its share of the push; their number.
 
@@ -199,7 +200,7 @@ def contacts_of_tip(q: Array, push: float, setting: Setting, contacts: Array) ->
     """
     _, device, _, bolt, nut, threads, _, modes_work = setting
     places, search = modes_work.places, modes_work.search
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     tipped = TIP * device[D_SCALE]
     set_place(q, device, place)
     found = find_places(2.0 * tipped, place, device, bolt, nut, threads, search, places)

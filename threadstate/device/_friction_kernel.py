@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.contact._stage_kernel import new_work as new_stage
@@ -134,10 +135,10 @@ Branches = tuple[Array, Array, Indices]
 of; as many as there is room for, the last -1 where there are no more."""
 
 
-@kernel(allocates=True)
+@kernel()
 def torque_with(q: Array, count: int, contacts: Array, command: Array, device: Array) -> float:
     """The hand's work a radian of phase, of contacts with their whole forces."""
-    by_q = np.empty(COORDINATES)
+    by_q = scratch(COORDINATES)
     elastic_energy(q, device, by_q)
     ax, ay, az = 0.0, 0.0, 1.0
     torque = 0.0
@@ -153,7 +154,7 @@ def torque_with(q: Array, count: int, contacts: Array, command: Array, device: A
     return torque
 
 
-@kernel(allocates=True)
+@kernel()
 def add_path_point(
     i: int,
     phase: float,
@@ -172,8 +173,8 @@ def add_path_point(
     ``losses`` are friction, fall, the number of solutions, and the moment about z on the bolt beside that of contacts.
     """
     points, all_contacts = path
-    by_q = np.empty(COORDINATES)
-    place = np.empty(PLACE_SIZE)
+    by_q = scratch(COORDINATES)
+    place = scratch(PLACE_SIZE)
     set_place(q, device, place)
     energy = elastic_energy(q, device, by_q)
     points[i, P_PHASE], points[i, P_PUSH], points[i, P_KIND] = phase, push, kind
@@ -242,7 +243,7 @@ def set_branch(
     command, device, bolt = setting[0], setting[1], setting[3]
     places, all_contacts, counts = solutions
     points, point_contacts = path
-    losses = np.zeros(4)
+    losses = zeros(4)
     contacts = all_contacts[k].copy()
     losses[0] = friction_loss(int(points[i, P_COUNT]), point_contacts[i], int(counts[k]), contacts)
     losses[2] = number
@@ -299,14 +300,14 @@ def add_branches(
     return added
 
 
-@kernel(allocates=True)
+@kernel()
 def bend(i: int, q: Array, reached: float, earlier: float, target: float, path: Path, device: Array) -> float:
     """How far (nominal radii) a step from point i ends from where it would as the one before it went.
 
     The parts of the leg at the point before, at i and at the end are ``earlier``, ``reached`` and ``target``.
     """
     before, here = path[0][i - 1, P_COORDINATES : P_COORDINATES + COORDINATES], path[0][i, P_COORDINATES:]
-    ahead = np.empty(COORDINATES)
+    ahead = scratch(COORDINATES)
     for j in range(COORDINATES):
         ahead[j] = here[j] + (here[j] - before[j]) * (target - reached) / (reached - earlier)
     return distance(ahead, q, device) / device[D_SCALE]
@@ -436,8 +437,8 @@ def follow_friction(
     bridging, falling, jumps, is_shortened, bare, falls = False, False, False, False, 0, 0
     step, reached, earlier, i, kind = FIRST_PART * longest, 0.0, -1.0, 0, ON_CONTACTS
     solutions, last = new_solutions(), new_last_step()
-    before, losses = np.empty(PLACE_SIZE), np.zeros(4)
-    spare = (np.empty((1, POINT_SIZE)), np.empty((1, MOST_CANDIDATES, K_SIZE)))
+    before, losses = scratch(PLACE_SIZE), zeros(4)
+    spare = (scratch(1, POINT_SIZE), np.empty((1, MOST_CANDIDATES, K_SIZE)))
     branches[2][:] = -1
     set_phase(phases[0], command, device)
     if begun > 0:
@@ -572,10 +573,10 @@ def follow_friction(
 def certified_pose(q: Array, device: Array, bolt: Array, nut: Array) -> int:
     """What the certificate says of overlaps at a pose, whose places of contact are searched for."""
     r = bolt[pk.R_MAJOR]
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     places = np.empty((MAX_PLACES + 1, GAP_SIZE))
     set_place(q, device, place)
-    found = find_places(REACH * r, place, device, bolt, nut, new_threads(bolt), np.empty(PLACES_WORK), places)
+    found = find_places(REACH * r, place, device, bolt, nut, new_threads(bolt), scratch(PLACES_WORK), places)
     touching = 0
     for j in range(found):
         if places[j, G_VALUE] > -LEAST_GAP * r:

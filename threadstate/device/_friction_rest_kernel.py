@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_SCALE,
@@ -54,11 +55,11 @@ def rests(q: Array, push: float, mu: float, count: int, contacts: Array, device:
     """
     n = free_coordinates(device)
     r = device[D_SCALE]
-    place = np.empty(PLACE_SIZE)
-    metric = np.empty((COORDINATES, COORDINATES))
-    factor = np.empty((COORDINATES, COORDINATES))
-    gradient = np.empty(COORDINATES)
-    by_q = np.empty(COORDINATES)
+    place = scratch(PLACE_SIZE)
+    metric = scratch(COORDINATES, COORDINATES)
+    factor = scratch(COORDINATES, COORDINATES)
+    gradient = scratch(COORDINATES)
+    by_q = scratch(COORDINATES)
     velocities = np.empty((MOST_CONTACTS, 3, COORDINATES))
     most = (EDGES + MORE_EDGES) * count
     rows = np.zeros((most, COORDINATES))
@@ -93,11 +94,11 @@ def rests(q: Array, push: float, mu: float, count: int, contacts: Array, device:
     stiffness = push / (1e-3 * r)
     for j in range(n):
         gradient[j] /= stiffness
-    step = np.empty(COORDINATES)
+    step = scratch(COORDINATES)
     forces = np.empty(most)
     work, active = np.empty(6 * most + 90), np.empty(COORDINATES + 2, dtype=np.int64)
     limits = np.zeros(most)
-    moved = np.empty(3)
+    moved = scratch(3)
     while True:
         status = solve_program(n, factor, gradient, total, rows, limits, 1e-14 * r, work, active, step, forces)
         if status != PROGRAM_SOLVED:

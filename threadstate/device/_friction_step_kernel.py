@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._geometry_kernel import copy_numbers
-from threadstate.device._chart_kernel import D_SCALE, PLACE_SIZE, set_place
+from threadstate.device._chart_kernel import COORDINATES, D_SCALE, PLACE_SIZE, set_place
 from threadstate.device._descent_kernel import AT_REST, Descent, descend
 from threadstate.device._gap_kernel import G_NORM, G_NORMAL, G_POINT, GAP_SIZE
 from threadstate.device._knot_kernel import LOADED
@@ -151,7 +152,7 @@ def kept(count: int, contacts: Array, push: float) -> int:
     return used
 
 
-@kernel(allocates=True)
+@kernel()
 def solve_step(
     q: Array,
     free: Array,
@@ -169,7 +170,7 @@ def solve_step(
     Returns how many there are, and the number of candidates: one more than there is room for where it meets too many.
     """
     command, device = setting[0], setting[1]
-    met = np.empty(GAP_SIZE)
+    met = scratch(GAP_SIZE)
     is_frozen = setting[7].frozen[0] == 1
     while True:
         number, has_met = enumerate_modes(
@@ -232,8 +233,8 @@ def ramp_friction(
     places, search = modes_work.places, modes_work.search
     r = device[D_SCALE]
     modes = np.zeros(MOST_CANDIDATES, dtype=np.int64)
-    contacts = np.empty((MOST_CANDIDATES, K_SIZE))
-    trial, place = free.copy(), np.empty(PLACE_SIZE)
+    contacts = scratch(MOST_CANDIDATES, K_SIZE)
+    trial, place = free.copy(), scratch(PLACE_SIZE)
     for c in range(total):
         copy_numbers(candidates[c], contacts[c])
         modes[c] = OPENS
@@ -274,7 +275,7 @@ def ramp_friction(
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def step_with_friction(
     q: Array,
     push: float,
@@ -295,8 +296,9 @@ def step_with_friction(
     ``begins_anew``, and where the push grows, those that a bolt without friction would have are added.
     """
     command, device, _, bolt, nut, threads, work, _ = setting
-    free = q.copy()
-    candidates = np.empty((MOST_CANDIDATES, K_SIZE))
+    free = scratch(COORDINATES)
+    copy_numbers(q, free)
+    candidates = scratch(MOST_CANDIDATES, K_SIZE)
     for c in range(count):
         copy_numbers(contacts[c], candidates[c])
     number, total = 0, count

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import EDGE_THREAD, THREAD_EDGE
 from threadstate.device._chart_kernel import (
@@ -183,14 +184,14 @@ def set_carried(command_rates: Array, place: Array, carried: Carried) -> None:
         by_chart[i] = inverse[3 * i] * turn[0] + inverse[3 * i + 1] * turn[1] + inverse[3 * i + 2] * turn[2]
 
 
-@kernel(allocates=True)
+@kernel()
 def set_pull(count: int, command_rates: Array, carried: Carried, device: Array, work: Work, pull: Array) -> None:
     """Sets what a radian of phase adds to the forces on the coordinates while they stay: of the springs, as the
     commanded place moves, and of the contacts, as the bolt is carried round.
     """
     turn, by_chart, inverse = carried
     jacobian = work.place[N_JACOBIAN : N_JACOBIAN + 9]
-    hessian, moment, second = np.zeros((COORDINATES, 3)), np.zeros(3), np.empty(3)
+    hessian, moment, second = zeros(COORDINATES, 3), zeros(3), scratch(3)
     for i in range(count):
         force = work.multipliers[i]
         if force > 0.0:
@@ -224,8 +225,8 @@ def set_rates(count: int, command_rates: Array, scene: Scene, knot: Knot) -> boo
     """
     device, work = scene.device, scene.work
     n = free_coordinates(device)
-    carried, pull = Carried(np.empty(3), np.empty(3), np.empty(9)), np.empty(COORDINATES)
-    columns, closing = np.empty((COORDINATES, COORDINATES)), np.empty(COORDINATES)
+    carried, pull = Carried(scratch(3), scratch(3), scratch(9)), scratch(COORDINATES)
+    columns, closing = scratch(COORDINATES, COORDINATES), scratch(COORDINATES)
     held = np.empty(COORDINATES, dtype=np.int64)
     set_constraints(n, count, work.places, device, work.normals, work.limits)
     stiffness = set_convex_model(n, count, device, work)
@@ -260,14 +261,14 @@ def set_rates(count: int, command_rates: Array, scene: Scene, knot: Knot) -> boo
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def solve_held(n: int, size: int, lower: Array, columns: Array, closing: Array, rate: Array) -> bool:
     """Solves H x + A^T m = b, A x = c in place: ``rate`` is b and then x, ``closing`` c and then m.
 
     ``lower`` is the factor of H, ``columns`` are the rows of A, which are changed. False where they are not
     independent.
     """
-    gram, factor = np.empty((COORDINATES, COORDINATES)), np.empty((COORDINATES, COORDINATES))
+    gram, factor = scratch(COORDINATES, COORDINATES), scratch(COORDINATES, COORDINATES)
     # In the coordinates in which H is the unit matrix.
     solve_lower(lower, n, rate)
     for i in range(size):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.device._chart_kernel import (
@@ -112,10 +113,10 @@ def set_command_rates(command: Array, device: Array, rates: Array) -> None:
         rates[4] = device[D_CENTRE] * device[D_ROTATION + 2]
 
 
-@kernel(allocates=True)
+@kernel()
 def torque_of(q: Array, count: int, contacts: Array, command: Array, device: Array) -> float:
     """The hand's work a radian of phase: the torque about the axis that the phase turns about."""
-    by_q, rates = np.empty(COORDINATES), np.empty(COORDINATES)
+    by_q, rates = scratch(COORDINATES), scratch(COORDINATES)
     elastic_energy(q, device, by_q)
     set_command_rates(command, device, rates)
     ax, ay, az = rates[0], rates[1], rates[2]
@@ -161,11 +162,11 @@ def kind_of_change(span: Array, one: Knot, other: Knot) -> int:
     return MOVED if span[SPAN_WAS] > 0.0 and has_moved(span, one, other) else UNCHANGED
 
 
-@kernel(allocates=True)
+@kernel()
 def add_changes(phase: float, before: float, total: int, spans: Array, one: Knot, other: Knot, leg: Leg) -> None:
     """Adds the events of contacts between two points: of those that go on, of those gained, then of those lost."""
     result, _, _, events = leg
-    none = np.zeros(GAP_SIZE)
+    none = zeros(GAP_SIZE)
     for wanted in (MOVED, GAINED, LOST):
         for k in range(total):
             kind = kind_of_change(spans[k], one, other)
@@ -175,15 +176,15 @@ def add_changes(phase: float, before: float, total: int, spans: Array, one: Knot
                 add_change(kind, phase, before, was, now, result, events)
 
 
-@kernel(allocates=True)
+@kernel()
 def add_point(phase: float, kind: int, q: Array, here: Knot, command: Array, device: Array, leg: Leg) -> bool:
     """Adds a point to the path; False where it is full."""
     result, points, all_contacts, _ = leg
     i = int(result[L_POINTS])
     if i == MAX_POINTS:
         return False
-    by_q = np.empty(COORDINATES)
-    place = np.empty(PLACE_SIZE)
+    by_q = scratch(COORDINATES)
+    place = scratch(PLACE_SIZE)
     energy = elastic_energy(q, device, by_q)
     set_place(q, device, place)
     count = here.numbers[K_CONTACTS]
@@ -215,11 +216,11 @@ def has_snapped(leg: Leg, bolt: Array) -> bool:
     return False
 
 
-@kernel(allocates=True)
+@kernel()
 def add_fall(phase: float, before: float, q: Array, trial: Array, lost: float, device: Array, leg: Leg) -> None:
     """Adds a fall from ``q`` to ``trial``; ``lost`` is the potential lost."""
     result, _, _, events = leg
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     row = add_event(FALL, phase, before, -1.0, -1.0, result, events)
     set_place(q, device, place)
     x, y, z = place[N_OFFSET], place[N_OFFSET + 1], place[N_OFFSET + 2]
@@ -233,10 +234,10 @@ def add_fall(phase: float, before: float, q: Array, trial: Array, lost: float, d
         events[row, E_POINT + j] = place[N_CENTRE + j]
 
 
-@kernel(allocates=True)
+@kernel()
 def potential_of(q: Array, push: float, device: Array) -> float:
     """The potential of the bolt."""
-    by_q = np.empty(COORDINATES)
+    by_q = scratch(COORDINATES)
     return elastic_energy(q, device, by_q) + push * q[5]
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import THREAD_THREAD
 from threadstate.device._chart_kernel import (
@@ -346,7 +347,7 @@ def follow_places(
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def set_equations(
     modes: Indices,
     count: int,
@@ -372,9 +373,9 @@ def set_equations(
     matrix, residual, unknowns = work.matrix, work.residual, work.unknowns
     n = free_coordinates(device)
     r = device[D_SCALE]
-    by_q = np.empty(COORDINATES)
-    force, along, ahead = np.empty(3), np.empty(2), np.empty(2)
-    basis = np.empty((3, 3))
+    by_q = scratch(COORDINATES)
+    force, along, ahead = scratch(3), scratch(2), scratch(2)
+    basis = scratch(3, 3)
     elastic_energy(q, device, by_q)
     by_q[5] += push
     size = n
@@ -545,7 +546,7 @@ def leaves_cones(modes: Indices, count: int, mu: float, off: float, forces: Arra
     return False
 
 
-@kernel(allocates=True)
+@kernel()
 def solve_mode(
     modes: Indices,
     count: int,
@@ -578,11 +579,12 @@ def solve_mode(
             work.indices[c] = c
     elif not match_places(modes, count, contacts, found, r, work):
         return UNSOLVED
-    place = np.empty(PLACE_SIZE)
-    step = np.empty(MOST_UNKNOWNS)
-    update = np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS))
-    expected = np.zeros(MOST_UNKNOWNS)
-    start = q.copy()
+    place = scratch(PLACE_SIZE)
+    step = scratch(MOST_UNKNOWNS)
+    update = zeros(MOST_UNKNOWNS, MOST_UNKNOWNS)
+    expected = zeros(MOST_UNKNOWNS)
+    start = scratch(COORDINATES)
+    copy_numbers(q, start)
     set_place(q, device, place)
     follow_places(modes, count, True, place, device, bolt, nut, threads, work)
     rho = set_first_unknowns(modes, count, mu, unit, r, n, before, place, contacts, work)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._flush_kernel import distance_outside, outline_root
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers, edge_point
 from threadstate.contact._hull_kernel import convex_hull
@@ -24,7 +25,8 @@ OUTLINE_SAMPLES = 360
 """Samples of each outline."""
 
 POINTS = 2 * OUTLINE_SAMPLES + 128
-"""Room for the samples, the crossings of both outlines, and what refining adds."""
+HULL_ROWS = POINTS + 2
+"""Room for the samples, the crossings of both outlines, and what refining adds; and for their hull."""
 
 # A point of the patch: where, whether it is one of the nut's outline (1.0 or 0.0), and the azimuth on its part.
 H_X, H_Y, H_NUT, H_THETA = range(4)
@@ -234,7 +236,7 @@ def hull_margin(
         size = refined
 
 
-@kernel(allocates=True)
+@kernel()
 def set_patch_hull(
     x: float, y: float, place: Array, bolt: Array, nut: Array, points: Array, hull: Array
 ) -> tuple[int, float, int, int]:
@@ -243,5 +245,5 @@ def set_patch_hull(
     """
     count = patch_points(place, bolt, nut, points)
     size = convex_hull(points, count, hull)
-    margin, side, size = hull_margin(hull, size, x, y, place, bolt, nut, np.empty((POINTS, POINT_SIZE)))
+    margin, side, size = hull_margin(hull, size, x, y, place, bolt, nut, scratch(POINTS, POINT_SIZE))
     return count, margin, side, size

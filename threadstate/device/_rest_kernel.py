@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import zeros
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_CENTRE,
@@ -154,14 +155,14 @@ def scale(j: int, device: Array) -> float:
     return device[D_SCALE] if j < 3 else 1.0
 
 
-@kernel(allocates=True)
+@kernel()
 def set_metric(n: int, place: Array, device: Array, metric: Array) -> None:
     """Sets the metric diag(r^2, r^2, r^2, 1, 1, 1) at the bolt's origin in the free coordinates as lengths."""
     r, c = device[D_SCALE], device[D_CENTRE]
     m = place[N_ROTATION : N_ROTATION + 9]
     jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
-    turn = np.zeros((6, 3))
-    shift = np.zeros((6, 3))
+    turn = zeros(6, 3)
+    shift = zeros(6, 3)
     for i in range(n):
         j = coordinate(i, device)
         if j < 3:

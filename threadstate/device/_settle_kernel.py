@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import new_work as new_stage_work
 from threadstate.device._certificate_kernel import FREE, overlap
@@ -98,13 +99,13 @@ def set_command(rotation: Array, height: float, device: Array, q: Array) -> None
         q[3 + i] = device[D_PLACE + i]
 
 
-@kernel(allocates=True)
+@kernel()
 def add_point(q: Array, push: float, device: Array, path: Array, result: Array) -> None:
     """Adds a point to the path; a full path leaves it out."""
     i = int(result[R_PATH])
     if i == MAX_PATH:
         return
-    gradient = np.empty(COORDINATES)
+    gradient = scratch(COORDINATES)
     energy = elastic_energy(q, device, gradient)
     path[i, P_PUSH] = push
     path[i, P_POTENTIAL] = energy + push * q[5]
@@ -114,13 +115,13 @@ def add_point(q: Array, push: float, device: Array, path: Array, result: Array) 
     result[R_PATH] = i + 1
 
 
-@kernel(allocates=True)
+@kernel()
 def distance(q: Array, other: Array, device: Array) -> float:
     """How far apart two places of the bolt are, in the metric at the first."""
     n = free_coordinates(device)
-    place = np.empty(PLACE_SIZE)
-    metric = np.empty((COORDINATES, COORDINATES))
-    step = np.empty(COORDINATES)
+    place = scratch(PLACE_SIZE)
+    metric = scratch(COORDINATES, COORDINATES)
+    step = scratch(COORDINATES)
     set_place(q, device, place)
     set_metric(n, place, device, metric)
     for i in range(n):
@@ -129,7 +130,7 @@ def distance(q: Array, other: Array, device: Array) -> float:
     return length_of(n, step, metric)
 
 
-@kernel(allocates=True)
+@kernel()
 def add_fall(before: Array, after: Array, push: float, device: Array, result: Array, falls: Array) -> bool:
     """Adds a fall at a push, if the bolt has gone far enough for one; False: there are too many."""
     if distance(before, after, device) <= STEP_LENGTH * device[D_SCALE]:
@@ -137,7 +138,7 @@ def add_fall(before: Array, after: Array, push: float, device: Array, result: Ar
     count = int(result[R_FALLS])
     if count == MAX_FALLS:
         return False
-    gradient = np.empty(COORDINATES)
+    gradient = scratch(COORDINATES)
     falls[count, F_PUSH] = push
     falls[count, F_POTENTIAL] = elastic_energy(before, device, gradient) + push * before[5]
     falls[count, F_POTENTIAL + 1] = elastic_energy(after, device, gradient) + push * after[5]
@@ -148,7 +149,7 @@ def add_fall(before: Array, after: Array, push: float, device: Array, result: Ar
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def lie_until(q: Array, at: float, push: float, scene: Scene, result: Array, path: Array) -> tuple[bool, float]:
     """Whether a bolt that lies flush at a push ``at`` does so up to the whole one, and the push up to which it does.
 
@@ -162,13 +163,13 @@ def lie_until(q: Array, at: float, push: float, scene: Scene, result: Array, pat
         return True, push
     reached = max(until, at)
     add_point(q, reached, device, path, result)
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_place(q, device, place)
     tip_over(direction, TIP, place, q)
     return False, reached
 
 
-@kernel(allocates=True)
+@kernel()
 def follow_push(q: Array, tip: Array, push: float, scene: Scene, result: Array, falls: Array, path: Array) -> None:
     """Follows the bolt from ``q``, in place, while the push grows from 0 to ``push``; sets result, falls and path.
 
@@ -176,7 +177,7 @@ def follow_push(q: Array, tip: Array, push: float, scene: Scene, result: Array, 
     """
     device, r = scene.device, scene.bolt[pk.R_MAJOR]
     result[R_FALLS], result[R_PATH], result[R_PLACES], result[R_PUSH] = 0, 0, 0, 0.0
-    trial = np.empty(COORDINATES)
+    trial = scratch(COORDINATES)
     known = 0
     reached = 0.0
     part = FIRST_PART
@@ -249,8 +250,8 @@ def settle_rows(
     work = new_work()
     threads = new_threads(bolt)
     scene = Scene(device, bolt, nut, threads, work)
-    q = np.empty(COORDINATES)
-    place = np.empty(PLACE_SIZE)
+    q = scratch(COORDINATES)
+    place = scratch(PLACE_SIZE)
     for i in range(rotations.shape[0]):
         results[i, :] = 0.0
         height = heights[i]

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.device._chart_kernel import (
     COORDINATES,
     D_RIGID,
@@ -31,6 +32,7 @@ from threadstate.device._flush_kernel import NEAR_SURFACE, NEARLY_LEVEL, centre_
 from threadstate.device._patch_kernel import (
     H_X,
     H_Y,
+    HULL_ROWS,
     POINT_SIZE,
     POINTS,
     patch_points,
@@ -72,19 +74,19 @@ L_X, L_Y, L_FORCE, L_FRICTION, L_MOMENT, L_LOSS, L_SLIDES = 0, 1, 2, 3, 5, 6, 7
 LYING_SIZE = 8
 
 
-@kernel(allocates=True)
+@kernel()
 def lies_beside(q: Array, device: Array, r: float) -> bool:
     """Whether a bolt is nearly level, near the nut's surface."""
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_place(q, device, place)
     tilt = math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7])
     return tilt < NEARLY_LEVEL and abs(place[N_OFFSET + 2]) < NEAR_SURFACE * r
 
 
-@kernel(allocates=True)
+@kernel()
 def is_level(q: Array, device: Array) -> bool:
     """Whether a bolt is level."""
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_place(q, device, place)
     return math.hypot(place[N_ROTATION + 6], place[N_ROTATION + 7]) < LEVEL_TILT
 
@@ -205,7 +207,7 @@ def set_friction(
     return loss
 
 
-@kernel(allocates=True)
+@kernel()
 def slide_to_balance(
     count: int,
     points: Array,
@@ -219,8 +221,8 @@ def slide_to_balance(
     friction: Array,
 ) -> tuple[bool, float]:
     """Slides a level bolt, in place, to where friction balances the device's lateral force: whether, and the loss."""
-    place = np.empty(PLACE_SIZE)
-    by_q = np.empty(COORDINATES)
+    place = scratch(PLACE_SIZE)
+    by_q = scratch(COORDINATES)
     k = device[D_STIFFNESS:]
     set_place(q, device, place)
     elastic_energy(q, device, by_q)
@@ -270,9 +272,9 @@ def lie_flush(
     r = bolt[pk.R_MAJOR]
     if not set_flush(device, level) or not device[D_RIGID] > 0.0:
         return False, 0.0
-    place, by_q = np.empty(PLACE_SIZE), np.empty(COORDINATES)
-    points, hull = np.empty((POINTS, POINT_SIZE)), np.empty((POINTS + 2, POINT_SIZE))
-    weights, rates, friction = np.empty(POINTS), np.zeros(2), np.zeros(7)
+    place, by_q = scratch(PLACE_SIZE), scratch(COORDINATES)
+    points, hull = scratch(POINTS, POINT_SIZE), scratch(HULL_ROWS, POINT_SIZE)
+    weights, rates, friction = scratch(POINTS), zeros(2), zeros(7)
     free_x, free_y = level[3], level[4]
     level[3], level[4] = before[N_CENTRE], before[N_CENTRE + 1]
     elastic_energy(level, device, by_q)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import EDGE_THREAD, THREAD_EDGE
 from threadstate.device._chart_kernel import COORDINATES
@@ -111,7 +112,7 @@ def nearest_like(gap: Array, near: float, knot: Knot, taken: Array) -> int:
     return best if 2.0 * nearest < next_one else -1
 
 
-@kernel(allocates=True)
+@kernel()
 def set_spans(one: Knot, other: Knot, push: float, scene: Scene, spans: Array) -> int:
     """Sets a span for each place of two knots; their number.
 
@@ -119,9 +120,9 @@ def set_spans(one: Knot, other: Knot, push: float, scene: Scene, spans: Array) -
     one's already, ends.
     """
     device, bolt, nut, threads, work = scene
-    gap = np.empty(GAP_SIZE)
-    begun = np.zeros(MAX_PLACES)
-    taken = np.zeros(MAX_PLACES)
+    gap = scratch(GAP_SIZE)
+    begun = zeros(MAX_PLACES)
+    taken = zeros(MAX_PLACES)
     near = NEAR * bolt[pk.R_MAJOR]
     total = one.numbers[K_PLACES]
     for attempt in range(4):

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import TWO_PI, copy_numbers
 from threadstate.contact._stage_kernel import THREAD_THREAD
 from threadstate.device._chart_kernel import COORDINATES, D_SCALE, PLACE_SIZE, set_place
@@ -116,9 +117,9 @@ def enumerate_modes(
     r = device[D_SCALE]
     modes = np.empty(MOST_CANDIDATES, dtype=np.int64)
     matches = np.empty(MOST_CANDIDATES, dtype=np.int64)
-    contacts = np.empty((MOST_CANDIDATES, K_SIZE))
-    trial, start = np.empty(COORDINATES), np.empty(COORDINATES)
-    place = np.empty(PLACE_SIZE)
+    contacts = scratch(MOST_CANDIDATES, K_SIZE)
+    trial, start = scratch(COORDINATES), scratch(COORDINATES)
+    place = scratch(PLACE_SIZE)
     for j in range(COORDINATES):
         start[j] = carried[j] if turns else 0.5 * (carried[j] + free[j])
     total, has_met, least = 0, False, math.inf
@@ -195,7 +196,7 @@ def add_solution(total: int, q: Array, count: int, contacts: Array, device: Arra
     return total + 1
 
 
-@kernel(allocates=True)
+@kernel()
 def places_of_contacts(modes: Indices, count: int, contacts: Array, q: Array, setting: Setting) -> int:
     """Sets the places with which a mode begins at ``q``: AS_LISTED, or the number of those that a search has found
     where a contact cannot be followed; none where contacts are frozen, which have their own.
@@ -203,7 +204,7 @@ def places_of_contacts(modes: Indices, count: int, contacts: Array, q: Array, se
     _, device, _, bolt, nut, threads, _, work = setting
     if work.frozen[0] == 1:
         return 0
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_place(q, device, place)
     if follow_contacts(modes, count, contacts, place, device, bolt, nut, threads, work):
         return AS_LISTED
@@ -244,7 +245,7 @@ def solve_moved(
     places, search = modes_work.places, modes_work.search
     r, falls = device[D_SCALE], modes_work.drag[0, 0] > 0.0
     allowed = COARSE_OVERLAP if falls or modes_work.frozen[0] == 1 else OVERLAP
-    place, bracket = np.empty(PLACE_SIZE), np.zeros(6)
+    place, bracket = scratch(PLACE_SIZE), zeros(6)
     tops = np.empty(MOST_CANDIDATES, dtype=np.int64)
     last_moved, moves = -1, 0
     is_frozen = modes_work.frozen[0] == 1

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.device._chart_kernel import (
@@ -65,7 +66,7 @@ CONTACT_SIZE = 8
 MAX_CONTACTS = 8
 
 
-@kernel(allocates=True)
+@kernel()
 def set_strip(near: float, device: Array, strip: Array, bolt: Array, q: Array) -> bool:
     """Sets the coordinates of the level pose on the strip whose height is nearest to ``near``; False without one.
 
@@ -80,7 +81,7 @@ def set_strip(near: float, device: Array, strip: Array, bolt: Array, q: Array) -
     q[1] = ux / across * angle if across > 0.0 else 0.0
     for i in range(2, COORDINATES):
         q[i] = 0.0
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_place(q, device, place)
     turn = math.atan2(place[N_ROTATION + 3], place[N_ROTATION])
     p = bolt[pk.P]
@@ -103,7 +104,7 @@ def strip_parameters(i: int, height: float, strip: Array) -> tuple[float, float]
     return strip[S_LOW] + part * (strip[S_HIGH] - strip[S_LOW]), height * (i // END_SAMPLES)
 
 
-@kernel(allocates=True)
+@kernel()
 def set_strip_rows(
     mu: float, sense: float, place: Array, device: Array, strip: Array, nut: Array, rows: Array, points: Array
 ) -> int:
@@ -118,7 +119,7 @@ def set_strip_rows(
     starts = int(strip[S_STARTS])
     m = place[N_ROTATION : N_ROTATION + 9]
     jacobian = place[N_JACOBIAN : N_JACOBIAN + 9]
-    by_q = np.empty(COORDINATES)
+    by_q = scratch(COORDINATES)
     cot = nut[pk.COT]
     for start in range(starts):
         for i in range(OUTLINE):
@@ -169,11 +170,11 @@ def strip_holds(
     """
     n = free_coordinates(device)
     r = bolt[pk.R_MAJOR]
-    place = np.empty(PLACE_SIZE)
-    metric = np.empty((COORDINATES, COORDINATES))
-    factor = np.empty((COORDINATES, COORDINATES))
-    gradient = np.empty(COORDINATES)
-    by_q = np.empty(COORDINATES)
+    place = scratch(PLACE_SIZE)
+    metric = scratch(COORDINATES, COORDINATES)
+    factor = scratch(COORDINATES, COORDINATES)
+    gradient = scratch(COORDINATES)
+    by_q = scratch(COORDINATES)
     most = OUTLINE * int(strip[S_STARTS])
     rows = np.empty((most, COORDINATES))
     points = np.empty((most, 6))
@@ -184,7 +185,7 @@ def strip_holds(
     count = set_strip_rows(mu, sense, place, device, strip, nut, rows, points)
     limits = np.zeros(count)
     forces = np.empty(count)
-    step = np.empty(COORDINATES)
+    step = scratch(COORDINATES)
     stiffness = push / (NEAR * r)
     for i in range(n):
         gradient[i] /= stiffness

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.contact._stage_kernel import FLUSH as FLUSH_PAIR
 from threadstate.contact._stage_kernel import THREAD_THREAD
@@ -180,12 +181,12 @@ Setting = tuple[Array, Array, Array, Array, Array, Threads, Work]
 """What a leg is followed with: command, device, strip, bolt, nut, and the work of searches and descents."""
 
 
-@kernel(allocates=True)
+@kernel()
 def set_flush_contact(q: Array, push: float, device: Array, contacts: Array) -> int:
     """Sets the resultant of the pressure on the nut's surface as one contact; 1."""
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_place(q, device, place)
-    x, y, force, _ = centre_of_pressure(q, push, place, device, np.zeros(3))
+    x, y, force, _ = centre_of_pressure(q, push, place, device, zeros(3))
     contacts[0, C_PAIR] = FLUSH_PAIR
     contacts[0, C_POINT], contacts[0, C_POINT + 1], contacts[0, C_POINT + 2] = x, y, 0.0
     contacts[0, C_NORMAL], contacts[0, C_NORMAL + 1], contacts[0, C_NORMAL + 2] = 0.0, 0.0, 1.0
@@ -205,7 +206,7 @@ def predict(step: float, q: Array, here: Knot, device: Array, trial: Array) -> N
         copy_numbers(q, trial)
 
 
-@kernel(allocates=True)
+@kernel()
 def laid_level(
     q: Array, push: float, device: Array, strip: Array, bolt: Array, nut: Array, contacts: Array
 ) -> tuple[int, int]:
@@ -213,9 +214,9 @@ def laid_level(
 
     It is moved there, in place. A level pose that is held is a minimum of the potential: the only one near by.
     """
-    place = np.empty(PLACE_SIZE)
-    level = np.empty(COORDINATES)
-    leave = np.empty(COORDINATES)
+    place = scratch(PLACE_SIZE)
+    level = scratch(COORDINATES)
+    leave = scratch(COORDINATES)
     near = LEVEL_REACH * bolt[pk.R_MAJOR]
     set_place(q, device, place)
     is_level = is_near_strip(place, bolt) and set_strip(place[N_OFFSET + 2], device, strip, bolt, level)
@@ -232,7 +233,7 @@ def laid_level(
     return ON_CONTACTS, 0
 
 
-@kernel(allocates=True)
+@kernel()
 def fall_down(
     q: Array, push: float, device: Array, bolt: Array, nut: Array, threads: Threads, work: Work
 ) -> tuple[int, int]:
@@ -241,7 +242,8 @@ def fall_down(
     Where it does not end it begins again with places of contact searched more finely, and then with longer steps.
     """
     r = bolt[pk.R_MAJOR]
-    start = q.copy()
+    start = scratch(COORDINATES)
+    copy_numbers(q, start)
     status, found = UNSETTLED, 0
     for attempt in range(5):
         copy_numbers(start, q)
@@ -264,7 +266,7 @@ def fall_for_certain(q: Array, setting: Setting) -> tuple[int, int, bool]:
     """
     command, device, _, bolt, nut, threads, work = setting
     r, push = bolt[pk.R_MAJOR], command[M_PUSH]
-    start, end = q.copy(), np.empty(COORDINATES)
+    start, end = q.copy(), scratch(COORDINATES)
     status, found = fall_down(q, push, device, bolt, nut, threads, work)
     for parts in (4, 16):
         if status == UNSETTLED:
@@ -279,7 +281,7 @@ def fall_for_certain(q: Array, setting: Setting) -> tuple[int, int, bool]:
     return status, found, False
 
 
-@kernel(allocates=True)
+@kernel()
 def closed_step(kind: int, q: Array, setting: Setting, there: Knot, trial: Array) -> bool:
     """The pose on the surface or the strip at a new command: whether it is held there; sets its contacts.
 
@@ -287,8 +289,8 @@ def closed_step(kind: int, q: Array, setting: Setting, there: Knot, trial: Array
     """
     command, device, strip, bolt, nut, _, _ = setting
     push = command[M_PUSH]
-    leave = np.empty(COORDINATES)
-    place = np.empty(PLACE_SIZE)
+    leave = scratch(COORDINATES)
+    place = scratch(PLACE_SIZE)
     there.numbers[K_PLACES] = 0
     if kind == ON_SURFACE:
         until, direction = flush_until(push, device, bolt, nut, trial)
@@ -297,7 +299,7 @@ def closed_step(kind: int, q: Array, setting: Setting, there: Knot, trial: Array
             return True
         # The centre of pressure has left the patch: the bolt tips towards it.
         set_place(trial, device, place)
-        x, y, _, _ = centre_of_pressure(trial, push, place, device, np.zeros(3))
+        x, y, _, _ = centre_of_pressure(trial, push, place, device, zeros(3))
         direction = math.atan2(y - place[N_OFFSET + 1], x - place[N_OFFSET])
         tip_over(direction, TIP, place, trial)
         return False
@@ -325,11 +327,11 @@ def descent_near(q: Array, known: int, steps: int, setting: Setting) -> tuple[in
     return descend_followed(q, known, wanted, Scene(device, bolt, nut, threads, work))
 
 
-@kernel(allocates=True)
+@kernel()
 def set_found(found: int, setting: Setting, there: Knot) -> None:
     """Sets the knot of where a descent has ended at contacts, with so many places."""
     command, device, _, bolt, nut, threads, work = setting
-    rates = np.empty(COORDINATES)
+    rates = scratch(COORDINATES)
     set_command_rates(command, device, rates)
     set_knot(found, command[M_PUSH], rates, Scene(device, bolt, nut, threads, work), there)
 
@@ -349,7 +351,7 @@ def at_minimum(status: int, found: int, trial: Array, setting: Setting, there: K
     return TAKEN, AT_REST, ON_CONTACTS
 
 
-@kernel(allocates=True)
+@kernel()
 def minimum_near(
     size: float, left: float, held: bool, state: Array, setting: Setting, trial: Array, there: Knot, leg: Leg
 ) -> tuple[int, int, int]:
@@ -360,7 +362,8 @@ def minimum_near(
     """
     command, device, strip, bolt, nut, _, _ = setting
     push = command[M_PUSH]
-    begun = trial.copy()
+    begun = scratch(COORDINATES)
+    copy_numbers(trial, begun)
     leg[0][L_DESCENTS] += 1
     known = int(state[S_KNOWN])
     status, found = descent_near(trial, known, NEAR_STEPS if size > ABOVE * EVENT_WIDTH else SLOW_STEPS, setting)
@@ -494,14 +497,14 @@ def go_on(target: float, kind: int, is_smooth: bool, after_change: bool, longest
     state[S_FINE] = state[S_FINE] if is_smooth or state[S_FINE] == ALWAYS else 0.0
 
 
-@kernel(allocates=True)
+@kernel()
 def begin(q: Array, kind: int, start: float, parts: int, state: Array, setting: Setting, here: Knot) -> int:
     """Sets the state of a leg and its contacts at its beginning; how the descent there ended.
 
     Intervals of edges are divided into so many parts.
     """
     command, device, _, _, _, _, _ = setting
-    trial = np.empty(COORDINATES)
+    trial = scratch(COORDINATES)
     for j in range(STATE_SIZE):
         state[j] = 0.0
     state[S_PHASE], state[S_STEP], state[S_KIND] = start, min(FIRST_STEP, command[M_LONGEST]), kind
@@ -517,12 +520,12 @@ def begin(q: Array, kind: int, start: float, parts: int, state: Array, setting: 
     return status
 
 
-@kernel(allocates=True)
+@kernel()
 def overlaps_at(i: int, gap: Array, setting: Setting, leg: Leg) -> bool:
     """Whether a place of overlap, followed in place to a point of the path, overlaps there, or is not clearly open."""
     command, device, _, bolt, nut, threads, work = setting
     _, points, _, _ = leg
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     set_phase(points[i, T_PHASE], command, device)
     set_place(points[i, T_COORDINATES : T_COORDINATES + COORDINATES], device, place)
     if not follow_place(gap, place, device, bolt, nut, threads, work.search):
@@ -570,7 +573,7 @@ def step_on(
     command, device, _, bolt, nut, threads, work = setting
     result, _, _, events = leg
     push = command[M_PUSH]
-    trial = np.empty(COORDINATES)
+    trial = scratch(COORDINATES)
     before, kind = state[S_PHASE], int(state[S_KIND])
     left = abs(end - before)
     size = min(state[S_STEP], left)
@@ -630,9 +633,9 @@ def follow_phase(
     result, points, _, _ = leg
     for j in range(LEG_SIZE):
         result[j] = 0.0
-    state = np.empty(STATE_SIZE)
+    state = scratch(STATE_SIZE)
     here, there = new_knot(), new_knot()
-    spans = np.empty((MAX_SPANS, SPAN_SIZE))
+    spans = scratch(MAX_SPANS, SPAN_SIZE)
     status = begin(q, kind, start, FINE, state, setting, here)
     add_point(state[S_PHASE], int(state[S_KIND]), q, here, command, device, leg)
     if status != AT_REST:
@@ -655,7 +658,7 @@ def follow_phase(
     return TURNED, int(state[S_KIND])
 
 
-@kernel(allocates=True)
+@kernel()
 def certified_end(q: Array, kind: int, setting: Setting, stage: StageWork) -> int:
     """What the certificate says of the overlap at a leg's end; moves the bolt, in place, to the last digits."""
     command, device, _, bolt, nut, threads, work = setting
@@ -663,7 +666,7 @@ def certified_end(q: Array, kind: int, setting: Setting, stage: StageWork) -> in
         # Level on the surface, or in phase on a strip: nothing overlaps.
         return FREE
     r = bolt[pk.R_MAJOR]
-    place = np.empty(PLACE_SIZE)
+    place = scratch(PLACE_SIZE)
     touching = 0
     wanted = Descent(command[M_PUSH], STEP_LENGTH * r, STEP_LENGTH * r, LAST_STEPS, END_TOLERANCE, END_OVERLAP)
     _, found = descend_followed(q, 0, wanted, Scene(device, bolt, nut, threads, work))

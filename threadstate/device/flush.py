@@ -97,7 +97,7 @@ def patch_hull(pair: Pair, place: Floats, x: float, y: float) -> tuple[Floats, F
     """
     bolt, nut = pair.bolt.packed, pair.nut.packed
     points = np.empty((pk.POINTS, pk.POINT_SIZE))
-    hull = np.empty((pk.POINTS + 2, pk.POINT_SIZE))
+    hull = np.empty((pk.HULL_ROWS, pk.POINT_SIZE))
     count, margin, side, size = pk.set_patch_hull(x, y, place, bolt, nut, points, hull)
     return points[:count, :2].copy(), hull[:size, :2].copy(), margin, side
 

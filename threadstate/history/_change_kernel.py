@@ -13,8 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.contact._stage_kernel import FLUSH
 from threadstate.history._follow_kernel import (
     CANDIDATE_SIZE,
@@ -110,7 +112,7 @@ def is_near(one: Array, other: Array, first_only: bool, limits: Array) -> bool:
     )
 
 
-@kernel(allocates=True)
+@kernel()
 def is_one_throughout(
     roll: float,
     pitch: float,
@@ -128,7 +130,7 @@ def is_one_throughout(
 ) -> bool:
     """Whether the state at either end of a stretch, followed alone, is that at the other; in the middle they meet."""
     candidates[:, F_STAGE] = 0.0
-    middle = record.copy()
+    middle = scratch(RECORD_SIZE)
     turn_limit = limits[L_TURN_LIMIT]
     of_one = candidates[: rk.MAX_RECORD_CONTACTS]
     for step in range(2):
@@ -148,7 +150,7 @@ def is_one_throughout(
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def place_of_change(
     roll: float,
     pitch: float,
@@ -183,10 +185,12 @@ def place_of_change(
     of_low, of_high = candidates[: rk.MAX_RECORD_CONTACTS], candidates[rk.MAX_RECORD_CONTACTS :]
     set_candidates(low_record, of_low)
     set_candidates(high_record, of_high)
-    low_side, high_side = low_record.copy(), high_record.copy()
+    low_side, high_side = scratch(RECORD_SIZE), scratch(RECORD_SIZE)
+    copy_numbers(low_record, low_side)
+    copy_numbers(high_record, high_side)
     a = low
     # Phases at which the labels were others, the nearest last: seen from far, where a contact may have been lost.
-    others = np.empty(MOST_DOUBTFUL)
+    others = scratch(MOST_DOUBTFUL)
     others[0] = high
     count = 1
     for step in range(MOST_STEPS):

@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact import _flush_kernel as fk
+from threadstate._scratch import scratch
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _tangency_kernel as tk
-from threadstate.contact._beside_kernel import new_kept
+from threadstate.contact._beside_kernel import KEPT_ROWS, KEPT_SIZE
 from threadstate.contact._box_kernel import ONE_EDGE, ONE_PLANE, ONE_THREAD
 from threadstate.contact._edge_kernel import Box, Edge
 from threadstate.contact._edge_search_kernel import AZIMUTH_TOLERANCE, contact_distance
+from threadstate.contact._flush_kernel import EXTREME_SIZE
 from threadstate.contact._geometry_kernel import M_KIND, MOTION_SIZE, PATH_SIZE, copy_numbers, motion_scale
 from threadstate.contact._onset_kernel import (
     J_G,
@@ -133,8 +134,8 @@ def new_work() -> Work:
     return Work(
         np.empty(MOTION_SIZE),
         np.empty(MOTION_SIZE),
-        new_kept(2),
-        new_kept(2),
+        np.empty((KEPT_ROWS, KEPT_SIZE)),
+        np.empty((KEPT_ROWS, KEPT_SIZE)),
         np.empty(PATH_SIZE),
         np.empty((0, 2)),
         np.empty(JET_SIZE),
@@ -247,7 +248,7 @@ def follow_candidate(
     return found and 0.0 < time <= limit
 
 
-@kernel(allocates=True)
+@kernel()
 def earliest_candidate(
     stage: int,
     pose: Array,
@@ -268,7 +269,7 @@ def earliest_candidate(
     is_turn = stage > 1
     set_motions(pose, is_turn, axis_in_both_planes(known, stage - 1), point, axis, work.bolt_motion, work.nut_motion)
     keep_contacts(known, stage - 1, pose, bolt, nut, work.bolt_kept, work.nut_kept)
-    one = np.empty(CONTACT_SIZE)
+    one = scratch(CONTACT_SIZE)
     contact[K_TIME] = math.inf
     for i in range(CANDIDATES):
         if candidates[i, F_STAGE] != stage:
@@ -287,7 +288,7 @@ def earliest_candidate(
     return contact[K_TIME] < math.inf
 
 
-@kernel(allocates=True)
+@kernel()
 def follow_pose(
     roll: float,
     pitch: float,
@@ -304,15 +305,16 @@ def follow_pose(
     The three stages of a whole solve. Ties, balanced poses and embedments are left out.
     """
     clear_record(record)
-    pose, second, third = np.empty(12), np.empty(12), np.empty(12)
-    known = np.empty((3, CONTACT_SIZE))
-    extremes = np.empty((4, fk.EXTREME_SIZE))
-    point, axis = np.zeros(3), np.zeros(3)
+    pose, second, third = scratch(12), scratch(12), scratch(12)
+    known, extremes = scratch(3, CONTACT_SIZE), scratch(4, EXTREME_SIZE)
+    point, axis = scratch(3), scratch(3)
 
     rotation(roll, pitch, phase, pose)
     pose[9] = 0.0
     pose[10] = 0.0
     pose[11] = start_height(pose, bolt)
+    for i in range(3):
+        point[i], axis[i] = 0.0, 0.0
     axis[2] = -1.0
     if not earliest_candidate(
         1, pose, point, axis, known, pose[11] + bolt[pk.P], candidates, bolt, nut, work, known[0]

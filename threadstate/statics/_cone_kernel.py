@@ -30,7 +30,7 @@ MOST_STALLED = 5
 """The iteration ends after so many steps that take a tenth neither off the residuals nor off residuals and gap."""
 
 
-@kernel(allocates=True)
+@kernel()
 def boundary_step(point: Array, direction: Array, start: int, size: int) -> float:
     """The largest step that keeps ``point + step direction`` in the cone at ``start``; infinite if every one does."""
     d0, p0 = direction[start], point[start]
@@ -50,7 +50,7 @@ def boundary_step(point: Array, direction: Array, start: int, size: int) -> floa
     return c / bottom if bottom > 0.0 else math.inf
 
 
-@kernel(allocates=True)
+@kernel()
 def into_cones(point: Array, sizes: Integers) -> None:
     """Shifts ``point`` along the cones' axes into their interior, unless it lies there."""
     worst = -math.inf
@@ -71,7 +71,7 @@ def into_cones(point: Array, sizes: Integers) -> None:
             start += size
 
 
-@kernel(allocates=True)
+@kernel()
 def factor(matrix: Array) -> bool:
     """Cholesky's factor of a symmetric positive matrix, in its lower triangle; False if it is not positive."""
     n = matrix.shape[0]
@@ -92,7 +92,7 @@ def factor(matrix: Array) -> bool:
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def solve_factored(factored: Array, right: Array) -> None:
     """Solves by Cholesky's factor, in place."""
     n = right.shape[0]
@@ -106,7 +106,7 @@ def solve_factored(factored: Array, right: Array) -> None:
         right[i] /= factored[i, i]
 
 
-@kernel(allocates=True)
+@kernel()
 def set_scaling(s: Array, z: Array, sizes: Integers, scaling: Array, eta: Array) -> bool:
     """Nesterov and Todd's scaling of each cone: its hyperbolic Householder vector and its factor.
 
@@ -132,7 +132,7 @@ def set_scaling(s: Array, z: Array, sizes: Integers, scaling: Array, eta: Array)
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def scale(vector: Array, sizes: Integers, scaling: Array, eta: Array, inverse: bool) -> None:
     """Multiplies by the scaling W, or by its inverse, in place."""
     sign = -1.0 if inverse else 1.0
@@ -274,7 +274,7 @@ def solve_program(c: Array, g: Array, h: Array, sizes: Integers, x: Array, z: Ar
     return best
 
 
-@kernel(allocates=True)
+@kernel()
 def search_direction(
     residual: float,
     rx: Array,
@@ -311,7 +311,7 @@ def search_direction(
     return step
 
 
-@kernel(allocates=True)
+@kernel()
 def corrected_target(lam: Array, ds: Array, dz: Array, centre: float, sizes: Integers, target: Array) -> None:
     """What the scaled directions shall sum to: ``lam`` divided into -lam o lam - ds o dz + centre e."""
     start = 0

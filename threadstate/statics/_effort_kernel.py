@@ -20,7 +20,7 @@ TIE = 1e-12
 """Climbs a radian, over the radius, that differ by less are the same."""
 
 
-@kernel(allocates=True)
+@kernel()
 def climb_limits(points: Array, normals: Array, sense: float) -> tuple[float, float]:
     """The least and the largest climb a radian of a turn by which no contact presses into the nut.
 
@@ -38,7 +38,7 @@ def climb_limits(points: Array, normals: Array, sense: float) -> tuple[float, fl
     return low, high
 
 
-@kernel(allocates=True)
+@kernel()
 def turn_effort(push: float, torque: float, points: Array, normals: Array, mu: float, sense: float) -> float:
     """The torque in the sense of the turn at which a held bolt begins to turn.
 

@@ -95,7 +95,7 @@ def deepest_forces(mu: float, weights: Array, start: Array, basis: Array, grasp:
     return float(x[d]) if gap < math.inf else math.inf
 
 
-@kernel(allocates=True)
+@kernel()
 def set_solution(target: Array, solution: Array) -> None:
     """Sets both rows."""
     copy_numbers(solution[0], target[0])
@@ -175,7 +175,7 @@ def least_pull(start: Array, basis: Array, grasp: Grasp, solution: Array) -> flo
     return float(x[count]) if gap < math.inf else math.inf
 
 
-@kernel(allocates=True)
+@kernel()
 def solve_dense(matrix: Array, right: Array) -> bool:
     """Solves linear equations in place by elimination with pivots; False where they are singular."""
     n = right.shape[0]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch, zeros
 from threadstate.contact._geometry_kernel import copy_numbers
 from threadstate.statics._cone_kernel import solve_program
 from threadstate.statics._family_kernel import (
@@ -106,7 +107,7 @@ def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -
             forces[i] = start[i]
         return (FOUND if mu < math.inf else NEVER), mu, mu
     pair = math.inf
-    along = np.empty(3)
+    along = scratch(3)
     for i in range(k):
         for j in range(i):
             at_i, at_j = pair_friction(points, normals, i, j, along)
@@ -163,7 +164,7 @@ def wedge_friction(points: Array, normals: Array, forces: Array, twist: Array) -
                 forces[i] = solution[0, i]
             twist_of(solution[1], grasp, twist)
         return FOUND, low, high
-    none = np.zeros(6)
+    none = zeros(6)
     copy_numbers(forces, solution[0])
     low, mu = narrowed(mu, none, start, rest, grasp, solution, twist)
     for i in range(3 * k):
@@ -179,7 +180,7 @@ def limit_of_pairs(load: Array, points: Array, normals: Array, twist: Array) -> 
     """
     limit = math.inf
     twist[:] = 0.0
-    along = np.empty(3)
+    along = scratch(3)
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3
         at_i, at_j = pair_friction(points, normals, i, j, along)

@@ -43,7 +43,7 @@ class Grasp(NamedTuple):
     rank: int
 
 
-@kernel(allocates=True)
+@kernel()
 def set_frames(normals: Array, frames: Array) -> None:
     """Two unit vectors across each normal; normals of shape (k, 3), frames of shape (k, 2, 3)."""
     for i in range(normals.shape[0]):
@@ -71,7 +71,7 @@ def set_frames(normals: Array, frames: Array) -> None:
         frames[i, 1, 2] = x * ay - y * ax
 
 
-@kernel(allocates=True)
+@kernel()
 def set_matrix(points: Array, matrix: Array) -> None:
     """Sets ``Grasp.matrix`` of points (k, 3)."""
     for i in range(points.shape[0]):
@@ -155,7 +155,7 @@ def new_grasp(points: Array, normals: Array) -> Grasp:
     return Grasp(normals, frames, matrix, reflections, upper, order, rank)
 
 
-@kernel(allocates=True)
+@kernel()
 def reflect(grasp: Grasp, vector: Array) -> None:
     """Multiplies by Q, in place."""
     for j in range(grasp.rank - 1, -1, -1):
@@ -166,7 +166,7 @@ def reflect(grasp: Grasp, vector: Array) -> None:
             vector[i] -= 2.0 * dot * grasp.reflections[j, i]
 
 
-@kernel(allocates=True)
+@kernel()
 def balancing_forces(load: Array, grasp: Grasp, forces: Array) -> float:
     """The forces of least norm whose wrenches sum to ``-load``, as far as any do; the norm of what is left over."""
     forces[:] = 0.0
@@ -197,14 +197,14 @@ def internal_forces(grasp: Grasp) -> Array:
     return basis
 
 
-@kernel(allocates=True)
+@kernel()
 def normal_part(forces: Array, grasp: Grasp, i: int) -> float:
     """The normal force of contact i."""
     n = grasp.normals[i]
     return forces[3 * i] * n[0] + forces[3 * i + 1] * n[1] + forces[3 * i + 2] * n[2]
 
 
-@kernel(allocates=True)
+@kernel()
 def tangential_part(forces: Array, grasp: Grasp, i: int) -> tuple[float, float]:
     """The tangential force of contact i in its frame."""
     a, b = grasp.frames[i, 0], grasp.frames[i, 1]
@@ -214,7 +214,7 @@ def tangential_part(forces: Array, grasp: Grasp, i: int) -> tuple[float, float]:
     )
 
 
-@kernel(allocates=True)
+@kernel()
 def friction_of(forces: Array, grasp: Grasp) -> float:
     """The least friction that every contact force needs; infinite if one of them pulls.
 
@@ -255,7 +255,7 @@ def twist_of(velocities: Array, grasp: Grasp, twist: Array) -> None:
         twist[grasp.order[j]] = total / grasp.upper[j, j]
 
 
-@kernel(allocates=True)
+@kernel()
 def contact_velocities(twist: Array, grasp: Grasp, found: Array) -> float:
     """Normal and tangential velocity of every contact, into ``found`` (k, 2); the largest of them."""
     largest = 0.0
@@ -274,7 +274,7 @@ def contact_velocities(twist: Array, grasp: Grasp, found: Array) -> float:
     return largest
 
 
-@kernel(allocates=True)
+@kernel()
 def least_ratio(found: Array, largest: float) -> float:
     """The least ratio of normal to tangential velocity of contacts that move: less friction does no work against them.
 

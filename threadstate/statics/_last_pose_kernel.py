@@ -30,7 +30,7 @@ PARALLEL_SINE = 1e-9
 """Edges that cross at a smaller angle (its sine) in the last pose have no certain normal."""
 
 
-@kernel(allocates=True)
+@kernel()
 def set_last_normal(contact: Array, then: Array, last: Array, bolt: Array, nut: Array, normal: Array) -> bool:
     """Sets the unit normal of a record's contact in the last pose: the nut's, the bolt's turned, or across both edges.
 
@@ -70,7 +70,7 @@ def set_last_normal(contact: Array, then: Array, last: Array, bolt: Array, nut: 
     return True
 
 
-@kernel(allocates=True)
+@kernel()
 def set_contacts(record: Array, bolt: Array, nut: Array, points: Array, normals: Array) -> int:
     """Sets the contacts' points about the bolt's origin and normals, both (k, 3), in a record's last pose.
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import zeros
 from threadstate.contact._record_kernel import FLAG_FLUSH, O_CONTACTS, O_FLAGS, O_POSE, O_POSES
 from threadstate.statics._friction_kernel import OPEN, hold_friction, wedge_friction
 from threadstate.statics._last_pose_kernel import set_contacts
@@ -28,7 +29,7 @@ DONE, OPEN_PATCH, NO_HULL, NO_NORMAL = range(4)
 EVERY_NUMBER, MARGIN_ALONE, HOLD_ALONE = range(3)
 
 
-@kernel(allocates=True)
+@kernel()
 def set_bounds(status: int, lower: float, upper: float, bounds: Array) -> None:
     """Sets two bounds of a least friction; zero and infinity where nothing was found and nothing proved."""
     bounds[0] = 0.0 if status == OPEN else lower
@@ -45,7 +46,7 @@ def set_numbers(
     ``forces`` (3 k) and ``twist`` (6) are set to those of the holding friction, where that is looked for: without the
     wedging one if it alone is wanted.
     """
-    wedging, opening, upper = np.zeros(3 * points.shape[0]), np.zeros(6), math.inf
+    wedging, opening, upper = np.zeros(3 * points.shape[0]), zeros(6), math.inf
     if wanted == EVERY_NUMBER:
         status, lower, upper = wedge_friction(points, normals, wedging, opening)
         set_bounds(status, lower, upper, numbers[N_WEDGE:])
@@ -60,7 +61,7 @@ def set_numbers(
     set_bounds(status, lower, upper, numbers[N_HOLD:])
 
 
-@kernel(nogil=True, allocates=True)
+@kernel(nogil=True)
 def contact_rows(
     wanted: int, loads: Array, points: Array, normals: Array, ends: Integers, forces: Array, twists: Array, rows: Array
 ) -> None:
@@ -86,7 +87,7 @@ def contact_rows(
         first = end
 
 
-@kernel(allocates=True)
+@kernel()
 def patch_numbers(load: Array, hull: Array, numbers: Array) -> None:
     """Sets the numbers of a level patch with that hull (n, 2); it never wedges.
 

@@ -16,7 +16,7 @@ OUTLINE_SAMPLES = 360
 """Points of the bolt's outline from which the hull is made."""
 
 
-@kernel(allocates=True)
+@kernel()
 def patch_points(pose: Array, bolt: Array, nut: Array, points: Array) -> int:
     """Points of the bolt's outline outside the nut's, and where they cross, into ``points`` (2 OUTLINE_SAMPLES, 2).
 

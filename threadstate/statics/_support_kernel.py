@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 from threadstate.statics._cone_kernel import factor, solve_factored, solve_program
 
 Array = NDArray[np.float64]
@@ -33,7 +34,7 @@ def support_margin(load: Array, points: Array, normals: Array) -> float:
     """
     k = points.shape[0]
     rays = np.empty((k, 6))
-    unit = np.empty(6)
+    unit = scratch(6)
     size = 0.0
     for m in range(6):
         size += load[m] * load[m]
@@ -152,7 +153,7 @@ def depth_in_simplex(load: Array, rays: Array) -> float:
     return depth
 
 
-@kernel(allocates=True)
+@kernel()
 def patch_margin(load: Array, hull: Array) -> float:
     """The margin of a load on a level patch whose hull (n, 2) runs counter-clockwise.
 
@@ -184,7 +185,7 @@ def patch_margin(load: Array, hull: Array) -> float:
     return -math.sqrt(distance * distance + across)
 
 
-@kernel(allocates=True)
+@kernel()
 def distance_to_side(mx: float, my: float, fz: float, a: Array, b: Array) -> float:
     """The distance of (mx, my, fz) from the plane cone of the rays (y, -x, 1) of two points."""
     aa = a[0] * a[0] + a[1] * a[1] + 1.0

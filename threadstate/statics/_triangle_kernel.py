@@ -13,17 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
+from threadstate._scratch import scratch
 
 Array = NDArray[np.float64]
 
 
-@kernel(allocates=True)
+@kernel()
 def inner(a: Array, b: Array) -> float:
     """The product of two vectors of three numbers."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@kernel(allocates=True)
+@kernel()
 def set_cross(a: Array, b: Array, out: Array) -> None:
     """Sets the cross product."""
     out[0] = a[1] * b[2] - a[2] * b[1]
@@ -31,7 +32,7 @@ def set_cross(a: Array, b: Array, out: Array) -> None:
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
-@kernel(allocates=True)
+@kernel()
 def friction_along(normal: Array, along: Array) -> float:
     """The friction at which a force along a unit vector lies on the cone's boundary; infinite if it pulls."""
     n = inner(normal, along)
@@ -70,16 +71,16 @@ def sectors_wedge(mu: float, points: Array, normals: Array) -> bool:
 
     The wrenches of the sectors' edges span all plane wrenches unless a plane through two of them has all on one side.
     """
-    across = np.empty(3)
+    across = scratch(3)
     first = points[1] - points[0]
     set_cross(first, points[2] - points[0], across)
     size = math.sqrt(inner(across, across))
     length = math.sqrt(inner(first, first))
     u = first / length
     across /= size
-    v = np.empty(3)
+    v = scratch(3)
     set_cross(across, u, v)
-    rays = np.empty((6, 3))
+    rays = scratch(6, 3)
     count = 0
     for i in range(3):
         a, b = inner(normals[i], u), inner(normals[i], v)
@@ -95,7 +96,7 @@ def sectors_wedge(mu: float, points: Array, normals: Array) -> bool:
             count += 1
     if count < 4:
         return False
-    normal = np.empty(3)
+    normal = scratch(3)
     for a in range(count):
         for b in range(a + 1, count):
             set_cross(rays[a], rays[b], normal)
@@ -118,9 +119,9 @@ def third_contact_friction(load: Array, points: Array, normals: Array, i: int, j
     """
     along = points[j] - points[i]
     along /= math.sqrt(inner(along, along))
-    arm = np.empty(3)
+    arm = scratch(3)
     set_cross(along, points[k] - points[i], arm)
-    moment = np.empty(3)
+    moment = scratch(3)
     set_cross(points[i], load[3:], moment)
     turning = inner(along, load[:3]) - inner(along, moment)
     if turning == 0.0:
@@ -139,20 +140,20 @@ def hinge_twist(load: Array, points: Array, i: int, j: int, twist: Array) -> Non
     """Sets the rotation about the line of contacts i and j that the load drives."""
     along = points[j] - points[i]
     along /= math.sqrt(inner(along, along))
-    moment = np.empty(3)
+    moment = scratch(3)
     set_cross(points[i], load[3:], moment)
     sign = 1.0 if inner(along, load[:3]) - inner(along, moment) > 0.0 else -1.0
-    linear = np.empty(3)
+    linear = scratch(3)
     set_cross(points[i], along, linear)
     for m in range(3):
         twist[m] = sign * along[m]
         twist[3 + m] = sign * linear[m]
 
 
-@kernel(allocates=True)
+@kernel()
 def set_twist_about(angular: Array, point: Array, twist: Array) -> None:
     """Sets the twist (angular, linear at the origin) that turns about a point at rest."""
-    linear = np.empty(3)
+    linear = scratch(3)
     set_cross(point, angular, linear)
     for m in range(3):
         twist[m] = angular[m]
@@ -171,19 +172,19 @@ def sliding_twist(
     lever = points[i] - points[j]
     squared = inner(lever, lever)
     n = inner(normals[i], along)
-    velocity = np.empty(3)
+    velocity = scratch(3)
     tangential = along - n * normals[i]
     size = math.sqrt(inner(tangential, tangential))
     if size == 0.0:
         return False
     for m in range(3):
         velocity[m] = mu * normals[i, m] - tangential[m] / size
-    fixed = np.empty(3)
+    fixed = scratch(3)
     set_cross(lever, velocity, fixed)
     fixed /= squared
     axis = lever / math.sqrt(squared)
     arm = points[k] - points[j]
-    base, slope = np.empty(3), np.empty(3)
+    base, slope = scratch(3), scratch(3)
     set_cross(fixed, arm, base)
     set_cross(axis, arm, slope)
     nb, ns = inner(normals[k], base), inner(normals[k], slope)
