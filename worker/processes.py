@@ -7,17 +7,15 @@ process with the kernels loaded.
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from multiprocessing import forkserver
 from multiprocessing.connection import Connection, wait
-from multiprocessing.context import ForkServerContext
 from multiprocessing.process import BaseProcess
 from typing import get_args
 
 from threadstate.errors import ThreadstateError
+from worker.forkserver import running_forkserver
 from worker.interruption import waiting
 from worker.messages import Chunk, ChunkInputs, Failure, Ready
 
@@ -133,19 +131,3 @@ def computing_processes(inputs: ChunkInputs, count: int) -> Iterator[ComputingPr
         yield processes
     finally:
         processes.close()
-
-
-PRELOADED = ["worker.preload", "worker.cli", "__main__"]
-"""Modules that it imports. The command line is one of them, as every process imports the program that started it."""
-
-
-def running_forkserver() -> ForkServerContext:
-    """Start the forkserver unless it runs, without waiting until it is ready.
-
-    Returns:
-        The context whose processes it forks.
-    """
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(PRELOADED)
-    forkserver.ensure_running()
-    return context

@@ -18,8 +18,8 @@ from threadstate.state.options import SolveOptions
 from threadstate.thread.pair import Pair
 from worker.chunk_source import chunk_source
 from worker.commit import commit_chunk
+from worker.forkserver import running_forkserver
 from worker.migrate import migrate
-from worker.processes import running_forkserver
 from worker.progress import progress_bar
 
 

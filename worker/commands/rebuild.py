@@ -64,11 +64,16 @@ def rebuild(
       threadstate rebuild --phase-step 30 --tilt-max 1 --method mesh --preset coarse
     """
     began = time.perf_counter()
+    from worker.forkserver import start_for
+
+    settings = read_settings()
+    cluster = chosen_scheduler(settings, scheduler, workers)
+    mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
+    if cluster is None:
+        start_for(database or settings.database)
     from worker.pairs.selection import chosen_pair
     from worker.rebuild import rebuild_library
 
-    settings = read_settings()
-    mesh = mesh_options(method, preset, descent, final_step, tangent, scene, unchecked=unchecked)
     result = rebuild_library(
         database or settings.database,
         pair=chosen_pair(pair, dimension or ()),
@@ -76,7 +81,7 @@ def rebuild(
         tilt_max_deg=tilt_max,
         tilt_step_deg=tilt_step,
         workers=workers or settings.workers,
-        scheduler=chosen_scheduler(settings, scheduler, workers),
+        scheduler=cluster,
         mesh=mesh,
     )
     elapsed_s = time.perf_counter() - began
