@@ -105,6 +105,10 @@ SLENDER = 50.0
 """A box whose duration, over its half-width, is more than this is split by time: at a corner one of azimuth may leave
 its uncertainty as it is."""
 
+CLOSE = 2.0**-17
+"""Half-width (rad) of a box about an earlier contact that is not split by time for being slender: at all times what is
+left of it by azimuth ends as the contact itself."""
+
 SHORTEST = 1e-12
 """A box with at most one onset that is no longer than this, in units of ``motion_scale``, is split by azimuth."""
 
@@ -439,8 +443,8 @@ def close_by_onset(
 def splits_by_time(box_class: int, box: Box, shorter: bool, gap: float, by_time: bool, scale: float) -> bool:
     """Whether an undecided box is split by time: where its bounds say so (``by_time``), as long as it is not short.
 
-    And where it is slender, or is as narrow as the way to the nearest contact allows that excludes it in a ``shorter``
-    time. The narrowest ones are split by time alone.
+    And where it is slender, unless it is ``CLOSE`` about a contact, or is as narrow as the way to the nearest contact
+    allows that excludes it in a ``shorter`` time. The narrowest ones are split by time alone.
     """
     duration = box.end - box.start
     shortest = NARROWEST * min(scale, box.end)
@@ -450,7 +454,7 @@ def splits_by_time(box_class: int, box: Box, shorter: bool, gap: float, by_time:
         return (by_time and duration > SHORTEST * scale) or (shorter and box.half < gap / NARROW)
     return (
         (by_time and duration > shortest)
-        or duration > SLENDER * scale * box.half
+        or (duration > SLENDER * scale * box.half and (gap > box.half or box.half > CLOSE))
         or (shorter and box.half < gap / NARROW)
     )
 

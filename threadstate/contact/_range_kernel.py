@@ -45,6 +45,13 @@ UNIT = 2.0**-53
 LARGEST_MISALIGNMENT = 0.5
 """Up to which the bounds that vanish with the misalignment are derived."""
 
+OUTWARD = 1.0 + 2.0**-46
+"""More than what rounds off in a bound that is a sum and in products of two of them."""
+
+AXIAL_SHARE = 1.0 / 16.0
+"""How much of a turn's speed counts as across the solid's axis, beyond what is; of a translation all of it. Of a point
+that goes along the axis bounds would else be attained, which balls cannot confirm."""
+
 GROWTH = 1.72
 """exp(x) <= 1 + GROWTH x for 0 <= x <= 1: it is more than e - 1."""
 
@@ -83,18 +90,23 @@ class Ranges(NamedTuple):
 class Changes(NamedTuple):
     """Bounds over a box, from its middle on (docs/certificate.md, section 3).
 
-    ``c1`` bounds T, ``r2`` the size of r'', ``speed`` V; ``d_r1`` how far r' changes and ``c2_a`` how far T does in its
-    own frame; ``position_error`` and ``velocity_error`` round-off; ``move`` how far the point goes; ``inverse_r`` is
-    the largest 1 / r, ``k_r`` and ``helix`` the absolute k / r and one more; ``azimuth`` and ``directions`` how far the
-    solid's and both parts' directions turn, ``by_time`` the latter by time alone; ``d_t`` and ``d_v`` how far T and V
-    change.
+    ``c1`` bounds T, ``r2`` the size of r'', ``speed`` V and ``across`` its part across the solid's axis; ``d_r1`` how
+    far r' changes and ``c2_a`` how far T does in its own frame; ``sine`` bounds that of the angle between the axes;
+    ``position_error`` and ``velocity_error`` round-off; ``move`` how far the point goes across the axis; ``inverse_r``
+    is the largest 1 / r, ``k_r`` and ``helix`` the absolute k / r and one more; ``azimuth`` and ``directions`` how far
+    the solid's and both parts' directions turn, ``by_time`` the latter by time alone; ``d_t`` how far T changes, and
+    ``d_v`` how far V does across the axis, both in the cylindrical directions, and ``d_v_space`` how far all of V does.
+    ``w_across`` is the part of X_theta tau across the axis in the middle, ``d_w_across`` and ``d_w_axial`` are how far
+    that and the axial one change.
     """
 
     c1: float
     r2: float
     speed: float
+    across: float
     d_r1: float
     c2_a: float
+    sine: float
     position_error: float
     velocity_error: float
     move: float
@@ -106,6 +118,10 @@ class Changes(NamedTuple):
     by_time: float
     d_t: float
     d_v: float
+    w_across: float
+    d_w_across: float
+    d_w_axial: float
+    d_v_space: float
 
 
 class Alignment(NamedTuple):
@@ -116,6 +132,14 @@ class Alignment(NamedTuple):
     helical_3: float
     factor_r: float
     factor_s: float
+
+
+class Bends(NamedTuple):
+    """Bounds of second derivatives of phi by theta, by theta and tau, and by tau."""
+
+    tt: float
+    tv: float
+    vv: float
 
 
 class Helix(NamedTuple):
@@ -212,11 +236,13 @@ def third_derivative_bounds(
 
 @kernel(contract=True, forceinline=True)
 def changes_over(
-    a: float, b: float, tau: float, turning: float, edge: CurvePoint, middle: PhiPoint, sizes: Numbers
+    a: float, b: float, tau: float, rest: Numbers, edge: CurvePoint, middle: PhiPoint, sizes: Numbers
 ) -> Changes:
     """How far position, directions and speed of the curve, and the solid's directions, change over a box at most."""
     k, r_bound, r1_bound, _, r_minor, base_error, error_by_time, rate_error = sizes
-    v_ = edge.v
+    turning, _, _, ax, ay, az = rest
+    upright, level = turning * abs(az), turning * math.sqrt(ax * ax + ay * ay)
+    v_, w_ = edge.v, edge.w
     c1 = math.sqrt(r_bound * r_bound + r1_bound * r1_bound)
     r2_bound = larger(edge.r2_high, -edge.r2_low)
     speed = math.sqrt(v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2])
@@ -224,23 +250,33 @@ def changes_over(
     # Over a corner r' changes by no more than it can as a whole, however large r'' is there.
     d_r1 = smaller(r2_bound * a, edge.dr_change)
     position_error = base_error + error_by_time * abs(tau)
-    move = c1 * a + speed_bound * b + 2.0 * position_error
+    error = turning * position_error
+    sine = smaller(math.sqrt(edge.m1z * edge.m1z + edge.m2z * edge.m2z) + turning * b, 1.0)
+    path = c1 * a + speed_bound * b
+    d_across = upright * path + level * (sine * c1 * a + speed_bound * b) + error + turning * rate_error
+    across = math.sqrt(v_[0] * v_[0] + v_[1] * v_[1])
+    across_bound = across + d_across + (AXIAL_SHARE * speed_bound if turning > 0.0 else speed_bound)
+    move = c1 * a + across_bound * b + 2.0 * position_error
     r_low = larger(0.5 * r_minor, middle.radius - move)
     inverse_r = 1.0 / r_low
     k_r_bound = abs(k) * inverse_r
     azimuth_change = move * inverse_r
     direction_change = a + turning * b + azimuth_change
-    change_by_time = b * (turning + speed_bound * inverse_r)
+    change_by_time = b * (turning + across_bound * inverse_r)
     c2_a = d_r1 + (r_bound + 2.0 * r1_bound) * a
     d_t = c1 * direction_change + d_r1 + r1_bound * a
-    d_v = speed_bound * direction_change + speed_bound - speed
+    # How far T changes in space, and of T cross the axis of the turn the parts across and along the solid's.
+    d_t_space = c2_a + turning * c1 * b
+    d_w_across = upright * d_t_space + level * (sine * c2_a + level * c1 * b) + error
     v_error = turning * (position_error + rate_error) + 2.0 * position_error * speed_bound * inverse_r
     return Changes(
         c1,
         r2_bound,
         speed_bound,
+        across_bound,
         d_r1,
         c2_a,
+        sine,
         position_error,
         v_error,
         move,
@@ -251,18 +287,19 @@ def changes_over(
         direction_change,
         change_by_time,
         d_t,
-        d_v,
+        d_across + across * azimuth_change,
+        abs(w_[0]) + abs(w_[1]),
+        d_w_across,
+        level * d_t_space + error,
+        speed_bound * direction_change + speed_bound - speed,
     )
 
 
 @kernel(contract=True, forceinline=True)
-def near_alignment(
-    a: float, b: float, turning: float, edge: CurvePoint, middle: PhiPoint, change: Changes, sizes: Numbers
-) -> Alignment:
+def near_alignment(a: float, middle: PhiPoint, change: Changes, sizes: Numbers) -> Alignment:
     """What bounds third derivatives where both parts are nearly coaxial."""
     r_bound, r1_bound = sizes[1], sizes[2]
-    inverse_r = change.inverse_r
-    sine = smaller(math.sqrt(edge.m1z * edge.m1z + edge.m2z * edge.m2z) + turning * b, 1.0)
+    inverse_r, sine = change.inverse_r, change.sine
     # P_t, Q_r, 1 - T_t / r grow by azimuth at a rate in proportion to themselves (Gronwall).
     rate = 1.0 + inverse_r * (change.r2 + (1.0 + 0.5 * LARGEST_MISALIGNMENT) * r_bound + 2.0 * r1_bound)
     misaligned = larger(abs(middle.p[1]), abs(middle.qr)) + abs(1.0 - middle.t[1] * middle.inverse)
@@ -308,9 +345,9 @@ def helix_over(
         r1_bound * a + c1 * change.directions
     )
     d_s_theta = s_error + smaller(s_tt * a + s_tv * b, corner_change)
-    s_theta_high = abs(ts) + d_s_theta
+    s_theta_high = OUTWARD * (abs(ts) + d_s_theta)
     d_s_tau = s_tv * a + s_vv * b + helix * change.velocity_error
-    s_tau_high = abs(vs) + d_s_tau
+    s_tau_high = OUTWARD * (abs(vs) + d_s_tau)
     # Integrals: what the slopes change by grows from 0 on the way.
     on_average = s_error + smaller(0.5 * (s_tt * a + s_tv * b), corner_change)
     reach = (abs(ts) + on_average) * a + (abs(vs) + 0.5 * (s_tv * a + s_vv * b) + helix * change.velocity_error) * b
@@ -347,38 +384,48 @@ def variations(
     near: Alignment,
     over: Helix,
     sizes: Numbers,
-) -> tuple[float, float, float]:
-    """By how much the second derivatives of phi, without the terms of r'' and f'', vary over a box."""
+) -> tuple[Bends, Bends]:
+    """By how much the second derivatives of phi, without the terms of r'' and f'', vary over a box; first with f' held
+    at its value in the middle.
+
+    Each is of a radial part less f' times a helical one.
+    """
     r_bound, r1_bound = sizes[1], sizes[2]
     tr, tt, _ = middle.t
     vr, vt, _ = middle.v
-    c1, inverse_r, k_r_bound, speed_bound = change.c1, change.inverse_r, change.k_r, change.speed
-    d_t, d_v, gradient_bound, steep = change.d_t, change.d_v, over.gradient, over.steep
+    c1, inverse_r, k_r_bound, across, helix = change.c1, change.inverse_r, change.k_r, change.across, change.helix
+    d_t, d_v, slope, steep = change.d_t, change.d_v, abs(middle.f1), over.steep
     radius_change = smaller(((abs(tr) + d_t) * a + (abs(vr) + d_v) * b) * inverse_r, change.azimuth)
-    curvature_factor = inverse_r * (1.0 + 2.0 * steep * k_r_bound)
-    tt_error = 4.0 * gradient_bound * change.position_error * (1.0 + c1 * inverse_r) ** 2
-    var_tt = (
-        gradient_bound * ((r_bound + 2.0 * r1_bound) * change.directions + r1_bound * a + 2.0 * change.d_r1)
-        + inverse_r * (2.0 * c1 * d_t + c1 * c1 * radius_change)
-        + 2.0 * steep * k_r_bound * inverse_r * (c1 * d_t + c1 * c1 * radius_change)
+    frame = (r_bound + 2.0 * r1_bound) * change.directions + r1_bound * a + 2.0 * change.d_r1
+    squared = inverse_r * (c1 * d_t + c1 * c1 * radius_change)
+    by_time = inverse_r * c1 * c1
+    tt_r, tt_s = frame + squared + inverse_r * c1 * d_t, helix * frame + 2.0 * k_r_bound * squared
+    near_r = near.radial_3 * a + (r_bound + 2.0 * r1_bound + 2.0 * by_time) * change.by_time
+    near_s = near.helical_3 * a + (helix * (r_bound + 2.0 * r1_bound) + 2.0 * k_r_bound * by_time) * change.by_time
+    smooth_tt = tt_r + slope * tt_s
+    whole_tt = tt_r + steep * tt_s
+    smooth_tt = smaller(near_r + slope * near_s, smooth_tt) if near.aligned else smooth_tt
+    whole_tt = smaller(near_r + steep * near_s, whole_tt) if near.aligned else whole_tt
+    turned = change.d_w_across + change.w_across * change.azimuth
+    mixed = inverse_r * (c1 * d_v + across * d_t + c1 * across * radius_change)
+    tv_r = turned + mixed
+    tv_s = k_r_bound * (turned + radius_change * change.w_across + 2.0 * mixed) + change.d_w_axial
+    turned = turning * change.d_v_space
+    mixed = inverse_r * (2.0 * across * d_v + across * across * radius_change)
+    vv_r = turned + mixed
+    vv_s = helix * turned + 2.0 * k_r_bound * mixed
+    arm = 1.0 + c1 * inverse_r
+    tt_error = 4.0 * over.gradient * change.position_error * arm * arm
+    tv_error = 4.0 * over.gradient * change.velocity_error * arm
+    vv_error = 4.0 * over.gradient * change.velocity_error * (turning + change.speed * inverse_r)
+    return (
+        Bends(smooth_tt + tt_error, tv_r + slope * tv_s + tv_error, vv_r + slope * vv_s + vv_error),
+        Bends(
+            whole_tt + over.d_f1 * abs(middle.flat_s_tt) + tt_error,
+            tv_r + steep * tv_s + over.d_f1 * (abs(middle.ws) + middle.k_rr * abs(tr * vt + tt * vr)) + tv_error,
+            vv_r + steep * vv_s + over.d_f1 * (abs(middle.a_s) + 2.0 * middle.k_rr * abs(vr * vt)) + vv_error,
+        ),
     )
-    near_tt = (near.radial_3 + steep * near.helical_3) * a + (
-        gradient_bound * (r_bound + 2.0 * r1_bound) + 2.0 * inverse_r * c1 * c1 * (1.0 + steep * k_r_bound)
-    ) * change.by_time
-    var_tt = (smaller(near_tt, var_tt) if near.aligned else var_tt) + over.d_f1 * abs(middle.flat_s_tt) + tt_error
-    var_tv = (
-        gradient_bound * turning * (c1 * change.directions + change.c2_a)
-        + curvature_factor * (c1 * d_v + speed_bound * d_t + c1 * speed_bound * radius_change)
-        + over.d_f1 * (abs(middle.ws) + middle.k_rr * abs(tr * vt + tt * vr))
-        + 4.0 * gradient_bound * (1.0 + c1 * inverse_r) * change.velocity_error
-    )
-    var_vv = (
-        gradient_bound * turning * d_v
-        + curvature_factor * (2.0 * speed_bound * d_v + speed_bound * speed_bound * radius_change)
-        + over.d_f1 * (abs(middle.a_s) + 2.0 * middle.k_rr * abs(vr * vt))
-        + 4.0 * gradient_bound * (turning + speed_bound * inverse_r) * change.velocity_error
-    )
-    return var_tt, var_tv, var_vv
 
 
 @kernel(contract=True, forceinline=True)
@@ -396,11 +443,13 @@ def product_range(low: float, high: float, other_low: float, other_high: float) 
 
 @kernel(contract=True, forceinline=True)
 def factor_of_r2(a: float, middle: PhiPoint, change: Changes, near: Alignment, over: Helix) -> tuple[float, float]:
-    """What r'' is multiplied by in phi_thetatheta, grad phi . P, in the middle; and how far it varies."""
+    """What r'' is multiplied by in phi_thetatheta, grad phi . P, in the middle; and how far it varies, with f' held at
+    its value in the middle.
+    """
     pr, _, ps = middle.p
     near_along = (near.factor_r + over.steep * near.factor_s) * a + over.gradient * change.by_time
     var_along = over.gradient * change.directions
-    return pr - middle.f1 * ps, (smaller(near_along, var_along) if near.aligned else var_along) + over.d_f1 * abs(ps)
+    return pr - middle.f1 * ps, (smaller(near_along, var_along) if near.aligned else var_along)
 
 
 @kernel(contract=True, forceinline=True)
@@ -411,12 +460,12 @@ def smooth_part(
     change: Changes,
     along: float,
     var_along: float,
-    varied: tuple[float, float, float],
+    varied: Bends,
 ) -> tuple[float, float, float]:
     """Of phi with the profile's tangent for the profile: how far it is from its linear expansion, and how far its
     derivatives by theta and tau change (B, B_theta and B_tau of docs/certificate.md, section 3).
     """
-    tt, tv, vv = abs(middle.flat_tt) + varied[0], abs(middle.flat_tv) + varied[1], abs(middle.flat_vv) + varied[2]
+    tt, tv, vv = abs(middle.flat_tt) + varied.tt, abs(middle.flat_tv) + varied.tv, abs(middle.flat_vv) + varied.vv
     bend = (
         0.5 * tt * a * a
         + (abs(along) * smaller(0.5 * change.r2 * a, change.d_r1) + var_along * 0.5 * change.r2 * a) * a
@@ -436,10 +485,13 @@ def phi_ranges(
     change: Changes,
     near: Alignment,
     over: Helix,
-    varied: tuple[float, float, float],
+    smooth: Bends,
+    varied: Bends,
     profile_error: float,
 ) -> Ranges:
-    """The ranges of phi; ``varied`` are the :func:`variations`, ``profile_error`` is the round-off of the course."""
+    """The ranges of phi; ``smooth`` and ``varied`` are the :func:`variations`, ``profile_error`` the round-off of the
+    course.
+    """
     var_tt, var_tv, var_vv = varied
     _, _, ts = middle.t
     _, _, vs = middle.v
@@ -447,7 +499,8 @@ def phi_ranges(
     s_theta_low, s_theta_high, s_tau_high = over.s_theta_low, over.s_theta_high, over.s_tau_high
     f2_low, f2_high, f2 = over.f2_low, over.f2_high, over.f2
     # The terms of r'' and f'': r'' times grad phi . P, less f'' s_U s_V.
-    along, var_along = factor_of_r2(a, middle, change, near, over)
+    along, var_smooth = factor_of_r2(a, middle, change, near, over)
+    var_along = var_smooth + over.d_f1 * abs(middle.p[2])
     bend_low, bend_high = product_range(r2_low, r2_high, along - var_along, along + var_along)
     rounded = 32.0 * UNIT * (larger(bend_high, -bend_low) + f2 * s_theta_high * s_theta_high + var_tt)
     tt_high = middle.flat_tt + var_tt + bend_high + rounded
@@ -457,7 +510,7 @@ def phi_ranges(
     tv_mid = middle.flat_tv - 0.5 * (f2_low + f2_high) * ts * vs
     tv_var = var_tv + 0.5 * (f2_high - f2_low) * abs(ts * vs) + f2 * (s_theta_high * s_tau_high - abs(ts * vs))
     vv = abs(middle.flat_vv) + var_vv + f2 * s_tau_high * s_tau_high
-    bend, theta_smooth, tau_smooth = smooth_part(a, b, middle, change, along, var_along, varied)
+    bend, theta_smooth, tau_smooth = smooth_part(a, b, middle, change, along, var_smooth, smooth)
     above, below = bend + profile_error - over.course.low, bend + profile_error + over.course.high
     # What f' differs by from its value in the middle, times s_theta.
     s_low, s_high = ts - over.d_s_theta, ts + over.d_s_theta
@@ -570,8 +623,10 @@ def with_errors(change: Changes, factor: float) -> Changes:
         change.c1,
         change.r2,
         change.speed,
+        change.across,
         change.d_r1,
         change.c2_a,
+        change.sine,
         change.position_error * factor,
         change.velocity_error * factor,
         change.move,
@@ -583,6 +638,10 @@ def with_errors(change: Changes, factor: float) -> Changes:
         change.by_time,
         change.d_t,
         change.d_v,
+        change.w_across,
+        change.d_w_across,
+        change.d_w_axial,
+        change.d_v_space,
     )
 
 
@@ -601,12 +660,12 @@ def ranges_about(
 ) -> tuple[Ranges, Ranges, float]:
     """As :func:`ranges`, about what is known of the middle, with ``precision`` times the round-off of doubles."""
     turning, sigma, moving = rest[0], rest[1], rest[2]
-    change = changes_over(a, b, tau, turning, edge, middle, sizes)
-    near = near_alignment(a, b, turning, edge, middle, change, sizes)
+    change = changes_over(a, b, tau, rest, edge, middle, sizes)
+    near = near_alignment(a, middle, change, sizes)
     rounded = with_errors(change, precision)
     over = helix_over(a, b, turning, middle, rounded, near, sizes, solid)
-    varied = variations(a, b, turning, middle, rounded, near, over, sizes)
-    phi = phi_ranges(a, b, sigma, edge, middle, rounded, near, over, varied, 2.0 * change.position_error)
+    smooth, varied = variations(a, b, turning, middle, rounded, near, over, sizes)
+    phi = phi_ranges(a, b, sigma, edge, middle, rounded, near, over, smooth, varied, 2.0 * change.position_error)
     phi = known_by_radius(phi, sigma, middle.radius, change.move, sizes[4])
     g = g_ranges(a, b, turning, moving, edge, of_g, rounded, sizes, precision)
     sag = change.c2_a * a + turning * (change.c1 * a + change.speed * b) * b + change.position_error * (1.0 + a + b)
