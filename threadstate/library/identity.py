@@ -23,6 +23,7 @@ from threadstate.thread.pair import Pair
 STATES = (
     "_callee.py",
     "_compile.py",
+    "_scratch.py",
     "errors.py",
     "units.py",
     "thread/*.py",
@@ -58,6 +59,7 @@ STATES = (
 HELD = (
     "_callee.py",
     "_compile.py",
+    "_scratch.py",
     "errors.py",
     "units.py",
     "thread/*.py",
