@@ -265,7 +265,7 @@ def changes_over(
     change_by_time = b * (turning + across_bound * inverse_r)
     c2_a = d_r1 + (r_bound + 2.0 * r1_bound) * a
     d_t = c1 * direction_change + d_r1 + r1_bound * a
-    # How far T changes in space, and of T cross the axis of the turn the parts across and along the solid's.
+    # How far T changes in space, and the part across the solid's axis of its cross product with the turn's.
     d_t_space = c2_a + turning * c1 * b
     d_w_across = upright * d_t_space + level * (sine * c2_a + level * c1 * b) + error
     v_error = turning * (position_error + rate_error) + 2.0 * position_error * speed_bound * inverse_r
