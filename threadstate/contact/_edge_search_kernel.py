@@ -99,7 +99,7 @@ MAX_REGIONS = 8
 
 AT_ONCE = 8
 BATCH = 16
-"""Boxes that are evaluated at once: as many as a few are split into, as fewer would take about as long, and the most."""
+"""Boxes evaluated at once: as many as a few are split into, as fewer would take about as long, and the most."""
 
 SLENDER = 50.0
 """A box whose duration, over its half-width, is more than this is split by time: at a corner one of azimuth may leave
