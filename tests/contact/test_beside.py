@@ -19,8 +19,8 @@ from threadstate.contact import _beside_kernel as beside
 from threadstate.contact import _box_kernel as box
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _flank_kernel as flank
-from threadstate.contact._edge_kernel import Box
-from threadstate.contact._geometry_kernel import PATH_SIZE, TWO_PI
+from threadstate.contact._edge_kernel import Box, Edge
+from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._initial_box_kernel import set_initial_boxes
 from threadstate.contact._range_kernel import error_beside, size_numbers
 from threadstate.contact._stage_kernel import rotation
@@ -84,6 +84,13 @@ def second_turns() -> tuple[Beside, ...]:
     return tuple(found)
 
 
+def edge_of(one: Beside) -> Edge:
+    """The moving edge, with the contact where it is."""
+    edge = new_edge(one.search.motion, one.search.curve.packed, one.search.solid.packed, one.kept)
+    beside.place_kept(edge)
+    return edge
+
+
 def exact_turn(one: Beside) -> tuple[Search, arb, arb]:
     """The turn about the exact edge point at the contact's azimuth; phi and g there."""
     balls, theta = one.search.balls, arb(one.azimuth)
@@ -98,18 +105,16 @@ def exact_turn(one: Beside) -> tuple[Search, arb, arb]:
 
 def test_differences_from_a_contact_are_within_their_error() -> None:
     rng = np.random.default_rng(20)
-    path = np.empty(PATH_SIZE)
     most = 0.0
     for one in second_turns():
         exact, phi_0, g_0 = exact_turn(one)
+        edge = edge_of(one)
         sizes = size_numbers(one.search.motion, one.search.curve.packed, one.search.solid.packed)
         for _ in range(12):
             way = float(rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-9.0, math.log10(0.099)))
             tau = float(10.0 ** rng.uniform(-8.0, -0.5))
             theta = one.azimuth + way
-            g, phi, gap = beside.values_beside(
-                theta, tau, one.search.motion, one.search.curve.packed, one.search.solid.packed, one.kept, path
-            )
+            g, phi, gap = beside.values_beside(theta, tau, edge)
             assert gap == pytest.approx(abs(way), rel=1e-6)
             error = error_beside(tau, sizes) * gap
             if one.search.form.endswith("sharp corners"):
@@ -200,7 +205,7 @@ def test_third_derivatives_in_the_middle_are_those_of_balls() -> None:
 def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]:
     """Boxes of a search beside a contact that the bend of phi excludes: middle, half-width, start, end."""
     boxes, scratch = np.zeros(box.BOXES_SIZE), np.zeros(box.BOXES_SIZE)
-    edge = new_edge(one.search.motion, one.search.curve.packed, one.search.solid.packed, one.kept)
+    edge = edge_of(one)
     level = [edge_search.box_at(i, boxes) for i in range(set_initial_boxes(0.0, one.until, boxes))]
     for _ in range(40):
         parts: list[Box] = []
@@ -218,7 +223,7 @@ def undecided_beside(one: Beside) -> Iterator[tuple[float, float, float, float]]
                 if (
                     half < gap < beside.BESIDE
                     and boxes[box.X_G_LOW + i] > 0.0
-                    and edge_search.no_onset_from_contact(Box(theta, half, start, end), *bends, edge, scratch)[0]
+                    and edge_search.no_onset_from_contact(Box(theta, half, start, end), bends, edge, scratch)[0]
                 ):
                     yield theta, half, start, end
                 elif len(parts) < 200:

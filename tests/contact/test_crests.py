@@ -120,21 +120,26 @@ def test_helices_cross_where_crossings_are_found(name: str) -> None:
 def test_no_crossing_is_where_none_is_marked(name: str) -> None:
     pair = pair_by_designation(name)
     bolt, nut = pair.bolt.packed, pair.nut.packed
-    p = float(bolt[pk.P])
+    p, lead = float(bolt[pk.P]), float(nut[pk.LEAD])
     rng = np.random.default_rng(74)
-    crests = np.zeros(crossing.CRESTS_ARRAY_SIZE)
+    crests, helices = np.zeros(crossing.CRESTS_ARRAY_SIZE), np.empty((crossing.HELICES, 2))
     crossing.set_crests(bolt, crests)
+    crossing.helices_of_nut(nut, helices)
     marked = unmarked = 0
     for _ in range(10):
-        crossing.place_crests(placed(40.0, rng, p), nut, crests)
-        crossing.mark_crossings(bolt, nut, crests)
+        placement = placed(40.0, rng, p)
+        crossing.set_heights(placement, crests)
+        crossing.place_crests(0, crossing.CRESTS_SIZE, placement, nut, crests)
+        crossing.mark_crossings(0, crossing.CRESTS_SIZE - 1, p, helices, crests)
         height, z = (crests[start : start + crossing.CRESTS_SIZE] for start in (crossing.W_HEIGHT, crossing.W_Z))
         inside = (height > -1.1 * p) & (height < 0.1 * p)
+        for first in range(0, crossing.CRESTS_SIZE, crossing.BLOCK):
+            assert crossing.is_beyond(first, p, crests) == (not inside[first : first + crossing.BLOCK].any())
         for i in range(1, crossing.CRESTS_SIZE):
             if not (inside[i - 1] and inside[i]) or abs(z[i] - z[i - 1]) > 0.5 * p:
                 assert crests[crossing.W_MAY_CROSS + i] == 0.0
                 continue
-            crosses = max(crossing.share_of_way(i, k, bolt, nut, crests) for k in range(crossing.HELICES)) >= 0.0
+            crosses = max(crossing.share_of_way(i, s, p, lead, crests) for s in helices[:, 0].tolist()) >= 0.0
             marked += crosses
             unmarked += crests[crossing.W_MAY_CROSS + i] == 0.0
             assert not crosses or crests[crossing.W_MAY_CROSS + i] != 0.0

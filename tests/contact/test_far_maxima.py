@@ -16,6 +16,7 @@ from threadstate.contact._tangency_kernel import (
     TANGENCY_JET_SIZE,
     TJ_PHI,
     TJ_RATE,
+    set_jet,
     set_placement,
 )
 from threadstate.thread.catalogue import pair_by_designation
@@ -51,7 +52,8 @@ def test_a_maximum_that_is_left_is_too_far_to_be_followed(name: str) -> None:
         set_placement(motion, 0.0, placement)
         for j in range(ridge.ridge_maxima(AZIMUTHS, placement, bolt, nut, grid, crossings, maxima)):
             theta, z = maxima[j]
-            if not ridge.is_far(theta, z, placement, bolt, nut, ridge.FAR * reach, jet):
+            set_jet(theta, z, placement, bolt, nut, jet)
+            if not ridge.is_far(jet, ridge.FAR * reach):
                 near += 1
                 continue
             far += 1

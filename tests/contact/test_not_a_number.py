@@ -147,7 +147,7 @@ def test_an_unknown_way_from_a_contact_excludes_nothing(on_plane: bool) -> None:
     keep(1.0, on_plane, True, kept)
     kept[0, K_TANGENT] = 1.0
     edge = new_edge(motion, PAIR.bolt.packed, PAIR.nut.packed, kept)
-    no_onset = no_onset_from_contact(Box(1.005, 1e-4, 0.0, 1e-6), 1.0, 2.0, edge, np.zeros(box.BOXES_SIZE))
+    no_onset = no_onset_from_contact(Box(1.005, 1e-4, 0.0, 1e-6), (1.0, 2.0), edge, np.zeros(box.BOXES_SIZE))
     assert no_onset == (False, False)
 
 

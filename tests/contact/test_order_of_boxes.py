@@ -43,9 +43,9 @@ def second_turn(pose_deg: tuple[float, float, float], work: stage.Work) -> tuple
     axis = np.zeros(3)
     solve.second_axis(known[0], pose, BOLT, NUT, axis)
     edges = new_edge(work.bolt_motion, BOLT, NUT, new_kept(1)), new_edge(work.nut_motion, NUT, BOLT, new_kept(1))
-    stage.keep_contacts(known, 1, pose, BOLT, NUT, edges[0].kept, edges[1].kept)
     coplanar = stage.axis_in_both_planes(known, 1)
     stage.set_motions(pose, True, coplanar, point, axis, work.bolt_motion, work.nut_motion)
+    stage.keep_contacts(known, 1, pose, *edges)
     return edges
 
 
@@ -68,11 +68,11 @@ def test_boxes_wait_by_their_starts_and_the_last_of_equals_comes_first() -> None
             waiting.remove(taken)
             assert queues.first(queue) == (-taken[1], 1.0, taken[0], 50.0)
             queues.remove_first(queue)
-    assert queue[queues.STATE, queues.S_USED] == 201
+    assert queue.state[queues.USED] == 201
     for taken in sorted(waiting):
         assert queues.first(queue) == (-taken[1], 1.0, taken[0], 50.0)
         queues.remove_first(queue)
-    assert queue[queues.STATE, queues.S_STACKS] == 0
+    assert queue.state[queues.STACKS] == 0
 
 
 def test_parts_cover_the_box() -> None:
@@ -94,7 +94,7 @@ def test_parts_that_start_late_are_left_out_and_late_ends_are_cut() -> None:
     assert waiting == 8
     count, waiting = edge_search.take_batch(0.3, boxes, waiting, queue)
     assert (count, waiting) == (5, 0)
-    assert queue[queues.STATE, queues.S_STACKS] == 0
+    assert queue.state[queues.STACKS] == 0
     taken = [edge_search.box_at(i, boxes) for i in range(count)]
     assert [one.start for one in taken] == pytest.approx([0.0, 0.0625, 0.125, 0.1875, 0.25])
     assert taken[-1].end == 0.3

@@ -346,13 +346,21 @@ def test_a_contact_of_the_base_on_the_nut_s_edge_is_recorded_by_the_rules() -> N
     assert region_faults(touch, SURFACE_TOLERANCE_INCH) == []
 
 
+def kept_lists(contact: Floats, pose: Floats) -> tuple[Floats, Floats]:
+    """What is kept of a contact on the bolt's edge and on the nut's as the bolt goes down."""
+    bolt_motion, nut_motion = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)
+    stage.set_vertical_motions(pose, -1.0, bolt_motion, nut_motion)
+    edges = new_edge(bolt_motion, BOLT, NUT, new_kept(1)), new_edge(nut_motion, NUT, BOLT, new_kept(1))
+    stage.keep_contacts(contact[None, :], 1, pose, *edges)
+    return edges[0].kept, edges[1].kept
+
+
 @pytest.mark.parametrize(("inward", "counted"), [(1e-3, 0), (1e-9, 1)])
 def test_a_contact_of_the_base_counts_as_one_of_the_bolt_s_edge_beside_it(inward: float, counted: int) -> None:
     pose, contact = base_on_edge(inward)
-    on_bolt, on_nut = new_kept(1), new_kept(1)
-    stage.keep_contacts(contact[None, :], 1, pose, BOLT, NUT, on_bolt, on_nut)
+    on_bolt, on_nut = kept_lists(contact, pose)
     assert (on_bolt[0, 0], on_nut[0, 0]) == (counted, 1)
-    assert on_nut[1].tolist() == [contact[stage.K_NUT_AZIMUTH], 1.0, 0.0]
+    assert on_nut[1, :3].tolist() == [contact[stage.K_NUT_AZIMUTH], 1.0, 0.0]
 
 
 @pytest.mark.parametrize(("outward", "counted"), [(1e-3, 0), (1e-9, 1)])
@@ -360,7 +368,6 @@ def test_a_contact_with_the_surface_counts_as_one_of_the_nut_s_edge_beside_it(ou
     azimuth = 2.0
     r = radius(-P * azimuth / (2 * math.pi), nut_profile(PAIR)) + outward
     contact = np.array([0.0, stage.EDGE_SURFACE, 1.0, azimuth, r * math.cos(azimuth), r * math.sin(azimuth), 0.0])
-    on_bolt, on_nut = new_kept(1), new_kept(1)
-    stage.keep_contacts(contact[None, :], 1, pose_at((1.0, -2.0, 50.0), 0.0), BOLT, NUT, on_bolt, on_nut)
+    on_bolt, on_nut = kept_lists(contact, pose_at((1.0, -2.0, 50.0), 0.0))
     assert (on_bolt[0, 0], on_nut[0, 0]) == (1, counted)
-    assert on_bolt[1].tolist() == [contact[stage.K_BOLT_AZIMUTH], 1.0, 0.0]
+    assert on_bolt[1, :3].tolist() == [contact[stage.K_BOLT_AZIMUTH], 1.0, 0.0]

@@ -13,25 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._geometry_kernel import (
-    M_COPLANAR,
-    M_SIGMA,
-    TWO_PI,
-    edge_point,
-    position,
-    set_path,
-    turn_vector,
-)
+from threadstate.contact._edge_kernel import Edge
+from threadstate.contact._geometry_kernel import M_COPLANAR, M_SIGMA, TWO_PI, position, set_path, turn_vector
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
 
 # A list of the earlier contacts on an edge curve: in the first row their number, and whether the axis of the turn is a
 # tangent at the one there is (1 or 0); then azimuth on the curve, and whether g and whether phi is exactly zero there
-# at all times.
+# at all times. Of those at which one is: cosine and sine of the azimuth and the curve's radius; in the solid's frame
+# x, y, the distance from the axis and the axial position on the profile.
 K_TANGENT = 1
-K_THETA, K_G, K_PHI = range(3)
-KEPT_SIZE = 3
+K_THETA, K_G, K_PHI, K_COSINE, K_SINE, K_RADIUS, K_PLACE_X, K_PLACE_Y, K_DISTANCE, K_POSITION = range(10)
+KEPT_SIZE = 10
 MOST_KEPT = 18
 KEPT_ROWS = 1 + MOST_KEPT
 """Most contacts that are kept, and rows of a list with room for them."""
@@ -54,6 +48,23 @@ def keep(theta: float, on_plane: bool, on_thread: bool, kept: Array) -> None:
     kept[count, K_THETA] = theta
     kept[count, K_G] = 1.0 if on_plane else 0.0
     kept[count, K_PHI] = 1.0 if on_thread else 0.0
+
+
+@kernel()
+def place_kept(edge: Edge) -> None:
+    """Sets where the contacts of an edge's list are, at the start of its motion: what :func:`values_beside` takes."""
+    kept, path, profile = edge.kept, edge.path, edge.curve
+    k = profile[pk.LEAD] / TWO_PI
+    for i in range(1, 1 + int(kept[0, 0])):
+        if kept[i, K_G] == 0.0 and kept[i, K_PHI] == 0.0:
+            continue
+        theta = kept[i, K_THETA]
+        cosine, sine, radius = math.cos(theta), math.sin(theta), pk.radius(-k * theta, profile)
+        set_path(radius * cosine, radius * sine, edge.motion, path)
+        x, y, z = position(path, 0.0, is_turn=True)
+        kept[i, K_COSINE], kept[i, K_SINE], kept[i, K_RADIUS] = cosine, sine, radius
+        kept[i, K_PLACE_X], kept[i, K_PLACE_Y], kept[i, K_DISTANCE] = x, y, math.hypot(x, y)
+        kept[i, K_POSITION] = z - k * math.atan2(y, x)
 
 
 @kernel()
@@ -120,44 +131,53 @@ def nearest_contact(theta: float, kept: Array) -> tuple[float, float, int]:
     nearest, contact, row = math.inf, 0.0, 0
     for i in range(1, 1 + int(kept[0, 0])):
         azimuth = kept[i, K_THETA]
-        azimuth += TWO_PI * math.floor((theta - azimuth) / TWO_PI + 0.5)
+        azimuth += TWO_PI * np.floor((theta - azimuth) / TWO_PI + 0.5)
         if abs(theta - azimuth) < abs(nearest):
             nearest, contact, row = theta - azimuth, azimuth, i
     return nearest, contact, row
 
 
+@kernel(forceinline=True)
+def half_angle(d: float) -> tuple[float, float]:
+    """Sine and cosine of ``d / 2``, ``d`` up to ``BESIDE``: five terms of each series leave less than 1e-19."""
+    h = 0.5 * d
+    w = h * h
+    sine = h * (1.0 - w * (1.0 / 6.0 - w * (1.0 / 120.0 - w * (1.0 / 5040.0 - w / 362880.0))))
+    return sine, 1.0 - w * (0.5 - w * (1.0 / 24.0 - w * (1.0 / 720.0 - w / 40320.0)))
+
+
 @kernel()
-def values_beside(
-    theta: float, tau: float, motion: Array, curve_profile: Array, solid_profile: Array, kept: Array, path: Array
-) -> tuple[float, float, float]:
+def values_beside(theta: float, tau: float, edge: Edge) -> tuple[float, float, float]:
     """g, phi and the distance (rad) from the nearest kept contact: NaN where they are no differences from it.
 
-    The contact is taken to touch exactly, and the axis of the turn to run through it.
+    The contact, as :func:`place_kept` leaves it, is taken to touch exactly, and the axis of the turn to run through it.
     """
-    nearest, contact, row = nearest_contact(theta, kept)
+    kept, motion = edge.kept, edge.motion
+    nearest, _, row = nearest_contact(theta, kept)
     if not abs(nearest) < BESIDE:
         return math.nan, math.nan, math.nan
-    k = curve_profile[pk.LEAD] / TWO_PI
-    sigma = motion[M_SIGMA]
-    x, y, _, _ = edge_point(contact, curve_profile)
-    set_path(x, y, motion, path)
-    cx, cy, cz = position(path, 0.0, is_turn=True)
-    # The way along the curve from the contact, in the curve's frame: r P - r_c P_c = (r - r_c) P + r_c (P - P_c).
-    longer = radius_difference(-k * contact, -k * nearest, curve_profile)
-    chord = 2.0 * math.sin(0.5 * nearest) * math.hypot(x, y)
-    middle = contact + 0.5 * nearest
-    dx = longer * math.cos(theta) - chord * math.sin(middle)
-    dy = longer * math.sin(theta) + chord * math.cos(middle)
     g, phi = math.nan, math.nan
-    if kept[row, K_G] != 0.0:
-        if motion[M_COPLANAR] != 0.0:
-            g = -sigma * (motion[6] * dx + motion[7] * dy)
-        else:
-            g = -sigma * turn_vector(dx, dy, 0.0, motion, tau)[2]
+    if kept[row, K_G] == 0.0 and kept[row, K_PHI] == 0.0:
+        return g, phi, abs(nearest)
+    k = edge.curve[pk.LEAD] / TWO_PI
+    sigma = motion[M_SIGMA]
+    # The way along the curve from the contact, in the curve's frame: r P - r_c P_c = (r - r_c) P + r_c (P - P_c).
+    longer = radius_difference(-k * kept[row, K_THETA], -k * nearest, edge.curve)
+    half_sine, half_cosine = half_angle(nearest)
+    chord = 2.0 * half_sine * kept[row, K_RADIUS]
+    middle_x = kept[row, K_COSINE] * half_cosine - kept[row, K_SINE] * half_sine
+    middle_y = kept[row, K_SINE] * half_cosine + kept[row, K_COSINE] * half_sine
+    dx = longer * (middle_x * half_cosine - middle_y * half_sine) - chord * middle_y
+    dy = longer * (middle_y * half_cosine + middle_x * half_sine) + chord * middle_x
+    if kept[row, K_G] != 0.0 and motion[M_COPLANAR] != 0.0:
+        g = -sigma * (motion[6] * dx + motion[7] * dy)
+    dx, dy, dz = turn_vector(dx, dy, 0.0, motion, tau)
+    if kept[row, K_G] != 0.0 and motion[M_COPLANAR] == 0.0:
+        g = -sigma * dz
     if kept[row, K_PHI] != 0.0:
-        dx, dy, dz = turn_vector(dx, dy, 0.0, motion, tau)
-        radius = math.hypot(cx, cy)
-        outward = (2.0 * (cx * dx + cy * dy) + dx * dx + dy * dy) / (radius + math.hypot(cx + dx, cy + dy))
-        around = math.atan2(cx * dy - cy * dx, radius * radius + cx * dx + cy * dy)
-        phi = sigma * (outward - radius_difference(cz - k * math.atan2(cy, cx), dz - k * around, solid_profile))
+        x, y, distance = kept[row, K_PLACE_X], kept[row, K_PLACE_Y], kept[row, K_DISTANCE]
+        there = math.sqrt((x + dx) * (x + dx) + (y + dy) * (y + dy))
+        outward = (2.0 * (x * dx + y * dy) + dx * dx + dy * dy) / (distance + there)
+        around = math.atan2(x * dy - y * dx, distance * distance + x * dx + y * dy)
+        phi = sigma * (outward - radius_difference(kept[row, K_POSITION], dz - k * around, edge.solid))
     return g, phi, abs(nearest)

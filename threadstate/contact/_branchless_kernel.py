@@ -44,6 +44,21 @@ ARC_TANGENT = (
 )
 """Coefficients of atan(t) / t in powers of t^2 up to tan(pi / 8), Chebyshev interpolation: error at most 2e-15."""
 
+COARSE_ARC_TANGENT = (
+    0.9999999995535374,
+    -0.3333332248891262,
+    0.1999955810042456,
+    -0.142785760257065,
+    0.11050771281994035,
+    -0.08785043305631318,
+    0.06685281570644816,
+    -0.04392841146790397,
+    0.021912946480916233,
+    -0.007030669755244828,
+    0.001057607494003086,
+)
+"""The same up to tan(pi / 4): error at most 3e-10."""
+
 ROUNDING_SHIFT = 1.5 * 2.0**52
 """Adding and subtracting it rounds to the nearest integer."""
 TINY = 1e-300
@@ -94,6 +109,28 @@ def azimuth(x: float, y: float, r: float) -> float:
     a = 4.0 * t * (ARC_TANGENT[0] + w * a)
     a = math.pi - a if x < 0.0 else a
     return -a if y < 0.0 else a
+
+
+@kernel(contract=True, forceinline=True)
+def coarse_azimuth(x: float, y: float, r: float) -> tuple[float, float]:
+    """``atan2(y, x)`` to 1e-9 where ``r`` is the length of (x, y), for searches; and 1 / ``r`` of the same division."""
+    longer = r + abs(x)
+    inverse = 1.0 / (r * longer)
+    t = abs(y) * r * inverse
+    w = t * t
+    v = w * w
+    even = COARSE_ARC_TANGENT[8] + v * COARSE_ARC_TANGENT[10]
+    even = COARSE_ARC_TANGENT[6] + v * even
+    even = COARSE_ARC_TANGENT[4] + v * even
+    even = COARSE_ARC_TANGENT[2] + v * even
+    even = COARSE_ARC_TANGENT[0] + v * even
+    odd = COARSE_ARC_TANGENT[7] + v * COARSE_ARC_TANGENT[9]
+    odd = COARSE_ARC_TANGENT[5] + v * odd
+    odd = COARSE_ARC_TANGENT[3] + v * odd
+    odd = COARSE_ARC_TANGENT[1] + v * odd
+    a = 2.0 * t * (even + w * odd)
+    a = math.pi - a if x < 0.0 else a
+    return (-a if y < 0.0 else a), longer * inverse
 
 
 @kernel(contract=True, forceinline=True)

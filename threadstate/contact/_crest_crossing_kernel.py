@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import azimuth
+from threadstate._scratch import scratch
+from threadstate.contact._branchless_kernel import coarse_azimuth
 from threadstate.contact._geometry_kernel import TWO_PI
 from threadstate.contact._slope_kernel import placement_numbers
 from threadstate.contact._tangency_kernel import PLACEMENT_AXIS, PLACEMENT_DRIFT
@@ -34,8 +35,10 @@ RISING_CORNER, FALLING_CORNER, ROOT = range(3)
 HELICES = 3
 """Helices: in the middle of the fillets at the crest, and in the middle of the root."""
 
-# Blocks of points of the bolt's helices, one helix after the other: place in its frame, then in the nut's; axial
-# position on the nut's profile; then 0 where no helix of the nut's crosses on the way from the point before it.
+# Rows of points of the bolt's helices, one helix after the other: place in its frame, then in the nut's; axial
+# position on the nut's profile; then 0 where no helix of the nut's crosses on the way from the point before it. The
+# last ones of a helix pad it to a multiple of ``BLOCK``, so many of which are looked at together.
+BLOCK = 8
 HELIX_SIZE = 104
 CRESTS_SIZE = HELICES * HELIX_SIZE
 W_X = 0
@@ -69,45 +72,73 @@ def set_crests(bolt: Array, crests: Array) -> None:
     for i in range(crests.shape[0]):
         crests[i] = 0.0
     p, k = bolt[pk.P], bolt[pk.LEAD] / TWO_PI
-    for which in range(HELICES):
-        s = helix(which, True, bolt)
-        r = pk.radius(s, bolt)
-        for i in range(CREST_SAMPLES + 1):
+    for i in range(CREST_SAMPLES + 1):
+        theta = TWO_PI * i / CREST_SAMPLES
+        cosine, sine = math.cos(theta), math.sin(theta)
+        for which in range(HELICES):
+            s = helix(which, True, bolt)
+            r, z = pk.radius(s, bolt), s + k * theta
             j = which * HELIX_SIZE + i
-            theta = TWO_PI * i / CREST_SAMPLES
-            z = s + k * theta
-            crests[W_X + j], crests[W_Y + j] = r * math.cos(theta), r * math.sin(theta)
-            crests[W_Z + j] = z - p * math.floor(z / p)
+            crests[W_X + j], crests[W_Y + j] = r * cosine, r * sine
+            crests[W_Z + j] = z - p * np.floor(z / p)
+
+
+@kernel()
+def helices_of_nut(nut: Array, helices: Array) -> None:
+    """Sets the axial positions and the radii of the nut's helices."""
+    for which in range(HELICES):
+        s = helix(which, False, nut)
+        helices[which, 0], helices[which, 1] = s, pk.radius(s, nut)
 
 
 @kernel(contract=True)
-def place_crests(placement: Array, nut: Array, crests: Array) -> None:
-    """Sets the points' places in the nut's frame, and their axial positions on its profile, for a placement."""
-    k = nut[pk.LEAD] / TWO_PI
-    mxx, mxy, mxz, myx, myy, myz, mzx, mzy, mzz, ox, oy, oz = placement_numbers(placement)
+def set_heights(placement: Array, crests: Array) -> None:
+    """Sets how high the points are over the nut's surface, for a placement."""
+    _, _, _, _, _, _, mzx, mzy, mzz, _, _, oz = placement_numbers(placement)
     for i in range(CRESTS_SIZE):
-        bx, by, bz = crests[W_X + i], crests[W_Y + i], crests[W_Z + i]
-        x, y = mxx * bx + mxy * by + mxz * bz + ox, myx * bx + myy * by + myz * bz + oy
-        height = mzx * bx + mzy * by + mzz * bz + oz
-        crests[W_NUT_X + i], crests[W_NUT_Y + i], crests[W_HEIGHT + i] = x, y, height
-        crests[W_POSITION + i] = height - k * azimuth(x, y, math.sqrt(x * x + y * y))
+        crests[W_HEIGHT + i] = mzx * crests[W_X + i] + mzy * crests[W_Y + i] + mzz * crests[W_Z + i] + oz
+
+
+@kernel()
+def is_beyond(first: int, p: float, crests: Array) -> bool:
+    """Whether all points of a block are beyond the nut."""
+    low, high = -(1.0 + BEYOND) * p, BEYOND * p
+    for i in range(first, first + BLOCK):
+        if low < crests[W_HEIGHT + i] < high:
+            return False
+    return True
 
 
 @kernel(contract=True)
-def mark_crossings(bolt: Array, nut: Array, crests: Array) -> None:
-    """Sets between which neighbouring points a helix of the nut's may be crossed: those that differ in which turns of
-    it they lie between, or lie on both sides of the end of the range of azimuths.
+def place_crests(first: int, count: int, placement: Array, nut: Array, crests: Array) -> None:
+    """Sets the places in the nut's frame of so many points from ``first`` on, and their positions on its profile."""
+    k = nut[pk.LEAD] / TWO_PI
+    mxx, mxy, mxz, myx, myy, myz, _, _, _, ox, oy, _ = placement_numbers(placement)
+    view = crests[first:]
+    for i in range(count):
+        bx, by, bz = view[W_X + i], view[W_Y + i], view[W_Z + i]
+        x, y = mxx * bx + mxy * by + mxz * bz + ox, myx * bx + myy * by + myz * bz + oy
+        view[W_NUT_X + i], view[W_NUT_Y + i] = x, y
+        around, _ = coarse_azimuth(x, y, math.sqrt(x * x + y * y))
+        view[W_POSITION + i] = view[W_HEIGHT + i] - k * around
 
-    Beyond the nut and across the ends of the bolt's thread nothing crosses.
+
+@kernel(contract=True)
+def mark_crossings(first: int, count: int, p: float, helices: Array, crests: Array) -> None:
+    """Sets on which ways to so many points from ``first`` on a helix of the nut's may be crossed: those whose ends
+    differ in which turns of it they lie between, or lie on both sides of the end of the range of azimuths.
+
+    Beyond the nut and across the ends of the bolt's thread nothing crosses. There is no way to the first point of all.
+    ``helices`` are the :func:`helices_of_nut`.
     """
-    p = bolt[pk.P]
     inverse_p = 1.0 / p
     low, high = -(1.0 + BEYOND) * p, BEYOND * p
-    rising, falling, root = helix(RISING_CORNER, False, nut), helix(FALLING_CORNER, False, nut), helix(ROOT, False, nut)
-    for i in range(1, CRESTS_SIZE):
-        height_before, height = crests[W_HEIGHT + i - 1], crests[W_HEIGHT + i]
-        before, here = crests[W_POSITION + i - 1], crests[W_POSITION + i]
-        way = abs(crests[W_Z + i] - crests[W_Z + i - 1])
+    rising, falling, root = helices[RISING_CORNER, 0], helices[FALLING_CORNER, 0], helices[ROOT, 0]
+    view = crests[max(first - 1, 0) :]
+    for i in range(count):
+        height_before, height = view[W_HEIGHT + i], view[W_HEIGHT + i + 1]
+        before, here = view[W_POSITION + i], view[W_POSITION + i + 1]
+        way = abs(view[W_Z + i + 1] - view[W_Z + i])
         # All loads come first, and numbers stand for what is true: the loop becomes vector instructions.
         off = 0.0 if low < height_before else 1.0
         off = off if height_before < high else 1.0
@@ -118,18 +149,19 @@ def mark_crossings(bolt: Array, nut: Array, crests: Array) -> None:
         turns += abs(np.floor((before - falling) * inverse_p) - np.floor((here - falling) * inverse_p))
         turns += abs(np.floor((before - root) * inverse_p) - np.floor((here - root) * inverse_p))
         turns = 1.0 if abs(here - before) >= 0.5 * p else turns
-        crests[W_MAY_CROSS + i] = turns if off == 0.0 else 0.0
+        view[W_MAY_CROSS + i + 1] = turns if off == 0.0 else 0.0
 
 
 @kernel()
-def share_of_way(i: int, of_nut: int, bolt: Array, nut: Array, crests: Array) -> float:
-    """At which part of the way from the point before a helix of the nut's is crossed: negative where none is."""
-    p, lead = bolt[pk.P], nut[pk.LEAD]
-    target = helix(of_nut, False, nut)
+def share_of_way(i: int, target: float, p: float, lead: float, crests: Array) -> float:
+    """At which part of the way from the point before a helix of the nut's is crossed: negative where it is not.
+
+    ``target`` is the helix's axial position.
+    """
     before, here = crests[W_POSITION + i - 1] - target, crests[W_POSITION + i] - target
-    turned = p * math.floor(before / p + 0.5)
+    turned = p * np.floor(before / p + 0.5)
     before, here = before - turned, here - turned
-    here -= lead * math.floor((here - before) / lead + 0.5)
+    here -= lead * np.floor((here - before) / lead + 0.5)
     crosses = before * here <= 0.0 and before != here and abs(here - before) < 0.5 * p
     return before / (before - here) if crosses else -1.0
 
@@ -167,21 +199,33 @@ def crest_crossings(
     Only where phi may be less than ``near``, or change by as much as it is within ``soon``. ``crests`` is as
     :func:`set_crests` leaves it.
     """
-    place_crests(placement, nut, crests)
-    mark_crossings(bolt, nut, crests)
-    count = 0
-    for of_bolt in range(HELICES):
-        first = of_bolt * HELIX_SIZE
-        for i in range(first + 1, first + CREST_SAMPLES + 1):
+    p, lead = bolt[pk.P], nut[pk.LEAD]
+    helices = scratch(HELICES, 2)
+    helices_of_nut(nut, helices)
+    set_heights(placement, crests)
+    count, end = 0, 0
+    while end < CRESTS_SIZE:
+        first = end
+        end += BLOCK
+        if is_beyond(first, p, crests):
+            continue
+        while end < CRESTS_SIZE and not is_beyond(end, p, crests):
+            end += BLOCK
+        place_crests(first, end - first, placement, nut, crests)
+        mark_crossings(first, end - first, p, helices, crests)
+        for i in range(first, end):
             if crests[W_MAY_CROSS + i] == 0.0:
                 continue
+            of_bolt = i // HELIX_SIZE
+            sample = i - of_bolt * HELIX_SIZE
+            if sample == 0 or sample > CREST_SAMPLES:
+                continue
             for of_nut in range(2 if of_bolt == ROOT else HELICES):
-                share = share_of_way(i, of_nut, bolt, nut, crests)
+                share = share_of_way(i, helices[of_nut, 0], p, lead, crests)
                 if share < 0.0 or count == MAX_SEEDS:
                     continue
-                radius = pk.radius(helix(of_nut, False, nut), nut)
-                if is_near(i, share, radius, near, soon, placement, nut, crests):
-                    seeds[count, 0] = TWO_PI / CREST_SAMPLES * (i - first - 1 + share)
+                if is_near(i, share, helices[of_nut, 1], near, soon, placement, nut, crests):
+                    seeds[count, 0] = TWO_PI / CREST_SAMPLES * (sample - 1 + share)
                     seeds[count, 1] = crests[W_Z + i - 1] + share * (crests[W_Z + i] - crests[W_Z + i - 1])
                     count += 1
     return count

@@ -57,12 +57,13 @@ from threadstate.contact._onset_kernel import (
     rises,
     set_jet_beside,
 )
-from threadstate.contact._queue_kernel import ROOM, add, clear, first, remove_first, row, set_row
+from threadstate.contact._queue_kernel import ROOM, Queue, add, clear, first, remove_first, row, set_row
 from threadstate.contact._refined_edge_kernel import classify_refined, is_refined
 from threadstate.contact._wedge_kernel import crossing_of, is_contact, is_doubtful
 from threadstate.thread import _profile_kernel as pk
 
 Array = NDArray[np.float64]
+Bends = tuple[float, float]
 
 AZIMUTH_TOLERANCE = 1e-6
 """Half-width (rad) around an earlier contact within which nothing is distinguished from it."""
@@ -81,8 +82,12 @@ SHALLOW = 1e-11
 """Depth (thread pitches) that no point of a box exceeds: of refined edges a wider one is evaluated in sums of two
 doubles, too. Round-off hides what is in it, where that of a deeper one is its width's."""
 
-PIECES = 8
+PIECES = 4
 """Of the way from an earlier contact to a box: so many boxes are evaluated at once."""
+
+OUTWEIGHED = 8.0
+"""How far from a contact, in half-widths, a box is of which a bend of no certain sign may be outweighed by that of the
+way: nearer it is not."""
 
 ASIDE = 3.0
 """How far from a contact, in half-widths, a box is in which Newton's method is tried: nearer it ends in the contact."""
@@ -96,6 +101,8 @@ ENLARGEMENT = 8.0
 MAX_BOXES = 16_000
 
 MAX_REGIONS = 8
+DOUBLINGS = 8
+"""Regions that are kept, and how many times as large as the box of an onset one is tried: 1, 2, 4 and so on."""
 
 AT_ONCE = 8
 BATCH = 16
@@ -180,13 +187,7 @@ def evaluate_boxes(count: int, edge: Edge, boxes: Array) -> None:
             start, end = boxes[X_START + i], boxes[X_END + i]
             if boxes[X_HALF + i] <= FINE and 0.5 * (end - start) <= BESIDE:
                 boxes[X_G_BESIDE + i], boxes[X_PHI_BESIDE + i], boxes[X_GAP + i] = values_beside(
-                    boxes[X_THETA + i],
-                    0.5 * (start + end),
-                    edge.motion,
-                    edge.curve,
-                    edge.solid,
-                    edge.kept,
-                    edge.path,
+                    boxes[X_THETA + i], 0.5 * (start + end), edge
                 )
     classify_boxes(count, edge.motion, edge.curve, edge.solid, boxes)
     if is_refined(edge):
@@ -208,17 +209,19 @@ def contact_distance(theta: float, kept: Array) -> float:
 
 
 @kernel()
-def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edge, scratch: Array) -> tuple[bool, bool]:
-    """Whether the bend of phi from the nearest contact to a box excludes a tangency with the thread in it.
+def bend_excludes(
+    box: Box, nearest: float, contact: float, touches: bool, tangent: bool, bends: Bends, edge: Edge, scratch: Array
+) -> bool:
+    """Whether the bend of phi on the way from a contact to a box excludes a tangency with the thread in it.
 
     At a tangency the integral of s phi_thetatheta over the distance s from the contact is phi at the contact, which is
     zero; where phi_theta is zero there, too, so is that of phi_thetatheta, and of (s - s0) phi_thetatheta for any s0
-    (docs/certificate.md, section 7). ``bend_low`` and ``bend_high`` are the range of phi_thetatheta over the box.
-    Then whether it may do so in a shorter time.
+    (docs/certificate.md, section 7). ``nearest`` is how far the box's middle is from the azimuth of the ``contact``;
+    ``touches`` and ``tangent`` say if phi and phi_theta are zero there, ``bends`` is the range of phi_thetatheta over
+    the box.
     """
-    theta, half, start, end = box
-    kept = edge.kept
-    nearest, contact, number = nearest_contact(theta, kept)
+    _, half, start, end = box
+    bend_low, bend_high = bends
     gap = abs(nearest)
     width = (gap - half) / PIECES
     for i in range(PIECES):
@@ -229,8 +232,6 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
     classify_boxes(PIECES, edge.motion, edge.curve, edge.solid, scratch)
     if is_refined(edge):
         classify_refined(PIECES, -1.0, math.inf, 0.0, edge, scratch)
-    touches = kept[number, K_PHI] != 0.0
-    tangent = touches and kept[number, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
     for j in range(1 + PIECES if tangent else 1):
         last = 2.0 * half * (gap - j * width)
         low, high = smaller(0.0, bend_low) * last, larger(0.0, bend_high) * last
@@ -242,10 +243,29 @@ def no_onset_from_contact(box: Box, bend_low: float, bend_high: float, edge: Edg
             high += larger_or_nan(one, other)
             size += larger_or_nan(abs(one), abs(other))
         if high < -SLACK * size or (touches and low > SLACK * size):
-            return True, False
+            return True
+    return False
+
+
+@kernel()
+def no_onset_from_contact(box: Box, bends: Bends, edge: Edge, scratch: Array) -> tuple[bool, bool]:
+    """Whether there is no tangency with the thread in a box, as the nearest contact touches at all times.
+
+    ``bends`` is the range of phi_thetatheta over the box. Then whether there may be none in a shorter time.
+    """
+    theta, half, start, end = box
+    kept = edge.kept
+    nearest, contact, number = nearest_contact(theta, kept)
+    touches = kept[number, K_PHI] != 0.0
+    tangent = touches and kept[number, K_G] == 0.0 and kept[0, K_TANGENT] != 0.0
+    is_one_way = bends[1] < 0.0 or (touches and bends[0] > 0.0)
+    if (is_one_way or abs(nearest) > OUTWEIGHED * half) and bend_excludes(
+        box, nearest, contact, touches, tangent, bends, edge, scratch
+    ):
+        return True, False
     if not tangent:
         return False, False
-    way = math.copysign(gap + half, nearest)
+    way = nearest + math.copysign(half, nearest)
     return no_tangency_on_flanks(contact, way, start, end, edge.motion, edge.curve, edge.solid)
 
 
@@ -312,7 +332,7 @@ class EdgeSearch(NamedTuple):
     tie_tolerance: float
     boxes: Array
     scratch: Array
-    queue: Array
+    queue: Queue
     regions: Array
     entries: Array
     jet: Array
@@ -358,17 +378,18 @@ def keep_region(box_class: int, box: Box, t: float, tau: float, edge: Edge, sear
     scratch, regions = search.scratch, search.regions
     room = contact_distance(t, edge.kept)
     half, duration = box.half, box.end - box.start
-    for i in range(AT_ONCE):
-        set_box_at(Box(t, half, tau - duration, tau + duration), i, scratch)
-        half, duration = 2.0 * half, 2.0 * duration
-    evaluate_boxes(AT_ONCE, edge, scratch)
     number = int(regions[0, 0])
     place = 1 + number % MAX_REGIONS
-    for i in range(AT_ONCE):
-        if scratch[X_CLASS + i] != box_class or scratch[X_HALF + i] >= room:
-            return
-        regions[place, 0], regions[place, 1], regions[place, 2], regions[place, 3] = box_at(i, scratch)
-        regions[0, 0] = number + 1
+    for _ in range(DOUBLINGS // VECTOR_WIDTH):
+        for i in range(VECTOR_WIDTH):
+            set_box_at(Box(t, half, tau - duration, tau + duration), i, scratch)
+            half, duration = 2.0 * half, 2.0 * duration
+        evaluate_boxes(VECTOR_WIDTH, edge, scratch)
+        for i in range(VECTOR_WIDTH):
+            if scratch[X_CLASS + i] != box_class or scratch[X_HALF + i] >= room:
+                return
+            regions[place, 0], regions[place, 1], regions[place, 2], regions[place, 3] = box_at(i, scratch)
+            regions[0, 0] = number + 1
 
 
 @kernel(forceinline=True)
@@ -496,7 +517,7 @@ def search_edge(
             shorter = False
             if box.half <= FINE and box.half < gap < BESIDE and boxes[X_G_LOW + i] > 0.0:
                 bends = boxes[X_BEND_LOW + i], boxes[X_BEND_HIGH + i]
-                no_onset, shorter = no_onset_from_contact(box, bends[0], bends[1], edge, search.scratch)
+                no_onset, shorter = no_onset_from_contact(box, bends, edge, search.scratch)
                 if no_onset:
                     continue
             if box_class <= ONE_PLANE and gap > ASIDE * box.half:
@@ -531,7 +552,7 @@ def parts_for(count: int) -> int:
 
 
 @kernel()
-def add_parts(count: int, latest: float, boxes: Array, waiting: int, queue: Array) -> int:
+def add_parts(count: int, latest: float, boxes: Array, waiting: int, queue: Queue) -> int:
     """Splits the first boxes of a list and adds the parts that start by ``latest`` to those that wait.
 
     They are halves, or finer if none are waiting. Returns how many wait then.
@@ -550,7 +571,7 @@ def add_parts(count: int, latest: float, boxes: Array, waiting: int, queue: Arra
 
 
 @kernel()
-def take_batch(latest: float, boxes: Array, waiting: int, queue: Array) -> tuple[int, int]:
+def take_batch(latest: float, boxes: Array, waiting: int, queue: Queue) -> tuple[int, int]:
     """Takes the first boxes of those that wait into a list, up to ``BATCH``; returns how many, and how many still wait.
 
     Where the first one starts after ``latest`` all are dropped.
@@ -569,7 +590,7 @@ def take_batch(latest: float, boxes: Array, waiting: int, queue: Array) -> tuple
 
 
 @kernel()
-def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, queue: Array) -> tuple[int, float]:
+def find_inside(edge: Edge, shallow: float, narrow: float, boxes: Array, queue: Queue) -> tuple[int, float]:
     """Whether the edge curve is inside the other solid at the start of a motion, except at earlier contacts.
 
     Returns INSIDE and the azimuth of a point that is; OUTSIDE: nowhere by more than ``shallow`` thread pitches over

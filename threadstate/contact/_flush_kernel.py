@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate._scratch import scratch
+from threadstate.contact._branchless_kernel import azimuth, profile_numbers, radius_and_slope, sine_cosine
 from threadstate.contact._geometry_kernel import TWO_PI, edge_point
 from threadstate.thread import _profile_kernel as pk
 
@@ -77,14 +78,26 @@ def outline_value(theta: float, corner: bool, nx: float, ny: float, pose: Array,
     return nx * dx + ny * dy
 
 
-@kernel()
+@kernel(contract=True)
 def set_outline_samples(pose: Array, bolt: Array, nut: Array, theta: Array, place: Array, over: Array) -> None:
-    """Samples of the bolt's outline all around: azimuths, points with tangents, and how far they are over the nut."""
+    """Samples of the bolt's outline all around: azimuths, points with tangents, and how far they are over the nut.
+
+    ``place`` has a row for each of x, y, dx and dy. Samples tell where the outline is looked at exactly.
+    """
+    k = bolt[pk.LEAD] / TWO_PI
+    bolt_numbers, nut_numbers = profile_numbers(bolt), profile_numbers(nut)
+    xx, xy, yx, yy, ox, oy = pose[0], pose[1], pose[3], pose[4], pose[9], pose[10]
     for i in range(OUTLINE_POINTS):
-        theta[i] = TWO_PI * i / OUTLINE_SAMPLES
-        x, y, dx, dy = base_outline(theta[i], pose, bolt)
-        place[i, 0], place[i, 1], place[i, 2], place[i, 3] = x, y, dx, dy
-        over[i] = math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
+        angle = TWO_PI * i / OUTLINE_SAMPLES
+        sine, cosine = sine_cosine(angle)
+        r, slope, _, _ = radius_and_slope(-k * angle, bolt_numbers)
+        bx, by, dr = r * cosine, r * sine, -k * slope
+        dx, dy = dr * cosine - by, dr * sine + bx
+        x, y = xx * bx + xy * by + ox, yx * bx + yy * by + oy
+        away = math.sqrt(x * x + y * y)
+        of_nut, _, _, _ = radius_and_slope(-k * azimuth(x, y, away), nut_numbers)
+        theta[i], over[i] = angle, away - of_nut
+        place[0, i], place[1, i], place[2, i], place[3, i] = x, y, xx * dx + xy * dy, yx * dx + yy * dy
 
 
 @kernel()
@@ -108,7 +121,7 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
     crosses the nut's outline). Returns how many differ; 0 where the outlines do not overlap.
     """
     theta, over = scratch(OUTLINE_POINTS), scratch(OUTLINE_POINTS)
-    place, corners = scratch(OUTLINE_POINTS, 4), scratch(OUTLINE_SAMPLES, 3)
+    place, corners = scratch(4, OUTLINE_POINTS), scratch(OUTLINE_SAMPLES, 3)
     set_outline_samples(pose, bolt, nut, theta, place, over)
     corner_count = set_corners(pose, bolt, nut, theta, over, corners)
     count = 0
@@ -119,11 +132,11 @@ def extreme_points(pose: Array, bolt: Array, nut: Array, ax: float, ay: float, o
         best_theta = 0.0
         is_corner = False
         for i in range(OUTLINE_SAMPLES):
-            reach = nx * place[i, 0] + ny * place[i, 1]
+            reach = nx * place[0, i] + ny * place[1, i]
             if over[i] > 0.0 and reach > best:
                 best = reach
                 best_theta = theta[i]
-            if nx * place[i, 2] + ny * place[i, 3] > 0.0 and nx * place[i + 1, 2] + ny * place[i + 1, 3] <= 0.0:
+            if nx * place[2, i] + ny * place[3, i] > 0.0 and nx * place[2, i + 1] + ny * place[3, i + 1] <= 0.0:
                 t = outline_root(theta[i], theta[i + 1], False, nx, ny, pose, bolt, nut)
                 x, y, _, _ = base_outline(t, pose, bolt)
                 if nx * x + ny * y >= best and distance_outside(t, pose, bolt, nut) >= 0.0:

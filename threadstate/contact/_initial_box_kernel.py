@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from threadstate._compile import kernel
 from threadstate.contact._box_kernel import X_END, X_HALF, X_START, X_THETA
+from threadstate.contact._branchless_kernel import sine_cosine
 from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._geometry_kernel import M_AXIS, M_KIND, M_OFF, M_POINT, M_SIGMA
 from threadstate.thread import _profile_kernel as pk
@@ -53,7 +54,7 @@ def heights_at(tau: float, motion: Array) -> Heights:
     if motion[M_KIND] == 0.0:
         return motion[M_OFF + 2] + tau * az, motion[6], motion[7], az, 0.0, 0.0
     # The solid's axis, turned back: what a vector is along it is how high the turned one points.
-    cosine, sine = math.cos(tau), math.sin(tau)
+    sine, cosine = sine_cosine(tau)
     x, y, z = -az * ax * cosine - ay * sine, -az * ay * cosine + ax * sine, (1.0 - az * az) * cosine
     dx, dy, dz = az * ax * sine - ay * cosine, az * ay * sine + ax * cosine, -(1.0 - az * az) * sine
     x, y, z = x + az * ax, y + az * ay, z + az * az
@@ -94,10 +95,10 @@ def drop_above(count: int, edge: Edge, boxes: Array) -> int:
         return count
     first, last = heights_at(since, edge.motion), heights_at(until, edge.motion)
     sigma, r_minor, r_major = edge.motion[M_SIGMA], edge.curve[pk.R_MINOR], edge.curve[pk.R_MAJOR]
-    least, r_hull = ABOVE * r_major, r_major / math.cos(half)
-    by_cosine, by_sine = math.cos(2.0 * half), math.sin(2.0 * half)
-    start = boxes[X_THETA] - half
-    cosine, sine = math.cos(start), math.sin(start)
+    half_sine, half_cosine = sine_cosine(half)
+    by_sine, by_cosine = 2.0 * half_sine * half_cosine, 1.0 - 2.0 * half_sine * half_sine
+    sine, cosine = sine_cosine(boxes[X_THETA] - half)
+    least, r_hull = ABOVE * r_major, r_major / half_cosine
     before = False
     left = 0
     for i in range(count + 1):

@@ -149,7 +149,7 @@ def set_jet_beside(theta: float, tau: float, edge: Edge, jet: Array) -> None:
         return
     set_jet(theta, tau, edge.motion, edge.curve, edge.solid, edge.path, jet)
     if edge.kept[0, 0] != 0.0:
-        g, phi, _ = values_beside(theta, tau, edge.motion, edge.curve, edge.solid, edge.kept, edge.path)
+        g, phi, _ = values_beside(theta, tau, edge)
         jet[J_G] = jet[J_G] if math.isnan(g) else g
         jet[J_PHI] = jet[J_PHI] if math.isnan(phi) else phi
 

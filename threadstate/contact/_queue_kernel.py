@@ -6,6 +6,8 @@ alone, so that the same search goes the same way.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,82 +15,102 @@ from threadstate._compile import kernel
 from threadstate.contact._edge_kernel import Box
 
 Array = NDArray[np.float64]
+Rows = NDArray[np.int64]
 
 ROOM = 8192
 
-# A queue: rows of the fields of ``Box`` and of the row that was added before it with the same start, -1: none. Such
-# rows are a stack, and the stacks are sorted, the latest start first: in their own columns of the first rows the start
-# of each and its top. One more row has the number of stacks, that of rows that were ever used, and the first of those
-# that are free, each of which names the next.
-Q_THETA, Q_HALF, Q_START, Q_END, Q_NEXT, Q_STACK_START, Q_TOP = range(7)
-STATE = ROOM
-S_STACKS, S_USED, S_FREE = range(3)
+STACKS, USED, FREE = range(3)
+
+
+class Queue(NamedTuple):
+    """Boxes that wait, in stacks of those that start together.
+
+    Attributes:
+        boxes: rows of the fields of ``Box``.
+        before: of each row the one that was added before it to the same stack, -1: none; of a free one the next free.
+        starts: the start of each stack, the latest first.
+        tops: the row of each stack that was added last.
+        state: the number of stacks, that of rows that were ever used, and the first of those that are free.
+    """
+
+    boxes: Array
+    before: Rows
+    starts: Array
+    tops: Rows
+    state: Rows
 
 
 @kernel(allocates=True)
-def new_queue() -> Array:
-    """A queue with room for so many boxes, each row of the length of a cache line."""
-    return np.empty((ROOM + 1, 8))
+def new_queue() -> Queue:
+    """A queue with room for so many boxes."""
+    return Queue(
+        np.empty((ROOM, 4)),
+        np.empty(ROOM, np.int64),
+        np.empty(ROOM),
+        np.empty(ROOM, np.int64),
+        np.empty(3, np.int64),
+    )
 
 
 @kernel(forceinline=True)
-def clear(queue: Array) -> None:
+def clear(queue: Queue) -> None:
     """Removes all boxes."""
-    queue[STATE, S_STACKS], queue[STATE, S_USED], queue[STATE, S_FREE] = 0.0, 0.0, -1.0
+    queue.state[STACKS], queue.state[USED], queue.state[FREE] = 0, 0, -1
 
 
 @kernel(forceinline=True)
-def set_row(box: Box, i: int, queue: Array) -> None:
+def set_row(box: Box, i: int, queue: Queue) -> None:
     """Sets the box in a row."""
-    queue[i, Q_THETA], queue[i, Q_HALF], queue[i, Q_START], queue[i, Q_END] = box
+    queue.boxes[i, 0], queue.boxes[i, 1], queue.boxes[i, 2], queue.boxes[i, 3] = box
 
 
 @kernel(forceinline=True)
-def row(i: int, queue: Array) -> Box:
+def row(i: int, queue: Queue) -> Box:
     """The box in a row."""
-    return Box(queue[i, Q_THETA], queue[i, Q_HALF], queue[i, Q_START], queue[i, Q_END])
+    return Box(queue.boxes[i, 0], queue.boxes[i, 1], queue.boxes[i, 2], queue.boxes[i, 3])
 
 
 @kernel(forceinline=True)
-def add(box: Box, queue: Array) -> None:
+def add(box: Box, queue: Queue) -> None:
     """Adds a box to a queue that has room.
 
     The parts of the earliest boxes start about as early, so that few stacks are to be passed.
     """
-    count = int(queue[STATE, S_STACKS])
-    stack = count
-    while stack > 0 and queue[stack - 1, Q_STACK_START] < box.start:
+    _, before, starts, tops, state = queue
+    stack = state[STACKS]
+    while stack > 0 and starts[stack - 1] < box.start:
         stack -= 1
-    if stack > 0 and queue[stack - 1, Q_STACK_START] == box.start:
+    if stack > 0 and starts[stack - 1] == box.start:
         stack -= 1
     else:
-        for i in range(count, stack, -1):
-            queue[i, Q_STACK_START], queue[i, Q_TOP] = queue[i - 1, Q_STACK_START], queue[i - 1, Q_TOP]
-        queue[stack, Q_STACK_START], queue[stack, Q_TOP] = box.start, -1.0
-        queue[STATE, S_STACKS] += 1.0
-    place = int(queue[STATE, S_FREE])
+        for i in range(state[STACKS], stack, -1):
+            starts[i], tops[i] = starts[i - 1], tops[i - 1]
+        starts[stack], tops[stack] = box.start, -1
+        state[STACKS] += 1
+    place = state[FREE]
     if place >= 0:
-        queue[STATE, S_FREE] = queue[place, Q_NEXT]
+        state[FREE] = before[place]
     else:
-        place = int(queue[STATE, S_USED])
-        queue[STATE, S_USED] += 1.0
+        place = state[USED]
+        state[USED] += 1
     set_row(box, place, queue)
-    queue[place, Q_NEXT] = queue[stack, Q_TOP]
-    queue[stack, Q_TOP] = place
+    before[place] = tops[stack]
+    tops[stack] = place
 
 
 @kernel(forceinline=True)
-def first(queue: Array) -> Box:
+def first(queue: Queue) -> Box:
     """The first box of a queue that has one."""
-    return row(int(queue[int(queue[STATE, S_STACKS]) - 1, Q_TOP]), queue)
+    return row(queue.tops[queue.state[STACKS] - 1], queue)
 
 
 @kernel(forceinline=True)
-def remove_first(queue: Array) -> None:
+def remove_first(queue: Queue) -> None:
     """Removes the first box of a queue that has one."""
-    stack = int(queue[STATE, S_STACKS]) - 1
-    place = int(queue[stack, Q_TOP])
-    queue[stack, Q_TOP] = queue[place, Q_NEXT]
-    if queue[stack, Q_TOP] < 0.0:
-        queue[STATE, S_STACKS] = stack
-    queue[place, Q_NEXT], queue[STATE, S_FREE] = queue[STATE, S_FREE], place
+    _, before, _, tops, state = queue
+    stack = state[STACKS] - 1
+    place = tops[stack]
+    tops[stack] = before[place]
+    if tops[stack] < 0:
+        state[STACKS] = stack
+    before[place], state[FREE] = state[FREE], place

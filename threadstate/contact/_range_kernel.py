@@ -198,7 +198,7 @@ def error_beside(tau: float, sizes: Numbers) -> float:
     k, r, r1, cot, r_minor, base_error, error_by_time, _ = sizes
     time = abs(tau)
     c1 = math.sqrt(r * r + r1 * r1)
-    way = UNIT * (12.0 * r + 72.0 * r1 + 16.0 * (1.0 + time) * c1)
+    way = UNIT * (16.0 * r + 96.0 * r1 + 16.0 * (1.0 + time) * c1)
     turned = (16.0 * UNIT + 2.0 * (base_error + error_by_time * time) / r_minor) * c1
     return (1.0 + cot * (1.0 + abs(k) / r_minor)) * (way + turned)
 

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from threadstate._compile import kernel
-from threadstate.contact._branchless_kernel import profile_numbers, radius_and_slope
+from threadstate.contact._branchless_kernel import VECTOR_WIDTH, profile_numbers, radius_and_slope
 from threadstate.contact._geometry_kernel import TWO_PI
-from threadstate.contact._slope_kernel import placement_numbers, slopes
+from threadstate.contact._slope_kernel import along, gradient_at, in_nut, placement_numbers, slopes
 from threadstate.contact._tangency_kernel import PLACEMENT_OFF, PLACEMENT_ROT
 from threadstate.thread import _profile_kernel as pk
 
@@ -28,14 +28,20 @@ BLOCK_SIZE = 2 * MAX_AZIMUTHS + AROUND
 """Distance between blocks: the columns go round more than twice, so that every arc of columns is contiguous. From so
 many columns around those after them are computed, one from the other."""
 
+CELLS = (MAX_PIECES + 1) * (MAX_AZIMUTHS + VECTOR_WIDTH)
+"""The most ends of pieces."""
+
 # Blocks of the grid: the columns' cosines and sines, the base's radius there, the z at which the nut's surface is
-# reached; then B, row after row.
+# reached. Then blocks of the ends of pieces, row after row of the columns that are looked at: B, and what it is made
+# of, the point and its derivative along the axis, in the nut's frame.
 G_COS = 0
 G_SIN = BLOCK_SIZE
 G_BASE = 2 * BLOCK_SIZE
 G_TOP = 3 * BLOCK_SIZE
 G_B = 4 * BLOCK_SIZE
-GRID_SIZE = G_B + (MAX_PIECES + 1) * BLOCK_SIZE
+G_X, G_Y, G_Z = G_B + CELLS, G_B + 2 * CELLS, G_B + 3 * CELLS
+G_DX, G_DY, G_DZ = G_B + 4 * CELLS, G_B + 5 * CELLS, G_B + 6 * CELLS
+GRID_SIZE = G_B + 7 * CELLS
 
 MAX_RIDGES = 4
 """Most ridges searched for on one azimuth."""
@@ -110,27 +116,37 @@ def set_tops(first: int, padded_columns: int, placement: Array, bolt: Array, gri
 def set_slopes(
     pieces: int, first: int, padded_columns: int, azimuths: int, placement: Array, bolt: Array, nut: Array, grid: Array
 ) -> None:
-    """Sets B at all ends of ``pieces`` pieces in ``padded_columns`` columns from ``first`` on."""
+    """Sets B at all ends of ``pieces`` pieces in ``padded_columns`` columns from ``first`` on.
+
+    In two loops: the one chain of operations is as long as the other, and shorter ones overlap.
+    """
     k = bolt[pk.LEAD] / TWO_PI
     advance = bolt[pk.LEAD] / azimuths
     bolt_numbers = profile_numbers(bolt)
     nut_numbers = profile_numbers(nut)
-    placement_values = placement_numbers(placement)
+    numbers = placement_numbers(placement)
     view = grid[first:]
-    for m in range(pieces + 1):
-        row = view[m * BLOCK_SIZE :]
-        part = m / pieces
+    for row in range(pieces + 1):
+        cells = grid[row * padded_columns :]
+        part = row / pieces
         for j in range(padded_columns):
             cos = view[G_COS + j]
             sin = view[G_SIN + j]
             z = part * view[G_TOP + j]
             r, slope, _, _ = radius_and_slope(z - advance * (first + j), bolt_numbers)
-            _, _, b = slopes(r * cos, r * sin, z, slope * cos, slope * sin, k, placement_values, nut_numbers)
-            row[G_B + j] = b
+            x, y, height = in_nut(r * cos, r * sin, z, numbers)
+            dx, dy, dz = in_nut(slope * cos, slope * sin, 1.0, numbers)
+            cells[G_X + j], cells[G_Y + j], cells[G_Z + j] = x + numbers[9], y + numbers[10], height + numbers[11]
+            cells[G_DX + j], cells[G_DY + j], cells[G_DZ + j] = dx, dy, dz
+    for i in range((pieces + 1) * padded_columns):
+        _, gradient = gradient_at((grid[G_X + i], grid[G_Y + i], grid[G_Z + i]), k, nut_numbers)
+        grid[G_B + i] = along(gradient, (grid[G_DX + i], grid[G_DY + i], grid[G_DZ + i]))
 
 
 @kernel()
-def list_crossings(first: int, columns: int, pieces: int, azimuths: int, grid: Array, crossings: Array) -> int:
+def list_crossings(
+    first: int, columns: int, padded_columns: int, pieces: int, azimuths: int, grid: Array, crossings: Array
+) -> int:
     """Lists the pieces of columns in which B falls through zero, by column and then from the base up."""
     count = 0
     for j in range(first, first + columns):
@@ -139,8 +155,8 @@ def list_crossings(first: int, columns: int, pieces: int, azimuths: int, grid: A
             continue
         ridge = 0
         for m in range(pieces):
-            b_low = grid[G_B + m * BLOCK_SIZE + j]
-            b_high = grid[G_B + (m + 1) * BLOCK_SIZE + j]
+            cell = G_B + m * padded_columns + j - first
+            b_low, b_high = grid[cell], grid[cell + padded_columns]
             if b_low > 0.0 and b_high < 0.0:
                 crossings[CR_THETA + count] = TWO_PI * j / azimuths
                 crossings[CR_COS + count] = grid[G_COS + j]

@@ -111,12 +111,21 @@ FAR = 1.5
 def nearby_maximum(
     theta: float, z: float, time_range: float, placement: Array, bolt: Array, nut: Array, jet: Array
 ) -> tuple[float, float, bool]:
+    """As :func:`maximum_from`; sets the jet there."""
+    set_jet(theta, z, placement, bolt, nut, jet)
+    return maximum_from(theta, z, time_range, placement, bolt, nut, jet)
+
+
+@kernel()
+def maximum_from(
+    theta: float, z: float, time_range: float, placement: Array, bolt: Array, nut: Array, jet: Array
+) -> tuple[float, float, bool]:
     """The highest point of phi on the thread near (theta, z) for a placement (A = B = 0), by Newton's method.
 
-    Where the Hessian of phi is not negative definite it ascends by short steps, at most ``MAX_ASCENT_STEPS``: along the
-    axis to the ridge (where curvatures jump, a point between two crossings may be beside it), and then along the ridge.
-    That is done only where phi rises, and by its rate vanishes within ``time_range``. Also returns whether it
-    converged.
+    ``jet`` is that at (theta, z), and then that at the point that is returned. Where the Hessian of phi is not negative
+    definite it ascends by short steps, at most ``MAX_ASCENT_STEPS``: along the axis to the ridge (where curvatures
+    jump, a point between two crossings may be beside it), and then along the ridge. That is done only where phi rises,
+    and by its rate vanishes within ``time_range``. Also returns whether it converged.
     """
     k = bolt[pk.LEAD] / TWO_PI
     p = bolt[pk.P]
@@ -124,7 +133,6 @@ def nearby_maximum(
     settled_z = min(SETTLED_STEP * p, fillet)
     settled_theta = max(min(SETTLED_STEP, fillet / p), LEAST_SETTLED)
     ascent_steps = 0
-    set_jet(theta, z, placement, bolt, nut, jet)
     for _ in range(20):
         a, b = jet[TJ_A], jet[TJ_B]
         uu, uz, zz = jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
@@ -235,11 +243,10 @@ def bracketed_maximum(
 
 
 @kernel()
-def is_far(theta: float, z: float, placement: Array, bolt: Array, nut: Array, time_range: float, jet: Array) -> bool:
-    """Whether by its second derivatives phi has a maximum near (theta, z) from which, by its rate, it does not reach
-    zero within ``time_range``.
+def is_far(jet: Array, time_range: float) -> bool:
+    """Whether by its second derivatives phi has a maximum near the point of a jet from which, by its rate, it does not
+    reach zero within ``time_range``.
     """
-    set_jet(theta, z, placement, bolt, nut, jet)
     a, b, uu, uz, zz = jet[TJ_A], jet[TJ_B], jet[TJ_UU], jet[TJ_UZ], jet[TJ_ZZ]
     det = uu * zz - uz * uz
     if not (zz < 0.0 and det > 0.0):
@@ -265,21 +272,23 @@ def follow_maximum(
 ) -> int:
     """Follows a highest point of phi through time to where phi vanishes there, in steps of at most ``MAX_FOLLOW_STEP``.
 
-    ``placement`` is that of the bolt at ``tau``; ``later_placement`` and ``jet`` are scratch. Returns the number of
-    contacts found. A point that still moves after 60 steps is not followed further; known ones take far fewer.
+    ``placement`` is that of the bolt at ``tau``, ``jet`` that of the point then; ``later_placement`` is scratch, and so
+    is ``jet`` afterwards. Returns the number of contacts found. A point that still moves after 60 steps is not followed
+    further; known ones take far fewer.
     """
     k = bolt[pk.LEAD] / TWO_PI
     p = bolt[pk.P]
     step = motion_scale(motion, bolt)
     farthest = MAX_FOLLOW_STEP * step
-    if is_far(theta, z, placement, bolt, nut, FAR * FOLLOW_RANGE * step, jet):
+    if is_far(jet, FAR * FOLLOW_RANGE * step):
         return count
     start, overshoots = tau, 0
     for i in range(60):
         if i > 0:
             set_placement(motion, tau, later_placement)
+            set_jet(theta, z, later_placement, bolt, nut, jet)
         start_theta, start_z = theta, z
-        theta, z, converged = nearby_maximum(
+        theta, z, converged = maximum_from(
             theta, z, 2.0 * FOLLOW_RANGE * step, placement if i == 0 else later_placement, bolt, nut, jet
         )
         if not converged and abs(jet[TJ_PHI]) < 2.0 * FOLLOW_RANGE * step * jet[TJ_RATE]:
@@ -341,7 +350,7 @@ def ridge_maxima(
     highest = set_tops(first, padded_columns, placement, bolt, grid)
     pieces = min(1 + int(highest / bolt[pk.P] * MAX_PIECES), MAX_PIECES)
     set_slopes(pieces, first, padded_columns, azimuths, placement, bolt, nut, grid)
-    listed = list_crossings(first, columns, pieces, azimuths, grid, crossings)
+    listed = list_crossings(first, columns, padded_columns, pieces, azimuths, grid, crossings)
     if listed == 0:
         return 0
     locate_crossings(listed, placement, bolt, nut, crossings)
@@ -498,6 +507,7 @@ def contacts_at_instants(
         set_placement(motion, tau, placement)
         for j in range(ridge_maxima(azimuths, placement, bolt, nut, grid, crossings, maxima)):
             theta, z = maxima[j, 0], maxima[j, 1]
+            set_jet(theta, z, placement, bolt, nut, jet)
             count = follow_maximum(
                 theta, z, tau, limit, motion, bolt, nut, placement, later_placement, jet, found, count
             )
@@ -520,19 +530,8 @@ def contacts_behind_entries(
         tau = entries[i, E_TIME]
         if tau > limit:
             continue
+        theta, z = entries[i, E_THETA], entries[i, E_Z]
         set_placement(motion, tau, placement)
-        count = follow_maximum(
-            entries[i, E_THETA],
-            entries[i, E_Z],
-            tau,
-            limit,
-            motion,
-            bolt,
-            nut,
-            placement,
-            later_placement,
-            jet,
-            found,
-            count,
-        )
+        set_jet(theta, z, placement, bolt, nut, jet)
+        count = follow_maximum(theta, z, tau, limit, motion, bolt, nut, placement, later_placement, jet, found, count)
     return count

@@ -14,7 +14,7 @@ from threadstate.contact import _rectangle_kernel as rect
 from threadstate.contact import _ridge_kernel as ridge
 from threadstate.contact import _tangency_kernel as tk
 from threadstate.contact import _thread_surface_kernel as ts
-from threadstate.contact._beside_kernel import K_TANGENT, KEPT_ROWS, KEPT_SIZE, MOST_KEPT, keep
+from threadstate.contact._beside_kernel import K_TANGENT, KEPT_ROWS, KEPT_SIZE, MOST_KEPT, keep, place_kept
 from threadstate.contact._box_kernel import BOXES_SIZE, ONE_EDGE, ONE_PLANE
 from threadstate.contact._edge_kernel import Edge
 from threadstate.contact._edge_search_kernel import (
@@ -52,7 +52,7 @@ from threadstate.contact._onset_kernel import (
     JET_SIZE,
     MAX_CANDIDATES,
 )
-from threadstate.contact._queue_kernel import new_queue
+from threadstate.contact._queue_kernel import Queue, new_queue
 from threadstate.contact._refined_edge_kernel import is_refined, set_refined_motions
 from threadstate.contact._wedge_kernel import WEDGE_SIZE
 from threadstate.contact._wide_kernel import WIDE_MOTION_SIZE, widen_motion
@@ -83,7 +83,7 @@ class Work(NamedTuple):
 
     boxes: Array
     scratch: Array
-    queue: Array
+    queue: Queue
     regions: Array
     bolt_found: Array
     nut_found: Array
@@ -323,14 +323,13 @@ def on_nut_edge(contact: Array, nut: Array) -> bool:
 
 
 @kernel()
-def keep_contacts(
-    known: Array, known_count: int, pose: Array, bolt: Array, nut: Array, bolt_kept: Array, nut_kept: Array
-) -> None:
-    """Sets the lists of contacts on the bolt's and on the nut's edge curve (``_beside_kernel``).
+def keep_contacts(known: Array, known_count: int, pose: Array, bolt_edge: Edge, nut_edge: Edge) -> None:
+    """Sets the lists of contacts of the bolt's and of the nut's edge (``_beside_kernel``) at the start of their motion.
 
     Where a contact changes from a part's edge to its thread or its flat face it is on both within the tolerance: the
     edge there must not count as another contact.
     """
+    bolt, nut, bolt_kept, nut_kept = bolt_edge.curve, nut_edge.curve, bolt_edge.kept, nut_edge.kept
     bolt_kept[0, 0], nut_kept[0, 0] = 0.0, 0.0
     bolt_kept[0, K_TANGENT] = nut_kept[0, K_TANGENT] = 1.0 if known_count == 1 else 0.0
     for i in range(known_count):
@@ -343,6 +342,8 @@ def keep_contacts(
             keep(known[i, K_NUT_AZIMUTH], pair != THREAD_EDGE, pair != BASE_EDGE, nut_kept)
         elif on_nut_edge(known[i], nut):
             keep(known[i, K_NUT_AZIMUTH], False, False, nut_kept)
+    place_kept(bolt_edge)
+    place_kept(nut_edge)
 
 
 @kernel()
@@ -601,9 +602,9 @@ def earliest(
     bolt_path, nut_path = scratch(PATH_SIZE), scratch(PATH_SIZE)
     bolt_edge = Edge(work.bolt_motion, bolt, nut, bolt_kept, bolt_path, scratch(0, 2))
     nut_edge = Edge(work.nut_motion, nut, bolt, nut_kept, nut_path, scratch(0, 2))
-    keep_contacts(known, known_count, pose, bolt, nut, bolt_kept, nut_kept)
     coplanar = axis_in_both_planes(known, known_count)
     set_motions(pose, is_turn, coplanar, point, axis, work.bolt_motion, work.nut_motion)
+    keep_contacts(known, known_count, pose, bolt_edge, nut_edge)
     count, status, best, since = 0, UNRESOLVED, wanted.limit, 0.0
     span = FIRST_SPAN_TURN if is_turn else FIRST_SPAN_HEIGHT * bolt[pk.P]
     if not refined:
@@ -632,8 +633,8 @@ def edges_overlap(pose: Array, contacts: Array, count: int, bolt: Array, nut: Ar
     bolt_kept, nut_kept, path = scratch(KEPT_ROWS, KEPT_SIZE), scratch(KEPT_ROWS, KEPT_SIZE), scratch(PATH_SIZE)
     bolt_edge = Edge(work.bolt_motion, bolt, nut, bolt_kept, path, scratch(0, 2))
     nut_edge = Edge(work.nut_motion, nut, bolt, nut_kept, path, scratch(0, 2))
-    keep_contacts(contacts, count, pose, bolt, nut, bolt_kept, nut_kept)
     set_vertical_motions(pose, -1.0, work.bolt_motion, work.nut_motion)
+    keep_contacts(contacts, count, pose, bolt_edge, nut_edge)
     outcome, _ = find_inside(bolt_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.queue)
     if outcome == OUTSIDE:
         outcome, _ = find_inside(nut_edge, TOUCH_DEPTH, LEAST_HALF_WIDTH, work.boxes, work.queue)

@@ -71,7 +71,7 @@ def set_lowest(turn: float, near: float, placement: Array, bolt: Array, lowest: 
     across = math.hypot(nx, ny)
     rho = bolt[pk.RHO_MAJOR]
     lowest[L_KIND] = NO_POINT
-    f, u, sine, cosine, beta = bolt[pk.R_MAJOR], bolt[pk.U_TOP], 0.0, 1.0, 0.0
+    f, u, sine, cosine, sine_beta, cosine_beta = bolt[pk.R_MAJOR], bolt[pk.U_TOP], 0.0, 1.0, 0.0, 1.0
     for _ in range(MAX_RADIUS_STEPS):
         if not abs(nz * k) < across * f:
             return
@@ -79,18 +79,20 @@ def set_lowest(turn: float, near: float, placement: Array, bolt: Array, lowest: 
         cosine = math.sqrt((1.0 - sine) * (1.0 + sine))
         slope = abs(nz) / (across * cosine)
         lowest[L_KIND] = LOWEST if slope < bolt[pk.COT] else AT_FLANK
-        beta = math.atan(min(slope, bolt[pk.COT]))
-        u = max(bolt[pk.U_TOP] - rho * math.sin(beta), bolt[pk.U_CREST])
+        slope = min(slope, bolt[pk.COT])
+        cosine_beta = 1.0 / math.sqrt(1.0 + slope * slope)
+        sine_beta = slope * cosine_beta
+        u = max(bolt[pk.U_TOP] - rho * sine_beta, bolt[pk.U_CREST])
         before = f
-        f = bolt[pk.R_MAJOR] - rho * (1.0 - math.cos(beta))
+        f = bolt[pk.R_MAJOR] - rho * (1.0 - cosine_beta)
         if f == before:
             break
     # Elsewhere the height has a saddle there: its second derivatives are f and 1 / f'', and f' tan(psi) mixed.
-    if not f * cosine * cosine > rho * math.cos(beta) * (math.sin(beta) * sine) ** 2:
+    if not f * cosine * cosine > rho * cosine_beta * (sine_beta * sine) ** 2:
         lowest[L_KIND] = NO_POINT
         return
     down = math.atan2(-ny, -nx) - near
-    theta = near + down - TWO_PI * math.floor(down / TWO_PI + 0.5) + math.atan2(sine, cosine)
+    theta = near + down - TWO_PI * np.floor(down / TWO_PI + 0.5) + math.atan2(sine, cosine)
     s = u if nz >= 0.0 else 0.5 * bolt[pk.P] - u
     z = s + k * theta + turn * bolt[pk.P]
     lowest[L_THETA] = theta

@@ -268,7 +268,9 @@ def earliest_candidate(
     """
     is_turn = stage > 1
     set_motions(pose, is_turn, axis_in_both_planes(known, stage - 1), point, axis, work.bolt_motion, work.nut_motion)
-    keep_contacts(known, stage - 1, pose, bolt, nut, work.bolt_kept, work.nut_kept)
+    bolt_edge = Edge(work.bolt_motion, bolt, nut, work.bolt_kept, work.path, work.wide)
+    nut_edge = Edge(work.nut_motion, nut, bolt, work.nut_kept, work.path, work.wide)
+    keep_contacts(known, stage - 1, pose, bolt_edge, nut_edge)
     one = scratch(CONTACT_SIZE)
     contact[K_TIME] = math.inf
     for i in range(CANDIDATES):

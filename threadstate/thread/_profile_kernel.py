@@ -32,7 +32,7 @@ PROFILE_SIZE = 30
 def fold(s: float, profile: Array) -> tuple[float, int]:
     """The coordinate ``u`` of the half period in which ``s`` is, and which: 0 the rising one, else ``FALLING``."""
     p = profile[P]
-    u = s - p * math.floor(s / p - profile[S_ROOT] / p)
+    u = s - p * np.floor(s / p - profile[S_ROOT] / p)
     if u > profile[S_CREST]:
         return 0.5 * p - u, FALLING
     return u, 0
