@@ -6,16 +6,26 @@ that is compiled first, so that the same sources would give other bits in a proc
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from numba import njit, typeof
+from numba.np import linalg
 
 from threadstate._callee import CALLEE, ENTRY, let_kernels_call
 
 _njit: Any = njit
 """Its type does not know ``no_cfunc_wrapper``."""
+
+
+def _no_linear_algebra() -> None:
+    """Tells numba that there is none: to look for it takes a sixth of a second of each start, and no kernel uses it."""
+    raise ImportError("kernels use no linear algebra")
+
+
+setattr(linalg, "ensure_blas", _no_linear_algebra)  # noqa: B010 - its type forbids an assignment
 
 
 def kernel(
@@ -31,6 +41,7 @@ def kernel(
     """
 
     def compiled(function: Callable[..., Any]) -> Any:
+        setattr(function, "__signature__", inspect.signature(function))  # noqa: B010 - numba asks for it four times
         how = {
             "error_model": "numpy",
             "fastmath": {"contract"} if contract else False,
