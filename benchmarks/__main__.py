@@ -58,6 +58,7 @@ def _measured(pose_count: int, compared_count: int, grid: Grid, *, compiling: bo
     _report_progress("meshes ...")
     compared = poses[:compared_count]
     seconds = min(seconds_to_solve(pair, compared, 1) for _ in range(3))
+    first_seconds = min(seconds_to_solve(pair, compared, 1, first_contact_only=True) for _ in range(3))
     found = rivals(pair, compared, heights[:compared_count], seconds)
     _report_progress("whole library ...")
     with tempfile.TemporaryDirectory() as name:
@@ -74,6 +75,7 @@ def _measured(pose_count: int, compared_count: int, grid: Grid, *, compiling: bo
         work=work,
         compared=len(compared),
         compared_poses_per_second=len(compared) / seconds,
+        first_contacts_per_second=len(compared) / first_seconds,
         rivals=found,
         rebuilds=rebuilds,
         parts=parts,

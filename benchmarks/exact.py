@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import multiprocessing
 import time
+from functools import partial
 from multiprocessing.connection import Connection
 
 import numpy as np
 
 from benchmarks.sample import Poses
+from threadstate.contact._record_kernel import O_POSE
 from threadstate.errors import UnresolvedPoseError
+from threadstate.state.options import SolveOptions
+from threadstate.state.records import solve_records
 from threadstate.state.solve import solve_pose, solve_poses
 from threadstate.thread.pair import Pair
 from worker.garbage import collect_rarely
@@ -29,14 +33,18 @@ def first_heights(pair: Pair, poses: Poses) -> Poses:
     return heights
 
 
-def seconds_to_solve(pair: Pair, poses: Poses, processes: int) -> float:
-    """Wall time to solve poses in that many processes, one a core, each with its share of them and ready to start."""
+def seconds_to_solve(pair: Pair, poses: Poses, processes: int, *, first_contact_only: bool = False) -> float:
+    """Wall time to solve poses in that many processes, one a core, each with its share of them and ready to start.
+
+    All contacts as states, or the first alone, which is all that a mesh's descent finds, as its height.
+    """
     # forkserver, as for a library: the same code runs on one core and on two.
     context = multiprocessing.get_context("forkserver")
     ends: list[Connection] = []
     for k in range(processes):
         ours, theirs = context.Pipe()
-        context.Process(target=_solve_share, args=(theirs, pair, poses[k::processes]), daemon=True).start()
+        arguments = (theirs, pair, poses[k::processes], first_contact_only)
+        context.Process(target=_solve_share, args=arguments, daemon=True).start()
         theirs.close()
         ends.append(ours)
     for end in ends:
@@ -49,11 +57,16 @@ def seconds_to_solve(pair: Pair, poses: Poses, processes: int) -> float:
     return time.perf_counter() - start
 
 
-def _solve_share(connection: Connection, pair: Pair, poses: Poses) -> None:
+def _solve_share(connection: Connection, pair: Pair, poses: Poses, first_contact_only: bool) -> None:
     collect_rarely()  # as the processes of a rebuild do
-    solve_poses(pair, poses[:BATCH])
+    solve = partial(_solve_first, pair) if first_contact_only else partial(solve_poses, pair)
+    solve(poses[:BATCH])
     connection.send(None)
     connection.recv()
     for start in range(0, len(poses), BATCH):
-        solve_poses(pair, poses[start : start + BATCH])
+        solve(poses[start : start + BATCH])
     connection.send(None)
+
+
+def _solve_first(pair: Pair, poses: Poses) -> Poses:
+    return solve_records(pair, SolveOptions(), poses, first_contact_only=True)[:, O_POSE + 11]

@@ -99,6 +99,7 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
             work=Work(50, 570.4, 4, 2600.0, 240.0, 12.0),
             compared=7,
             compared_poses_per_second=110.0,
+            first_contacts_per_second=880.0,
             rivals=[Rival("march", 55.0, 2.0, 5e-7, -0.012, (1.0, -2.0, 357.5), 3)],
             rebuilds=[Rebuilt(2, 27, 1.5, 4_000_000)],
             parts=[
@@ -118,7 +119,8 @@ def test_tables_show_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
         "1 120 0.50",
         "2 240 0.25",
         "exact, all three contacts 110",
-        "march 55 2.0 x 5.0e-07 -1.2e-02 1.00, -2.00, 357.50 3",
+        "exact, first contact 880",
+        "march 55 2.0 x 16 x 5.0e-07 -1.2e-02 1.00, -2.00, 357.50 3",
         "2 27 1.50 4.0",
         "rows computing 2.50 62.5%",
         "Histories: 9.00/s on one core, beyond the states of the library, in 2.0 times the time of these.",
