@@ -20,13 +20,14 @@ from threadstate.contact import _box_kernel as box
 from threadstate.contact import _edge_search_kernel as edge_search
 from threadstate.contact import _flank_kernel as flank
 from threadstate.contact._edge_kernel import Box, Edge
-from threadstate.contact._geometry_kernel import TWO_PI
+from threadstate.contact._geometry_kernel import PATH_SIZE, TWO_PI, edge_point, position, set_path
 from threadstate.contact._initial_box_kernel import set_initial_boxes
 from threadstate.contact._range_kernel import error_beside, size_numbers
 from threadstate.contact._stage_kernel import rotation
 from threadstate.errors import UnresolvedPoseError
 from threadstate.state.model import FeaturePair
 from threadstate.state.solve import solve_pose, solve_poses
+from threadstate.thread import _profile_kernel as pk
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
 
 DISPLACED = 1.5e-14
@@ -127,6 +128,36 @@ def test_differences_from_a_contact_are_within_their_error() -> None:
             else:
                 assert math.isnan(g)
     assert most > 0.01  # the bound is no more than a hundred times what is seen
+
+
+def test_half_a_small_angle_has_the_sine_and_cosine_of_the_library() -> None:
+    for d in [0.0, *np.geomspace(1e-12, beside.BESIDE, 60).tolist()]:
+        for way in (d, -d):
+            sine, cosine = beside.half_angle(way)
+            assert abs(sine - math.sin(0.5 * way)) <= 2.0**-51 * abs(0.5 * way)
+            assert abs(cosine - math.cos(0.5 * way)) <= 2.0**-52
+
+
+@pytest.mark.parametrize("turns", [-1, 0, 2])
+def test_a_kept_contact_is_where_its_edge_point_is(turns: int) -> None:
+    one = second_turns()[0]
+    curve, motion = one.search.curve.packed, one.search.motion
+    edge = new_edge(motion, curve, one.search.solid.packed, one.kept.copy())
+    edge.kept[1, beside.K_THETA] += turns * TWO_PI
+    beside.place_kept(edge)
+    x, y, _, _ = edge_point(one.azimuth, curve)
+    path = np.empty(PATH_SIZE)
+    set_path(x, y, motion, path)
+    at = position(path, 0.0, True)
+    kept = edge.kept[1].tolist()
+    radius = kept[beside.K_RADIUS]
+    k = float(curve[pk.LEAD]) / TWO_PI
+    place = at[2] - k * math.atan2(at[1], at[0])
+    assert kept[beside.K_COSINE] * radius == pytest.approx(x, abs=1e-14)
+    assert kept[beside.K_SINE] * radius == pytest.approx(y, abs=1e-14)
+    assert kept[beside.K_PLACE_X : beside.K_POSITION + 1] == pytest.approx(
+        [*at[:2], math.hypot(*at[:2]), place], abs=1e-14
+    )
 
 
 @pytest.mark.parametrize("form", FORMS)

@@ -15,6 +15,7 @@ from threadstate.contact import _box_kernel as box
 from threadstate.contact import _onset_kernel as onset
 from threadstate.contact._branchless_kernel import (
     azimuth,
+    coarse_azimuth,
     course_over,
     profile_numbers,
     radius_and_slope,
@@ -219,6 +220,7 @@ def test_elementary_functions_without_branches() -> None:
         assert sine_cosine(angle) == pytest.approx((math.sin(angle), math.cos(angle)), abs=4e-15)
         x, y = 0.1 * math.cos(angle), 0.1 * math.sin(angle)
         assert azimuth(x, y, math.hypot(x, y)) == pytest.approx(math.atan2(y, x), abs=2e-14)
+        assert coarse_azimuth(x, y, math.hypot(x, y)) == pytest.approx((math.atan2(y, x), 10.0), abs=6e-10)
 
 
 @pytest.mark.parametrize("profile", [PAIR.bolt, PAIR.nut, BUTTRESS.bolt, BUTTRESS.nut, TURNED_BUTTRESS.bolt])
