@@ -122,7 +122,8 @@ def test_no_crossing_is_where_none_is_marked(name: str) -> None:
     bolt, nut = pair.bolt.packed, pair.nut.packed
     p, lead = float(bolt[pk.P]), float(nut[pk.LEAD])
     rng = np.random.default_rng(74)
-    crests, helices = np.zeros(crossing.CRESTS_ARRAY_SIZE), np.empty((crossing.HELICES, 2))
+    room = np.full(crossing.CRESTS_ARRAY_SIZE + 1, math.pi)
+    crests, helices = room[:-1], np.empty((crossing.HELICES, 2))
     crossing.set_crests(bolt, crests)
     crossing.helices_of_nut(nut, helices)
     marked = unmarked = 0
@@ -130,7 +131,7 @@ def test_no_crossing_is_where_none_is_marked(name: str) -> None:
         placement = placed(40.0, rng, p)
         crossing.set_heights(placement, crests)
         crossing.place_crests(0, crossing.CRESTS_SIZE, placement, nut, crests)
-        crossing.mark_crossings(0, crossing.CRESTS_SIZE - 1, p, helices, crests)
+        crossing.mark_crossings(0, crossing.CRESTS_SIZE, p, helices, crests)
         height, z = (crests[start : start + crossing.CRESTS_SIZE] for start in (crossing.W_HEIGHT, crossing.W_Z))
         inside = (height > -1.1 * p) & (height < 0.1 * p)
         for first in range(0, crossing.CRESTS_SIZE, crossing.BLOCK):
@@ -145,6 +146,7 @@ def test_no_crossing_is_where_none_is_marked(name: str) -> None:
             assert not crosses or crests[crossing.W_MAY_CROSS + i] != 0.0
     assert marked > 20
     assert unmarked > 20
+    assert room[-1] == math.pi  # nothing is written beyond
 
 
 @pytest.mark.parametrize("name", NAMES)

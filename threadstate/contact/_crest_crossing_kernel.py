@@ -134,8 +134,9 @@ def mark_crossings(first: int, count: int, p: float, helices: Array, crests: Arr
     inverse_p = 1.0 / p
     low, high = -(1.0 + BEYOND) * p, BEYOND * p
     rising, falling, root = helices[RISING_CORNER, 0], helices[FALLING_CORNER, 0], helices[ROOT, 0]
-    view = crests[max(first - 1, 0) :]
-    for i in range(count):
+    start = max(first, 1)
+    view = crests[start - 1 :]
+    for i in range(first + count - start):
         height_before, height = view[W_HEIGHT + i], view[W_HEIGHT + i + 1]
         before, here = view[W_POSITION + i], view[W_POSITION + i + 1]
         way = abs(view[W_Z + i + 1] - view[W_Z + i])
