@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,12 +22,27 @@ _njit: Any = njit
 """Its type does not know ``no_cfunc_wrapper``."""
 
 
-def _no_linear_algebra() -> None:
-    """Tells numba that there is none: to look for it takes a sixth of a second of each start, and no kernel uses it."""
-    raise ImportError("kernels use no linear algebra")
+def _import_without_linear_algebra() -> None:
+    """Import numba's functions of arrays without the library of linear algebra that it looks for meanwhile.
+
+    That takes a sixth of a second of each start, and no kernel uses it. What others compile may: it is looked for then.
+    """
+    ensure_blas: Any = linalg.ensure_blas
+
+    def none_yet() -> None:
+        raise ImportError
+
+    of_numba: Any = linalg
+    of_numba.ensure_blas = none_yet
+    try:
+        arraymath: Any = import_module("numba.np.arraymath")
+    finally:
+        of_numba.ensure_blas = ensure_blas
+    arraymath.ensure_blas = ensure_blas
+    arraymath._HAVE_BLAS = find_spec("scipy") is not None
 
 
-setattr(linalg, "ensure_blas", _no_linear_algebra)  # noqa: B010 - its type forbids an assignment
+_import_without_linear_algebra()
 
 
 def kernel(

@@ -346,6 +346,23 @@ def test_a_contact_of_the_base_on_the_nut_s_edge_is_recorded_by_the_rules() -> N
     assert region_faults(touch, SURFACE_TOLERANCE_INCH) == []
 
 
+@pytest.mark.parametrize("name", ["M6x1-6h/6H", "1/4-20 UNC-3A/3B", "1/4-20 BSW-close/normal"])
+def test_corners_of_a_patch_are_on_both_outlines_where_these_cross_at_samples(name: str) -> None:
+    """Where pitch diameters are the same the outlines of a level bolt cross at phases of whole samples, too."""
+    pair = pair_by_designation(name)
+    bolt, nut = pair.bolt.packed, pair.nut.packed
+    pose, extremes = np.zeros(12), np.empty((4, flush.EXTREME_SIZE))
+    corners = 0
+    for phase in np.arange(0.0, 360.0, 5.625).tolist():
+        stage.rotation(0.0, 0.0, math.radians(phase), pose)
+        for theta, corner, _, _ in extremes[: flush.extreme_points(pose, bolt, nut, 1.0, 0.0, extremes)].tolist():
+            outside = flush.distance_outside(theta, pose, bolt, nut)
+            assert outside > -1e-12
+            assert corner == 0.0 or outside < 1e-12
+            corners += int(corner)
+    assert corners > 20
+
+
 def kept_lists(contact: Floats, pose: Floats) -> tuple[Floats, Floats]:
     """What is kept of a contact on the bolt's edge and on the nut's as the bolt goes down."""
     bolt_motion, nut_motion = np.zeros(MOTION_SIZE), np.zeros(MOTION_SIZE)

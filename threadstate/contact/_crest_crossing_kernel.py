@@ -37,7 +37,8 @@ HELICES = 3
 
 # Rows of points of the bolt's helices, one helix after the other: place in its frame, then in the nut's; axial
 # position on the nut's profile; then 0 where no helix of the nut's crosses on the way from the point before it. The
-# last ones of a helix pad it to a multiple of ``BLOCK``, so many of which are looked at together.
+# last ones of a helix pad it to a multiple of ``BLOCK``, so many of which are looked at together: of those beyond the
+# nut nothing but the height is set.
 BLOCK = 8
 HELIX_SIZE = 104
 CRESTS_SIZE = HELICES * HELIX_SIZE

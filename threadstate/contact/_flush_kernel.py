@@ -18,6 +18,10 @@ Array = NDArray[np.float64]
 OUTLINE_SAMPLES = 64
 OUTLINE_POINTS = OUTLINE_SAMPLES + 1
 
+ON_OUTLINE = 1e-9
+"""How far from the nut's outline, in major radii, a sample is of which an exact distance tells on which side it is: the
+root between two samples is bracketed by the same numbers."""
+
 # An extreme point: azimuth on the bolt, whether it lies on the nut's outline too (1.0 or 0.0), x, y.
 XP_THETA, XP_CORNER, XP_X, XP_Y = range(4)
 EXTREME_SIZE = 4
@@ -98,6 +102,9 @@ def set_outline_samples(pose: Array, bolt: Array, nut: Array, theta: Array, plac
         of_nut, _, _, _ = radius_and_slope(-k * azimuth(x, y, away), nut_numbers)
         theta[i], over[i] = angle, away - of_nut
         place[0, i], place[1, i], place[2, i], place[3, i] = x, y, xx * dx + xy * dy, yx * dx + yy * dy
+    for i in range(OUTLINE_POINTS):
+        if abs(over[i]) < ON_OUTLINE * bolt[pk.R_MAJOR]:
+            over[i] = distance_outside(theta[i], pose, bolt, nut)
 
 
 @kernel()
