@@ -101,8 +101,9 @@ ENLARGEMENT = 8.0
 MAX_BOXES = 16_000
 
 MAX_REGIONS = 8
-DOUBLINGS = 8
-"""Regions that are kept, and how many times as large as the box of an onset one is tried: 1, 2, 4 and so on."""
+REGION_SIZES = 8
+"""The most regions that are kept, and how many boxes about an onset are tried for one, each twice as large as the one
+before."""
 
 AT_ONCE = 8
 BATCH = 16
@@ -380,7 +381,7 @@ def keep_region(box_class: int, box: Box, t: float, tau: float, edge: Edge, sear
     half, duration = box.half, box.end - box.start
     number = int(regions[0, 0])
     place = 1 + number % MAX_REGIONS
-    for _ in range(DOUBLINGS // VECTOR_WIDTH):
+    for _ in range(REGION_SIZES // VECTOR_WIDTH):
         for i in range(VECTOR_WIDTH):
             set_box_at(Box(t, half, tau - duration, tau + duration), i, scratch)
             half, duration = 2.0 * half, 2.0 * duration
