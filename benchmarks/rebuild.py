@@ -32,7 +32,7 @@ from threadstate.library.write import open_library, write_chunk
 from threadstate.state.solve import SolveOptions
 from threadstate.statics.rows import statics_by_ordinal
 from threadstate.stored_histories.compute import computed_rows, exact_answers
-from threadstate.stored_histories.mapping import history_rows
+from threadstate.stored_histories.rows import history_rows
 from threadstate.thread.pair import Pair
 from worker.garbage import collect_rarely
 from worker.messages import LibraryChunk

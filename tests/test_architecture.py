@@ -57,6 +57,12 @@ def test_network_loads_no_solver_and_no_database(repository_root: Path) -> None:
     assert not {name for name in loaded if name.partition(".")[0] in ("numba", "sqlalchemy", "fastapi", "pydantic")}
 
 
+def test_computing_processes_load_no_database() -> None:
+    loaded = modules_loaded_by("import worker.compute, threadstate.warm_up")
+    assert {"threadstate.library.rows", "numba"} <= loaded
+    assert not {name for name in loaded if name.partition(".")[0] in ("sqlalchemy", "psycopg", "fastapi")}
+
+
 def test_plots_load_matplotlib_only_when_they_are_drawn() -> None:
     loaded = modules_loaded_by("import worker.plots")
     assert not {name for name in loaded if name.partition(".")[0] == "matplotlib"}

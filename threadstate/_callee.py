@@ -14,18 +14,21 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from functools import cache
 from typing import Any
 from weakref import WeakSet
 
-from llvmlite.binding import Linkage
+from llvmlite.binding import Linkage, parse_assembly
 from numba import types
 from numba.core import errors, event, ir, lowering, typeinfer, untyped_passes
+from numba.core.caching import FunctionCache
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import PassManager, register_pass
 from numba.core.cpu import CPUContext
 from numba.core.errors import NumbaError
 from numba.core.postproc import PostProcessor, VariableLifetime
+from numba.core.runtime.nrt import rtsys
 from numba.core.transforms import canonicalize_cfg
 from numba.core.typed_passes import InlineOverloads, NativeLowering, NopythonRewrites
 from numba.core.types.functions import BaseFunction
@@ -187,6 +190,25 @@ class _EntryLibrary(JITCodeLibrary):
             if one.linkage == Linkage.internal:
                 one.name = f"{one.name}.{entry}"
 
+    def _get_module_for_linking(self) -> Any:
+        """The names alone of what is looked for in the machine code: kernels link the code of callees."""
+        self._ensure_finalized()
+        if self._shared_module is None:
+            defined = (one for one in self._final_module.functions if not one.is_declaration)
+            names = [one.name for one in defined if one.linkage == Linkage.external]
+            self._shared_module = parse_assembly("".join(f'define void @"{name}"() {{ ret void }}\n' for name in names))
+        return self._shared_module
+
+
+class EntryCache(FunctionCache):
+    """The cache of kernels that Python calls."""
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Load machine code, which takes nothing of what numba knows of types: a compiler asks for that itself."""
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(sig, target_context)
+
 
 class _CalleeLibrary(JITCodeLibrary):
     """The code of a kernel that kernels call, as it is lowered; its libraries are those of all that it calls."""
@@ -269,20 +291,28 @@ CALLEE = _pipeline(_CalleeLowering)
 """The compiler of one that kernels call."""
 
 
-def let_kernels_call(entry: Any, callee: Any) -> None:
-    """Let kernels that call the dispatcher ``entry`` link the code of ``callee``, of the same function.
+def let_kernels_call(entry: Any, make_callee: Callable[[], Any]) -> None:
+    """Let kernels that call the dispatcher ``entry`` link the code of another one, of the same function.
 
-    A call with constants shares the one specialisation: numba makes another for every constant of a caller.
+    That is made when the first one is compiled: a process that loads machine code needs none. A call with constants
+    shares the one specialisation: numba makes another for every constant of a caller.
     """
 
+    @cache
+    def as_callee() -> Any:
+        callee = make_callee()
+
+        def add_overload(result: Any) -> None:
+            callee.overloads[tuple(result.signature.args)] = result
+
+        callee.add_overload = add_overload
+        return callee
+
     def get_call_template(args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
-        return callee.get_call_template(
+        return as_callee().get_call_template(
             tuple(map(types.unliteral, args)), {name: types.unliteral(one) for name, one in kws.items()}
         )
 
-    def add_overload(result: Any) -> None:
-        callee.overloads[tuple(result.signature.args)] = result
-
-    callee.add_overload = add_overload
-    entry.get_call_template, entry.get_overload = get_call_template, callee.get_overload
-    entry.as_callee = callee
+    entry.get_call_template = get_call_template
+    entry.get_overload = lambda signature: as_callee().get_overload(signature)
+    entry.as_callee = as_callee

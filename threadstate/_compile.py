@@ -16,10 +16,12 @@ from typing import Any, NamedTuple
 from numba import njit, typeof
 from numba.np import linalg
 
-from threadstate._callee import CALLEE, ENTRY, let_kernels_call
+from threadstate._callee import CALLEE, ENTRY, EntryCache, let_kernels_call
 
 _njit: Any = njit
 """Its type does not know ``no_cfunc_wrapper``."""
+_entry_cache: Any = EntryCache
+"""Numba's caches have no types."""
 
 
 def _import_without_linear_algebra() -> None:
@@ -66,9 +68,9 @@ def kernel(
             "_nrt": allocates,
             **options,
         }
-        entry = _njit(cache=True, pipeline_class=ENTRY, **how)(function)
-        callee = _njit(pipeline_class=CALLEE, no_cpython_wrapper=True, **how)(function)
-        let_kernels_call(entry, callee)
+        entry = _njit(pipeline_class=ENTRY, **how)(function)
+        entry._cache = _entry_cache(function)
+        let_kernels_call(entry, lambda: _njit(pipeline_class=CALLEE, no_cpython_wrapper=True, **how)(function))
         return entry
 
     return compiled

@@ -36,7 +36,7 @@ from threadstate.state.options import SolveOptions
 from threadstate.state.records import packed_options
 from threadstate.state.solve import solve_poses
 from threadstate.statics._effort_kernel import turn_effort
-from threadstate.statics.compile import compile_forces, load_statics
+from threadstate.statics.compile import load_statics
 from threadstate.thread.catalogue import quarter_twenty_unc
 
 LEVEL_DEG = ((0.0, 0.0, 0.0), (0.0, 0.0, 90.0))
@@ -61,7 +61,7 @@ def load_kernels() -> None:
     pair = quarter_twenty_unc()
     states = solve_poses(pair, POSES_DEG)
     load_estimates(pair)
-    load_statics(pair, states)
+    load_statics(pair, states[1:])
     load_device()
 
 
@@ -136,7 +136,7 @@ def compile_halves(one: Ahead) -> int:
     The next kernel finds what both call as it was lowered here, and need not wait for the other half. Returns the
     copy's number.
     """
-    one.kernel.as_callee.compile(one.types)
+    one.kernel.as_callee().compile(one.types)
     return in_a_copy(partial(one.kernel.compile, one.types))
 
 
@@ -153,8 +153,7 @@ def kernels_ahead(*, serving: bool) -> list[Ahead]:
 def compile_level() -> None:
     """Compile what solves level poses, the statics and small kernels: what solves tilted ones calls little of it."""
     pair = quarter_twenty_unc()
-    load_statics(pair, solve_poses(pair, LEVEL_DEG))
-    compile_forces()
+    load_statics(pair, solve_poses(pair, LEVEL_DEG)[1:])
     for one in beside_ahead():
         one.kernel.compile(one.types)
 

@@ -20,7 +20,7 @@ from threadstate.library.rows import HistoryRows, chunk_rows
 from threadstate.library.write import open_library, publish, write_chunk
 from threadstate.state.solve import SolveOptions, solve_poses
 from threadstate.statics.rows import statics_by_ordinal
-from threadstate.stored_histories.mapping import history_rows
+from threadstate.stored_histories.rows import history_rows
 from threadstate.thread.catalogue import quarter_twenty_unc
 from threadstate.thread.pair import Pair
 

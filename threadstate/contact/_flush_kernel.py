@@ -40,10 +40,16 @@ def base_outline(theta: float, pose: Array, bolt: Array) -> tuple[float, float, 
 
 
 @kernel()
+def distance_of_point(x: float, y: float, nut: Array) -> float:
+    """How far a point of the nut's plane lies outside the nut's outline, radially."""
+    return math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
+
+
+@kernel()
 def distance_outside(theta: float, pose: Array, bolt: Array, nut: Array) -> float:
     """How far the bolt's edge at ``theta`` lies outside the nut's outline, radially."""
     x, y, _, _ = base_outline(theta, pose, bolt)
-    return math.hypot(x, y) - pk.radius(-nut[pk.LEAD] / TWO_PI * math.atan2(y, x), nut)
+    return distance_of_point(x, y, nut)
 
 
 @kernel()

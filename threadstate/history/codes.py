@@ -48,6 +48,7 @@ class LabelCodes:
         self._options = options
         self._first_contact_only = first_contact_only
         self._codes: dict[bytes, int] = {}
+        self._classes_by_criteria: dict[int, int] = {}
 
     def samples(self, poses_deg: Floats) -> Samples:
         """Codes and numbers of poses of shape (n, 3): roll, pitch, phase in degrees.
@@ -91,26 +92,19 @@ class LabelCodes:
     def _classes(self, records: Floats) -> NDArray[np.uint8]:
         """Index of every record's class.
 
-        A class depends on which margins are present and on their signs: it is computed once for all records that
-        agree in that.
+        A class depends on which margins are present and on their signs: it is looked up by these.
         """
         flush = records[:, rk.O_FLAGS].astype(np.int64) & rk.FLAG_FLUSH
         third = ~np.isnan(records[:, rk.O_MU])
         drop, embedment, pivot = (records[:, i] for i in (rk.O_DROP, rk.O_EMBEDMENT, rk.O_PIVOT))
         pivot_threshold = self._options.quasi_stable_fraction * self._pair.nominal_diameter / 2.0
         embedment_tolerance = self._options.embedment_tolerance * self._pair.thread_pitch
-        criteria = np.column_stack(
-            [
-                flush,
-                third,
-                _sign(drop - embedment),
-                _sign(embedment_tolerance - embedment),
-                _sign(pivot - pivot_threshold),
-            ]
-        )
-        _, first, which = np.unique(criteria, axis=0, return_index=True, return_inverse=True)
-        classes = [
-            _CLASSES.index(
+        criteria = 2 * (flush != 0) + third
+        for sign in (drop - embedment, embedment_tolerance - embedment, pivot - pivot_threshold):
+            criteria = 4 * criteria + _sign(sign)
+        for one in set(criteria.tolist()) - self._classes_by_criteria.keys():
+            i = int(np.argmax(criteria == one))
+            self._classes_by_criteria[one] = _CLASSES.index(
                 classify(
                     flush=bool(flush[i]),
                     third=bool(third[i]),
@@ -121,21 +115,18 @@ class LabelCodes:
                     embedment_tolerance=embedment_tolerance,
                 ).state_class
             )
-            for i in first
-        ]
-        return np.array(classes, dtype=np.uint8)[which.ravel()]
+        return np.array([self._classes_by_criteria[one] for one in criteria.tolist()], dtype=np.uint8)
 
     def _numbered(self, labels: NDArray[np.uint8]) -> Integers:
         """One integer for every row, the same where the rows are."""
-        keys = np.ascontiguousarray(labels).view(np.dtype((np.void, labels.shape[1]))).ravel()
-        kinds, which = np.unique(keys, return_inverse=True)
-        numbers = [self._codes.setdefault(kind.tobytes(), len(self._codes)) for kind in kinds]
-        return np.array(numbers, dtype=np.int64)[which.ravel()]
+        rows, width = labels.tobytes(), labels.shape[1]
+        keys = [rows[start : start + width] for start in range(0, len(rows), width)]
+        return np.array([self._codes.setdefault(key, len(self._codes)) for key in keys], dtype=np.int64)
 
 
 def _sign(values: Floats) -> Integers:
-    """-1, 0 or 1; 2 for NaN."""
-    return np.where(np.isnan(values), 2.0, np.sign(values)).astype(np.int64)
+    """0, 1 or 2 for a negative number, zero or a positive one; 3 for NaN."""
+    return np.where(np.isnan(values), 3.0, np.sign(values) + 1.0).astype(np.int64)
 
 
 def _present(value: float) -> float | None:

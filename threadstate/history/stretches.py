@@ -137,7 +137,7 @@ def parts_of(whole: Stretches, place: Floats, samples: Samples) -> list[Stretche
 
 def _lasting(whole: Stretches, width: Floats, rise: Floats) -> Integers:
     """Over how many halvings the whole's rise has stayed in one part, if that is the one of this width and rise."""
-    all_of_it = np.nan_to_num(np.abs(whole.high_value - whole.low_value)).max(axis=1)
-    stays = np.nan_to_num(np.abs(rise)).max(axis=1) >= LASTING_SHARE * all_of_it
+    all_of_it = np.fmax(np.abs(whole.high_value - whole.low_value), 0.0).max(axis=1)
+    stays = np.fmax(np.abs(rise), 0.0).max(axis=1) >= LASTING_SHARE * all_of_it
     halvings = np.rint(np.log2((whole.high - whole.low) / width)).astype(np.int64)
     return np.where(stays, whole.lasting + halvings, 0)

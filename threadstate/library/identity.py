@@ -75,8 +75,8 @@ PHYSICS = (
     "network/formation.py",
     "network/from_history.py",
     "network/moves.py",
-    "stored_histories/mapping.py",
     "stored_histories/model.py",
+    "stored_histories/rows.py",
 )
 """With those of histories, windows and falls: what is stored by the exact method."""
 MESH_PHYSICS = (*STATES, "mesh/*.py")

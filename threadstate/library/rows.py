@@ -11,9 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 import zstandard
-from sqlalchemy import Table
 
-from threadstate.library import history_tables as tables
 from threadstate.library.fingerprint import answers_sha256, chunk_sha256
 from threadstate.library.grid import Orientation
 from threadstate.state.json import state_json
@@ -218,16 +216,19 @@ class HistoryRows:
     descent_jumps: tuple[Row, ...]
     steepest_fall: tuple[Row, ...]
 
-    def of_orientation(self) -> Iterator[tuple[Table, tuple[Row, ...]]]:
-        """The tables of the orientation's rows and the rows, in the order of their foreign keys."""
-        yield tables.history_interval, self.intervals
-        yield tables.history_boundary, self.boundaries
-        yield tables.history_boundary_contact, self.boundary_contacts
-        yield tables.clearance_window, self.windows
-        yield tables.clearance_window_course, self.window_courses
-        yield tables.descent, self.descents
-        yield tables.descent_jump, self.descent_jumps
-        yield tables.steepest_fall, self.steepest_fall
+    def of_orientation(self) -> Iterator[tuple[str, tuple[Row, ...]]]:
+        """The names of the tables of the orientation's rows and the rows, in the order of their foreign keys.
+
+        Computing processes, which make the rows, do not need the database's modules.
+        """
+        yield "history_interval", self.intervals
+        yield "history_boundary", self.boundaries
+        yield "history_boundary_contact", self.boundary_contacts
+        yield "clearance_window", self.windows
+        yield "clearance_window_course", self.window_courses
+        yield "descent", self.descents
+        yield "descent_jump", self.descent_jumps
+        yield "steepest_fall", self.steepest_fall
 
     @property
     def content_sha256(self) -> str:

@@ -18,7 +18,7 @@ from threadstate.library.identity import LibraryInputs
 from threadstate.library.read import LibraryRecord
 from threadstate.library.rows import ChunkRows, HistoryRows, Row, content_sha256_of
 from threadstate.library.solver_method import SolverMethod
-from threadstate.library.tables import chunk, contact, library, stage_pose, state, state_flag, undecided
+from threadstate.library.tables import chunk, contact, library, metadata, stage_pose, state, state_flag, undecided
 from threadstate.units import LengthUnit
 
 
@@ -233,8 +233,8 @@ def _write_history(connection: Connection, library_id: int, orientation: int, ro
     new = [one for one in rows.formations if one.key not in there]
     insert_rows(connection, formation, library_id, [one.formation for one in new])
     insert_rows(connection, formation_contact, library_id, [row for one in new for row in one.contacts])
-    for table, of_table in rows.of_orientation():
-        insert_rows(connection, table, library_id, [(orientation, *row) for row in of_table])
+    for name, of_table in rows.of_orientation():
+        insert_rows(connection, metadata.tables[name], library_id, [(orientation, *row) for row in of_table])
 
 
 def _count(connection: Connection, table: Table, library_id: int) -> int:

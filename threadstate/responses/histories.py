@@ -12,8 +12,9 @@ from threadstate.responses.documents import BoundaryDocument, IntervalDocument, 
 from threadstate.responses.formations import change_documents, formation_document
 from threadstate.responses.windows import windows_document
 from threadstate.state.options import SolveOptions
-from threadstate.stored_histories.mapping import formations, history_rows, orientation_history
+from threadstate.stored_histories.mapping import formations, orientation_history
 from threadstate.stored_histories.model import StoredBoundary, StoredHeights, StoredHistory
+from threadstate.stored_histories.rows import history_rows
 from threadstate.thread.pair import Pair
 from threadstate.units import scale_length, scale_pair
 

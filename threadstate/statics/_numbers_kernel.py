@@ -12,7 +12,7 @@ from threadstate._scratch import zeros
 from threadstate.contact._record_kernel import FLAG_FLUSH, O_CONTACTS, O_FLAGS, O_POSE, O_POSES
 from threadstate.statics._friction_kernel import OPEN, hold_friction, wedge_friction
 from threadstate.statics._last_pose_kernel import set_contacts
-from threadstate.statics._patch_kernel import OUTLINE_SAMPLES, patch_hull
+from threadstate.statics._patch_kernel import OUTLINE_SAMPLES, hull_with, set_outline
 from threadstate.statics._support_kernel import patch_margin, support_margin
 
 Array = NDArray[np.float64]
@@ -121,7 +121,8 @@ def start_rows(
     with where those of each record end, for :func:`contact_rows`. Points and the moments of the loads are over
     ``radius``.
     """
-    hull = np.empty((2 * OUTLINE_SAMPLES + 1, 2))
+    hull, outline = np.empty((2 * OUTLINE_SAMPLES + 1, 2)), np.empty((OUTLINE_SAMPLES + 1, 2))
+    set_outline(bolt, outline)
     listed = 0
     for i in range(records.shape[0]):
         record, row, load = records[i], rows[i], loads[i]
@@ -131,7 +132,7 @@ def start_rows(
         poses = int(record[O_POSES])
         last = record[O_POSE + 12 * (poses - 1) : O_POSE + 12 * poses]
         if int(record[O_FLAGS]) & FLAG_FLUSH and not last[11] < 0.0:
-            count = patch_hull(last, bolt, nut, hull)
+            count = hull_with(last, outline, bolt, nut, hull)
             if count < 3:
                 row[N_STATUS] = NO_HULL
                 continue

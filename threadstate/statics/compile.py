@@ -21,14 +21,18 @@ from threadstate.thread.pair import Pair
 
 
 def load_statics(pair: Pair, states: Sequence[ContactState]) -> None:
-    """Call each kernel that is called from Python: of the states one has three contacts, one lies on a patch."""
+    """Call each kernel that is called from Python: of the states one has three contacts, one lies on a patch.
+
+    On a strip of flank a load's friction is sought for a twentieth of a second, by the same kernels.
+    """
+    load_forces()
     stored_statics(pair, states)
     for state in states:
         extras_of(pair, state, statics_of(pair, state, Load(force=(0.1, 0.0, -1.0)), 0.5), [Extra.REACTION])
 
 
-def compile_forces() -> None:
-    """Compile what no level state calls: the contacts and the forces of three."""
+def load_forces() -> None:
+    """Call what no level state calls, the contacts and the forces of three, and what strips alone do."""
     points, normals = np.eye(3), np.tile([0.0, 0.0, 1.0], (3, 1))
     pair = quarter_twenty_unc()
     set_contacts(np.zeros(RECORD_SIZE), pair.bolt.packed, pair.nut.packed, points.copy(), normals.copy())

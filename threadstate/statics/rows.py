@@ -64,9 +64,14 @@ def loads_about(points: Floats, load: Load) -> Floats:
     return np.hstack([np.array(load.moment) + np.cross(arms, force), np.broadcast_to(force, points.shape)])
 
 
-def stored_statics(pair: Pair, states: Sequence[ContactState]) -> list[StoredStatics | None]:
-    """The statics of states that a library stores, in their order; None where a contact has no certain normal."""
-    records = geometry_records(states)
+def stored_statics(
+    pair: Pair, states: Sequence[ContactState], records: Floats | None = None
+) -> list[StoredStatics | None]:
+    """The statics of states that a library stores, in their order; None where a contact has no certain normal.
+
+    ``records`` are those that the states were decoded from, where they are at hand.
+    """
+    records = geometry_records(states) if records is None else records
     found: list[StoredStatics | None] = []
     for status, margin, _, hold, _, wedge in statics_rows(pair, records).tolist():
         certain = status in (nk.DONE, nk.OPEN_PATCH)
@@ -77,10 +82,16 @@ def stored_statics(pair: Pair, states: Sequence[ContactState]) -> list[StoredSta
     return found
 
 
-def statics_by_ordinal(pair: Pair, first: int, answers: Sequence[Answer]) -> dict[int, StoredStatics | None]:
-    """:func:`stored_statics` of the states among answers whose ordinals begin with ``first``, by ordinal."""
+def statics_by_ordinal(
+    pair: Pair, first: int, answers: Sequence[Answer], records: Floats | None = None
+) -> dict[int, StoredStatics | None]:
+    """:func:`stored_statics` of the states among answers whose ordinals begin with ``first``, by ordinal.
+
+    ``records`` are those of all answers, undecided ones too.
+    """
     states = {ordinal: one for ordinal, one in enumerate(answers, first) if isinstance(one, ContactState)}
-    return dict(zip(states, stored_statics(pair, list(states.values())), strict=True))
+    of_states = None if records is None else records[np.array(list(states), dtype=np.intp) - first]
+    return dict(zip(states, stored_statics(pair, list(states.values()), of_states), strict=True))
 
 
 def _finite(friction: float) -> float | None:

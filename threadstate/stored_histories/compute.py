@@ -20,7 +20,7 @@ from threadstate.state.model import Answer, UndecidedPose
 from threadstate.state.options import SolveOptions
 from threadstate.state.solve import checked_poses
 from threadstate.statics.rows import statics_by_ordinal
-from threadstate.stored_histories.mapping import history_rows
+from threadstate.stored_histories.rows import history_rows
 from threadstate.thread.pair import Pair
 
 PoseDeg = tuple[float, float, float]
@@ -64,5 +64,6 @@ def computed_rows(inputs: LibraryInputs, index: int) -> tuple[ChunkRows, History
     tilt = (orientation.roll_deg, orientation.pitch_deg)
     (history,) = histories_of(pair, [tilt], inputs.options, store=store)
     falls = falls_of(height_curve(pair, *tilt, inputs.options, store), pair.thread_pitch)
-    rows = chunk_rows(orientation, first, answers, statics_by_ordinal(pair, first, answers))
+    statics = statics_by_ordinal(pair, first, answers, store.records(np.array(poses)))
+    rows = chunk_rows(orientation, first, answers, statics)
     return rows, history_rows(history, windows_of(pair, history), falls)

@@ -47,7 +47,7 @@ def _add_falls_of(engine: Engine, library_id: int, orientation: int, *, is_last:
     # Imported late: the kernels take a second to load, and listing orientations needs none.
     from threadstate.history.descents import falls_of
     from threadstate.history.height_curve import height_curve
-    from threadstate.stored_histories.mapping import falls_rows
+    from threadstate.stored_histories.rows import falls_rows
 
     with engine.connect() as connection:
         head = connection.execute(select(library).where(library.c.id == library_id)).one()
