@@ -10,12 +10,10 @@ from typing import Any
 
 import pytest
 import yaml
-from typer.core import TyperGroup
-from typer.main import get_command
 
 from scripts import try_containers
 from threadstate import settings
-from worker.cli import app
+from worker.cli import command_group
 
 OURS = ("migrate", "first-library", "service", "worker", "scheduler", "dask-worker")
 STEPS = ("migrate", "first-library")
@@ -115,14 +113,12 @@ def test_the_service_alone_can_be_reached_and_from_this_machine_alone(
 
 @pytest.mark.slow
 def test_every_command_is_one_of_the_command_line(services: dict[str, dict[str, Any]], repository_root: Path) -> None:
-    commands = get_command(app)
-    assert isinstance(commands, TyperGroup)
     in_image = re.findall(r'^CMD \["threadstate", "([^"]+)"\]$', _dockerfile(repository_root), re.MULTILINE)
     assert in_image == ["run"]
     for name in OURS:
         program, command, *options = services[name]["command"]
         if program == "threadstate":
-            known = {option for one in commands.commands[command].params for option in one.opts}
+            known = {option for one in command_group().commands[command].params for option in one.opts}
         else:
             assert program == "dask"
             run = [sys.executable, "-m", program, command, "--help"]

@@ -201,7 +201,16 @@ class _EntryLibrary(JITCodeLibrary):
 
 
 class EntryCache(FunctionCache):
-    """The cache of kernels that Python calls."""
+    """The cache of a kernel that Python calls; made when it is looked into, as few of all kernels are."""
+
+    def __init__(self, function: Any) -> None:
+        self._function = function
+
+    def __getattr__(self, name: str) -> Any:
+        if "_cache_file" in vars(self):
+            raise AttributeError(name)
+        super().__init__(self._function)
+        return getattr(self, name)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Load machine code, which takes nothing of what numba knows of types: a compiler asks for that itself."""

@@ -6,13 +6,15 @@ import gc
 import inspect
 import os
 import sys
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
-from typing import Annotated
+from typing import Annotated, Any, cast
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 from typer.exceptions import TyperException
-from typer.main import get_group
+from typer.main import get_command_from_info, get_command_name, get_group
+from typer.models import CommandInfo
 
 import threadstate
 from threadstate.errors import ThreadstateError
@@ -123,13 +125,6 @@ def _program(
     pass
 
 
-for command in COMMANDS:
-    # In a raw docstring the mark that keeps lines apart is two characters; typer wants the one that they stand for.
-    text = inspect.cleandoc(command.__doc__ or "").replace("\\b", "\b")
-    # The overview shows a short help as it is, and cuts what it takes from a long one.
-    app.command(help=text, short_help=text.split("\n\n")[0].replace("\n", " "))(command)
-
-
 def main() -> None:
     """Run the command line and end the process with its exit code."""
     collect_rarely()
@@ -138,10 +133,41 @@ def main() -> None:
     sys.exit(code)
 
 
+class _Commands(Mapping[str, Any]):
+    """The commands by name, each with its options, described when it is looked up: all of them take 0.1 s."""
+
+    def __init__(self) -> None:
+        self._functions = {get_command_name(command.__name__): command for command in COMMANDS}
+        self._described: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._described:
+            self._described[name] = _described(self._functions[name])
+        return self._described[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._functions)
+
+    def __len__(self) -> int:
+        return len(self._functions)
+
+
+def _described(command: Callable[..., Any]) -> Any:
+    """The command of a function."""
+    # In a raw docstring the mark that keeps lines apart is two characters; typer wants the one that they stand for.
+    text = inspect.cleandoc(command.__doc__ or "").replace("\\b", "\b")
+    # The overview shows a short help as it is, and cuts what it takes from a long one.
+    short = text.split("\n\n")[0].replace("\n", " ")
+    info = CommandInfo(callback=command, cls=TyperCommand, help=text, short_help=short)
+    return get_command_from_info(info, pretty_exceptions_short=False, rich_markup_mode=None)
+
+
 @cache
 def command_group() -> TyperGroup:
-    """All commands with their options: described once in a process, since that takes 30 ms."""
-    return get_group(app)
+    """The program with its commands."""
+    group = get_group(app)
+    group.commands = cast("Any", _Commands())
+    return group
 
 
 def run_command_line(arguments: list[str]) -> int:

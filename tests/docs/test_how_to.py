@@ -8,10 +8,9 @@ from pathlib import Path
 
 import pytest
 from typer.exceptions import TyperException
-from typer.main import get_group
 
 from tests.docs.test_links import LINK
-from worker.cli import PROGRAM, app
+from worker.cli import PROGRAM, command_group
 
 BLOCK = re.compile(r"^```\n(?P<lines>.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -35,7 +34,7 @@ def parse(command: str) -> None:
     """
     program, name, *arguments = shlex.split(command)
     assert program == PROGRAM
-    group = get_group(app)
+    group = command_group()
     with group.make_context(PROGRAM, [name, *arguments]) as context:
         chosen, found, rest = group.resolve_command(context, [name, *arguments])
         assert found

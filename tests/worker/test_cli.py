@@ -113,6 +113,18 @@ def test_no_description_of_the_overview_is_cut(
         assert " ".join(text.split("\n\n")[0].split()) in told
 
 
+def test_a_command_is_described_when_it_is_looked_up(environment: Mapping[str, str]) -> None:
+    script = (
+        "from unittest import mock; import worker.cli as cli\n"
+        "with mock.patch.object(cli, 'get_command_from_info', wraps=cli.get_command_from_info) as described:\n"
+        "    cli.run_command_line(['key', '--help']); print(described.call_count)\n"
+        "    cli.run_command_line(['--help']); print(described.call_count == len(cli.COMMANDS))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
+    lines = done.stdout.splitlines()
+    assert (lines.count("1"), lines[-1]) == (1, "True")
+
+
 def test_help_loads_nothing_heavy(environment: Mapping[str, str]) -> None:
     script = (
         "import sys; from worker.cli import run_command_line; run_command_line(['rebuild', '--help'])\n"

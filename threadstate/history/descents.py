@@ -6,6 +6,7 @@ stretch between two falls is. Heights are those of first contact.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -155,30 +156,45 @@ class _Steepest:
             for (low, high), (at_low, at_high, later_low, later_high) in zip(stretches, heights, strict=True):
                 self._offer(at_low - later_low, low, low + self._span)
                 self._offer(at_high - later_high, high, high + self._span)
+            bounds = [
+                max(at_low, at_high) - min(later_low, later_high) for at_low, at_high, later_low, later_high in heights
+            ]
+            narrow = [
+                (low, high)
+                for (low, high), bound in zip(stretches, bounds, strict=True)
+                if self._may_hold(bound) and high - low <= NARROW_DEG
+            ]
+            growth = iter(self._growth([end for ends in narrow for end in ends]))
+            growths = dict(zip(narrow, zip(growth, growth, strict=True), strict=True))
             parts = []
-            for (low, high), (at_low, at_high, later_low, later_high) in zip(stretches, heights, strict=True):
-                if not max(at_low, at_high) - min(later_low, later_high) > self._fall + self._curve.round_off:
+            for (low, high), bound in zip(stretches, bounds, strict=True):
+                if not self._may_hold(bound):
                     continue
                 if high - low > NARROW_DEG:
                     middle = _middle(low, high)
                     parts += [(low, middle), (middle, high)]
                 else:
-                    self._where_slopes_agree(low, high)
+                    self._where_slopes_agree(low, high, *growths[low, high])
             stretches = parts
 
-    def _where_slopes_agree(self, low: float, high: float) -> None:
-        """The fall that is largest within a narrow stretch, if one is."""
-        at_low, at_high = self._growth(low), self._growth(high)
+    def _may_hold(self, bound: float) -> bool:
+        """Whether a stretch may hold a larger fall than was found, if all in it are at most ``bound``."""
+        return bound > self._fall + self._curve.round_off
+
+    def _where_slopes_agree(self, low: float, high: float, at_low: float, at_high: float) -> None:
+        """The fall that is largest within a narrow stretch, if one is; ``at_low`` and ``at_high`` is its growth."""
         if at_low > 0.0 >= at_high:
-            low, high = narrowed_root(self._growth, low, high, at_low, at_high, STEEPEST_DEG)
+            low, high = narrowed_root(lambda start: self._growth([start])[0], low, high, at_low, at_high, STEEPEST_DEG)
             start = 0.5 * (low + high)
             ((height, _, lower, _),) = self._heights([(start, start)])
             self._offer(height - lower, start, start + self._span)
 
-    def _growth(self, start: float) -> float:
+    def _growth(self, starts: Sequence[float]) -> list[float]:
         """How much the fall grows, per degree, as the span is moved on; 0 where a slope is unknown."""
-        at_start, at_end = self._curve.slope(np.array([start, start + self._span])).tolist()
-        return float(np.nan_to_num(at_start - at_end))
+        phases = np.array(starts)
+        at_start, at_end = self._curve.slope(np.concatenate([phases, phases + self._span])).reshape(2, -1)
+        growth: list[float] = np.nan_to_num(at_start - at_end).tolist()
+        return growth
 
     def _heights(self, stretches: list[tuple[float, float]]) -> list[list[float]]:
         """The heights at both ends of every stretch, and a span later."""

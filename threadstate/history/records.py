@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections import ChainMap
-from collections.abc import MutableMapping
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,22 +20,27 @@ class RecordStore:
     def __init__(self, pair: Pair, options: SolveOptions) -> None:
         self._pair = pair
         self._options = options
-        self._rows: MutableMapping[bytes, Floats] = {}
+        self._rows: dict[bytes, Floats] = {}
 
     def records(self, poses_deg: Floats) -> Floats:
         """Records of shape (n, RECORD_SIZE) of valid poses of shape (n, 3)."""
         keys = _keys(poses_deg)
-        new = {key: i for i, key in enumerate(keys) if key not in self._rows}
+        rows = self._stored(keys)
+        new = {key: i for i, (key, row) in enumerate(zip(keys, rows, strict=True)) if row is None}
         if new:
             found = self._solved(poses_deg[list(new.values())])
-            if len(new) == len(keys):
-                self._rows.update(zip(keys, found, strict=True))
-                return found
             self._rows.update(zip(new, found, strict=True))
+            if len(new) == len(keys):
+                return found
+            rows = self._stored(keys)
         records = np.empty((len(keys), rk.RECORD_SIZE))
-        for i, key in enumerate(keys):
-            records[i] = self._rows[key]
+        for i, row in enumerate(rows):
+            records[i] = row
         return records
+
+    def _stored(self, keys: list[bytes]) -> list[Floats | None]:
+        """The records of poses; None of those that are not solved yet."""
+        return list(map(self._rows.get, keys))
 
     def _solved(self, poses_deg: Floats) -> Floats:
         return solve_records(self._pair, self._options, poses_deg)
@@ -52,7 +54,11 @@ class FirstContactStore(RecordStore):
 
     def __init__(self, pair: Pair, options: SolveOptions, whole: RecordStore) -> None:
         super().__init__(pair, options)
-        self._rows = ChainMap({}, whole._rows)
+        self._whole = whole
+
+    def _stored(self, keys: list[bytes]) -> list[Floats | None]:
+        of_whole = self._whole._rows.get
+        return [of_whole(key) if row is None else row for key, row in zip(keys, super()._stored(keys), strict=True)]
 
     def _solved(self, poses_deg: Floats) -> Floats:
         return solve_records(self._pair, self._options, poses_deg, first_contact_only=True)
@@ -60,5 +66,5 @@ class FirstContactStore(RecordStore):
 
 def _keys(poses_deg: Floats) -> list[bytes]:
     """One key for every pose, the same where the bits are."""
-    rows = np.ascontiguousarray(poses_deg)
-    return [key.tobytes() for key in rows.view(np.dtype((np.void, rows.itemsize * 3))).ravel()]
+    rows, width = poses_deg.tobytes(), 3 * poses_deg.itemsize
+    return [rows[start : start + width] for start in range(0, len(rows), width)]
