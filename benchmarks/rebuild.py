@@ -138,7 +138,7 @@ def profile(folder: Path, pair: Pair, grid: Grid) -> list[Part]:
             of_states += between - before
             of_histories += kernels.seconds - between
             with statics.running():
-                loaded = statics_by_ordinal(pair, first, answers)
+                loaded = statics_by_ordinal(pair, first, answers, store.records(np.array(grid.poses(index))))
             with hashing.running():
                 answers_sha256(answers)
             with rows.running():
