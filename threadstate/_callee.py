@@ -191,26 +191,21 @@ class _EntryLibrary(JITCodeLibrary):
                 one.name = f"{one.name}.{entry}"
 
     def _get_module_for_linking(self) -> Any:
-        """The names alone of what is looked for in the machine code: kernels link the code of callees."""
+        """The names alone of what is looked for in the machine code: kernels link the code of callees.
+
+        What linked it all the same would end the process, and not go on with nothing computed.
+        """
         self._ensure_finalized()
         if self._shared_module is None:
             defined = (one for one in self._final_module.functions if not one.is_declaration)
             names = [one.name for one in defined if one.linkage == Linkage.external]
-            self._shared_module = parse_assembly("".join(f'define void @"{name}"() {{ ret void }}\n' for name in names))
+            ends = [f'define void @"{name}"() {{ call void @llvm.trap() unreachable }}' for name in names]
+            self._shared_module = parse_assembly("\n".join(["declare void @llvm.trap()", *ends]))
         return self._shared_module
 
 
 class EntryCache(FunctionCache):
-    """The cache of a kernel that Python calls; made when it is looked into, as few of all kernels are."""
-
-    def __init__(self, function: Any) -> None:
-        self._function = function
-
-    def __getattr__(self, name: str) -> Any:
-        if "_cache_file" in vars(self):
-            raise AttributeError(name)
-        super().__init__(self._function)
-        return getattr(self, name)
+    """The cache of a kernel that Python calls."""
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Load machine code, which takes nothing of what numba knows of types: a compiler asks for that itself."""

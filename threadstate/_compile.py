@@ -20,6 +20,8 @@ from threadstate._callee import CALLEE, ENTRY, EntryCache, let_kernels_call
 
 _njit: Any = njit
 """Its type does not know ``no_cfunc_wrapper``."""
+_entry_cache: Any = EntryCache
+"""Numba's caches have no types."""
 
 
 def _import_without_linear_algebra() -> None:
@@ -67,7 +69,7 @@ def kernel(
             **options,
         }
         entry = _njit(pipeline_class=ENTRY, **how)(function)
-        entry._cache = EntryCache(function)
+        entry._cache = _entry_cache(function)
         let_kernels_call(entry, lambda: _njit(pipeline_class=CALLEE, no_cpython_wrapper=True, **how)(function))
         return entry
 

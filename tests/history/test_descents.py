@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
 from threadstate.history.build import histories_of
-from threadstate.history.descents import LEAST_FALL, falls_of
+from threadstate.history.descents import LEAST_FALL, _Steepest, falls_of
 from threadstate.history.falls import SNAP_PITCHES, Falls
 from threadstate.history.height_curve import Gap, HeightCurve, Segment, height_curve, monotone_segments
 from threadstate.history.records import RecordStore
@@ -266,3 +266,21 @@ def test_slopes_are_those_of_the_heights() -> None:
             low, high = curve.height(np.array([middle - step, middle + step]))
             assert (high - low) / (2.0 * step) == pytest.approx(curve.slope(np.array([middle]))[0], abs=1e-10)
             assert min(one.start_height, one.end_height) - 1e-15 <= low <= max(one.start_height, one.end_height) + 1e-15
+
+
+def test_a_fall_that_is_as_large_by_round_off_leaves_no_stretch_out() -> None:
+    """The first stretch offers a fall that is less by 9e-13, within less; the bound of the second is in between."""
+    span, round_off = 3.0, 1e-12
+    known = {5.0: 2.0, 5.125: 1.9, 8.0: 1.1, 8.125: 1.0 - 0.5 * round_off}
+    heights = {1.0: 2.0, 1.125: 1.9, 4.0: 1.1, 4.125: 0.95, **known}
+
+    def height(phases: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.array([heights.get(one, 2.0 if one < span else 1.0 + 0.9 * round_off) for one in phases.tolist()])
+
+    def slope(phases: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.where(phases < span, 1.0625 - phases, 0.0)
+
+    search = _Steepest(HeightCurve((), (), height, slope, round_off), span)
+    search._fall, search._start, search._end = 1.0, 1.4, 1.4 + span
+    search._within([(1.0, 1.125), (5.0, 5.125)])
+    assert search._fall == pytest.approx(1.0 - 0.9 * round_off, abs=1e-15)

@@ -174,7 +174,8 @@ class _Steepest:
                     middle = _middle(low, high)
                     parts += [(low, middle), (middle, high)]
                 else:
-                    self._where_slopes_agree(low, high, *growths[low, high])
+                    # What is found may be less by round-off than what was, and leave one more that may hold more.
+                    self._where_slopes_agree(low, high, *(growths.get((low, high)) or self._growth([low, high])))
             stretches = parts
 
     def _may_hold(self, bound: float) -> bool:
