@@ -50,13 +50,13 @@ def work_of(pair: Pair, poses: Poses) -> Work:
     boxes, solving, following = 0, math.inf, math.inf
     for _ in range(PASSES):
         start = time.perf_counter()
-        boxes = sk.solve_rows(tilted, options, *parts, records)
+        boxes = sk.solve_rows(tilted, options, *parts, sk.NONE_BESIDE, records)
         solved = time.perf_counter()
         follow_known(tilted, records, turn_limit, *parts, followed)
         following = min(following, time.perf_counter() - solved)
         solving = min(solving, solved - start)
     last = tilted[(records[:, rk.O_FLAGS].astype(np.int64) & rk.FLAG_NO_THIRD) != 0]
-    boxes_of_last = sk.solve_rows(last, options, *parts, records[: len(last)])
+    boxes_of_last = sk.solve_rows(last, options, *parts, sk.NONE_BESIDE, records[: len(last)])
     return Work(
         len(tilted),
         boxes / max(len(tilted), 1),

@@ -21,7 +21,7 @@ import numpy as np
 
 from threadstate._compile import Ahead, ahead, is_cached
 from threadstate.contact._record_kernel import RECORD_SIZE
-from threadstate.contact._solve_kernel import solve_rows
+from threadstate.contact._solve_kernel import NONE_BESIDE, solve_rows
 from threadstate.device.compile import (
     beside_ahead,
     device_ahead,
@@ -145,7 +145,7 @@ def kernels_ahead(*, serving: bool) -> list[Ahead]:
     pair = quarter_twenty_unc()
     both = pair.bolt.packed, pair.nut.packed
     poses, records = np.empty((0, 3)), np.empty((0, RECORD_SIZE))
-    solver = ahead(solve_rows, poses, packed_options(pair, SolveOptions()), *both, records)
+    solver = ahead(solve_rows, poses, packed_options(pair, SolveOptions()), *both, NONE_BESIDE, records)
     turned = [] if serving else [friction_ahead(), turning_ahead()]
     return [*turned, solver, device_ahead(), estimates_ahead(pair)]
 

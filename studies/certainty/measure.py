@@ -28,11 +28,11 @@ def main() -> None:
         options[sk.S_PROVE] = float(prove)
         record = np.empty((1, rk.RECORD_SIZE))
         poses = np.radians(poses_deg)
-        sk.solve_rows(poses[:1], options, pair.bolt.packed, pair.nut.packed, record)
+        sk.solve_rows(poses[:1], options, pair.bolt.packed, pair.nut.packed, sk.NONE_BESIDE, record)
         rows = np.empty((len(poses), len(COLUMNS) + 1))
         for row, pose in zip(rows, poses, strict=True):
             start = time.process_time()
-            sk.solve_rows(pose[None], options, pair.bolt.packed, pair.nut.packed, record)
+            sk.solve_rows(pose[None], options, pair.bolt.packed, pair.nut.packed, sk.NONE_BESIDE, record)
             row[-1] = time.process_time() - start
             row[:-1] = record[0, COLUMNS]
         found[name] = rows

@@ -35,7 +35,7 @@ def proved_state(pair: Pair, pose: Pose, options: SolveOptions) -> ContactState:
     packed[sk.S_PROVE] = 1.0
     poses = np.array([pose])
     row = np.empty((1, rk.RECORD_SIZE))
-    sk.solve_rows(np.radians(poses), packed, pair.bolt.packed, pair.nut.packed, row)
+    sk.solve_rows(np.radians(poses), packed, pair.bolt.packed, pair.nut.packed, sk.NONE_BESIDE, row)
     return decoded_states(pair, options, poses, row)[0]
 
 

@@ -59,6 +59,7 @@ def test_what_does_not_settle_is_searched_for_again_with_refined_edges(
         latest=contacts[1],
         known=np.empty((2, stage.CONTACT_SIZE)),
         found=np.empty((stage.MAX_CONTACTS, stage.CONTACT_SIZE)),
+        guesses=solve.new_guesses(),
         work=stage.new_work(),
     )
     course.axis[2, 0] = 1.0
@@ -102,6 +103,7 @@ def test_a_pose_whose_second_turn_is_undecided_has_its_first_pose_alone(
         packed_options(PAIR, SolveOptions()),
         PAIR.bolt.packed,
         PAIR.nut.packed,
+        solve.new_guesses(),
         stage.new_work(),
         row,
     )

@@ -78,7 +78,7 @@ def solved(pose: PoseDeg, pair: Pair = PAIR) -> Floats:
     options, rows = np.zeros(solve.OPTIONS_SIZE), np.empty((1, record.RECORD_SIZE))
     tie = 2e-11 * pair.thread_pitch
     options[solve.S_TURN_LIMIT], options[solve.S_TIE], options[solve.S_CONVEX] = math.radians(45.0), tie, 1.0
-    solve.solve_rows(np.radians([pose]), options, pair.bolt.packed, pair.nut.packed, rows)
+    solve.solve_rows(np.radians([pose]), options, pair.bolt.packed, pair.nut.packed, solve.NONE_BESIDE, rows)
     return rows[0]
 
 

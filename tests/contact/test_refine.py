@@ -43,7 +43,7 @@ def first_contact() -> tuple[Floats, Floats]:
     return np.array([TIME, pair, math.atan2(bolt_y, bolt_x), math.atan2(y, x), x, y, z]), record
 
 
-def refined_first(contact: Floats, record: Floats, *, alone: bool = True) -> Found:
+def refined_first(contact: Floats, record: Floats, *, alone: bool = True, as_found: bool = True) -> Found:
     """A first contact refined, from a start ``TIME`` above it."""
     start, moved = np.empty((12, 2)), np.empty((12, 2))
     known = np.empty((refine.REFINED_SIZE, 2))
@@ -60,6 +60,7 @@ def refined_first(contact: Floats, record: Floats, *, alone: bool = True) -> Fou
         found,
         contact[stage.K_TIME],
         alone,
+        as_found,
         moved,
         known,
     )
@@ -77,6 +78,17 @@ def test_a_displaced_contact_is_found_again() -> None:
     np.testing.assert_allclose(found.contact, contact, rtol=0.0, atol=1e-15)
     assert found.pose[11, 0] == record[rk.O_POSE + 11]
     assert found.refined[refine.F_THETA, 1] != 0.0
+
+
+def test_the_last_digits_of_what_is_found_are_of_no_account() -> None:
+    contact, record = first_contact()
+    displaced = contact.copy()
+    displaced[stage.K_TIME] += 1e-16
+    displaced[[stage.K_BOLT_AZIMUTH, stage.K_NUT_AZIMUTH]] += 1e-15
+    one, other = (refined_first(found, record, as_found=False) for found in (contact, displaced))
+    assert one.settles and other.settles
+    for a, b in ((one.contact, other.contact), (one.pose, other.pose), (one.refined, other.refined)):
+        np.testing.assert_array_equal(a, b)
 
 
 @pytest.mark.parametrize("column", [stage.K_TIME, stage.K_BOLT_AZIMUTH])

@@ -10,7 +10,15 @@ import pytest
 from oracle.state_turns import begins_at, turns_of
 from tests.contact.samples import Floats, random_poses
 from threadstate.contact import _record_kernel as record
-from threadstate.contact._solve_kernel import OPTIONS_SIZE, S_CONVEX, S_PROVE, S_TIE, S_TURN_LIMIT, solve_rows
+from threadstate.contact._solve_kernel import (
+    NONE_BESIDE,
+    OPTIONS_SIZE,
+    S_CONVEX,
+    S_PROVE,
+    S_TIE,
+    S_TURN_LIMIT,
+    solve_rows,
+)
 from threadstate.contact._stage_kernel import THREAD_EDGE, THREAD_THREAD
 from threadstate.state.solve import solve_pose
 from threadstate.thread.catalogue import pair_by_designation, quarter_twenty_unc
@@ -31,7 +39,7 @@ def rows(poses: Floats, *, rectangles: bool, turn_limit_deg: float = 4.0) -> Flo
     options[S_CONVEX] = 1.0
     options[S_PROVE] = float(rectangles)
     found = np.empty((len(poses), record.RECORD_SIZE))
-    solve_rows(np.radians(poses), options, PAIR.bolt.packed, PAIR.nut.packed, found)
+    solve_rows(np.radians(poses), options, PAIR.bolt.packed, PAIR.nut.packed, NONE_BESIDE, found)
     return found
 
 

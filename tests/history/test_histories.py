@@ -122,9 +122,9 @@ def test_stored_records_are_used_and_change_nothing(
     known.records(poses)
     solved: list[np.ndarray] = []
 
-    def recorded(pair: Pair, options: SolveOptions, poses_deg: np.ndarray) -> np.ndarray:
+    def recorded(pair: Pair, options: SolveOptions, poses_deg: np.ndarray, *, beside: np.ndarray) -> np.ndarray:
         solved.extend(poses_deg)
-        return solve_records(pair, options, poses_deg)
+        return solve_records(pair, options, poses_deg, beside=beside)
 
     monkeypatch.setattr(records, "solve_records", recorded)
     assert histories_of(PAIR, [(roll, pitch)], store=known) == [histories[1]]

@@ -59,7 +59,7 @@ def test_a_sense_that_is_unresolved_is_not_dropped(
     options[[sk.S_TURN_LIMIT, sk.S_TIE]] = math.radians(45.0), 1e-6 * PAIR.thread_pitch
     options[sk.S_CONVEX] = outline_is_convex(PAIR.bolt) and outline_is_convex(PAIR.nut)
     row = np.empty(rk.RECORD_SIZE)
-    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.packed, PAIR.nut.packed, new_work(), row)
+    sk.solve_pose.py_func(*BALANCED_RAD, options, PAIR.bolt.packed, PAIR.nut.packed, sk.new_guesses(), new_work(), row)
     assert int(row[rk.O_FLAGS]) & rk.FLAG_BALANCED
     np.testing.assert_array_equal(followed[0], -followed[1])
     assert len(followed) == (2 if expected[1] == RESOLVED else 4)

@@ -14,7 +14,7 @@ from studies.certificate.exact import PRECISION, ExactState, UncoveredError, exa
 from studies.certificate.states import KINDS, QUANTITIES, Comparison, compared, errors, random_poses, row
 from tests.contact.samples import Floats
 from threadstate.contact import _record_kernel as rk
-from threadstate.contact._solve_kernel import solve_rows
+from threadstate.contact._solve_kernel import NONE_BESIDE, solve_rows
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import packed_options, solve_records
 from threadstate.thread.catalogue import pair_by_designation
@@ -62,7 +62,7 @@ def test_edges_are_refined_from_a_doubtful_onset_on() -> None:
     pose_deg = np.array([4.0, -4.0, 22.5])
     record = np.empty((1, rk.RECORD_SIZE))
     both = UNC.bolt.packed, UNC.nut.packed
-    boxes = solve_rows(np.radians([pose_deg]), packed_options(UNC, SolveOptions()), *both, record)
+    boxes = solve_rows(np.radians([pose_deg]), packed_options(UNC, SolveOptions()), *both, NONE_BESIDE, record)
     exact = exact_state(UNC, pose_deg, record[0])
     for turn, column in zip(exact.turns, (rk.O_LAMBDA, rk.O_MU), strict=True):
         assert turn is not None

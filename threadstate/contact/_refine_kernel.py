@@ -33,7 +33,7 @@ from threadstate.contact._double_double_kernel import (
     subtract,
 )
 from threadstate.contact._edge_kernel import Edge
-from threadstate.contact._geometry_kernel import M_SIGMA, MOTION_SIZE, PATH_SIZE, motion_scale
+from threadstate.contact._geometry_kernel import M_SIGMA, MOTION_SIZE, PATH_SIZE, TWO_PI, motion_scale
 from threadstate.contact._onset_kernel import JET_SIZE
 from threadstate.contact._refined_edge_kernel import set_refined_motions
 from threadstate.contact._stage_kernel import (
@@ -95,6 +95,26 @@ REACH = 1e-3
 SETTLED = 1e-14
 """A step of Newton's method (rad, and times ``motion_scale``) after which the contact is refined: its derivatives, in
 doubles, are right to 1e-6 at tilts of 1e-6 deg, so that 1e-20 is left."""
+STEPS_AFTER = 2
+"""So many such steps are made where thread does not touch thread, so that less is left of where they began."""
+
+AZIMUTH_GRID = 1.5 * 2.0**16
+DROPPED_DIGITS = 2.0**20 + 1.0
+"""They begin at a multiple of 2**-36 rad, and at a time of 33 binary digits: the last digits of the search hardly ever
+decide where that is, and so a refined contact has the same bits however it was found."""
+
+
+@kernel(forceinline=True)
+def on_azimuth_grid(theta: float) -> float:
+    """The nearest azimuth of the grid."""
+    return (theta + AZIMUTH_GRID) - AZIMUTH_GRID
+
+
+@kernel(forceinline=True)
+def with_fewer_digits(x: float) -> float:
+    """A number rounded to its first binary digits."""
+    scaled = DROPPED_DIGITS * x
+    return scaled - (scaled - x)
 
 
 @kernel()
@@ -166,11 +186,18 @@ def set_thread_residuals(
 
 @kernel()
 def set_unrefined(contact: Array, pose: Array, refined: Array) -> None:
-    """Sets what is known of a contact in doubles."""
+    """Sets what is known of a contact in doubles.
+
+    Boxes of azimuth reach beyond half a turn either way: an azimuth there is that of the other end, whichever box the
+    contact was found in.
+    """
     pair = int(contact[K_PAIR])
     on_nut = pair == BASE_EDGE or pair == THREAD_EDGE
+    theta = contact[K_NUT_AZIMUTH] if on_nut else contact[K_BOLT_AZIMUTH]
+    if abs(theta) > math.pi:
+        theta -= math.copysign(TWO_PI, theta)
     set_entry(refined, F_TIME, (contact[K_TIME], 0.0))
-    set_entry(refined, F_THETA, (contact[K_NUT_AZIMUTH] if on_nut else contact[K_BOLT_AZIMUTH], 0.0))
+    set_entry(refined, F_THETA, (theta, 0.0))
     set_entry(refined, F_AXIAL, ZERO)
     for i in range(3):
         set_entry(refined, F_POINT + i, (contact[K_X + i], 0.0))
@@ -187,26 +214,29 @@ def refine_edge(
     point: Array,
     axis: Array,
     edge: Edge,
+    on_grid: bool,
     moved: Array,
     refined: Array,
 ) -> bool:
     """Newton's method from ``refined``, in place, for a contact on an edge; False where it does not settle nearby.
 
-    Its derivatives are those of the ``edge``.
+    Its derivatives are those of the ``edge``. With ``on_grid`` it begins where fewer digits say.
     """
     sigma = edge.motion[M_SIGMA]
     bolt, nut = (edge.curve, edge.solid) if sigma > 0.0 else (edge.solid, edge.curve)
     kind = ONE_EDGE if pair == EDGE_EDGE else (ONE_THREAD if pair == EDGE_THREAD or pair == THREAD_EDGE else ONE_PLANE)
     jet = scratch(JET_SIZE)
     unit = motion_scale(edge.motion, bolt)
-    theta, time = entry(refined, F_THETA), entry(refined, F_TIME)
-    start, since = theta[0], time[0]
-    settled = False
+    start, since = refined[F_THETA, 0], refined[F_TIME, 0]
+    if on_grid:
+        start, since = on_azimuth_grid(start), with_fewer_digits(since)
+    theta, time = (start, 0.0), (since, 0.0)
+    small_steps = 0
     for _ in range(MOST_STEPS):
         set_moved(pose, is_turn, point, axis, time, moved)
         onset.set_jet_beside(theta[0], time[0], edge, jet)
         set_edge_residuals(sigma > 0.0, theta, moved, bolt, nut, jet, refined)
-        if settled:
+        if small_steps == STEPS_AFTER:
             set_entry(refined, F_THETA, theta)
             set_entry(refined, F_TIME, time)
             return True
@@ -214,7 +244,8 @@ def refine_edge(
         theta, time = add(theta, (d_theta, 0.0)), add(time, (d_time, 0.0))
         if not (abs(theta[0] - start) <= REACH and abs(time[0] - since) <= REACH * unit):
             return False
-        settled = abs(d_theta) <= SETTLED and abs(d_time) <= SETTLED * unit
+        is_small = abs(d_theta) <= SETTLED and abs(d_time) <= SETTLED * unit
+        small_steps = small_steps + 1 if is_small else 0
     return False
 
 
@@ -269,13 +300,14 @@ def refine_found(
     bolt: Array,
     nut: Array,
     contact: Array,
+    as_found: bool,
     moved: Array,
     refined: Array,
 ) -> bool:
     """Refines a contact that a motion has come to, in ``refined``, and the pose then; False where nothing settles.
 
-    On an edge it is tried once more with derivatives in sums of two doubles: beside a double root those in doubles have
-    no two digits.
+    On an edge it is tried again from all the digits, ``as_found``, as a corner may be that near; then with derivatives
+    in sums of two doubles: beside a double root those in doubles have no two digits.
     """
     pair = int(contact[K_PAIR])
     start, centre, direction = scratch(POSE_SIZE), scratch(3), scratch(3)
@@ -291,13 +323,23 @@ def refine_found(
     on_nut = pair == BASE_EDGE or pair == THREAD_EDGE
     motion, curve, solid = (nut_motion, nut, bolt) if on_nut else (bolt_motion, bolt, nut)
     edge = Edge(motion, curve, solid, kept, path, scratch(0, 2))
-    if refine_edge(pair, is_turn, pose, point, axis, edge, moved, refined):
+    if refine_edge(pair, is_turn, pose, point, axis, edge, True, moved, refined):
+        return True
+    if not as_found:
+        return False
+    if refine_edge(pair, is_turn, pose, point, axis, edge, False, moved, refined):
         return True
     bolt_wide, nut_wide = scratch(WIDE_MOTION_SIZE, 2), scratch(WIDE_MOTION_SIZE, 2)
     set_motion(pose, point, axis, exact)
     set_refined_motions(exact, bolt_motion, nut_motion, bolt_wide, nut_wide)
     edge = Edge(motion, curve, solid, kept, path, nut_wide if on_nut else bolt_wide)
-    return refine_edge(pair, is_turn, pose, point, axis, edge, moved, refined)
+    return refine_edge(pair, is_turn, pose, point, axis, edge, False, moved, refined)
+
+
+@kernel(forceinline=True)
+def is_unrefined(contact: Array, alone: bool) -> bool:
+    """Whether a contact stays as it is found: one that is not ``alone``, or of the bolt's thread on the surface."""
+    return not alone or int(contact[K_PAIR]) == THREAD_SURFACE
 
 
 @kernel()
@@ -311,19 +353,21 @@ def refine_contact(
     contact: Array,
     time: float,
     alone: bool,
+    as_found: bool,
     moved: Array,
     refined: Array,
 ) -> tuple[float, bool]:
     """Refines the contact that a motion comes to at ``time``; sets what is known of it and the pose then, ``moved``.
 
-    A contact that is not ``alone`` stays as it is, and so does one of the bolt's thread on the nut's surface. Returns
-    the time, and whether the equations of any other have a solution nearby: without one there may be no contact.
+    One that :func:`is_unrefined` is not. Returns the time, and whether the equations of any other have a solution
+    nearby: without one there may be no contact. ``as_found``: it is looked for from all the digits, too, where fewer
+    lead nowhere; what is refined then may hang on the last ones.
     """
     set_moved(pose, is_turn, point, axis, (time, 0.0), moved)
     set_unrefined(contact, moved, refined)
-    if not alone or int(contact[K_PAIR]) == THREAD_SURFACE:
+    if is_unrefined(contact, alone):
         return time, True
-    if refine_found(is_turn, pose, point, axis, bolt, nut, contact, moved, refined):
+    if refine_found(is_turn, pose, point, axis, bolt, nut, contact, as_found, moved, refined):
         pair = int(contact[K_PAIR])
         if pair == EDGE_EDGE or pair == EDGE_SURFACE:
             set_entry(refined, F_POINT + 2, ZERO)

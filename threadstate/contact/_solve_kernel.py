@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from threadstate._compile import kernel
 from threadstate._scratch import scratch
 from threadstate.contact import _flush_kernel as fk
+from threadstate.contact import _guess_kernel as near
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact import _refine_kernel as refine
 from threadstate.contact import _wide_kernel as wide
@@ -65,6 +66,9 @@ OPTIONS_SIZE = 5
 ROTATION_SIZE = 9
 """Numbers of a row of :func:`solve_rows` that is a rotation and not a pose."""
 
+NONE_BESIDE = np.empty((0, 2, RECORD_SIZE))
+"""No records of poses next to those that are solved."""
+
 UNDECIDED_CONTACT = -1
 """In place of how many contacts begin at once."""
 
@@ -73,6 +77,13 @@ NEAR_TIE_SHARE = 1e-8
 tie. Contacts that are a tie by it alone are then beside where planes meet, or a whole strip; where that leads to no
 certain state they are one within this share alone.
 """
+
+GUESS_MARGIN = 1e-6
+"""By which share of its time a contact may begin later than where it is guessed, so that the search is not made again.
+"""
+
+NEAR_PHASE = math.radians(2.0)
+"""How far apart phases of poses are of which one's contacts are guesses of the other's."""
 
 FLUSH_MARGIN = 1e-9
 """Where a turn ends flush, contacts are searched for up to this much (rad) before: there all edges meet at once."""
@@ -203,6 +214,21 @@ class Scene(NamedTuple):
     tie: float
 
 
+class Guesses(NamedTuple):
+    """Contacts that poses near it have, by which a pose's are looked for first, and what they are followed with."""
+
+    contacts: Array
+    work: near.Work
+
+
+@kernel(allocates=True)
+def new_guesses() -> Guesses:
+    """No guesses."""
+    contacts = np.empty((near.GUESSES, near.GUESS_SIZE))
+    near.clear_guesses(contacts)
+    return Guesses(contacts, near.new_work())
+
+
 class Course(NamedTuple):
     """A bolt on its way through the stages; numbers in pairs are sums of two doubles (``_refine_kernel``).
 
@@ -216,6 +242,7 @@ class Course(NamedTuple):
         latest: the latest one, refined.
         known: the first two contacts.
         found: contacts of the latest search; then those of the latest stage that are not known yet.
+        guesses: what is looked for first.
         work: scratch.
     """
 
@@ -228,6 +255,7 @@ class Course(NamedTuple):
     latest: Array
     known: Array
     found: Array
+    guesses: Guesses
     work: Work
 
 
@@ -270,6 +298,7 @@ def solve_pose(
     options: Array,
     bolt: Array,
     nut: Array,
+    guesses: Guesses,
     work: Work,
     record: Array,
 ) -> None:
@@ -281,14 +310,21 @@ def solve_pose(
     tie = options[S_TIE]
     nearer = NEAR_TIE_SHARE * math.hypot(roll, pitch) * bolt[pk.R_MAJOR]
     first_only = options[S_FIRST_ONLY] > 0.0 and nearer >= tie
-    solve_stages(roll, pitch, phase, first_only, Scene(options, bolt, nut, tie), work, record)
+    solve_stages(roll, pitch, phase, first_only, Scene(options, bolt, nut, tie), guesses, work, record)
     if record[rk.O_STATUS] != RESOLVED and nearer < tie:
-        solve_stages(roll, pitch, phase, False, Scene(options, bolt, nut, nearer), work, record)
+        solve_stages(roll, pitch, phase, False, Scene(options, bolt, nut, nearer), guesses, work, record)
 
 
 @kernel()
 def solve_stages(
-    roll: float, pitch: float, phase: float, first_only: bool, scene: Scene, work: Work, record: Array
+    roll: float,
+    pitch: float,
+    phase: float,
+    first_only: bool,
+    scene: Scene,
+    guesses: Guesses,
+    work: Work,
+    record: Array,
 ) -> None:
     """The stages of a pose, or the ``first_only``, into ``record``."""
     clear_record(record)
@@ -303,6 +339,7 @@ def solve_stages(
         scratch(REFINED_SIZE, 2),
         scratch(2, CONTACT_SIZE),
         scratch(MAX_CONTACTS, CONTACT_SIZE),
+        guesses,
         work,
     )
     simultaneous = first_stage(roll, pitch, phase, scene, course)
@@ -355,6 +392,41 @@ def solve_stages(
 
 
 @kernel()
+def limit_by_guess(stage: Stage, limit: float, tie: float, scene: Scene, guesses: Guesses) -> float:
+    """Up to when the contacts of a motion are looked for first: a little after those that are guessed; ``limit`` where
+    none is, or thread on thread.
+    """
+    contact = scratch(CONTACT_SIZE)
+    number = 1 + stage.known_count
+    is_guessed = near.earliest_guess(
+        number,
+        stage.pose,
+        stage.point,
+        stage.axis,
+        stage.known,
+        limit,
+        guesses.contacts,
+        scene.bolt,
+        scene.nut,
+        guesses.work,
+        contact,
+    )
+    if not is_guessed or int(contact[K_PAIR]) == THREAD_THREAD:
+        return limit
+    return min(limit, (1.0 + GUESS_MARGIN) * (contact[K_TIME] + tie))
+
+
+@kernel(forceinline=True)
+def hangs_on_limit(contact: Array, alone: bool, latest: float) -> bool:
+    """Whether what a motion comes to first may be another contact, or have other bits, if the search reaches farther.
+
+    Where thread on thread is sampled hangs on that, and what is not refined has the bits of its search. A contact later
+    than ``latest`` may lack others that tie with it.
+    """
+    return int(contact[K_PAIR]) == THREAD_THREAD or refine.is_unrefined(contact, alone) or contact[K_TIME] > latest
+
+
+@kernel()
 def next_contact(
     is_turn: bool,
     pose: Array,
@@ -371,7 +443,8 @@ def next_contact(
 
     ``pose`` and ``exact`` are where it begins, in doubles and in sums of two; point and axis are those of the course.
     Sets the pose ``moved`` to where it ends and what is ``refined`` of the first contact. None: 0; UNDECIDED_CONTACT:
-    the search did not end, or what it ends with is no contact, with refined edges neither.
+    the search did not end, or what it ends with is no contact, with refined edges neither. Contacts that are guessed
+    shorten the search where that decides nothing else.
     """
     point, axis = scratch(3), scratch(3)
     wide.round_numbers(course.point, point)
@@ -379,14 +452,19 @@ def next_contact(
     wide.set_motion(exact, course.point, course.axis, course.motion)
     bolt, nut, found = scene.bolt, scene.nut, course.found
     stage = Stage(pose, is_turn, point, axis, course.motion, course.known, known_count)
-    wanted = Wanted(limit, tie, thread_search_of(scene))
-    for i in range(2):
-        count, status, _ = earliest(stage, wanted, i == 1, bolt, nut, course.work, found)
+    nearer = limit_by_guess(stage, limit, tie, scene, course.guesses)
+    for i in range(0 if nearer < limit else 1, 3):
+        wanted = Wanted(nearer if i == 0 else limit, tie, thread_search_of(scene))
+        count, status, _ = earliest(stage, wanted, i == 2, bolt, nut, course.work, found)
+        if i == 0 and (status != RESOLVED or count == 0):
+            continue
         if status != RESOLVED:
             break
         if count == 0:
             return 0, limit
         simultaneous, time = sort_simultaneous(found, count, tie)
+        if i == 0 and hangs_on_limit(found[0], simultaneous == 1, nearer - tie):
+            continue
         time, settles = refine.refine_contact(
             is_turn,
             exact,
@@ -397,6 +475,7 @@ def next_contact(
             found[0],
             time,
             simultaneous == 1,
+            i > 0,
             moved,
             refined,
         )
@@ -603,19 +682,35 @@ def first_height(rotation: Array, tie_tolerance: float, bolt: Array, nut: Array,
     return high - found[0, K_TIME] if status == RESOLVED and count > 0 else math.nan
 
 
+@kernel()
+def is_near(one: Array, other: Array) -> bool:
+    """Whether two poses differ by their phases alone, and not by much."""
+    return one[0] == other[0] and one[1] == other[1] and abs(one[2] - other[2]) <= NEAR_PHASE
+
+
 @kernel(nogil=True, allocates=True)
-def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, rows: Array) -> int:
+def solve_rows(poses: Array, options: Array, bolt: Array, nut: Array, beside: Array, rows: Array) -> int:
     """Solves poses of shape (n, 3), roll, pitch, phase in rad, none level, into rows of shape (n, RECORD_SIZE).
+
+    Guesses are the contacts of the records ``beside`` each pose, of shape (n, m, RECORD_SIZE), m at most 2; where there
+    are none (``NONE_BESIDE``), those of the row before, if that pose is near.
 
     Of rotations of shape (n, 9) it sets heights of shape (n, 1) as :func:`first_height` has them, alone: the machine
     code of the search is made once for both. The global interpreter lock is released meanwhile. Returns how many boxes
     of edges were evaluated.
     """
     work = new_work()
+    guesses = new_guesses()
     are_rotations = poses.shape[1] == ROTATION_SIZE
     for i in range(poses.shape[0]):
         if are_rotations:
             rows[i, 0] = first_height(poses[i], options[S_TIE], bolt, nut, work)
         else:
-            solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, work, rows[i])
+            near.clear_guesses(guesses.contacts)
+            if beside.shape[0] > 0:
+                for j in range(beside.shape[1]):
+                    near.set_guesses(beside[i, j], guesses.contacts[j * rk.MAX_RECORD_CONTACTS :])
+            elif i > 0 and is_near(poses[i - 1], poses[i]):
+                near.set_guesses(rows[i - 1], guesses.contacts)
+            solve_pose(poses[i, 0], poses[i, 1], poses[i, 2], options, bolt, nut, guesses, work, rows[i])
     return int(work.regions[0, 1])

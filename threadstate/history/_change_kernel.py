@@ -1,6 +1,6 @@
 """Two states of an orientation followed towards each other, to where their labels part: an estimate without a search.
 
-The contacts of both are candidates (``_follow_kernel``). Two contacts at one time, a contact that ends at a fold, the
+The contacts of both are guesses (``_follow_kernel``). Two contacts at one time, a contact that ends at a fold, the
 border of a region and the threshold of a class are where the labels of what is followed change, and the phase of that
 is bisected at little cost. A contact that neither state has is not known here: whole solves confirm what is found.
 """
@@ -16,17 +16,17 @@ from threadstate._compile import kernel
 from threadstate._scratch import scratch
 from threadstate.contact import _record_kernel as rk
 from threadstate.contact._geometry_kernel import copy_numbers
+from threadstate.contact._guess_kernel import (
+    GUESS_SIZE,
+    GUESSES,
+    Work,
+    clear_guesses,
+    new_work,
+    set_guesses,
+)
 from threadstate.contact._record_kernel import RECORD_SIZE
 from threadstate.contact._stage_kernel import FLUSH
-from threadstate.history._follow_kernel import (
-    CANDIDATE_SIZE,
-    CANDIDATES,
-    F_STAGE,
-    Work,
-    follow_pose,
-    new_work,
-    set_candidates,
-)
+from threadstate.history._follow_kernel import follow_pose
 
 Array = NDArray[np.float64]
 
@@ -122,28 +122,28 @@ def is_one_throughout(
     high_record: Array,
     first_only: bool,
     limits: Array,
-    candidates: Array,
+    guesses: Array,
     bolt: Array,
     nut: Array,
     work: Work,
     record: Array,
 ) -> bool:
     """Whether the state at either end of a stretch, followed alone, is that at the other; in the middle they meet."""
-    candidates[:, F_STAGE] = 0.0
+    clear_guesses(guesses)
     middle = scratch(RECORD_SIZE)
     turn_limit = limits[L_TURN_LIMIT]
-    of_one = candidates[: rk.MAX_RECORD_CONTACTS]
+    of_one = guesses[: rk.MAX_RECORD_CONTACTS]
     for step in range(2):
         end, other_record = (high, high_record) if step == 0 else (low, low_record)
-        set_candidates(low_record if step == 0 else high_record, of_one)
+        set_guesses(low_record if step == 0 else high_record, of_one)
         half_way = math.radians(0.5 * (low + high))
-        if not follow_pose(roll, pitch, half_way, turn_limit, candidates, bolt, nut, work, record):
+        if not follow_pose(roll, pitch, half_way, turn_limit, guesses, bolt, nut, work, record):
             return False
         if step == 0:
             copy_numbers(record, middle)
         elif not is_near(record, middle, first_only, limits):
             return False
-        if not follow_pose(roll, pitch, math.radians(end), turn_limit, candidates, bolt, nut, work, record):
+        if not follow_pose(roll, pitch, math.radians(end), turn_limit, guesses, bolt, nut, work, record):
             return False
         if not is_near(record, other_record, first_only, limits):
             return False
@@ -161,7 +161,7 @@ def place_of_change(
     high_record: Array,
     first_only: bool,
     limits: Array,
-    candidates: Array,
+    guesses: Array,
     bolt: Array,
     nut: Array,
     work: Work,
@@ -179,12 +179,12 @@ def place_of_change(
     by_class = by_place and not first_only and low_class != class_number(high_record, e_high, limits)
     by_place = by_place and not by_class
     if by_place and is_one_throughout(
-        roll, pitch, low, high, low_record, high_record, first_only, limits, candidates, bolt, nut, work, record
+        roll, pitch, low, high, low_record, high_record, first_only, limits, guesses, bolt, nut, work, record
     ):
         return math.inf
-    of_low, of_high = candidates[: rk.MAX_RECORD_CONTACTS], candidates[rk.MAX_RECORD_CONTACTS :]
-    set_candidates(low_record, of_low)
-    set_candidates(high_record, of_high)
+    of_low, of_high = guesses[: rk.MAX_RECORD_CONTACTS], guesses[rk.MAX_RECORD_CONTACTS :]
+    set_guesses(low_record, of_low)
+    set_guesses(high_record, of_high)
     low_side, high_side = scratch(RECORD_SIZE), scratch(RECORD_SIZE)
     copy_numbers(low_record, low_side)
     copy_numbers(high_record, high_side)
@@ -198,9 +198,7 @@ def place_of_change(
         if again and by_place:
             break
         phase = low if step == 0 else others[count - 1] if again else 0.5 * (a + others[count - 1])
-        followed = follow_pose(
-            roll, pitch, math.radians(phase), limits[L_TURN_LIMIT], candidates, bolt, nut, work, record
-        )
+        followed = follow_pose(roll, pitch, math.radians(phase), limits[L_TURN_LIMIT], guesses, bolt, nut, work, record)
         like = followed and labels_agree(record, low_record, first_only)
         if like and by_class:
             share = (phase - low) / (high - low)
@@ -213,7 +211,7 @@ def place_of_change(
         if like:
             a = phase
             copy_numbers(record, low_side)
-            set_candidates(record, of_low)
+            set_guesses(record, of_low)
             if again:
                 count -= 1
             if count == 0:
@@ -221,7 +219,7 @@ def place_of_change(
         else:
             if followed and labels_agree(record, high_record, first_only):
                 copy_numbers(record, high_side)
-                set_candidates(record, of_high)
+                set_guesses(record, of_high)
             if again or count == MOST_DOUBTFUL:
                 break
             others[count] = phase
@@ -252,7 +250,7 @@ def places_of_changes(
     places: Array,
 ) -> None:
     """Sets :func:`place_of_change` of n stretches: orientations of shape (n, 2), in rad, and phases, in deg."""
-    candidates = np.empty((CANDIDATES, CANDIDATE_SIZE))
+    guesses = np.empty((GUESSES, GUESS_SIZE))
     record = np.empty(rk.RECORD_SIZE)
     work = new_work()
     for i in range(low.shape[0]):
@@ -266,7 +264,7 @@ def places_of_changes(
             high_records[i],
             first_only,
             limits,
-            candidates,
+            guesses,
             bolt,
             nut,
             work,

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+import struct
+from bisect import bisect, insort
+from collections import defaultdict
+
 import numpy as np
 from numpy.typing import NDArray
 
 from threadstate.contact import _record_kernel as rk
+from threadstate.contact._solve_kernel import NONE_BESIDE
 from threadstate.state.options import SolveOptions
 from threadstate.state.records import solve_records
 from threadstate.thread.pair import Pair
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
+
+ORIENTATION_BYTES = 16
+"""Of a pose's key those of roll and pitch."""
 
 
 class RecordStore:
@@ -21,6 +30,7 @@ class RecordStore:
         self._pair = pair
         self._options = options
         self._rows: dict[bytes, Floats] = {}
+        self._phases: defaultdict[bytes, list[float]] = defaultdict(list)
 
     def records(self, poses_deg: Floats) -> Floats:
         """Records of shape (n, RECORD_SIZE) of valid poses of shape (n, 3)."""
@@ -43,7 +53,24 @@ class RecordStore:
         return list(map(self._rows.get, keys))
 
     def _solved(self, poses_deg: Floats) -> Floats:
-        return solve_records(self._pair, self._options, poses_deg)
+        keys, phases = _keys(poses_deg), poses_deg[:, 2].tolist()
+        found = solve_records(self._pair, self._options, poses_deg, beside=self._beside(keys, phases))
+        for key, phase in zip(keys, phases, strict=True):
+            insort(self._phases[key[:ORIENTATION_BYTES]], phase)
+        return found
+
+    def _beside(self, keys: list[bytes], phases: list[float]) -> Floats:
+        """Of each pose the records of the two of its orientation next to it in phase, shape (n, 2, RECORD_SIZE)."""
+        if not all(key[:ORIENTATION_BYTES] in self._phases for key in keys):
+            return NONE_BESIDE
+        beside = np.empty((len(keys), 2, rk.RECORD_SIZE))
+        for i, (key, phase) in enumerate(zip(keys, phases, strict=True)):
+            orientation = key[:ORIENTATION_BYTES]
+            known = self._phases[orientation]
+            place = bisect(known, phase)
+            for j in range(2):
+                beside[i, j] = self._rows[orientation + struct.pack("d", known[(place - 1 + j) % len(known)])]
+        return beside
 
 
 class FirstContactStore(RecordStore):

@@ -24,12 +24,23 @@ LEVEL_TILT_DEG = 1e-9
 """Below this roll and pitch a pose is level: its contact is a patch to the last digits of a double."""
 
 
-def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats, *, first_contact_only: bool = False) -> Floats:
+def solve_records(
+    pair: Pair,
+    options: SolveOptions,
+    poses_deg: Floats,
+    *,
+    first_contact_only: bool = False,
+    beside: Floats = sk.NONE_BESIDE,
+) -> Floats:
     """Records of shape (n, RECORD_SIZE) of valid poses of shape (n, 3): roll, pitch, phase in degrees.
 
     Their layout is that of ``threadstate.contact._record_kernel``. The same pose gives the same bits whatever the
     others are. With ``first_contact_only`` no more than the first contact counts and what follows it may be left out:
     it takes an eighth of the time.
+
+    Contacts of poses next to one are looked for first, of which those that begin later need not be told apart: of the
+    pose before it in ``poses_deg``, or of those whose records are in ``beside``, shape (n, 2, RECORD_SIZE). They say
+    how long a solution takes, and nothing else (docs/decisions/0082-contacts-of-the-pose-beside.md).
 
     Raises:
         InvalidValueError: the flanks of the pair are too flat, or its bolt has a chamfer.
@@ -38,10 +49,16 @@ def solve_records(pair: Pair, options: SolveOptions, poses_deg: Floats, *, first
     records = np.empty((len(poses_deg), rk.RECORD_SIZE))
     level = (np.abs(poses_deg[:, 0]) < LEVEL_TILT_DEG) & (np.abs(poses_deg[:, 1]) < LEVEL_TILT_DEG)
     if not level.any():
-        sk.solve_rows(poses_deg * (math.pi / 180.0), packed, pair.bolt.packed, pair.nut.packed, records)
+        sk.solve_rows(poses_deg * (math.pi / 180.0), packed, pair.bolt.packed, pair.nut.packed, beside, records)
         return records
     if not level.all():
-        records[~level] = solve_records(pair, options, poses_deg[~level], first_contact_only=first_contact_only)
+        records[~level] = solve_records(
+            pair,
+            options,
+            poses_deg[~level],
+            first_contact_only=first_contact_only,
+            beside=beside[~level] if len(beside) else beside,
+        )
     for i in np.flatnonzero(level):
         solve_level(pair, math.radians(poses_deg[i, 2]), records[i])
     return records
@@ -57,7 +74,7 @@ def first_heights(pair: Pair, rotations: Floats) -> Floats:
     """
     heights = np.empty((len(rotations), 1))
     packed = packed_options(pair, SolveOptions())
-    sk.solve_rows(rotations, packed, pair.bolt.packed, pair.nut.packed, heights)
+    sk.solve_rows(rotations, packed, pair.bolt.packed, pair.nut.packed, sk.NONE_BESIDE, heights)
     return heights[:, 0]
 
 
