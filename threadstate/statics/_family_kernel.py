@@ -35,8 +35,6 @@ MOST_ROUNDS = 40
 ROUND_OFF = 1e-12
 """Relative width that is left between bounds which closed forms decide."""
 LEAST_WEIGHT = 1e-3
-NEAR = 0.9
-"""After a step that leaves more of the friction Newton's method is tried."""
 SLIDING = 1e-7
 """Contacts slide whose velocity is more than this part of the largest one's."""
 REGULAR = 1e-11
@@ -323,10 +321,8 @@ def improved(mu: float, start: Array, basis: Array, grasp: Grasp, solution: Arra
             if not lower < mu:
                 break
         set_solution(best, solution)
-        is_near, is_settled = lower > mu * NEAR, lower > mu * (1.0 - 1e-6)
+        is_settled = lower > mu * (1.0 - 1e-6)
         mu = lower
-        if not is_near:
-            continue
         polished = newton_friction(mu, basis, grasp, solution)
         if polished < math.inf:
             # The conditions of a least friction hold if no contact needs more, and a quasi-convex ratio has no other.
